@@ -1,0 +1,81 @@
+// Where the bytes of a case go to and come from. An endpoint knows no protocol.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "src/base/bytes.hpp"
+#include "src/base/result.hpp"
+#include "src/base/time.hpp"
+#include "src/line/device.hpp"
+
+namespace fieldproof {
+
+/// What an endpoint can and cannot show, so that no case is judged on what the link does not carry.
+struct Capabilities {
+  bool simulated = false;      // time costs nothing and is exact
+  bool wire = false;           // character times, parity and data bits exist (simulated line, real adapter)
+  bool back_door = false;      // emulator: memory, counters and configuration can be set for each case
+  bool real_device = false;    // the write fence binds; configuration is what is declared
+  bool can_power_cycle = false;
+  bool datagrams = false;      // one send is one packet (UDP)
+  /// Differences in time below this cannot be judged (0 in simulation).
+  Duration timing_floor{};
+};
+
+/// The moments at which a transmission began and its last stop bit ended.
+struct Sent {
+  Time start{};
+  Time end{};
+};
+
+class Endpoint {
+ public:
+  virtual ~Endpoint() = default;
+
+  virtual const Capabilities& capabilities() const = 0;
+  /// For reports: "pty: emulator xbc-h", "serial:/dev/ttyUSB0 38400-8N1".
+  virtual std::string describe() const = 0;
+  virtual Time now() const = 0;
+  /// One character on this line.
+  virtual Duration character_time() const = 0;
+
+  /// Starts a case. Emulators become a fresh device with `config` (vectors/README.md, `given.config`, with "model");
+  /// real devices ignore it: the runner has compared it with what is declared. Nothing is purged.
+  virtual Status begin(const nlohmann::json& config) = 0;
+
+  /// Transmits now. Errors are trouble of the port, never of the device.
+  virtual Result<Sent> send(ByteView bytes) = 0;
+  /// Waits for bytes until `deadline` (a moment in the past: takes what is there). An empty burst: none came.
+  /// Ctrl-C ends the wait with an interrupted error.
+  virtual Result<Burst> receive(Time deadline) = 0;
+
+  /// Back door (capabilities().back_door); errors name the address or action.
+  virtual Status set(std::string_view address, std::string_view hex);
+  virtual Result<std::string> get(std::string_view address, std::size_t digits);
+  virtual Status act(std::string_view action);
+
+  /// Errors that the driver has counted since the last call ("3 parity errors, 1 break"), or empty.
+  virtual std::string line_errors();
+};
+
+/// "pty:xbc-h?station=1&protocol=xgt-cnet" taken apart.
+struct EndpointName {
+  std::string kind;                            // "pty"
+  std::string target;                          // "xbc-h"
+  std::map<std::string, std::string> options;  // station, protocol, ...
+
+  /// The option, or `fallback`.
+  std::string option(const std::string& key, const std::string& fallback) const;
+};
+
+/// Errors name the part that is wrong and the kinds or options there are.
+Result<EndpointName> parse_endpoint(std::string_view text);
+
+/// Opens an endpoint by the table in endpoints.cpp: one line a kind.
+Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name);
+
+}  // namespace fieldproof

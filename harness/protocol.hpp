@@ -1,0 +1,79 @@
+// All that the harness needs to know of a protocol. One implementation a protocol, in suites/.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/base/bytes.hpp"
+#include "src/base/result.hpp"
+#include "src/plc/emulated_device.hpp"
+
+namespace fieldproof {
+
+/// One named part of a frame, as `frame` and the field-by-field difference show it.
+struct Field {
+  std::string name;          // "block count"
+  std::size_t offset = 0;    // first byte in the frame
+  std::size_t size = 0;      // bytes
+  std::string text;          // printable form: "02", "%MW020"
+  std::string problem;       // empty when the field is right: "not hex", "expected D6 (sum of header to tail)"
+};
+
+class Protocol {
+ public:
+  virtual ~Protocol() = default;
+
+  /// "xgt-cnet", as in the endpoint option `protocol`; vectors of folder "xgt_cnet" belong to it.
+  virtual std::string_view name() const = 0;
+
+  /// Models that `make_device` knows: "xbm-s", "xbc-h", "xec-h".
+  virtual std::vector<std::string> models() const = 0;
+
+  /// A new emulated device in its power-on state. Errors name the model or the key of `config` (vectors/README.md).
+  virtual Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const = 0;
+
+  /// The station number as it stands in a frame.
+  virtual Bytes station_bytes(int station) const = 0;
+
+  /// The length of the first complete frame in `bytes`, or nothing while it is incomplete.
+  virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
+
+  /// The parts of a frame, as far as it can be read; never fails.
+  virtual std::vector<Field> explain(ByteView frame) const = 0;
+
+  /// A harmless request that any healthy device answers. Its reply cannot be mistaken for a reply to `tested`
+  /// (empty: no such demand).
+  virtual Bytes probe(int station, ByteView tested) const = 0;
+  /// Does `reply` have the form of a reply to `probe`? Its check is not judged, only what tells it from others.
+  virtual bool is_reply_to_probe(ByteView probe, ByteView reply) const = 0;
+
+  /// The requests that set memory through the protocol itself, and the reply of a device that accepts each.
+  virtual Result<Bytes> write_request(int station, std::string_view address, std::string_view hex) const = 0;
+  virtual Result<Bytes> read_request(int station, std::string_view address, std::size_t digits) const = 0;
+  /// The hex digits in a reply to `read_request`; an error when it is a refusal or not such a reply.
+  virtual Result<std::string> read_reply(ByteView reply) const = 0;
+  /// Success when `reply` acknowledges `write_request`.
+  virtual Status write_reply(ByteView reply) const = 0;
+
+  /// The addresses ("%MW100", with a count of bytes) that a request would write; empty for reads.
+  struct Written {
+    std::string address;
+    std::size_t bytes = 0;
+  };
+  virtual std::vector<Written> written_by(ByteView request) const = 0;
+
+  /// Checks a `table` vector against the tables in src/; the error says what the table holds instead.
+  virtual Status check_fact(const nlohmann::json& facts) const = 0;
+};
+
+/// The table of protocols, defined in suites/protocols.cpp.
+std::span<const Protocol* const> protocols();
+/// nullptr when unknown.
+const Protocol* find_protocol(std::string_view name);
+
+}  // namespace fieldproof

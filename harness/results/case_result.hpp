@@ -1,0 +1,86 @@
+// What one case came to: the only thing that reports see.
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "harness/results/verdict.hpp"
+#include "src/base/bytes.hpp"
+#include "src/base/result.hpp"
+#include "src/base/time.hpp"
+
+namespace fieldproof {
+
+/// A line of the exchange, as a frame monitor would show it.
+struct Event {
+  enum class Kind { sent, received, note };
+  Kind kind = Kind::note;
+  Time start{};
+  Time end{};
+  Bytes bytes;       // sent, received
+  std::string text;  // frame notation of the bytes, or the note: "set %MW100 = 1234", "silence until 1000.0 ms"
+};
+
+/// One field that differs: "block count", expected "01", received "00", hint "".
+struct Difference {
+  std::string field;
+  std::string expected;
+  std::string received;
+  std::string hint;
+};
+
+struct CaseResult {
+  std::string id;        // "xgt_cnet/rss/two_words", unique in a run together with `repeat`
+  int repeat = 0;        // 0-based repetition
+  int rev = 1;
+  std::string protocol;  // "xgt-cnet"
+  std::string title;
+  std::string level;     // must, should, info
+  std::string basis;     // printed, derived, decision
+  std::string manual, section, quote;
+
+  Verdict verdict = Verdict::error;
+  std::string message;   // one line: what is wrong and, where known, what to do
+  std::vector<std::string> notes;            // transposition, line errors, waiver, reading taken
+  std::string expected;                      // notation of what had to come at the failing step
+  Bytes expected_bytes;                      // as far as the notation fixes them
+  std::string expected_hex;                  // with ?? for open bytes
+  std::string received;                      // notation of what came
+  Bytes received_bytes;
+  std::vector<Difference> differences;
+  std::vector<Event> exchange;
+  std::map<std::string, std::string> readings;  // named alternatives taken: type_echo = upper
+  std::vector<double> response_ms;           // request's last byte to reply's first, each expect
+  double seconds = 0;                        // wall clock
+  std::string replay;                        // command that runs just this case again
+};
+
+/// What a run is about: the first line of the NDJSON file and the head of each report.
+struct RunInfo {
+  std::string tool_version;
+  std::string started;   // ISO 8601 with zone
+  std::string endpoint, profile, command;
+  std::string vectors_hash;
+  std::map<std::string, std::string> properties;  // station, line, seed, options
+};
+
+/// How a run ended: the last line of the NDJSON file; absent when it was killed.
+struct RunEnd {
+  std::string finished;
+  double seconds = 0;
+  int exit_code = 0;
+  bool interrupted = false;
+  std::string trouble;  // empty, or why the run stopped early
+};
+
+void to_json(nlohmann::json& json, const CaseResult& result);
+void to_json(nlohmann::json& json, const RunInfo& info);
+void to_json(nlohmann::json& json, const RunEnd& end);
+/// Throws nlohmann::json::exception on a foreign shape.
+void from_json(const nlohmann::json& json, CaseResult& result);
+void from_json(const nlohmann::json& json, RunInfo& info);
+void from_json(const nlohmann::json& json, RunEnd& end);
+
+}  // namespace fieldproof
