@@ -1,6 +1,7 @@
 // All that the harness needs to know of a protocol. One implementation a protocol, in suites/.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -52,20 +53,25 @@ class Protocol {
   /// Does `reply` have the form of a reply to `probe`? Its check is not judged, only what tells it from others.
   virtual bool is_reply_to_probe(ByteView probe, ByteView reply) const = 0;
 
-  /// The requests that set memory through the protocol itself, and the reply of a device that accepts each.
-  virtual Result<Bytes> write_request(int station, std::string_view address, std::string_view hex) const = 0;
-  virtual Result<Bytes> read_request(int station, std::string_view address, std::size_t digits) const = 0;
-  /// The hex digits in a reply to `read_request`; an error when it is a refusal or not such a reply.
-  virtual Result<std::string> read_reply(ByteView reply) const = 0;
-  /// Success when `reply` acknowledges `write_request`.
+  /// The requests that set, or read, memory through the protocol itself. Errors say why there is no way ("read only").
+  virtual Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const = 0;
+  virtual Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const = 0;
+  /// Success when `reply` acknowledges a write request.
   virtual Status write_reply(ByteView reply) const = 0;
+  /// The hex digits in a reply to a read request; an error when it is a refusal or no such reply.
+  virtual Result<std::string> read_reply(ByteView reply) const = 0;
 
-  /// The addresses ("%MW100", with a count of bytes) that a request would write; empty for reads.
+  /// What a request would write, for the write fence; empty for reads. Read leniently: a damaged write request names
+  /// area "?" where its addresses cannot be told.
   struct Written {
-    std::string address;
-    std::size_t bytes = 0;
+    std::string area;              // "M"
+    std::uint32_t first_word = 0;  // in words of the area
+    std::uint32_t last_word = 0;
+    std::string address;           // as it stands in the request, for messages
   };
   virtual std::vector<Written> written_by(ByteView request) const = 0;
+  /// Areas whose words may be physical outputs: written only when named.
+  virtual std::string_view output_areas() const = 0;
 
   /// Checks a `table` vector against the tables in src/; the error says what the table holds instead.
   virtual Status check_fact(const nlohmann::json& facts) const = 0;

@@ -1,0 +1,286 @@
+#include "harness/bench/bench.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fmt/format.h>
+
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr Duration start_patience = 10s;    // a device that is started by the bench needs time to open its port
+constexpr Duration revive_patience = 10s;
+constexpr int errors_to_stop = 5;           // then it is no longer the vectors, it is the bench
+/// Behind a pty or a socket writes can arrive milliseconds apart, and the emulator's inter-character time has a floor
+/// of 20 ms: shorter times than this prove nothing there.
+constexpr Duration shortest_judged = 100ms;
+
+/// What a device has that declares nothing.
+const json& default_config() {
+  static const json config{{"role", "server"}, {"mode", "run"}, {"inter_character_ms", 0}, {"delay_ms", 0}, {"rs485", false}};
+  return config;
+}
+
+std::string plain(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+void describe(const Case& source, CaseResult& result) {
+  result.id = source.id;
+  result.rev = source.rev;
+  result.protocol = source.protocol;
+  result.title = source.title;
+  result.level = source.level;
+  result.basis = source.basis;
+  result.manual = source.source.manual;
+  result.section = source.source.section;
+  result.quote = source.source.quote;
+}
+
+}  // namespace
+
+Bench::Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
+    : endpoint_(endpoint), protocol_(protocol), options_(std::move(options)), exchange_(endpoint, protocol, timing()) {}
+
+ExchangeTiming Bench::timing() const {
+  ExchangeTiming timing;
+  timing.response_max = options_.profile.response_max;
+  timing.promised_silence = std::max<Duration>(timing.promised_silence, 2 * timing.response_max);
+  return timing;
+}
+
+JudgeRules Bench::rules() const {
+  JudgeRules rules;
+  const Capabilities& can = endpoint_.capabilities();
+  rules.guard_band = options_.profile.guard_band;
+  rules.timing_floor = std::max(options_.profile.floor, can.timing_floor);
+  rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
+  // 003 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
+  const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
+  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, rules.timing_floor) : shortest_judged;
+  return rules;
+}
+
+Status Bench::start() {
+  const int station = options_.station;
+  json config = json::object();
+  config["station"] = station;
+  if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
+  if (Status begun = endpoint_.begin(config); !begun) return begun;
+  const Result<bool> alive = exchange_.anything_answers(station, start_patience);
+  if (!alive) return alive.error();
+  if (*alive) return ok();
+  return fail(fmt::format("nothing answers on {} at station {}: check that the device has power, that speed, data bits, parity and stop bits are "
+                          "its own, that its station number is {} and that A and B are not swapped",
+                          endpoint_.describe(), station, station));
+}
+
+int Bench::station_for(const Case& source) const {
+  if (endpoint_.capabilities().real_device) return options_.station;
+  return config_station(source.config, options_.station).value_or(options_.station);
+}
+
+json Bench::device_config(const Case& source) const {
+  json config = source.config;
+  config["station"] = station_for(source);
+  if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
+  else config["model"] = source.models.empty() ? "xbc-h" : source.models.front();
+  return config;
+}
+
+Bench::Eligibility Bench::outside_profile(const Case& source) const {
+  const Profile& profile = options_.profile;
+  if (std::ranges::find(profile.protocols, source.protocol) == profile.protocols.end() || source.protocol != protocol_.name())
+    return {Verdict::skip, fmt::format("{} is not what this endpoint speaks ({})", source.protocol, protocol_.name())};
+  if (!profile.model.empty() && !source.models.empty() && std::ranges::find(source.models, profile.model) == source.models.end())
+    return {Verdict::skip, fmt::format("for {}; the profile declares {}", fmt::join(source.models, ", "), profile.model)};
+  for (const auto& [pattern, reason] : profile.exclude)
+    if (matches_filter(source.id, pattern)) return {Verdict::skip, "excluded by the profile: " + reason};
+  return {};
+}
+
+/// On hardware the configuration of a case must be what is declared.
+std::string Bench::undeclared(const json& config) const {
+  for (const auto& [key, value] : config.items()) {
+    if (key == "station") continue;
+    const json& declared = options_.profile.config;
+    const json fallback = default_config().value(key, json());
+    const json has = declared.value(key, fallback);
+    if (!has.is_null() && plain(has) == plain(value)) continue;
+    return fmt::format("needs {} = {}; the profile declares {}", key, plain(value), has.is_null() ? "nothing" : plain(has));
+  }
+  return {};
+}
+
+std::string Bench::fence_objection(const PreparedCase& prepared) const {
+  const auto objection = [&](ByteView bytes) { return options_.fence.objection(protocol_.written_by(bytes), protocol_.output_areas()); };
+  const auto setting = [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
+    for (const auto& [address, hex] : memory) {
+      const Result<std::vector<Bytes>> requests = protocol_.write_requests(prepared.station, address, hex);
+      if (!requests) return fmt::format("cannot set {}: {}", address, requests.error().message);
+      for (const Bytes& request : *requests)
+        if (std::string why = objection(request); !why.empty()) return why;
+    }
+    return {};
+  };
+  if (std::string why = setting(prepared.source->memory); !why.empty()) return why;
+  for (const PreparedStep& step : prepared.steps) {
+    std::string why;
+    if (step.step->kind == Step::Kind::set) why = setting(step.step->memory);
+    if (step.step->kind == Step::Kind::send) why = objection(step.frames.front().frame.bytes);
+    if (!why.empty()) return why;
+  }
+  return {};
+}
+
+Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepared) const {
+  const Capabilities& can = endpoint_.capabilities();
+  if (!can.real_device) return {};
+  if (!source.transpose && config_station(source.config, options_.station) != options_.station)
+    return {Verdict::blocked, fmt::format("is about station {}; the device is station {}", *config_station(source.config, 1), options_.station)};
+  if (std::string why = undeclared(source.config); !why.empty()) return {Verdict::blocked, why};
+  if (prepared.looks_at_counters()) return {Verdict::blocked, "looks at the status counters, which no command reads; see XG5000, status by service"};
+  if (source.fresh && !can.can_power_cycle && options_.power_cycle_command.empty())
+    return {Verdict::blocked, "needs a device fresh from power-on; give --power-cycle COMMAND"};
+  if (std::string why = fence_objection(prepared); !why.empty()) return {Verdict::blocked, why};
+  return {};
+}
+
+Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
+  const Capabilities& can = endpoint_.capabilities();
+  if (can.wire) return {};
+  const json& config = prepared.source->config;
+  if (config.contains("line") || config.contains("bench_line"))
+    return {Verdict::inconclusive, "is about speed and character format, which a pty or socket does not carry"};
+  const Duration pause = prepared.shortest_pause(endpoint_.character_time());
+  if (pause > 0ns && pause < shortest_judged)
+    return {Verdict::inconclusive, fmt::format("needs a time of {:.1f} ms; below {:.0f} ms nothing is certain behind a pty or socket", to_ms(pause), to_ms(shortest_judged))};
+  return {};
+}
+
+CaseResult Bench::run(const Case& source) {
+  CaseResult result;
+  describe(source, result);
+  result.replay = options_.replay + "'" + source.id + "'";
+  const auto decline = [&](const Eligibility& why) {
+    result.verdict = why.verdict;
+    result.message = why.reason;
+    return result;
+  };
+  if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass) return decline(outside);
+  const Result<PreparedCase> prepared = prepare(source, station_for(source), protocol_);
+  if (!prepared) return decline({Verdict::error, prepared.error().message});
+  if (const Eligibility why = blocked(source, *prepared); why.verdict != Verdict::pass) return decline(why);
+  if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass) return decline(why);
+  if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
+  execute(*prepared, result);
+  errors_in_a_row_ = result.verdict == Verdict::error ? errors_in_a_row_ + 1 : 0;
+  if (errors_in_a_row_ == errors_to_stop && stopped_.empty()) stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));
+  return result;
+}
+
+void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
+  const Case& source = *prepared.source;
+  if (const int named = config_station(source.config, prepared.station).value_or(prepared.station); named != prepared.station)
+    result.notes.push_back(fmt::format("transposed: station {} to {}", named, prepared.station));
+  if (!prepare_device(prepared, result)) return;
+  Transcript transcript = exchange_.run(prepared);
+  exchange_.close(prepared, transcript);
+  judge_exchange(prepared, transcript, result);
+  after(prepared, transcript, result);
+  note_mixed_readings(result);
+  apply_waivers(options_.waivers, options_.today, result);
+}
+
+bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
+  const auto give_up = [&](Verdict verdict, const Error& error) {
+    result.verdict = verdict;
+    result.message = error.message;
+    if (error.interrupted) stop("interrupted", &error);
+    return false;
+  };
+  if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun) return give_up(Verdict::error, begun.error());
+  if (prepared.source->fresh && endpoint_.capabilities().real_device && !power_cycle(result))
+    return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
+  MemoryAccess memory(endpoint_, protocol_, options_.profile.response_max);
+  for (const auto& [address, hex] : prepared.source->memory) {
+    if (const Status set = memory.set(prepared.station, address, hex); !set)
+      return give_up(memory.refused() ? Verdict::fail : Verdict::error, set.error());
+    result.exchange.push_back({Event::Kind::note, endpoint_.now(), endpoint_.now(), {}, fmt::format("given {} = {}", address, hex)});
+  }
+  return true;
+}
+
+void Bench::judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result) {
+  Judgement judgement = judge(prepared, transcript, rules(), protocol_);
+  result.verdict = judgement.verdict;
+  result.message = std::move(judgement.message);
+  std::ranges::move(judgement.notes, std::back_inserter(result.notes));
+  result.differences = std::move(judgement.differences);
+  result.readings = std::move(judgement.readings);
+  result.response_ms = std::move(judgement.response_ms);
+  if (judgement.expected) {
+    result.expected = judgement.expected->source->text;
+    result.expected_bytes = judgement.expected->frame.bytes;
+    result.expected_hex = to_hex_with_holes(judgement.expected->frame);
+  }
+  result.received = print_bytes(judgement.received.bytes);
+  result.received_bytes = std::move(judgement.received.bytes);
+  for (Event event : transcript.events) {
+    if (event.kind != Event::Kind::note) event.text = print_bytes(event.bytes);
+    result.exchange.push_back(std::move(event));
+  }
+  if (const std::string errors = endpoint_.line_errors(); !errors.empty()) result.notes.push_back("the driver counted " + errors);
+}
+
+/// One name ties the vectors together: a device that mixes readings is NON-STRICT.
+void Bench::note_mixed_readings(CaseResult& result) {
+  for (const auto& [name, choice] : result.readings) {
+    const auto [first, is_new] = readings_.try_emplace(name, choice, result.id);
+    if (is_new || first->second.first == choice || (result.verdict != Verdict::pass && result.verdict != Verdict::non_strict)) continue;
+    result.verdict = Verdict::non_strict;
+    result.message = fmt::format("mixes readings: {} = {} here, {} in {}", name, choice, first->second.first, first->second.second);
+  }
+}
+
+void Bench::after(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result) {
+  if (transcript.trouble) return stop("the port failed in " + result.id + ": " + transcript.trouble->message, &*transcript.trouble);
+  bool dead = !transcript.dead.empty();
+  // In simulated time the sanity exchange after a negative case is made here; in real time closing the case was one.
+  const bool negative = prepared.listens_for_silence() || result.verdict == Verdict::fail;
+  if (endpoint_.capabilities().simulated && negative && !prepared.is_client()) {
+    const Result<bool> alive = exchange_.anything_answers(prepared.station, 3 * options_.profile.response_max);
+    if (!alive) return stop("the port failed after " + result.id + ": " + alive.error().message, &alive.error());
+    dead = !*alive;
+    if (dead && result.verdict != Verdict::fail) {
+      result.verdict = Verdict::fail;
+      result.message = "link dead after this frame: nothing answers any more";
+    }
+  }
+  // Emulators become a fresh device with the next case.
+  if (!dead || !endpoint_.capabilities().real_device) return;
+  if (!power_cycle(result)) stop(fmt::format("the link is dead since {}; power-cycle the device, or give --power-cycle COMMAND", result.id));
+}
+
+bool Bench::power_cycle(CaseResult& result) {
+  const bool hook = !options_.power_cycle_command.empty();
+  if (hook && std::system(options_.power_cycle_command.c_str()) != 0) {
+    result.notes.push_back("the --power-cycle command failed");
+    return false;
+  }
+  if (!hook && (!endpoint_.capabilities().can_power_cycle || !endpoint_.act("power_cycle"))) return false;
+  result.notes.push_back("power-cycled the device");
+  const Result<bool> alive = exchange_.anything_answers(options_.station, revive_patience);
+  return alive && *alive;
+}
+
+void Bench::stop(std::string why, const Error* error) {
+  stopped_ = std::move(why);
+  port_failed_ = error != nullptr;
+  interrupted_ = error && error->interrupted;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,79 @@
+// Runs one case after another against one endpoint: eligibility, starting state, exchange, judgement, recovery.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/bench/exchange.hpp"
+#include "harness/bench/fence.hpp"
+#include "harness/bench/judge.hpp"
+#include "harness/bench/profile.hpp"
+#include "harness/bench/waivers.hpp"
+#include "harness/endpoints/endpoint.hpp"
+#include "harness/vectors/case.hpp"
+
+namespace fieldproof {
+
+struct BenchOptions {
+  Profile profile;
+  WriteFence fence;
+  std::vector<Waiver> waivers;
+  std::string today;               // ISO date, for waivers
+  int station = 1;                 // the device's, where the endpoint cannot become another station
+  std::string power_cycle_command; // --power-cycle: what switches a real device off and on
+  std::string replay;              // command line that the id of the case completes
+};
+
+class Bench {
+ public:
+  Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options);
+
+  /// The first sanity exchange: does anything answer at all? The error tells the engineer what to check.
+  Status start();
+
+  /// Never throws; whatever goes wrong is in the result.
+  CaseResult run(const Case& source);
+
+  /// Why no further case can run: the port failed, or the link is dead. Empty while all is well.
+  const std::string& stopped() const { return stopped_; }
+  bool port_failed() const { return port_failed_; }
+  bool interrupted() const { return interrupted_; }
+
+ private:
+  struct Eligibility {
+    Verdict verdict = Verdict::pass;
+    std::string reason;
+  };
+  Eligibility outside_profile(const Case& source) const;
+  Eligibility blocked(const Case& source, const PreparedCase& prepared) const;
+  Eligibility below_floor(const PreparedCase& prepared) const;
+  std::string undeclared(const nlohmann::json& config) const;
+  std::string fence_objection(const PreparedCase& prepared) const;
+
+  int station_for(const Case& source) const;
+  nlohmann::json device_config(const Case& source) const;
+  JudgeRules rules() const;
+  ExchangeTiming timing() const;
+
+  void execute(const PreparedCase& prepared, CaseResult& result);
+  bool prepare_device(const PreparedCase& prepared, CaseResult& result);
+  void judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
+  void note_mixed_readings(CaseResult& result);
+  bool power_cycle(CaseResult& result);
+  void after(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
+  void stop(std::string why, const Error* error = nullptr);
+
+  Endpoint& endpoint_;
+  const Protocol& protocol_;
+  BenchOptions options_;
+  Exchange exchange_;
+  std::map<std::string, std::pair<std::string, std::string>> readings_;  // name: first choice and the case that made it
+  std::string stopped_;
+  int errors_in_a_row_ = 0;
+  bool port_failed_ = false;
+  bool interrupted_ = false;
+};
+
+}  // namespace fieldproof

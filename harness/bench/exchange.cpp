@@ -1,0 +1,249 @@
+#include "harness/bench/exchange.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fieldproof {
+
+namespace {
+
+/// More than any exchange of these protocols comes to: the device floods.
+constexpr std::size_t flood_limit = 16'384;
+
+/// No reply of these protocols is longer on the wire at the slowest speed: bytes that trickle in for longer are no reply.
+constexpr Duration longest_reply = 10s;
+
+}  // namespace
+
+Transcript Exchange::run(const PreparedCase& prepared) {
+  Transcript transcript;
+  transcript.steps.reserve(prepared.steps.size());
+  captures_.clear();
+  pending_ = {};
+  last_bytes_.clear();
+  last_sent_ = {endpoint_.now(), endpoint_.now()};
+  for (const PreparedStep& one : prepared.steps) {
+    for (int i = 0; i < one.step->times; ++i) {
+      step(prepared, one, transcript);
+      if (transcript.trouble || transcript.flooded || !transcript.steps.back().refused.empty()) return transcript;
+    }
+  }
+  return transcript;
+}
+
+void Exchange::step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript) {
+  StepRecord& record = transcript.steps.emplace_back();
+  switch (step.step->kind) {
+    case Step::Kind::send: return send(step, record, transcript);
+    case Step::Kind::expect: return expect(step, record, transcript);
+    case Step::Kind::silence: return silence(prepared, record, transcript);
+    case Step::Kind::wait: return wait_until(endpoint_.now() + step.step->duration, record, transcript);
+    case Step::Kind::set:
+    case Step::Kind::check: return access_memory(prepared, *step.step, record, transcript);
+    case Step::Kind::act:
+      if (const Status done = endpoint_.act(step.step->action); !done) record.refused = done.error().message;
+      return note("do " + step.step->action, transcript);
+    case Step::Kind::open:
+    case Step::Kind::close:
+    case Step::Kind::expect_close: record.refused = "this endpoint has no link that opens and closes"; return;
+  }
+}
+
+void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& transcript) {
+  // What came before this send belongs to what was open until now.
+  while (listen(endpoint_.now(), transcript)) {}
+  if (!pending_.bytes.empty() && transcript.surplus.bytes.empty()) {
+    transcript.surplus = pending_.take(pending_.bytes.size());
+    transcript.surplus_after = transcript.steps.size() - 1;
+  }
+  if (transcript.trouble || transcript.flooded) return;
+  const FrameTemplate& frame = step.frames.front().frame;
+  const Result<Bytes> bytes = render(frame, captures_);
+  if (!bytes) {
+    record.refused = bytes.error().message;
+    return;
+  }
+  std::size_t from = 0;
+  for (const FrameTemplate::Gap& gap : frame.gaps) {
+    if (gap.before > from && !transmit(ByteView(*bytes).subspan(from, gap.before - from), transcript)) return;
+    from = gap.before;
+    const Time moment = endpoint_.now() + gap.pause.at(endpoint_.character_time());
+    while (listen(moment, transcript)) {}
+    if (transcript.trouble) return;
+  }
+  if (from < bytes->size() && !transmit(ByteView(*bytes).subspan(from), transcript)) return;
+  record.sent = last_sent_;
+  record.sent_bytes = *bytes;
+  last_bytes_ = *bytes;
+}
+
+void Exchange::expect(const PreparedStep& step, StepRecord& record, Transcript& transcript) {
+  record.sent = last_sent_;
+  record.deadline = last_sent_.end + step.step->within.value_or(timing_.response_max);
+  const Time give_up = record.deadline + timing_.late_watch;
+  const Time cut_off = give_up + longest_reply;
+  std::size_t length = 0;
+  while ((length = complete_length(step)) == 0) {
+    const Time until = pending_.bytes.empty() ? give_up : std::max(record.deadline, pending_.arrivals.back().end + timing_.quiet);
+    if (!listen(std::min(until, cut_off), transcript) || endpoint_.now() >= cut_off) break;
+  }
+  record.received = pending_.take(length ? length : pending_.bytes.size());
+  record.listened_until = endpoint_.now();
+}
+
+/// How many of the pending bytes are a reply: what an alternative matches, else a complete frame of the protocol.
+std::size_t Exchange::complete_length(const PreparedStep& step) {
+  if (pending_.bytes.empty()) return 0;
+  bool could_grow = false;
+  for (const PreparedFrame& one : step.frames) {
+    const std::size_t size = one.frame.bytes.size();
+    const ByteView head = ByteView(pending_.bytes).first(std::min(size, pending_.bytes.size()));
+    Captures captures = captures_;
+    const std::optional<std::size_t> mismatch = first_mismatch(one.frame, head, captures);
+    if (!mismatch) {
+      captures_ = std::move(captures);
+      return size;
+    }
+    could_grow |= *mismatch == pending_.bytes.size() && pending_.bytes.size() < size;
+  }
+  if (could_grow) return 0;
+  return protocol_.frame_length(pending_.bytes).value_or(0);
+}
+
+void Exchange::silence(const PreparedCase& prepared, StepRecord& record, Transcript& transcript) {
+  if (endpoint_.capabilities().simulated) return wait_until(last_sent_.end + timing_.promised_silence, record, transcript);
+  // A probe would change the counters, and a client answers none: there the time is waited out.
+  if (prepared.looks_at_counters() || prepared.is_client()) return wait_until(last_sent_.end + timing_.response_max, record, transcript);
+  if (!protocol_.frame_length(last_bytes_)) {
+    // Without a tail the probe would be taken for more of the same frame until the inter-character time is over.
+    wait_until(last_sent_.end + timing_.quiet, record, transcript);
+    if (transcript.trouble || !record.received.bytes.empty()) return;
+  }
+  if (!probe(prepared.station, record.received, transcript)) wait_until(last_sent_.end + timing_.response_max, record, transcript);
+  record.listened_until = endpoint_.now();
+}
+
+void Exchange::wait_until(Time moment, StepRecord& record, Transcript& transcript) {
+  while (listen(moment, transcript)) {}
+  record.received.append(std::exchange(pending_, {}));
+  record.listened_until = endpoint_.now();
+  note(fmt::format("{} until {:.1f} ms", record.received.bytes.empty() ? "silence" : "listened", to_ms(record.listened_until)), transcript);
+}
+
+void Exchange::access_memory(const PreparedCase& prepared, const Step& step, StepRecord& record, Transcript& transcript) {
+  const bool setting = step.kind == Step::Kind::set;
+  for (const auto& [address, hex] : step.memory) {
+    Status done = ok();
+    if (setting) {
+      done = memory_.set(prepared.station, address, hex);
+      note(fmt::format("set {} = {}", address, hex), transcript);
+    } else {
+      const Result<std::string> value = memory_.get(prepared.station, address, hex.size());
+      if (value) record.memory.emplace_back(address, *value);
+      if (value) note(fmt::format("check {}: {}", address, *value), transcript);
+      else done = value.error();
+    }
+    if (done) continue;
+    record.refused = done.error().message;
+    record.refused_by_device = memory_.refused();
+    return;
+  }
+}
+
+void Exchange::close(const PreparedCase& prepared, Transcript& transcript) {
+  if (transcript.trouble) return;
+  StepRecord rest;
+  const bool simulated = endpoint_.capabilities().simulated;
+  if (simulated || prepared.is_client()) {
+    wait_until(endpoint_.now() + (simulated ? timing_.promised_silence : timing_.quiet), rest, transcript);
+    transcript.events.pop_back();
+  } else if (!probe(prepared.station, rest.received, transcript) && !transcript.trouble) {
+    if (const Result<bool> alive = anything_answers(prepared.station, 3 * timing_.response_max); !alive) transcript.trouble = alive.error();
+    else if (!*alive) transcript.dead = "nothing answers any more";
+  }
+  if (rest.received.bytes.empty() || !transcript.surplus.bytes.empty()) return;
+  transcript.surplus = std::move(rest.received);
+  transcript.surplus_after = transcript.steps.size();
+}
+
+Result<bool> Exchange::anything_answers(int station, Duration patience) {
+  const Time give_up = endpoint_.now() + patience;
+  while (endpoint_.now() < give_up) {
+    const Result<Sent> sent = endpoint_.send(protocol_.probe(station, {}));
+    if (!sent) return sent.error();
+    const Time until = std::min(give_up, sent->end + timing_.response_max);
+    Bytes answer;
+    bool any = false;
+    // After the first byte: until a frame is complete, and then whatever else comes at once (answers to earlier probes).
+    for (Time deadline = until;;) {
+      const Result<Burst> burst = endpoint_.receive(deadline);
+      if (!burst) return burst.error();
+      if (burst->bytes.empty()) break;
+      any = true;
+      answer.insert(answer.end(), burst->bytes.begin(), burst->bytes.end());
+      if (answer.size() > flood_limit) return true;
+      deadline = protocol_.frame_length(answer) ? endpoint_.now() + (endpoint_.capabilities().simulated ? 0ms : 20ms) : endpoint_.now() + timing_.quiet;
+    }
+    if (any) return true;
+  }
+  return false;
+}
+
+bool Exchange::probe(int station, Received& before, Transcript& transcript) {
+  const Bytes request = protocol_.probe(station, last_bytes_);
+  const Result<Sent> sent = endpoint_.send(request);
+  if (!sent) {
+    transcript.trouble = sent.error();
+    return false;
+  }
+  std::vector<Received> frames;
+  bool answered = false;
+  while (!answered) {
+    while (const std::optional<std::size_t> length = protocol_.frame_length(pending_.bytes)) {
+      frames.push_back(pending_.take(*length));
+      answered = protocol_.is_reply_to_probe(request, frames.back().bytes);
+      if (answered) break;
+    }
+    if (answered || !listen(sent->end + timing_.response_max, transcript)) break;
+  }
+  // A device that answers every request in a form of its own must still reach the case that names the fault:
+  // replies come in order, so the last frame is its answer to the probe.
+  if (!pending_.bytes.empty() && !answered) frames.push_back(pending_.take(pending_.bytes.size()));
+  const bool alive = !frames.empty();
+  if (alive) frames.pop_back();
+  for (Received& frame : frames) before.append(std::move(frame));
+  note(answered ? "probe answered: nothing else was on its way" : "probe not answered as expected", transcript);
+  return alive;
+}
+
+bool Exchange::transmit(ByteView bytes, Transcript& transcript) {
+  const Result<Sent> sent = endpoint_.send(bytes);
+  if (!sent) {
+    transcript.trouble = sent.error();
+    return false;
+  }
+  last_sent_ = *sent;
+  transcript.events.push_back({Event::Kind::sent, sent->start, sent->end, Bytes(bytes.begin(), bytes.end()), {}});
+  return true;
+}
+
+bool Exchange::listen(Time deadline, Transcript& transcript) {
+  if (transcript.trouble || transcript.flooded) return false;
+  Result<Burst> burst = endpoint_.receive(deadline);
+  if (!burst) {
+    transcript.trouble = burst.error();
+    return false;
+  }
+  if (burst->bytes.empty()) return false;
+  pending_.add(*burst);
+  transcript.flooded = pending_.bytes.size() > flood_limit;
+  transcript.events.push_back({Event::Kind::received, burst->start, burst->end(), std::move(burst->bytes), {}});
+  return !transcript.flooded;
+}
+
+void Exchange::note(std::string text, Transcript& transcript) {
+  const Time now = endpoint_.now();
+  transcript.events.push_back({Event::Kind::note, now, now, {}, std::move(text)});
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,32 @@
+// The write fence: on a real device nothing is written outside the ranges that the engineer allowed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "harness/protocol.hpp"
+#include "src/base/result.hpp"
+
+namespace fieldproof {
+
+class WriteFence {
+ public:
+  /// Adds "M", "M100-M199", "%MW100-%MW199", "D0", or "all"; several separated by commas. Words, whole areas, or
+  /// every area but physical outputs, which are written only when named. Errors name the part that is wrong.
+  Status allow(const std::string& ranges);
+
+  /// Empty when all of it is allowed; else what must be allowed: "writes %MW100; allow it with --allow-write M100".
+  std::string objection(const std::vector<Protocol::Written>& written, std::string_view output_areas) const;
+
+ private:
+  struct Range {
+    std::string area;  // "all" for every area
+    std::uint32_t first = 0, last = 0;
+  };
+  bool allows(const Protocol::Written& written, std::string_view output_areas) const;
+
+  std::vector<Range> ranges_;
+};
+
+}  // namespace fieldproof

@@ -1,0 +1,261 @@
+#include "harness/bench/judge.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fieldproof {
+
+namespace {
+
+class Judge {
+ public:
+  Judge(const PreparedCase& prepared, const Transcript& transcript, const JudgeRules& rules, const Protocol& protocol)
+      : prepared_(prepared), transcript_(transcript), rules_(rules), protocol_(protocol) {}
+
+  Judgement judge() {
+    result_.verdict = Verdict::pass;
+    if (transcript_.trouble) return error(transcript_.trouble->message);
+    if (transcript_.flooded) miss("the device floods the line: it sends without end");
+    for (const PreparedStep& step : prepared_.steps) {
+      const StepRecord* previous = nullptr;
+      for (int i = 0; i < step.step->times && record_ < transcript_.steps.size(); ++i, ++record_) {
+        judge_step(step, transcript_.steps[record_], previous);
+        previous = &transcript_.steps[record_];
+      }
+    }
+    if (result_.verdict == Verdict::pass && record_ == 0) return error("no step was executed");
+    if (!transcript_.surplus.bytes.empty()) judge_surplus();
+    if (!transcript_.dead.empty()) miss("link dead after this frame: " + transcript_.dead);
+    by_level();
+    return std::move(result_);
+  }
+
+ private:
+  Judgement error(std::string message) {
+    result_.verdict = Verdict::error;
+    result_.message = std::move(message);
+    return std::move(result_);
+  }
+
+  /// The first miss names the case; its verdict is settled by level and basis at the end.
+  void miss(std::string message) {
+    if (missed_) return;
+    missed_ = true;
+    result_.verdict = Verdict::fail;
+    result_.message = std::move(message);
+  }
+
+  /// A verdict short of a miss: the gravest one stays.
+  void lower_to(Verdict verdict, std::string message) {
+    if (missed_ || (result_.verdict != Verdict::pass && verdict == Verdict::marginal)) return;
+    result_.verdict = verdict;
+    result_.message = std::move(message);
+  }
+
+  void by_level() {
+    const Case& source = *prepared_.source;
+    if (result_.verdict == Verdict::blocked) return;
+    if (missed_ && source.basis == "decision" && !rules_.binding_decisions) {
+      result_.verdict = Verdict::non_strict;
+      result_.notes.push_back("the manuals are silent here; this project decided: " + source.why);
+    }
+    if (missed_ && source.level == "should") result_.verdict = Verdict::non_strict;
+    if (source.level == "info" && result_.verdict != Verdict::error) {
+      result_.message = missed_ ? "measured, no requirement: " + result_.message : "measured, no requirement: as written";
+      result_.verdict = Verdict::info;
+    }
+  }
+
+  void judge_step(const PreparedStep& step, const StepRecord& record, const StepRecord* previous) {
+    if (!record.refused.empty()) return judge_refusal(record);
+    switch (step.step->kind) {
+      case Step::Kind::expect: return judge_reply(step, record, previous);
+      case Step::Kind::silence:
+      case Step::Kind::wait: return judge_silence(record);
+      case Step::Kind::check: return judge_memory(*step.step, record);
+      default: return;
+    }
+  }
+
+  void judge_refusal(const StepRecord& record) {
+    if (record.refused_by_device) return miss(record.refused);
+    if (missed_) return;
+    result_.verdict = Verdict::blocked;
+    result_.message = record.refused;
+    missed_ = true;
+  }
+
+  void judge_reply(const PreparedStep& step, const StepRecord& record, const StepRecord* previous) {
+    const Received& received = record.received;
+    if (received.bytes.empty()) {
+      expected(step, received);
+      return miss(fmt::format("no answer within {:.0f} ms", to_ms(record.deadline - record.sent.end)));
+    }
+    result_.response_ms.push_back(to_ms(received.arrivals.front().start - record.sent.end));
+    const PreparedFrame* match = matching(step, received.bytes);
+    if (!match) return judge_mismatch(step, received);
+    take_reading(step, *match);
+    judge_timing(step, record);
+    judge_gaps(step, received);
+    if (step.step->every && previous) judge_period(*step.step->every, *previous, record);
+  }
+
+  const PreparedFrame* matching(const PreparedStep& step, ByteView bytes) {
+    for (const PreparedFrame& one : step.frames) {
+      Captures captures = captures_;
+      if (first_mismatch(one.frame, bytes, captures)) continue;
+      captures_ = std::move(captures);
+      return &one;
+    }
+    return nullptr;
+  }
+
+  void judge_mismatch(const PreparedStep& step, const Received& received) {
+    if (missed_) return;
+    expected(step, received);
+    const PreparedFrame& nearest = *result_.expected;
+    if (received.bytes == last_sent())
+      return miss("our own request came back (echo) instead of a reply; check the wiring: RS-485 with two wires, or RS-422 set for RS-485");
+    result_.differences = compare_frames(fill_holes(nearest.frame, received.bytes), received.bytes, protocol_);
+    std::string what = "the reply is not the one expected";
+    if (const std::size_t count = received.bytes.size(), size = nearest.frame.bytes.size(); result_.differences.empty() && count != size)
+      what = fmt::format("the reply has {} bytes instead of {}", count, size);
+    if (!result_.differences.empty()) {
+      const Difference& first = result_.differences.front();
+      what = fmt::format("{}: expected {}, got {}{}", first.field, first.expected, first.received, first.hint.empty() ? "" : " (" + first.hint + ")");
+    }
+    miss(what);
+  }
+
+  Bytes last_sent() const {
+    for (std::size_t i = record_; i-- > 0;)
+      if (!transcript_.steps[i].sent_bytes.empty()) return transcript_.steps[i].sent_bytes;
+    return {};
+  }
+
+  /// Notes which alternative comes nearest, and what came.
+  void expected(const PreparedStep& step, const Received& received) {
+    if (missed_) return;
+    result_.received = received;
+    std::size_t best = 0;
+    for (const PreparedFrame& one : step.frames) {
+      Captures captures = captures_;
+      const std::size_t agreeing = first_mismatch(one.frame, received.bytes, captures).value_or(received.bytes.size()) + 1;
+      if (agreeing <= best) continue;
+      best = agreeing;
+      result_.expected = &one;
+    }
+  }
+
+  /// The template with the received bytes in its open places, so that only real differences show.
+  static Bytes fill_holes(const FrameTemplate& frame, ByteView received) {
+    Bytes bytes = frame.bytes;
+    for (std::size_t i = 0; i < bytes.size() && i < received.size(); ++i)
+      if (frame.cells[i].kind != FrameTemplate::Cell::Kind::literal) bytes[i] = received[i];
+    for (const FrameTemplate::Check& check : frame.checks) {
+      const Bytes right = compute_check(check.kind, ByteView(bytes).subspan(check.begin, check.at - check.begin));
+      std::ranges::copy(right, bytes.begin() + static_cast<std::ptrdiff_t>(check.at));
+    }
+    return bytes;
+  }
+
+  void take_reading(const PreparedStep& step, const PreparedFrame& match) {
+    if (!step.step->reading.empty()) {
+      result_.readings[step.step->reading] = match.reading;
+      if (match.reading != step.frames.front().reading)
+        lower_to(Verdict::non_strict, fmt::format("allowed alternative: {} = {}", step.step->reading, match.reading));
+    }
+    for (const auto& [field, reading] : match.frame.readings) {
+      result_.readings[field] = reading;
+      if (reading != field) lower_to(Verdict::non_strict, fmt::format("allowed alternative: {} = {}", field, reading));
+    }
+  }
+
+  void judge_timing(const PreparedStep& step, const StepRecord& record) {
+    const Duration limit = record.deadline - record.sent.end;
+    const Duration took = record.received.arrivals.front().start - record.sent.end;
+    if (step.step->within && limit < rules_.timing_floor)
+      return lower_to(Verdict::inconclusive, fmt::format("the limit of {:.1f} ms is below the floor of this link, {:.1f} ms", to_ms(limit), to_ms(rules_.timing_floor)));
+    if (took > limit) {
+      const std::string message = fmt::format("late answer: {:.1f} ms after the request, the limit is {:.0f} ms", to_ms(took), to_ms(limit));
+      return rules_.binding_timing || step.step->within ? miss(message) : lower_to(Verdict::non_strict, message);
+    }
+    if (static_cast<double>(took.count()) > static_cast<double>(limit.count()) * (1 - rules_.guard_band))
+      lower_to(Verdict::marginal, fmt::format("answered after {:.1f} ms: inside the guard band of the limit, {:.0f} ms", to_ms(took), to_ms(limit)));
+  }
+
+  void judge_gaps(const PreparedStep& step, const Received& received) {
+    const Duration limit = step.step->max_gap.value_or(rules_.max_gap);
+    for (std::size_t i = 1; i < received.arrivals.size(); ++i) {
+      const Duration gap = received.arrivals[i].start - received.arrivals[i - 1].end;
+      if (gap > limit)
+        return miss(fmt::format("split answer: {:.1f} ms of silence before byte {} of the reply, the limit is {:.1f} ms", to_ms(gap),
+                                received.arrivals[i].offset, to_ms(limit)));
+    }
+  }
+
+  void judge_period(Duration every, const StepRecord& previous, const StepRecord& record) {
+    if (previous.received.arrivals.empty()) return;
+    const Duration period = record.received.arrivals.front().start - previous.received.arrivals.front().start;
+    const Duration tolerance = std::max<Duration>(every / 20, rules_.timing_floor);
+    if (period > every + tolerance || period < every - tolerance)
+      miss(fmt::format("came after {:.1f} ms instead of every {:.1f} ms", to_ms(period), to_ms(every)));
+  }
+
+  void judge_silence(const StepRecord& record) {
+    if (record.received.bytes.empty() || missed_) return;
+    result_.received = record.received;
+    miss(fmt::format("{} bytes came where silence is due", record.received.bytes.size()));
+  }
+
+  void judge_memory(const Step& step, const StepRecord& record) {
+    for (std::size_t i = 0; i < record.memory.size() && i < step.memory.size(); ++i) {
+      const auto& [address, value] = record.memory[i];
+      const std::string& due = step.memory[i].second;
+      if (std::ranges::equal(value, due, [](char a, char b) { return hex_digit(a) == hex_digit(b); })) continue;
+      if (!missed_) result_.differences.push_back({address, due, value, ""});
+      miss(fmt::format("{} holds {}, {} is due", address, value, due));
+    }
+  }
+
+  void judge_surplus() {
+    if (missed_) return;
+    result_.received = transcript_.surplus;
+    const Bytes& bytes = transcript_.surplus.bytes;
+    miss(fmt::format("{} bytes after the complete exchange: {}", bytes.size(), print_bytes(ByteView(bytes).first(std::min<std::size_t>(bytes.size(), 64)))));
+  }
+
+  const PreparedCase& prepared_;
+  const Transcript& transcript_;
+  const JudgeRules& rules_;
+  const Protocol& protocol_;
+  Judgement result_;
+  Captures captures_;
+  std::size_t record_ = 0;
+  bool missed_ = false;
+};
+
+}  // namespace
+
+Judgement judge(const PreparedCase& prepared, const Transcript& transcript, const JudgeRules& rules, const Protocol& protocol) {
+  return Judge(prepared, transcript, rules, protocol).judge();
+}
+
+std::vector<Difference> compare_frames(ByteView expected, ByteView received, const Protocol& protocol) {
+  std::vector<Field> due = protocol.explain(expected);
+  const std::vector<Field> came = protocol.explain(received);
+  std::vector<Difference> differences;
+  for (const Field& field : came) {
+    const auto same = std::ranges::find(due, field.name, &Field::name);
+    if (same == due.end()) {
+      differences.push_back({field.name, "nothing", field.text, field.problem});
+      continue;
+    }
+    if (same->text != field.text) differences.push_back({field.name, same->text, field.text, field.problem});
+    due.erase(same);
+  }
+  for (const Field& field : due) differences.push_back({field.name, field.text, "nothing", ""});
+  return differences;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,49 @@
+#include "harness/bench/prepared_case.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fieldproof {
+
+bool PreparedCase::is_client() const { return source->config.value("role", "server") == "client"; }
+
+bool PreparedCase::listens_for_silence() const {
+  return std::ranges::any_of(steps, [](const PreparedStep& step) { return step.step->kind == Step::Kind::silence; });
+}
+
+bool PreparedCase::looks_at_counters() const {
+  return std::ranges::any_of(steps, [](const PreparedStep& step) {
+    return step.step->kind == Step::Kind::check &&
+           std::ranges::any_of(step.step->memory, [](const auto& entry) { return entry.first.starts_with('@'); });
+  });
+}
+
+Duration PreparedCase::shortest_pause(Duration character_time) const {
+  Duration shortest{};
+  const auto consider = [&](Duration pause) {
+    if (pause > 0ns && (shortest == 0ns || pause < shortest)) shortest = pause;
+  };
+  for (const PreparedStep& step : steps) {
+    if (step.step->kind == Step::Kind::wait) consider(step.step->duration);
+    if (step.step->kind != Step::Kind::send) continue;
+    for (const FrameTemplate::Gap& gap : step.frames.front().frame.gaps) consider(gap.pause.at(character_time));
+  }
+  return shortest;
+}
+
+Result<PreparedCase> prepare(const Case& source, int station, const Protocol& protocol) {
+  PreparedCase prepared{&source, station, {}};
+  const Stations stations{protocol.station_bytes(station), protocol.station_bytes((station + 1) % 256)};
+  for (std::size_t i = 0; i < source.steps.size(); ++i) {
+    PreparedStep step{&source.steps[i], {}};
+    for (const Frame& frame : source.steps[i].frames) {
+      Result<std::vector<FrameTemplate>> templates = make_templates(frame.notation, stations);
+      if (!templates) return fail(fmt::format("{}: steps[{}]: {}", source.id, i, templates.error().message));
+      for (FrameTemplate& one : *templates) step.frames.push_back({frame.reading, &frame, std::move(one)});
+    }
+    prepared.steps.push_back(std::move(step));
+  }
+  return prepared;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,40 @@
+// A case made concrete for the station it runs against: templates instead of notation.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/notation/frame_template.hpp"
+#include "harness/protocol.hpp"
+#include "harness/vectors/case.hpp"
+
+namespace fieldproof {
+
+struct PreparedFrame {
+  std::string reading;                          // named alternative of the step, empty where there is one alone
+  const Frame* source = nullptr;
+  FrameTemplate frame;
+};
+
+struct PreparedStep {
+  const Step* step = nullptr;
+  std::vector<PreparedFrame> frames;            // send: one; expect: every alternative, the preferred first
+};
+
+/// Points into the Case, which must outlive it.
+struct PreparedCase {
+  const Case* source = nullptr;
+  int station = 1;
+  std::vector<PreparedStep> steps;
+
+  bool is_client() const;                       // the module asks, the bench answers
+  bool listens_for_silence() const;
+  bool looks_at_counters() const;               // a check of @status, @errors or @services
+  /// The shortest pause or wait, or 0 when there is none.
+  Duration shortest_pause(Duration character_time) const;
+};
+
+/// Errors name the step.
+Result<PreparedCase> prepare(const Case& source, int station, const Protocol& protocol);
+
+}  // namespace fieldproof

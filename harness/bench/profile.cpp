@@ -1,0 +1,105 @@
+#include "harness/bench/profile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+#include "src/base/spelling.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 9> keys{"name", "title", "extends", "model", "protocols", "decisions", "config", "timing", "exclude"};
+constexpr std::array<std::string_view, 4> timing_keys{"response_max_ms", "guard_band", "floor_ms", "max_gap_ms"};
+
+Duration from_ms(double ms) { return Duration(static_cast<Duration::rep>(ms * 1e6)); }
+
+void read_timing(const json& timing, Profile& profile) {
+  for (const auto& [key, value] : timing.items()) {
+    if (std::ranges::find(timing_keys, key) == timing_keys.end())
+      throw std::runtime_error(fmt::format("unknown key timing.{}{}", key, suggestion(key, timing_keys)));
+    const double number = value.get<double>();
+    if (number < 0) throw std::runtime_error(fmt::format("timing.{} is negative", key));
+    if (key == "response_max_ms") profile.response_max = from_ms(number);
+    if (key == "guard_band") profile.guard_band = number;
+    if (key == "floor_ms") profile.floor = from_ms(number);
+    if (key == "max_gap_ms") profile.max_gap = from_ms(number);
+  }
+}
+
+void read_exclude(const json& exclude, Profile& profile) {
+  for (const json& entry : exclude) profile.exclude.emplace_back(entry.at("id"), entry.at("reason"));
+}
+
+void read_key(const std::string& key, const json& value, Profile& profile) {
+  if (key == "name") profile.name = value;
+  else if (key == "title") profile.title = value;
+  else if (key == "model") profile.model = value;
+  else if (key == "protocols") profile.protocols = value.get<std::vector<std::string>>();
+  else if (key == "config") profile.config.update(value);
+  else if (key == "timing") read_timing(value, profile);
+  else if (key == "exclude") read_exclude(value, profile);
+  else if (key == "decisions") {
+    if (value != "binding" && value != "advisory") throw std::runtime_error("decisions is 'binding' or 'advisory'");
+    profile.binding_decisions = value == "binding";
+  } else if (key != "extends") {
+    throw std::runtime_error(fmt::format("unknown key '{}'{}", key, suggestion(key, keys)));
+  }
+}
+
+Result<std::string> read_text(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return fail(fmt::format("cannot read profile {}; is it there and readable?", path.string()));
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+std::string known_profiles(const std::string& name, const fs::path& folder) {
+  std::vector<std::string> names;
+  if (fs::is_directory(folder))
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return fmt::format("{}; there are {}", suggestion(name, views), fmt::join(names, ", "));
+}
+
+Result<Profile> load(const std::string& name, const fs::path& folder, int depth) {
+  const bool is_path = name.find('/') != std::string::npos || name.ends_with(".json");
+  const fs::path path = is_path ? fs::path(name) : folder / (name + ".json");
+  if (!fs::exists(path)) return fail(fmt::format("no profile '{}'{}", name, known_profiles(name, folder)));
+  const Result<std::string> text = read_text(path);
+  if (!text) return text.error();
+  Profile base;
+  if (const json value = json::parse(*text, nullptr, false); value.is_object() && value.contains("extends") && value["extends"].is_string()) {
+    if (depth > 8) return fail(fmt::format("{}: profiles extend each other in a circle", path.string()));
+    Result<Profile> extended = load(value["extends"], is_path && !fs::exists(folder / (value["extends"].get<std::string>() + ".json")) ? path.parent_path() : folder, depth + 1);
+    if (!extended) return extended.error();
+    base = std::move(*extended);
+  }
+  return parse_profile(*text, path.string(), std::move(base));
+}
+
+}  // namespace
+
+Result<Profile> parse_profile(const std::string& text, const std::string& file, Profile base) {
+  try {
+    const json value = json::parse(text);
+    if (!value.is_object()) return fail(fmt::format("{}: a profile is a JSON object", file));
+    for (const auto& [key, entry] : value.items()) read_key(key, entry, base);
+  } catch (const std::exception& error) {
+    return fail(fmt::format("cannot read profile {}: {}", file, error.what()));
+  }
+  if (base.name.empty()) return fail(fmt::format("cannot read profile {}: it has no \"name\"", file));
+  if (base.protocols.empty()) return fail(fmt::format("cannot read profile {}: it has no \"protocols\"", file));
+  return base;
+}
+
+Result<Profile> load_profile(const std::string& name_or_path, const fs::path& folder) { return load(name_or_path, folder, 0); }
+
+}  // namespace fieldproof

@@ -1,0 +1,37 @@
+// What a device declares: model, protocols, configuration, timing. It selects cases; what is not declared is SKIP.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/base/result.hpp"
+#include "src/base/time.hpp"
+
+namespace fieldproof {
+
+struct Profile {
+  std::string name;                    // "xbc-h"
+  std::string title;
+  std::string model;                   // selects vectors by `models`; empty: the model of each case (emulators only)
+  std::vector<std::string> protocols;  // "xgt-cnet"
+  bool binding_decisions = true;       // "decisions": "binding" or "advisory"
+  nlohmann::json config = nlohmann::json::object();  // the declared configuration, keys of given.config
+  std::vector<std::pair<std::string, std::string>> exclude;  // glob and reason: SKIP
+
+  Duration response_max = 500ms;  // the manuals print none (PROTOCOLS: basis decision)
+  double guard_band = 0.1;        // the last tenth of a limit is MARGINAL
+  Duration floor{};               // the link's own uncertainty; 0: the endpoint's
+  Duration max_gap{};             // silence allowed inside a reply; 0: 3.5 characters of 11 bits
+};
+
+/// Reads NAME from `folder`/NAME.json, or a path. "extends" names another profile of the folder.
+/// Errors name the file and the key; an unknown name suggests a near one.
+Result<Profile> load_profile(const std::string& name_or_path, const std::filesystem::path& folder);
+
+/// One profile's text, with what it extends already loaded into `base`.
+Result<Profile> parse_profile(const std::string& text, const std::string& file, Profile base);
+
+}  // namespace fieldproof

@@ -1,0 +1,80 @@
+#include "harness/bench/runner.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace fieldproof {
+
+namespace {
+
+struct Context {
+  const RunCase* run = nullptr;
+  int repeat = 0;
+  std::size_t handed_over = 0;
+  bool stopped = false;
+};
+
+class CaseTest : public testing::Test {
+ public:
+  CaseTest(const Case& source, Context& context) : source_(source), context_(context) {}
+
+  void TestBody() override {
+    if (context_.stopped) return;
+    ++context_.handed_over;
+    context_.stopped = !(*context_.run)(source_, context_.repeat);
+  }
+
+ private:
+  const Case& source_;
+  Context& context_;
+};
+
+class Repetitions : public testing::EmptyTestEventListener {
+ public:
+  explicit Repetitions(Context& context) : context_(context) {}
+  void OnTestIterationStart(const testing::UnitTest&, int iteration) override { context_.repeat = iteration; }
+
+ private:
+  Context& context_;
+};
+
+void initialize(const RunnerOptions& options) {
+  std::vector<std::string> arguments{"fieldproof", "--gtest_color=no", fmt::format("--gtest_repeat={}", options.repeat)};
+  if (options.shuffle) {
+    arguments.push_back("--gtest_shuffle");
+    arguments.push_back(fmt::format("--gtest_random_seed={}", options.seed % 100'000));  // what GoogleTest takes
+  }
+  arguments.insert(arguments.end(), options.gtest_arguments.begin(), options.gtest_arguments.end());
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  int argc = static_cast<int>(arguments.size());
+  testing::InitGoogleTest(&argc, argv.data());
+}
+
+/// "xgt_cnet/rss/two_words" is test "two_words" of suite "xgt_cnet/rss".
+std::pair<std::string, std::string> split_id(const std::string& id) {
+  const std::size_t first = id.find('/');
+  const std::size_t second = id.find('/', first + 1);
+  const std::size_t cut = second == std::string::npos ? first : second;
+  return {id.substr(0, cut), id.substr(cut + 1)};
+}
+
+}  // namespace
+
+std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOptions& options, const RunCase& run) {
+  initialize(options);
+  Context context{&run};
+  for (const Case* source : cases) {
+    const auto [suite, name] = split_id(source->id);
+    testing::RegisterTest(suite.c_str(), name.c_str(), nullptr, nullptr, source->file.c_str(), 1,
+                          [source, &context]() -> testing::Test* { return new CaseTest(*source, context); });
+  }
+  testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
+  delete listeners.Release(listeners.default_result_printer());
+  listeners.Append(new Repetitions(context));
+  (void)RUN_ALL_TESTS();
+  return context.handed_over;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fmt/format.h>
+#include <optional>
+
+#include "harness/cli/commands.hpp"
+#include "harness/notation/frame_template.hpp"
+#include "harness/protocol.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+/// "[ENQ]01rSS[EOT]A4" or "<05>01": a frame monitor's text, with control names or hex in brackets.
+Bytes read_monitor_text(const std::string& text) {
+  Bytes bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char close = text[i] == '[' ? ']' : text[i] == '<' ? '>' : '\0';
+    const std::size_t end = close ? text.find(close, i) : std::string::npos;
+    const Result<Notation> word = end == std::string::npos ? Result<Notation>(fail("")) : parse_notation(text.substr(i + 1, end - i - 1));
+    if (word && word->size() == 1 && word->front().bytes.size() == 1) {
+      bytes.push_back(word->front().bytes.front());
+      i = end;
+    } else {
+      bytes.push_back(static_cast<Byte>(text[i]));
+    }
+  }
+  return bytes;
+}
+
+bool looks_like_hex(const std::string& text) {
+  return std::ranges::all_of(text, [](char c) { return c == ' ' || hex_digit(c) >= 0; }) && from_hex(text).has_value();
+}
+
+/// Notation, hex or raw, in this order of likelihood.
+Result<Bytes> read_frame_text(const std::string& text, const Stations& stations) {
+  if (looks_like_hex(text)) return *from_hex(text);
+  const Result<Notation> notation = parse_notation(text);
+  if (!notation) {
+    const bool raw = !text.empty() && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == '[' || text[0] == '<');
+    const bool monitor = raw && text.find('\'') == std::string::npos && text.find("] ") == std::string::npos;
+    if (monitor) return read_monitor_text(text);
+    return notation.error();
+  }
+  const Result<std::vector<FrameTemplate>> templates = make_templates(*notation, stations);
+  if (!templates) return templates.error();
+  return render(templates->front(), {});
+}
+
+}  // namespace
+
+int frame_command(const FrameOptions& options) {
+  const Protocol* protocol = find_protocol(options.protocol);
+  if (!protocol) return complain(fmt::format("no protocol '{}'", options.protocol), exit_code::usage);
+  const Stations stations{protocol->station_bytes(options.station), protocol->station_bytes((options.station + 1) % 256)};
+  const Result<Bytes> bytes = read_frame_text(options.frame, stations);
+  if (!bytes) return complain(bytes.error().message, exit_code::usage);
+  fmt::print("{}\n{}\n{} bytes\n\n", print_bytes(*bytes), to_hex(*bytes), bytes->size());
+  int problems = 0;
+  for (const Field& field : protocol->explain(*bytes)) {
+    const std::string hex = to_hex(ByteView(*bytes).subspan(field.offset, field.size));
+    fmt::print("{:>4}  {:<22} {:<30} {}\n", field.offset, field.name, field.text, hex.size() > 47 ? hex.substr(0, 44) + "..." : hex);
+    if (field.problem.empty()) continue;
+    ++problems;
+    fmt::print("      {:<22} ! {}\n", "", field.problem);
+  }
+  return problems == 0 ? exit_code::ok : exit_code::failed;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,59 @@
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+
+#include "harness/bench/profile.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/cli/paths.hpp"
+#include "harness/vectors/lint.hpp"
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void add(std::vector<std::string>& all, std::vector<std::string> more) { all.insert(all.end(), more.begin(), more.end()); }
+
+std::vector<std::string> lint_profiles(const fs::path& folder) {
+  std::vector<std::string> problems;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    const Result<Profile> profile = load_profile(entry.path().stem().string(), folder);
+    if (!profile) problems.push_back(profile.error().message);
+    else if (profile->name != entry.path().stem().string())
+      problems.push_back(fmt::format("{}: its name is '{}'", entry.path().filename().string(), profile->name));
+  }
+  return problems;
+}
+
+std::string read_lock(const fs::path& folder) {
+  std::ifstream in(folder / "quotes.lock", std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+}  // namespace
+
+int lint_command(const LintOptions& options) {
+  const DataPaths data = find_data();
+  const fs::path folder = options.vectors.empty() ? data.vectors : fs::path(options.vectors);
+  const VectorSet set = load_vectors(folder, data.vectors / "schema.json");
+  std::vector<std::string> problems = set.problems;
+  add(problems, lint_wires(set, find_protocol));
+  add(problems, lint_statements(set));
+  add(problems, lint_tables(set, find_protocol));
+  if (fs::is_directory(data.profiles)) add(problems, lint_profiles(data.profiles));
+  const std::vector<std::string> quotes = options.manuals.empty() ? lint_lock(set, read_lock(folder)) : lint_quotes(set, options.manuals);
+  add(problems, quotes);
+  if (options.lock && options.manuals.empty()) return complain("--lock needs --manuals DIR: only verified quotes are locked", exit_code::usage);
+  if (options.lock && quotes.empty()) std::ofstream(folder / "quotes.lock") << quotes_lock(set);
+  for (const std::string& problem : problems) fmt::print("{}\n", problem);
+  fmt::print("{} cases, {} tables, {} statements, {} errata: {} problems\n", set.cases.size(), set.tables.size(), set.statements.size(), set.errata.size(),
+             problems.size());
+  return problems.empty() ? exit_code::ok : exit_code::usage;
+}
+
+}  // namespace fieldproof

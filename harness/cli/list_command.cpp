@@ -1,0 +1,99 @@
+#include <cstdio>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/prepared_case.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/cli/paths.hpp"
+#include "harness/vectors/lint.hpp"
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json memory_json(const std::vector<std::pair<std::string, std::string>>& memory) {
+  ordered_json result = ordered_json::object();
+  for (const auto& [address, hex] : memory) result[address] = hex;
+  return result;
+}
+
+ordered_json step_json(const PreparedStep& step) {
+  const Step& source = *step.step;
+  switch (source.kind) {
+    case Step::Kind::send: return {{"send", to_hex_with_holes(step.frames.front().frame)}, {"notation", source.frames.front().text}};
+    case Step::Kind::expect: {
+      ordered_json result{{"expect", to_hex_with_holes(step.frames.front().frame)}, {"notation", source.frames.front().text}};
+      if (step.frames.size() == 1) return result;
+      result["alternatives"] = ordered_json::array();
+      for (const PreparedFrame& one : step.frames)
+        result["alternatives"].push_back({{"reading", source.reading}, {"name", one.reading}, {"expect", to_hex_with_holes(one.frame)}});
+      return result;
+    }
+    case Step::Kind::silence: return {{"silence", true}};
+    case Step::Kind::wait: return {{"wait", fmt::format("{}ms", to_ms(source.duration))}};
+    case Step::Kind::set: return {{"set", memory_json(source.memory)}};
+    case Step::Kind::check: return {{"check", memory_json(source.memory)}};
+    case Step::Kind::act: return {{"do", source.action}};
+    case Step::Kind::open: return {{"open", true}};
+    case Step::Kind::close: return {{"close", true}};
+    case Step::Kind::expect_close: return {{"expect_close", true}};
+  }
+  return {};
+}
+
+ordered_json case_json(const Case& one) {
+  ordered_json result{{"id", one.id}, {"rev", one.rev}, {"title", one.title}, {"level", one.level}, {"basis", one.basis},
+                      {"source", {{"manual", one.source.manual}, {"section", one.source.section}, {"statement", one.source.statements}, {"quote", one.source.quote}}},
+                      {"protocol", one.protocol}, {"models", one.models}, {"config", one.config}, {"memory", memory_json(one.memory)}};
+  result["steps"] = ordered_json::array();
+  const Protocol* protocol = find_protocol(one.protocol);
+  if (!protocol) return result;
+  const Result<PreparedCase> prepared = prepare(one, config_station(one.config, 1).value_or(1), *protocol);
+  if (!prepared) return result;
+  for (const PreparedStep& step : prepared->steps) result["steps"].push_back(step_json(step));
+  return result;
+}
+
+int list_coverage(const VectorSet& set) {
+  int statements = 0, covered = 0, reasoned = 0;
+  std::string manual;
+  for (const SectionCoverage& section : coverage(set)) {
+    if (section.manual != manual) fmt::print("{}{}\n{:<28} {:>10} {:>8} {:>8} {:>5}\n", manual.empty() ? "" : "\n", section.manual, "  section", "statements", "vectors", "reasons", "open");
+    manual = section.manual;
+    fmt::print("  {:<26} {:>10} {:>8} {:>8} {:>5}\n", section.section, section.statements, section.covered, section.reasoned, section.uncovered.size());
+    for (const std::string& id : section.uncovered) fmt::print("    no vector and no reason: {}\n", id);
+    statements += section.statements;
+    covered += section.covered;
+    reasoned += section.reasoned;
+  }
+  const int open = statements - covered - reasoned;
+  fmt::print("\n{} statements: {} with vectors, {} with a reason, {} open\n", statements, covered, reasoned, open);
+  return open == 0 ? exit_code::ok : exit_code::failed;
+}
+
+}  // namespace
+
+int list_command(const ListOptions& options) {
+  const DataPaths data = find_data();
+  const VectorSet set = load_vectors(options.vectors.empty() ? data.vectors : std::filesystem::path(options.vectors), data.vectors / "schema.json");
+  for (const std::string& problem : set.problems) complain(problem, 0);
+  if (!set.problems.empty()) return exit_code::usage;
+  if (options.coverage) return list_coverage(set);
+  ordered_json all = ordered_json::array();
+  std::size_t count = 0;
+  for (const Case& one : set.cases) {
+    if (!matches_filter(one.id, options.filter)) continue;
+    ++count;
+    if (options.json) all.push_back(case_json(one));
+    else fmt::print("{:<58} {:<6} {:<8} {}\n", one.id, one.level, one.basis, one.title);
+  }
+  if (options.json) fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  if (count == 0) return complain(fmt::format("no case matches '{}'; `fieldproof list` shows them all", options.filter), exit_code::nothing);
+  if (!options.json) fmt::print("{} cases\n", count);
+  return exit_code::ok;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,125 @@
+#include "harness/endpoints/endpoint.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <span>
+#include <vector>
+
+#include "harness/endpoints/emulator.hpp"
+#include "harness/endpoints/exec.hpp"
+#include "harness/endpoints/pty.hpp"
+#include "harness/endpoints/serial.hpp"
+#include "harness/endpoints/tcp.hpp"
+#include "src/base/spelling.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using Options = std::span<const std::string_view>;
+
+constexpr std::array<std::string_view, 3> link_options{"protocol", "station", "floor_ms"};
+constexpr std::array<std::string_view, 6> serial_options{"protocol", "station", "floor_ms", "baud", "frame", "rs485"};
+
+struct Kind {
+  std::string_view name;
+  std::string_view target;  // what stands behind the colon, for messages; empty: it may be left out
+  Options options;          // empty: the emulated device checks them (keys of `given.config`)
+  bool free_target;         // the target may hold '?' and '&' of its own: only known options count as options
+  Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&);
+};
+
+// One more endpoint is one line here and one file.
+constexpr std::array kinds{
+    Kind{"emulator", "", {}, false, open_emulator},
+    Kind{"pty", "", {}, false, open_pty},
+    Kind{"serial", "/dev/ttyUSB0", serial_options, false, open_serial},
+    Kind{"exec", "COMMAND", link_options, true, open_exec},
+    Kind{"tcp", "HOST:PORT", link_options, false, open_tcp},
+};
+
+const Kind* find_kind(std::string_view name) {
+  const auto kind = std::ranges::find(kinds, name, &Kind::name);
+  return kind == kinds.end() ? nullptr : &*kind;
+}
+
+std::string unknown_kind(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Kind& kind : kinds) names.push_back(kind.name);
+  return fmt::format("unknown kind '{}'{}; the kinds are {}", name, suggestion(name, names), fmt::join(names, ", "));
+}
+
+bool known(Options options, std::string_view key) { return options.empty() || std::ranges::find(options, key) != options.end(); }
+
+/// Reads "station=1&protocol=xgt-cnet" into `options`; what is wrong with it, or empty.
+std::string read_options(std::string_view text, const Kind& kind, std::map<std::string, std::string>& options) {
+  while (!text.empty()) {
+    const std::string_view one = text.substr(0, text.find('&'));
+    text.remove_prefix(std::min(text.size(), one.size() + 1));
+    const std::string key(one.substr(0, one.find('=')));
+    if (!known(kind.options, key)) {
+      return fmt::format("unknown option '{}'{}; the options of {} are {}", key, suggestion(key, kind.options), kind.name,
+                         fmt::join(kind.options, ", "));
+    }
+    if (key.empty() || key.size() == one.size()) return fmt::format("option '{}' has no value; write KEY=VALUE", one);
+    if (!options.emplace(key, one.substr(key.size() + 1)).second) return fmt::format("option '{}' is given twice; leave one", key);
+  }
+  return {};
+}
+
+/// A command keeps its own '?': behind the last one there are options only if it reads as such.
+std::size_t options_of_command(std::string_view rest, const Kind& kind) {
+  const std::size_t mark = rest.rfind('?');
+  if (mark == std::string_view::npos || mark + 1 == rest.size()) return std::string_view::npos;
+  std::map<std::string, std::string> trial;
+  return read_options(rest.substr(mark + 1), kind, trial).empty() ? mark : std::string_view::npos;
+}
+
+}  // namespace
+
+Status Endpoint::set(std::string_view address, std::string_view) {
+  return fail(fmt::format("cannot set {}: {} has no back door", address, describe()));
+}
+
+Result<std::string> Endpoint::get(std::string_view address, std::size_t) {
+  return fail(fmt::format("cannot look at {}: {} has no back door", address, describe()));
+}
+
+Status Endpoint::act(std::string_view action) {
+  return fail(fmt::format("cannot do {}: {} cannot be switched from here; do it by hand", action, describe()));
+}
+
+std::string Endpoint::line_errors() { return {}; }
+
+std::string EndpointName::option(const std::string& key, const std::string& fallback) const {
+  const auto found = options.find(key);
+  return found == options.end() ? fallback : found->second;
+}
+
+Result<EndpointName> parse_endpoint(std::string_view text) {
+  const auto wrong = [text](const std::string& why) { return fail(fmt::format("cannot read endpoint '{}': {}", text, why)); };
+  EndpointName name;
+  name.kind = text.substr(0, text.find_first_of(":?"));
+  const Kind* kind = find_kind(name.kind);
+  if (!kind) return wrong(unknown_kind(name.kind));
+  std::string_view rest = text.substr(name.kind.size());
+  if (rest.starts_with(':')) rest.remove_prefix(1);
+  const std::size_t mark = kind->free_target ? options_of_command(rest, *kind) : rest.find('?');
+  name.target = rest.substr(0, mark);
+  if (name.target.empty() && !kind->target.empty()) {
+    return wrong(fmt::format("nothing stands behind the colon; write {}:{}", kind->name, kind->target));
+  }
+  if (mark == std::string_view::npos) return name;
+  if (const std::string why = read_options(rest.substr(mark + 1), *kind, name.options); !why.empty()) return wrong(why);
+  return name;
+}
+
+Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name) {
+  const Kind* kind = find_kind(name.kind);
+  if (!kind) return fail("cannot open an endpoint: " + unknown_kind(name.kind));
+  return kind->open(name);
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,87 @@
+#include "harness/endpoints/exec.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/endpoints/child_process.hpp"
+#include "harness/endpoints/fd_link.hpp"
+#include "harness/endpoints/options.hpp"
+#include "harness/endpoints/pty_pair.hpp"
+#include "src/line/settings.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+std::string with_tty(std::string command, const std::string& path) {
+  constexpr std::string_view mark = "{tty}";
+  for (std::size_t at = 0; (at = command.find(mark, at)) != std::string::npos; at += path.size()) command.replace(at, mark.size(), path);
+  return command;
+}
+
+class ExecEndpoint final : public Endpoint {
+ public:
+  ExecEndpoint(const EndpointName& name, PtyPair pty, Duration floor)
+      : command_(name.target), slave_(std::move(pty.slave)), path_(pty.path), link_(std::move(pty.master), describe()) {
+    capabilities_.real_device = true;
+    capabilities_.can_power_cycle = true;
+    capabilities_.timing_floor = floor;
+  }
+
+  Status start() {
+    link_.set_far_end(nullptr);
+    child_.reset();
+    drop_waiting_bytes(link_.fd());
+    drop_waiting_bytes(slave_.get());
+    set_raw(slave_.get());
+    ChildOptions options;
+    const std::string command = with_tty(command_, path_);
+    options.arguments = shell(command);
+    options.terminal = slave_.get();
+    options.terminal_is_stdio = command == command_;
+    Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
+    if (!child) return child.error();
+    child_ = std::move(*child);
+    link_.set_far_end(child_.get());
+    return ok();
+  }
+
+  const Capabilities& capabilities() const override { return capabilities_; }
+  std::string describe() const override { return "exec:" + command_; }
+  Time now() const override { return link_.now(); }
+  /// A pty has no wire; pauses in characters are meant at the default speed.
+  Duration character_time() const override { return LineSettings{}.character_time(); }
+  Status begin(const nlohmann::json&) override { return ok(); }
+  Result<Sent> send(ByteView bytes) override { return link_.send(bytes); }
+  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
+
+  Status act(std::string_view action) override {
+    if (action == "power_cycle") return start();
+    return fail(fmt::format("cannot do '{}' on {}: the bench can only power_cycle it", action, describe()));
+  }
+
+ private:
+  Capabilities capabilities_;
+  std::string command_;
+  UniqueFd slave_;  // kept open: no close of the device under test ends the line
+  std::string path_;
+  FdLink link_;
+  std::unique_ptr<ChildProcess> child_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name) {
+  if (const Status known = check_options(name, {}); !known) return known.error();
+  if (name.target.empty()) return fail("cannot open exec: there is no command; write exec:COMMAND, with {tty} for the path of its port");
+  const Result<Duration> floor = timing_floor(name);
+  if (!floor) return floor.error();
+  Result<PtyPair> pty = open_pty_pair();
+  if (!pty) return pty.error();
+  auto endpoint = std::make_unique<ExecEndpoint>(name, std::move(*pty), *floor);
+  if (const Status started = endpoint->start(); !started) return started.error();
+  return std::unique_ptr<Endpoint>(std::move(endpoint));
+}
+
+}  // namespace fieldproof

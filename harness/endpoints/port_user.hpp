@@ -1,0 +1,12 @@
+// Who has a port open, for the message that says it is in use.
+#pragma once
+
+#include <string>
+
+namespace fieldproof {
+
+/// " by process 1234 (minicom)" for a process that holds the lock (flock) of `path`, or else has it open; empty when
+/// /proc does not tell (another user's process).
+std::string port_user(const std::string& path);
+
+}  // namespace fieldproof

@@ -1,0 +1,143 @@
+#include "harness/endpoints/pty.hpp"
+
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "harness/endpoints/child_process.hpp"
+#include "harness/endpoints/device_control.hpp"
+#include "harness/endpoints/fd_link.hpp"
+#include "harness/endpoints/options.hpp"
+#include "harness/endpoints/pty_pair.hpp"
+#include "harness/endpoints/system_calls.hpp"
+#include "src/line/settings.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr Duration answer_limit = 5s;
+
+std::string executable() {
+  const char* other = std::getenv("FIELDPROOF_EXECUTABLE");
+  return other && *other ? other : "/proc/self/exe";
+}
+
+/// "xbc-h?station=1": the options but those that are the endpoint's own.
+std::string device_name(const EndpointName& name) {
+  std::string text = name.target;
+  char mark = '?';
+  for (const auto& [key, value] : name.options) {
+    if (key == "floor_ms") continue;
+    text += mark + key + '=' + value;
+    mark = '&';
+  }
+  return text;
+}
+
+class PtyEndpoint final : public Endpoint {
+ public:
+  PtyEndpoint(const EndpointName& name, PtyPair pty, UniqueFd control, std::unique_ptr<ChildProcess> child, Duration floor)
+      : name_(name),
+        child_(std::move(child)),
+        slave_(std::move(pty.slave)),
+        link_(std::move(pty.master), "pty:" + name.target),
+        control_(std::move(control), "the emulator behind pty:" + name.target) {
+    capabilities_.back_door = true;
+    capabilities_.timing_floor = floor;
+    link_.set_far_end(child_.get());
+    control_.set_far_end(child_.get());
+  }
+
+  const Capabilities& capabilities() const override { return capabilities_; }
+  std::string describe() const override { return "pty: emulator" + (name_.target.empty() ? "" : ' ' + name_.target); }
+  Time now() const override { return link_.now(); }
+  /// A pty has no wire; pauses in characters are meant at the device's speed.
+  Duration character_time() const override { return line_.character_time(); }
+
+  Status begin(const json& config) override {
+    const Result<LineSettings> line = parse_line_settings(line_of(config));
+    if (!line) return line.error();
+    line_ = *line;
+    // Bytes on their way to the old device, and after the answer those that it had sent: neither concerns this case.
+    drop_waiting_bytes(link_.fd());
+    const Result<std::string> begun = ask({{"begin", config}});
+    drop_waiting_bytes(link_.fd());
+    return status_of(begun);
+  }
+
+  Result<Sent> send(ByteView bytes) override { return link_.send(bytes); }
+  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
+
+  Status set(std::string_view address, std::string_view hex) override {
+    return status_of(ask({{"set", {{"address", address}, {"hex", hex}}}}));
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) override {
+    return ask({{"get", {{"address", address}, {"digits", digits}}}});
+  }
+  Status act(std::string_view action) override { return status_of(ask({{"act", action}})); }
+
+ private:
+  static Status status_of(const Result<std::string>& answer) {
+    if (answer) return ok();
+    return answer.error();
+  }
+
+  std::string line_of(const json& config) const {
+    const auto found = config.find("line");
+    if (found != config.end() && found->is_string()) return found->get<std::string>();
+    return name_.option("line", to_string(LineSettings{}));
+  }
+
+  Result<std::string> ask(const json& request) {
+    const std::string question = control_line(request);
+    if (const Result<Sent> sent = control_.send(to_bytes(question)); !sent) return sent.error();
+    const Time deadline = control_.now() + answer_limit;
+    std::string answer;
+    while (answer.empty() || answer.back() != '\n') {
+      const Result<Burst> burst = control_.receive(deadline);
+      if (!burst) return burst.error();
+      if (burst->bytes.empty()) return fail("cannot talk to " + describe() + ": no answer within 5 s; " + child_->how());
+      answer += to_text(burst->bytes);
+    }
+    return read_control_answer(answer);
+  }
+
+  Capabilities capabilities_;
+  EndpointName name_;
+  LineSettings line_;
+  std::unique_ptr<ChildProcess> child_;
+  UniqueFd slave_;  // kept open: the line does not end while the emulator starts
+  FdLink link_;
+  FdLink control_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Endpoint>> open_pty(const EndpointName& name) {
+  const Result<Duration> floor = timing_floor(name);
+  if (!floor) return floor.error();
+  Result<PtyPair> pty = open_pty_pair();
+  if (!pty) return pty.error();
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return fail("cannot open pty: " + errno_text(errno));
+  UniqueFd ours(ends[0]);
+  const UniqueFd theirs(ends[1]);
+  ChildOptions options;
+  options.arguments = {executable(), "emulate", device_name(name), "--control", std::to_string(theirs.get()), "--tty", pty->path};
+  options.keep = {theirs.get()};
+  Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
+  if (!child) return child.error();
+  auto endpoint = std::make_unique<PtyEndpoint>(name, std::move(*pty), std::move(ours), std::move(*child), *floor);
+  // Its first answer says that it is ready, and that it accepts the options.
+  if (const Status ready = endpoint->begin(json::object()); !ready) {
+    return Error{"cannot open pty:" + name.target + ": " + ready.error().message, ready.error().interrupted};
+  }
+  return std::unique_ptr<Endpoint>(std::move(endpoint));
+}
+
+}  // namespace fieldproof

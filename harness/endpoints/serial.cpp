@@ -1,0 +1,146 @@
+#include "harness/endpoints/serial.hpp"
+
+#include <fcntl.h>
+#include <grp.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <termios.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "harness/endpoints/fd_link.hpp"
+#include "harness/endpoints/options.hpp"
+#include "harness/endpoints/port_user.hpp"
+#include "harness/endpoints/serial_settings.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+/// An argument of ioctl that is a number.
+void* number(std::intptr_t value) { return reinterpret_cast<void*>(value); }
+
+std::string group_of(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return "dialout";
+  const group* entry = ::getgrgid(status.st_gid);  // start-up, one thread
+  return entry && std::string_view(entry->gr_name) != "root" ? entry->gr_name : "dialout";
+}
+
+std::string ports_there() {
+  std::string list;
+  std::error_code none;
+  for (const auto& one : std::filesystem::directory_iterator("/dev/serial/by-id", none)) {
+    list += (list.empty() ? "" : ", ") + one.path().string();
+  }
+  return list.empty() ? "plug in the adapter (none is listed in /dev/serial/by-id)" : "these are there: " + list;
+}
+
+Error open_error(const std::string& path, int error) {
+  const std::string start = "cannot open " + path + ": ";
+  switch (error) {
+    case EACCES: return fail(start + "permission denied; add yourself to the group " + group_of(path));
+    case ENOENT: return fail(start + "there is no such port; " + ports_there());
+    case EBUSY:
+    case EWOULDBLOCK: return fail(start + "the port is in use" + port_user(path) + "; end that process or choose another port");
+    case ENODEV:
+    case ENXIO: return fail(start + "no adapter behind this name; plug it in or choose another port");
+    default: return fail(start + errno_text(error) + "; name a terminal device such as /dev/ttyUSB0");
+  }
+}
+
+class SerialEndpoint final : public Endpoint {
+ public:
+  SerialEndpoint(const SystemCalls& calls, UniqueFd fd, std::string path, LineSettings settings, Direction direction, Duration floor)
+      : calls_(calls),
+        path_(std::move(path)),
+        settings_(settings),
+        direction_(direction),
+        link_(std::move(fd), "serial:" + path_) {
+    capabilities_.real_device = true;
+    capabilities_.wire = !is_pty(calls_, link_.fd());
+    capabilities_.timing_floor = floor;
+    if (capabilities_.wire) link_.set_character_time(settings_.character_time());
+    counting_ = read_line_errors(calls_, link_.fd(), counted_);
+  }
+  ~SerialEndpoint() override {
+    // Where another process keeps the terminal open, the exclusive mode would outlive us.
+    calls_.ioctl(link_.fd(), TIOCNXCL, nullptr);
+  }
+
+  const Capabilities& capabilities() const override { return capabilities_; }
+  std::string describe() const override { return "serial:" + path_ + ' ' + to_string(settings_); }
+  Time now() const override { return link_.now(); }
+  Duration character_time() const override { return settings_.character_time(); }
+  Status begin(const nlohmann::json&) override { return ok(); }
+  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
+
+  Result<Sent> send(ByteView bytes) override {
+    if (direction_ != Direction::rts) return link_.send(bytes);
+    if (const Status on = set_rts(calls_, link_.fd(), path_, true); !on) return on.error();
+    Result<Sent> sent = link_.send(bytes);
+    // The time is over by now; TCSBRK with 1 (tcdrain) covers what the driver still holds.
+    calls_.ioctl(link_.fd(), TCSBRK, number(1));
+    if (const Status off = set_rts(calls_, link_.fd(), path_, false); !off) return off.error();
+    return sent;
+  }
+
+  std::string line_errors() override {
+    LineErrorCounts counts;
+    if (!counting_ || !read_line_errors(calls_, link_.fd(), counts)) return "";
+    std::string text = line_errors_between(counted_, counts);
+    counted_ = counts;
+    return text;
+  }
+
+ private:
+  SystemCalls calls_;
+  Capabilities capabilities_;
+  std::string path_;
+  LineSettings settings_;
+  Direction direction_;
+  FdLink link_;
+  LineErrorCounts counted_;
+  bool counting_ = false;
+};
+
+Status make_exclusive(const SystemCalls& calls, UniqueFd& fd, const std::string& path) {
+  if (calls.flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
+    const int error = errno;
+    fd.reset();  // so that it is not found as the port's user
+    return open_error(path, error);
+  }
+  calls.ioctl(fd.get(), TIOCEXCL, nullptr);
+  return ok();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name) { return open_serial(name, real_system_calls()); }
+
+Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const SystemCalls& calls) {
+  const std::string& path = name.target;
+  if (const Status known = check_options(name, {"baud", "frame", "rs485"}); !known) return known.error();
+  const Result<Duration> floor = timing_floor(name);
+  if (!floor) return floor.error();
+  const Result<LineSettings> settings = parse_line_settings(name.option("baud", "9600") + '-' + name.option("frame", "8N1"));
+  if (!settings) return fail("cannot open serial:" + path + ": " + settings.error().message);
+  const Result<Direction> direction = parse_direction(name.option("rs485", ""));
+  if (!direction) return fail("cannot open serial:" + path + ": " + direction.error().message);
+  if (path.empty()) return fail("cannot open serial: there is no port; write serial:/dev/ttyUSB0; " + ports_there());
+
+  // O_NONBLOCK: a port without carrier must not block.
+  UniqueFd fd(calls.open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!fd) return open_error(path, errno);
+  if (const Status done = make_exclusive(calls, fd, path); !done) return done.error();
+  if (const Status done = apply_settings(calls, fd.get(), path, *settings); !done) return done.error();
+  if (const Status done = apply_direction(calls, fd.get(), path, *direction); !done) return done.error();
+  calls.ioctl(fd.get(), TCFLSH, number(TCIOFLUSH));
+  return std::unique_ptr<Endpoint>(
+      std::make_unique<SerialEndpoint>(calls, std::move(fd), path, *settings, *direction, *floor));
+}
+
+}  // namespace fieldproof

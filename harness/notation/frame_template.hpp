@@ -1,0 +1,64 @@
+// A notation made concrete for one station: literal bytes, open places, checks and pauses.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/notation/notation.hpp"
+
+namespace fieldproof {
+
+/// What the moving fields of a notation become.
+struct Stations {
+  Bytes own;      // st
+  Bytes foreign;  // st+1
+};
+
+/// Texts captured by {id:4}, by id.
+using Captures = std::map<std::string, std::string>;
+
+struct FrameTemplate {
+  struct Cell {
+    enum class Kind : Byte { literal, any, hex_digit, capture, reuse, check };
+    Kind kind = Kind::literal;
+    std::uint16_t part = 0;   // index into `names` (capture, reuse) or `checks`
+    std::uint32_t index = 0;  // which byte of that part
+  };
+  struct Check {
+    CheckKind kind = CheckKind::bcc;
+    bool wrong = false;
+    std::size_t begin = 0;  // first byte of its bracket
+    std::size_t at = 0;     // first byte of the check
+  };
+  struct Gap {
+    std::size_t before = 0;  // byte that the pause precedes
+    Pause pause;
+  };
+
+  Bytes bytes;              // literal values; 0 in open cells; checks filled in where all they cover is literal
+  std::vector<Cell> cells;  // one a byte
+  std::vector<Check> checks;
+  std::vector<Gap> gaps;
+  std::vector<std::string> names;
+  bool open = false;                           // has cells that are not literal or a settled check
+  std::map<std::string, std::string> readings; // alternatives taken inside the frame: name of the field -> "a"
+};
+
+/// Every choice of named alternatives gives one template, the preferred one first.
+/// Errors: a check in a bracket of foreign shape, more than 64 alternatives.
+Result<std::vector<FrameTemplate>> make_templates(const Notation& notation, const Stations& stations);
+
+/// The bytes to send; an error when a place is open.
+Result<Bytes> render(const FrameTemplate& frame, const Captures& captures);
+
+/// Does `received` match? On success captures are added. On failure the offset of the first byte that differs
+/// (`received.size()` when it is cut short, the template's size when it has a surplus).
+std::optional<std::size_t> first_mismatch(const FrameTemplate& frame, ByteView received, Captures& captures);
+
+/// "05 30 ?? ??": open places as ??, checks behind open places too.
+std::string to_hex_with_holes(const FrameTemplate& frame);
+
+}  // namespace fieldproof

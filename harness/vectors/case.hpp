@@ -1,0 +1,65 @@
+// A vector, checked and expanded: what the bench executes. One vector may give many cases (`each`).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/notation/notation.hpp"
+#include "src/base/time.hpp"
+
+namespace fieldproof {
+
+struct Source {
+  std::string manual, section, quote;
+  std::vector<std::string> statements;
+};
+
+/// A frame of a step as the vector gives it: notation, and the literal bytes where they are printed.
+struct Frame {
+  std::string reading;              // name of the alternative; empty where there is one frame alone
+  std::string text;                 // notation as written
+  Notation notation;
+  std::optional<std::string> wire;  // "05 30 ??"
+};
+
+struct Step {
+  enum class Kind { send, expect, silence, wait, set, check, act, open, close, expect_close };
+  Kind kind = Kind::send;
+  std::vector<Frame> frames;        // send: one; expect: the preferred first
+  std::string reading;              // what the alternatives of `expect` are about: type_echo
+  std::vector<std::pair<std::string, std::string>> memory;  // set, check: address and hex digits
+  std::string action;               // do
+  Duration duration{};              // wait
+  std::optional<Duration> within;   // expect: instead of the profile's response_max
+  std::optional<Duration> every;    // expect: the period at which it comes
+  std::optional<Duration> max_gap;  // expect: longest silence inside the frame
+  int times = 1;
+};
+
+struct Case {
+  std::string id, vector_id;
+  int rev = 1;
+  std::string title;
+  std::string protocol;             // "xgt-cnet", from the folder of the id
+  Source source;
+  std::string level, basis, why;
+  std::vector<std::string> models;  // empty: all
+  nlohmann::json config = nlohmann::json::object();
+  std::vector<std::pair<std::string, std::string>> memory;
+  bool fresh = false;
+  bool transpose = true;
+  std::vector<Step> steps;
+  nlohmann::json facts;             // kind table: not null
+  std::string file;                 // for messages
+};
+
+/// given.config.station as a number; `fallback` when absent, nothing when it is not 0-255.
+std::optional<int> config_station(const nlohmann::json& config, int fallback);
+
+/// "1234*3" and "seq(3)" written out as hex digits; nothing when not hex.
+std::optional<std::string> expand_hex(const std::string& text);
+
+}  // namespace fieldproof

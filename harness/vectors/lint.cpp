@@ -1,0 +1,200 @@
+#include "harness/vectors/lint.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "harness/notation/frame_template.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "05 30 ??" as one token a byte; nothing when it is not.
+std::optional<std::vector<std::string>> wire_bytes(const std::string& wire) {
+  std::vector<std::string> bytes;
+  std::istringstream in(wire);
+  for (std::string token; in >> token;) {
+    if (token.size() != 2) return std::nullopt;
+    if (token != "??" && (hex_digit(token[0]) < 0 || hex_digit(token[1]) < 0)) return std::nullopt;
+    std::ranges::transform(token, token.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    bytes.push_back(token);
+  }
+  return bytes;
+}
+
+std::string compare_wire(const std::string& wire, const FrameTemplate& frame) {
+  const std::optional<std::vector<std::string>> written = wire_bytes(wire);
+  if (!written) return fmt::format("wire \"{}\" is not two-digit hex bytes separated by spaces", wire);
+  const std::vector<std::string> notation = *wire_bytes(to_hex_with_holes(frame));
+  const auto [a, b] = std::ranges::mismatch(*written, notation);
+  if (a == written->end() && b == notation.end()) return {};
+  const auto at = a - written->begin();
+  return fmt::format("wire and notation differ at byte {}: wire has {}, notation has {} ({})", at, a == written->end() ? "nothing" : *a,
+                     b == notation.end() ? "nothing" : *b, to_hex_with_holes(frame));
+}
+
+void lint_step(const Case& one, std::size_t index, const Stations& stations, std::vector<std::string>& problems) {
+  for (const Frame& frame : one.steps[index].frames) {
+    const auto problem = [&](const std::string& what) {
+      problems.push_back(fmt::format("{}: {}: steps[{}]{}{}: {}", one.file, one.id, index, frame.reading.empty() ? "" : " ", frame.reading, what));
+    };
+    const Result<std::vector<FrameTemplate>> templates = make_templates(frame.notation, stations);
+    if (!templates) {
+      problem(templates.error().message);
+    } else if (!frame.wire) {
+      problem("no wire: type the literal bytes from the manual, or derive them without looking at the notation");
+    } else if (const std::string what = compare_wire(*frame.wire, templates->front()); !what.empty()) {
+      problem(what);
+    }
+  }
+}
+
+std::string read_all(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+/// Every quote of the set with the id that carries it and its manual; a vector's quote once, not for each of its cases.
+struct Quote {
+  std::string id, manual, text;
+};
+std::vector<Quote> quotes(const VectorSet& set) {
+  std::map<std::string, Quote> by_id;
+  for (const Statement& statement : set.statements) by_id["statement " + statement.id] = {statement.id, statement.manual, statement.quote};
+  for (const std::vector<Case>* cases : {&set.cases, &set.tables})
+    for (const Case& one : *cases) by_id["vector " + one.id] = {one.id, one.source.manual, one.source.quote};
+  std::vector<Quote> result;
+  std::set<std::pair<std::string, std::string>> seen;
+  for (auto& [key, quote] : by_id)
+    if (seen.emplace(quote.manual, quote.text).second) result.push_back(std::move(quote));
+  return result;
+}
+
+std::string quote_hash(const Quote& quote) {
+  std::uint64_t hash = 0xCBF29CE484222325ull;
+  for (char c : quote.manual + '\n' + fold_space(quote.text)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;
+  return fmt::format("{:016x}", hash);
+}
+
+/// At least five words; a table row or a Korean sentence counts its words likewise, shorter ones must be long in bytes.
+bool long_enough(const std::string& quote) {
+  const std::string folded = fold_space(quote);
+  return std::ranges::count(folded, ' ') >= 4 || folded.size() >= 20;
+}
+
+}  // namespace
+
+std::string fold_space(std::string_view text) {
+  std::string folded;
+  for (char c : text) {
+    const bool space = c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
+    if (!space) folded += c;
+    else if (!folded.empty() && folded.back() != ' ') folded += ' ';
+  }
+  if (folded.ends_with(' ')) folded.pop_back();
+  return folded;
+}
+
+std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& lookup) {
+  std::vector<std::string> problems;
+  for (const Case& one : set.cases) {
+    const Protocol* protocol = lookup(one.protocol);
+    if (!protocol) {
+      problems.push_back(fmt::format("{}: {}: no protocol '{}'; an id begins with the folder of its protocol", one.file, one.id, one.protocol));
+      continue;
+    }
+    const int station = config_station(one.config, 1).value_or(1);
+    const Stations stations{protocol->station_bytes(station), protocol->station_bytes((station + 1) % 256)};
+    for (std::size_t i = 0; i < one.steps.size(); ++i) lint_step(one, i, stations, problems);
+  }
+  return problems;
+}
+
+std::vector<std::string> lint_statements(const VectorSet& set) {
+  std::vector<std::string> problems;
+  std::set<std::string> manuals, ids;
+  for (const Manual& manual : set.manuals) manuals.insert(manual.id);
+  for (const Statement& statement : set.statements) {
+    if (!ids.insert(statement.id).second) problems.push_back(fmt::format("statements: the id {} is used twice", statement.id));
+    if (!manuals.contains(statement.manual)) problems.push_back(fmt::format("statements: {}: no manual '{}' in manuals.json", statement.id, statement.manual));
+  }
+  for (const std::vector<Case>* cases : {&set.cases, &set.tables})
+    for (const Case& one : *cases) {
+      if (!manuals.contains(one.source.manual)) problems.push_back(fmt::format("{}: {}: no manual '{}' in manuals.json", one.file, one.id, one.source.manual));
+      for (const std::string& statement : one.source.statements)
+        if (!ids.contains(statement)) problems.push_back(fmt::format("{}: {}: no statement '{}' in statements/", one.file, one.id, statement));
+    }
+  for (const SectionCoverage& section : coverage(set))
+    for (const std::string& id : section.uncovered)
+      problems.push_back(fmt::format("statements: {} has neither a vector nor a reason", id));
+  return problems;
+}
+
+std::vector<std::string> lint_tables(const VectorSet& set, const ProtocolLookup& lookup) {
+  std::vector<std::string> problems;
+  for (const Case& one : set.tables) {
+    const Protocol* protocol = lookup(one.protocol);
+    const Status fact = protocol ? protocol->check_fact(one.facts) : Status(fail(fmt::format("no protocol '{}'", one.protocol)));
+    if (!fact) problems.push_back(fmt::format("{}: {}: {}", one.file, one.id, fact.error().message));
+  }
+  return problems;
+}
+
+std::vector<std::string> lint_quotes(const VectorSet& set, const fs::path& folder) {
+  std::vector<std::string> problems;
+  std::map<std::string, std::string> texts;
+  for (const Manual& manual : set.manuals) {
+    const std::string text = read_all(folder / manual.file);
+    if (!text.empty()) texts[manual.id] = fold_space(text);
+  }
+  for (const Quote& quote : quotes(set)) {
+    const auto text = texts.find(quote.manual);
+    if (text == texts.end()) problems.push_back(fmt::format("{}: the text of {} is not in {}", quote.id, quote.manual, folder.string()));
+    else if (text->second.find(fold_space(quote.text)) == std::string::npos)
+      problems.push_back(fmt::format("{}: the quote does not stand in {}: \"{}\"", quote.id, quote.manual, quote.text));
+    if (!long_enough(quote.text)) problems.push_back(fmt::format("{}: the quote is shorter than five words: \"{}\"", quote.id, quote.text));
+  }
+  return problems;
+}
+
+std::string quotes_lock(const VectorSet& set) {
+  std::string lock;
+  for (const Quote& quote : quotes(set)) lock += fmt::format("{} {}\n", quote_hash(quote), quote.id);
+  return lock;
+}
+
+std::vector<std::string> lint_lock(const VectorSet& set, const std::string& lock) {
+  std::set<std::string> locked;
+  std::istringstream in(lock);
+  for (std::string line; std::getline(in, line);) locked.insert(line.substr(0, line.find(' ')));
+  std::vector<std::string> problems;
+  for (const Quote& quote : quotes(set))
+    if (!locked.contains(quote_hash(quote)))
+      problems.push_back(fmt::format("{}: the quote is not the one last verified against the manual; run `fieldproof lint --manuals DIR --lock`", quote.id));
+  return problems;
+}
+
+std::vector<SectionCoverage> coverage(const VectorSet& set) {
+  std::set<std::string> cited;
+  for (const std::vector<Case>* cases : {&set.cases, &set.tables})
+    for (const Case& one : *cases) cited.insert(one.source.statements.begin(), one.source.statements.end());
+  std::vector<SectionCoverage> sections;
+  for (const Statement& statement : set.statements) {
+    auto section = std::ranges::find_if(sections, [&](const SectionCoverage& s) { return s.manual == statement.manual && s.section == statement.section; });
+    if (section == sections.end()) section = sections.insert(sections.end(), {statement.manual, statement.section, 0, 0, 0, {}});
+    ++section->statements;
+    if (cited.contains(statement.id)) ++section->covered;
+    else if (!statement.reason.empty()) ++section->reasoned;
+    else section->uncovered.push_back(statement.id);
+  }
+  return sections;
+}
+
+}  // namespace fieldproof

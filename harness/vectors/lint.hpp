@@ -1,0 +1,46 @@
+// What must hold of the vectors beyond their shape: literal bytes against notation, statements, quotes, tables.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/protocol.hpp"
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof {
+
+using ProtocolLookup = std::function<const Protocol*(std::string_view name)>;
+
+/// `wire` against the notation, at the station that the vector gives. Every step that the vector sends or expects has
+/// literal bytes, so that no byte of a vector can change unnoticed.
+std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& protocol);
+
+/// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are unique.
+std::vector<std::string> lint_statements(const VectorSet& set);
+
+/// Facts of kind `table` against the tables in src/.
+std::vector<std::string> lint_tables(const VectorSet& set, const ProtocolLookup& protocol);
+
+/// Each quote stands in its manual's text (white space folded) and has five words or is a table row.
+std::vector<std::string> lint_quotes(const VectorSet& set, const std::filesystem::path& manuals);
+
+/// The lock file: one line "HASH ID" for each quote, as last verified against the manuals.
+std::string quotes_lock(const VectorSet& set);
+/// Quotes that are not the ones locked, by id.
+std::vector<std::string> lint_lock(const VectorSet& set, const std::string& lock);
+
+/// Statements by section: how many there are, have a vector, or carry a reason.
+struct SectionCoverage {
+  std::string manual, section;
+  int statements = 0, covered = 0, reasoned = 0;
+  std::vector<std::string> uncovered;  // ids
+};
+std::vector<SectionCoverage> coverage(const VectorSet& set);
+
+/// White space folded to single spaces.
+std::string fold_space(std::string_view text);
+
+}  // namespace fieldproof

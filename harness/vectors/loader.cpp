@@ -1,0 +1,325 @@
+#include "harness/vectors/loader.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+#include "harness/vectors/schema.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using json = nlohmann::ordered_json;  // the first of named alternatives is the preferred one
+namespace fs = std::filesystem;
+
+/// Broken vectors are thrown inside this file and become `problems`.
+struct Broken : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+std::string read_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Broken(fmt::format("cannot read {}; is it readable?", path.string()));
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+/// FNV-1a: tells vector sets apart, guards nothing.
+std::uint64_t add_to_hash(std::uint64_t hash, std::string_view text) {
+  for (char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;
+  return hash;
+}
+
+// ---- expansion of `each` -------------------------------------------------------------------------------------------
+
+using Row = std::vector<std::pair<std::string, std::string>>;
+
+std::string substitute(const std::string& text, const Row& row) {
+  std::string result;
+  std::size_t from = 0;
+  for (std::size_t at; (at = text.find("${", from)) != std::string::npos;) {
+    const std::size_t end = text.find('}', at);
+    if (end == std::string::npos) throw Broken(fmt::format("'${{' without '}}' in \"{}\"", text));
+    const std::string key = text.substr(at + 2, end - at - 2);
+    const auto found = std::ranges::find(row, key, &Row::value_type::first);
+    if (found == row.end()) throw Broken(fmt::format("no row of `each` gives '${{{}}}' in \"{}\"", key, text));
+    result.append(text, from, at - from).append(found->second);
+    from = end + 1;
+  }
+  return result.append(text, from);
+}
+
+json substitute(const json& value, const Row& row) {
+  if (value.is_string()) return substitute(value.get_ref<const std::string&>(), row);
+  json result = value;
+  if (value.is_array())
+    for (json& element : result) element = substitute(element, row);
+  if (value.is_object()) {
+    result = json::object();
+    for (const auto& [key, element] : value.items()) result[substitute(key, row)] = substitute(element, row);
+  }
+  return result;
+}
+
+struct Combination {
+  std::string suffix;
+  Row row;
+};
+
+/// The product of the rows of all dimensions, in the order of their names.
+std::vector<Combination> combinations(const json& each) {
+  std::vector<Combination> result{{}};
+  for (const auto& [dimension, rows] : each.items()) {
+    std::vector<Combination> next;
+    for (const Combination& base : result)
+      for (const json& row : rows) {
+        Combination combination = base;
+        combination.suffix += '/' + row.at("case").get<std::string>();
+        for (const auto& [key, value] : row.items())
+          if (key != "case") combination.row.emplace_back(key, value.get<std::string>());
+        next.push_back(std::move(combination));
+      }
+    result = std::move(next);
+  }
+  return result;
+}
+
+// ---- one case ------------------------------------------------------------------------------------------------------
+
+Duration read_duration(const std::string& text) {
+  std::size_t used = 0;
+  double amount = 0;
+  try {
+    amount = std::stod(text, &used);
+  } catch (const std::exception&) {
+    throw Broken(fmt::format("'{}' is no duration; write 500us, 20ms or 1s", text));
+  }
+  const std::string unit = text.substr(used);
+  const double scale = unit == "us" ? 1e3 : unit == "ms" ? 1e6 : unit == "s" ? 1e9 : 0;
+  if (scale == 0) throw Broken(fmt::format("'{}' is no duration; write 500us, 20ms or 1s", text));
+  return Duration(static_cast<Duration::rep>(amount * scale));
+}
+
+std::vector<std::pair<std::string, std::string>> read_memory(const json& value) {
+  std::vector<std::pair<std::string, std::string>> memory;
+  for (const auto& [address, text] : value.items()) {
+    const std::optional<std::string> digits = expand_hex(text.get<std::string>());
+    if (!digits) throw Broken(fmt::format("{}: '{}' are no hex digits", address, text.get<std::string>()));
+    memory.emplace_back(address, *digits);
+  }
+  return memory;
+}
+
+Frame read_frame(const std::string& reading, const std::string& text, const json* wire) {
+  Frame frame{reading, text, {}, {}};
+  Result<Notation> notation = parse_notation(text);
+  if (!notation) throw Broken(fmt::format("\"{}\": {}", text, notation.error().message));
+  frame.notation = std::move(*notation);
+  if (wire && wire->is_string()) frame.wire = wire->get<std::string>();
+  if (wire && wire->is_object() && wire->contains(reading)) frame.wire = wire->at(reading).get<std::string>();
+  return frame;
+}
+
+void read_expect(const json& value, const json* wire, Step& step) {
+  step.kind = Step::Kind::expect;
+  if (value.is_string()) {
+    step.frames.push_back(read_frame("", value, wire));
+    return;
+  }
+  step.reading = value.at("reading");
+  for (const auto& [name, text] : value.items())
+    if (name != "reading") step.frames.push_back(read_frame(name, text, wire));
+}
+
+Step read_step(const json& value) {
+  Step step;
+  const json* wire = value.contains("wire") ? &value["wire"] : nullptr;
+  int kinds = 0;
+  const auto is = [&](const char* key) { return value.contains(key) && ++kinds; };
+  if (is("send")) {
+    step.kind = Step::Kind::send;
+    step.frames.push_back(read_frame("", value["send"], wire));
+  }
+  if (is("expect")) read_expect(value["expect"], wire, step);
+  if (is("silence")) step.kind = Step::Kind::silence;
+  if (is("wait")) step.kind = Step::Kind::wait, step.duration = read_duration(value["wait"]);
+  if (is("set")) step.kind = Step::Kind::set, step.memory = read_memory(value["set"]);
+  if (is("check")) step.kind = Step::Kind::check, step.memory = read_memory(value["check"]);
+  if (is("do")) step.kind = Step::Kind::act, step.action = value["do"];
+  if (is("open")) step.kind = Step::Kind::open;
+  if (is("close")) step.kind = Step::Kind::close;
+  if (is("expect_close")) step.kind = Step::Kind::expect_close;
+  if (kinds != 1) throw Broken(fmt::format("a step is one of send, expect, silence, wait, set, check, do, open, close, expect_close; this one has {}", kinds));
+  if (value.contains("within")) step.within = read_duration(value["within"]);
+  if (value.contains("every")) step.every = read_duration(value["every"]);
+  if (value.contains("max_gap")) step.max_gap = read_duration(value["max_gap"]);
+  step.times = value.value("times", 1);
+  return step;
+}
+
+std::string protocol_of(const std::string& id) {
+  std::string folder = id.substr(0, id.find('/'));
+  std::ranges::replace(folder, '_', '-');
+  return folder;
+}
+
+Source read_source(const json& value) {
+  Source source{value.at("manual"), value.at("section"), value.at("quote"), {}};
+  const json& statement = value.at("statement");
+  if (statement.is_string()) source.statements.push_back(statement);
+  else source.statements = statement.get<std::vector<std::string>>();
+  return source;
+}
+
+Case read_case(const json& value, const std::string& vector_id, const std::string& file) {
+  Case result;
+  result.id = value.at("id");
+  result.vector_id = vector_id;
+  result.rev = value.at("rev");
+  result.title = value.at("title");
+  result.protocol = protocol_of(result.id);
+  result.source = read_source(value.at("source"));
+  result.level = value.at("level");
+  result.basis = value.at("basis");
+  result.why = value.value("why", "");
+  result.models = value.value("models", std::vector<std::string>{});
+  result.transpose = value.value("transpose", true);
+  result.file = file;
+  const json given = value.value("given", json::object());
+  result.config = nlohmann::json(given.value("config", json::object()));
+  if (!config_station(result.config, 1)) throw Broken("given.config.station is not a number from 0 to 255");
+  if (given.contains("memory")) result.memory = read_memory(given["memory"]);
+  result.fresh = given.value("fresh", false);
+  if (value.contains("facts")) result.facts = nlohmann::json(value["facts"]);
+  const json steps = value.value("steps", json::array());
+  for (std::size_t i = 0; i < steps.size(); ++i) try {
+      result.steps.push_back(read_step(steps[i]));
+    } catch (const Broken& broken) {
+      throw Broken(fmt::format("steps[{}]: {}", i, broken.what()));
+    }
+  return result;
+}
+
+void read_vector(const json& vector, const std::string& file, VectorSet& set) {
+  const std::string id = vector.at("id");
+  const bool table = vector.value("kind", "case") == "table";
+  for (const Combination& combination : combinations(vector.value("each", json::object()))) {
+    json one = vector;
+    one.erase("each");
+    one = substitute(one, combination.row);
+    one["id"] = id + combination.suffix;
+    (table ? set.tables : set.cases).push_back(read_case(one, id, file));
+  }
+  for (const json& erratum : vector.value("errata", json::array()))
+    set.errata.push_back({id, vector["source"]["manual"], vector["source"]["section"], erratum["printed"], erratum["correct"], erratum["why"]});
+}
+
+/// "[12][steps][0]: ..." with the vector's id in place of its number.
+std::string name_vector(const nlohmann::json& document, const std::string& problem) {
+  std::size_t index = 0;
+  if (std::sscanf(problem.c_str(), "[%zu]", &index) == 1 && document.is_array() && index < document.size() && document[index].is_object() &&
+      document[index].contains("id") && document[index]["id"].is_string())
+    return document[index]["id"].get<std::string>() + problem.substr(problem.find(']') + 1);
+  return problem;
+}
+
+std::vector<fs::path> json_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().extension() == ".json") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+void load_statements(const std::string& text, VectorSet& set) {
+  for (const json& value : json::parse(text)) {
+    const std::string id = value.at("id");
+    set.statements.push_back({id, id.substr(0, id.find('/')), value.at("section"), value.at("quote"), value.value("reason", "")});
+  }
+}
+
+void load_manuals(const std::string& text, VectorSet& set) {
+  for (const json& value : json::parse(text))
+    set.manuals.push_back({value.at("id"), value.at("file"), value.at("title"), value.at("edition")});
+}
+
+void load_file(const fs::path& folder, const fs::path& path, VectorSet& set, std::uint64_t& hash) {
+  const std::string name = fs::relative(path, folder).generic_string();
+  if (name == "schema.json") return;
+  try {
+    const std::string text = read_file(path);
+    hash = add_to_hash(add_to_hash(hash, name), text);
+    if (name == "manuals.json") load_manuals(text, set);
+    else if (name.starts_with("statements/")) load_statements(text, set);
+    else load_vector_text(text, name, set);
+  } catch (const std::exception& error) {
+    set.problems.push_back(fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+void report_duplicates(VectorSet& set) {
+  std::set<std::string> ids;
+  for (const std::vector<Case>* cases : {&set.cases, &set.tables})
+    for (const Case& one : *cases)
+      if (!ids.insert(one.id).second) set.problems.push_back(fmt::format("{}: the id {} is used twice; ids are chosen once", one.file, one.id));
+}
+
+bool glob(std::string_view text, std::string_view pattern) {
+  if (pattern.empty()) return text.empty();
+  if (pattern[0] == '*') return glob(text, pattern.substr(1)) || (!text.empty() && glob(text.substr(1), pattern));
+  return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) && glob(text.substr(1), pattern.substr(1));
+}
+
+}  // namespace
+
+void load_vector_text(std::string_view text, const std::string& file, VectorSet& set) {
+  const json document = json::parse(text);
+  const json vectors = document.is_object() ? json::array({document}) : document;
+  if (const nlohmann::json plain(vectors); !set.schema.is_null()) {
+    const std::vector<std::string> problems = schema_problems(set.schema, plain);
+    for (const std::string& problem : problems) set.problems.push_back(fmt::format("{}: {}", file, name_vector(plain, problem)));
+    if (!problems.empty()) return;
+  }
+  for (const json& vector : vectors) try {
+      read_vector(vector, file, set);
+    } catch (const std::exception& error) {
+      const bool named = vector.is_object() && vector.contains("id") && vector["id"].is_string();
+      set.problems.push_back(fmt::format("{}: {}: {}", file, named ? vector["id"].get<std::string>() : "a vector", error.what()));
+    }
+}
+
+VectorSet load_vectors(const fs::path& folder, const fs::path& schema_file) {
+  VectorSet set;
+  if (!fs::is_directory(folder)) {
+    set.problems.push_back(fmt::format("cannot find the vectors in {}; name their folder with --vectors", folder.string()));
+    return set;
+  }
+  try {
+    const fs::path own = folder / "schema.json";
+    set.schema = nlohmann::json::parse(read_file(fs::exists(own) || schema_file.empty() ? own : schema_file));
+  } catch (const std::exception& error) {
+    set.problems.push_back(fmt::format("schema.json: {}", error.what()));
+    return set;
+  }
+  std::uint64_t hash = 0xCBF29CE484222325ull;
+  for (const fs::path& path : json_files(folder)) load_file(folder, path, set, hash);
+  report_duplicates(set);
+  std::ranges::sort(set.cases, {}, &Case::id);
+  set.hash = fmt::format("{:016x}", hash);
+  return set;
+}
+
+bool matches_filter(std::string_view id, std::string_view filter) {
+  bool selected = filter.empty() || filter.starts_with('-');
+  while (!filter.empty()) {
+    const std::string_view part = filter.substr(0, filter.find(':'));
+    filter.remove_prefix(std::min(part.size() + 1, filter.size()));
+    if (part.starts_with('-') ? glob(id, part.substr(1)) : glob(id, part)) selected = !part.starts_with('-');
+  }
+  return selected;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,44 @@
+# Sourced by run.sh and test.sh: installs what is missing from packages.txt, and builds a preset.
+
+say() { printf '%s\n' "$*" >&2; }
+
+# install_packages KIND...: the packages of these kinds that are not installed yet.
+install_packages() {
+  local kinds="$*" wanted missing
+  wanted=$(awk -v kinds=" $kinds " '$1 !~ /^#/ && NF == 2 && index(kinds, " " $1 " ") { print $2 }' packages.txt)
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    say "This is not a Debian system. Install the equivalents of these packages, then run cmake --preset tool:"
+    say "$wanted"
+    return 2
+  fi
+  # One query for all; a package that dpkg has never heard of is missing, too.
+  missing=$(comm -23 <(printf '%s\n' $wanted | sort) \
+    <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | awk '$1 == "installed" { print $2 }' | sort -u))
+  [ -z "$missing" ] && return 0
+  local sudo=""
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || { say "Packages are missing, and neither root nor sudo is here. Install:"; say "$missing"; return 2; }
+    sudo=sudo
+  fi
+  say "Installing:" $missing
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get update >&2 || { say "apt-get update failed; is the network up?"; return 2; }
+  # --no-remove: a conflict with something that you use stops here instead of removing it.
+  if ! $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-remove --no-install-recommends $missing >&2; then
+    say "The packages could not be installed without removing others (see above). Resolve the conflict, then run this again."
+    return 2
+  fi
+}
+
+# build PRESET: configures when needed and builds. Quiet unless it fails. Two presets never configure at once.
+build() {
+  local preset=$1 log="build/$1.log"
+  mkdir -p build
+  local launcher=()
+  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  if [ ! -f "build/$preset/build.ninja" ]; then
+    say "Configuring $preset ..."
+    cmake --preset "$preset" "${launcher[@]}" >"$log" 2>&1 || { cat "$log" >&2; return 3; }
+  fi
+  if ! ninja -C "build/$preset" -n ${2:-} 2>/dev/null | grep -q 'no work to do'; then say "Building $preset (the first time takes minutes) ..."; fi
+  cmake --build --preset "$preset" >"$log" 2>&1 || { grep -v '^\[' "$log" | tail -n 60 >&2; say "The build failed; all of it is in $log"; return 3; }
+}

@@ -1,0 +1,10 @@
+// The XGT dedicated protocol of the XGB Cnet interface (000 chapter 7) for the harness.
+#pragma once
+
+#include "harness/protocol.hpp"
+
+namespace fieldproof::xgt_cnet {
+
+const Protocol& protocol();
+
+}  // namespace fieldproof::xgt_cnet
