@@ -22,6 +22,7 @@ Transcript Exchange::run(const PreparedCase& prepared) {
   pending_ = {};
   last_bytes_.clear();
   last_sent_ = {endpoint_.now(), endpoint_.now()};
+  stimulus_ = last_sent_.end;
   for (const PreparedStep& one : prepared.steps) {
     for (int i = 0; i < one.step->times; ++i) {
       step(prepared, one, transcript);
@@ -42,6 +43,7 @@ void Exchange::step(const PreparedCase& prepared, const PreparedStep& step, Tran
     case Step::Kind::check: return access_memory(prepared, *step.step, record, transcript);
     case Step::Kind::act:
       if (const Status done = endpoint_.act(step.step->action); !done) record.refused = done.error().message;
+      stimulus_ = endpoint_.now();
       return note("do " + step.step->action, transcript);
     case Step::Kind::open:
     case Step::Kind::close:
@@ -78,8 +80,8 @@ void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& tr
 }
 
 void Exchange::expect(const PreparedStep& step, StepRecord& record, Transcript& transcript) {
-  record.sent = last_sent_;
-  record.deadline = last_sent_.end + step.step->within.value_or(timing_.response_max);
+  record.stimulus = stimulus_;
+  record.deadline = stimulus_ + step.step->within.value_or(timing_.response_max);
   const Time give_up = record.deadline + timing_.late_watch;
   const Time cut_off = give_up + longest_reply;
   std::size_t length = 0;
@@ -89,6 +91,7 @@ void Exchange::expect(const PreparedStep& step, StepRecord& record, Transcript& 
   }
   record.received = pending_.take(length ? length : pending_.bytes.size());
   record.listened_until = endpoint_.now();
+  if (!record.received.arrivals.empty()) stimulus_ = record.received.arrivals.back().end;
 }
 
 /// How many of the pending bytes are a reply: what an alternative matches, else a complete frame of the protocol.
@@ -132,6 +135,7 @@ void Exchange::wait_until(Time moment, StepRecord& record, Transcript& transcrip
 
 void Exchange::access_memory(const PreparedCase& prepared, const Step& step, StepRecord& record, Transcript& transcript) {
   const bool setting = step.kind == Step::Kind::set;
+  if (setting) stimulus_ = endpoint_.now();
   for (const auto& [address, hex] : step.memory) {
     Status done = ok();
     if (setting) {
@@ -223,6 +227,7 @@ bool Exchange::transmit(ByteView bytes, Transcript& transcript) {
     return false;
   }
   last_sent_ = *sent;
+  stimulus_ = sent->end;
   transcript.events.push_back({Event::Kind::sent, sent->start, sent->end, Bytes(bytes.begin(), bytes.end()), {}});
   return true;
 }

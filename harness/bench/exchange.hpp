@@ -52,6 +52,7 @@ class Exchange {
   MemoryAccess memory_;
   Received pending_;  // came, but no step has taken it
   Sent last_sent_;
+  Time stimulus_{};   // what the next reply answers: a transmission, the reply before it, a set or do
   Bytes last_bytes_;
   Captures captures_;
 };

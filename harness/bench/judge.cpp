@@ -89,9 +89,9 @@ class Judge {
     const Received& received = record.received;
     if (received.bytes.empty()) {
       expected(step, received);
-      return miss(fmt::format("no answer within {:.0f} ms", to_ms(record.deadline - record.sent.end)));
+      return miss(fmt::format("no answer within {:.0f} ms", to_ms(record.deadline - record.stimulus)));
     }
-    result_.response_ms.push_back(to_ms(received.arrivals.front().start - record.sent.end));
+    result_.response_ms.push_back(to_ms(received.arrivals.front().start - record.stimulus));
     const PreparedFrame* match = matching(step, received.bytes);
     if (!match) return judge_mismatch(step, received);
     take_reading(step, *match);
@@ -172,8 +172,8 @@ class Judge {
   }
 
   void judge_timing(const PreparedStep& step, const StepRecord& record) {
-    const Duration limit = record.deadline - record.sent.end;
-    const Duration took = record.received.arrivals.front().start - record.sent.end;
+    const Duration limit = record.deadline - record.stimulus;
+    const Duration took = record.received.arrivals.front().start - record.stimulus;
     if (step.step->within && limit < rules_.timing_floor)
       return lower_to(Verdict::inconclusive, fmt::format("the limit of {:.1f} ms is below the floor of this link, {:.1f} ms", to_ms(limit), to_ms(rules_.timing_floor)));
     if (took > limit) {

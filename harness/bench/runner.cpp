@@ -73,7 +73,7 @@ std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOp
   testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
   delete listeners.Release(listeners.default_result_printer());
   listeners.Append(new Repetitions(context));
-  (void)RUN_ALL_TESTS();
+  [[maybe_unused]] const int ignored = RUN_ALL_TESTS();
   return context.handed_over;
 }
 

@@ -28,7 +28,8 @@ struct Received {
 };
 
 struct StepRecord {
-  Sent sent;            // send: when; expect: the transmission that it answers
+  Sent sent;            // send: when
+  Time stimulus{};      // expect: the end of what it answers (a transmission, the reply before it, a set or do)
   Bytes sent_bytes;     // send
   Received received;    // expect, silence, wait: what came
   Time deadline{};      // expect: the limit for the first byte

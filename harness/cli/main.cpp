@@ -1,1 +1,146 @@
-int main() { return 3; }
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <fmt/format.h>
+#include <functional>
+
+#include "harness/cli/commands.hpp"
+
+namespace {
+
+using namespace fieldproof;
+
+/// Appears in every help text, so that a pipeline's author need not open the README.
+constexpr const char* exit_codes =
+    "Exit codes: 0 gate met, 1 conformance failed, 2 usage or invalid input, 3 bench trouble, 4 nothing selected or executed,\n"
+    "77 hardware absent (--skip-absent), 130 interrupted.";
+
+void add_run(CLI::App& app, RunOptions& run) {
+  app.add_option("--endpoint", run.endpoint,
+                 "emulator:[MODEL][?option=value&...], pty:MODEL, serial:PATH?baud=38400&frame=8N1&station=1, exec:COMMAND ({tty} is the port), tcp:HOST:PORT")
+      ->capture_default_str();
+  app.add_option("--profile", run.profile, "What the device declares: a name from the profiles folder, or a JSON file");
+  app.add_option("--filter", run.filter, "Cases by id: globs separated by ':', a leading '-' excludes");
+  app.add_option("--vectors", run.vectors, "Another folder of vectors");
+  app.add_option("--out", run.out, "Folder of the reports")->capture_default_str();
+  app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");
+  app.add_option("--json", run.json, "JSON file, instead of OUT/results.json");
+  app.add_option("--waivers", run.waivers, "JSON file of accepted failures: id, reason, expires");
+  app.add_option("--allow-write", run.allow_write, "Real devices: what may be written: M, M100-M199, all (outputs P, Q, U only when named)");
+  app.add_option("--power-cycle", run.power_cycle, "Command that switches a real device off and on");
+  app.add_option("--floor", run.floor_ms, "The adapter's own uncertainty in ms: shorter limits are INCONCLUSIVE")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", run.seed, "Shuffle the cases by this seed")->check(CLI::Range(0, 99'999));
+  app.add_option("--repeat", run.repeat, "Run the selection so many times")->check(CLI::Range(1, 1'000'000));
+  app.add_flag("--strict", run.strict, "NON-STRICT fails the gate");
+  app.add_option_function<std::string>("--fail-on", [&run](const std::string&) { run.fail_on_marginal = true; }, "marginal: MARGINAL fails the gate")
+      ->check(CLI::IsMember({"marginal"}));
+  app.add_flag("--qualify", run.qualify, "BLOCKED and INCONCLUSIVE fail the gate");
+  app.add_flag("--fail-fast", run.fail_fast, "Stop at the first verdict that fails the gate");
+  app.add_flag("--dry-run", run.dry_run, "Print what would run");
+  app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
+  app.add_flag("-v,--verbose", run.verbose, "Show every case with its exchange");
+  app.allow_extras();
+  app.prefix_command(false);
+}
+
+/// CLI11 leaves what it does not know here: GoogleTest's own options pass, but not those that would get in our way.
+std::string unknown_argument(const std::vector<std::string>& extras, std::vector<std::string>& gtest_arguments) {
+  for (const std::string& extra : extras) {
+    if (extra.starts_with("--gtest_repeat")) return "--gtest_repeat is refused: use --repeat";
+    if (extra.starts_with("--gtest_output")) return "--gtest_output is refused: use --junit and --json; GoogleTest's XML loses control bytes";
+    if (extra.starts_with("--gtest_filter")) return "--gtest_filter is refused: use --filter";
+    if (!extra.starts_with("--gtest_")) return fmt::format("unknown argument '{}'; see fieldproof run --help", extra);
+    gtest_arguments.push_back(extra);
+  }
+  return {};
+}
+
+std::string command_line(int argc, char** argv) {
+  std::string line = "fieldproof";
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const bool plain = !argument.empty() && argument.find_first_of(" \t\n'\"$&?*;<>|()[]{}\\`!#~") == std::string::npos;
+    line += plain ? " " + argument : " '" + argument + "'";
+  }
+  return line;
+}
+
+int run_tool(int argc, char** argv) {
+  CLI::App app("fieldproof proves, clause by clause of the manual, that a PLC communication module speaks its protocols.", "fieldproof");
+  app.set_version_flag("--version", FIELDPROOF_VERSION);
+  app.require_subcommand(1);
+  app.footer(exit_codes);
+  std::function<int()> chosen;
+
+  RunOptions run;
+  CLI::App* run_app = app.add_subcommand("run", "Run the cases against an endpoint and judge it");
+  add_run(*run_app, run);
+  run_app->footer(exit_codes);
+  run.command = command_line(argc, argv);
+
+  ListOptions list;
+  CLI::App* list_app = app.add_subcommand("list", "List the cases");
+  list_app->add_option("--filter,filter", list.filter, "Cases by id: globs separated by ':'");
+  list_app->add_option("--vectors", list.vectors, "Another folder of vectors");
+  list_app->add_flag("--coverage", list.coverage, "Statements of the manuals by section, and those without a vector");
+  list_app->add_flag("--json", list.json, "Each expanded case with the bytes of its steps");
+
+  LintOptions lint;
+  CLI::App* lint_app = app.add_subcommand("lint", "Check vectors, statements and profiles");
+  lint_app->add_option("--vectors", lint.vectors, "Another folder of vectors");
+  lint_app->add_option("--manuals", lint.manuals, "Folder of the manuals' text: quotes are checked against it")->check(CLI::ExistingDirectory);
+  lint_app->add_flag("--lock", lint.lock, "Lock the verified quotes (quotes.lock)");
+
+  EmulateOptions emulate;
+  CLI::App* emulate_app = app.add_subcommand("emulate", "A stand-in device behind a pty or a socket");
+  emulate_app->add_option("model", emulate.model, "MODEL[?station=1&...]: xbm-s, xbc-h, xec-h")->required();
+  CLI::Option* tcp = emulate_app->add_option("--tcp", emulate.tcp, "Listen on HOST:PORT");
+  emulate_app->add_option("--pty", emulate.pty, "A terminal to open, or the link to a new pty")->excludes(tcp);
+  emulate_app->add_option("--control", emulate.control, "Back door of the harness")->group("");
+  emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
+  emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");
+
+  FrameOptions frame;
+  CLI::App* frame_app = app.add_subcommand("frame", "Explain a frame field by field, with its checks computed");
+  frame_app->add_option("frame", frame.frame, "Notation, hex or raw: \"[ENQ st 'rSS' '01' name(%MW100) EOT BCC]\"")->required();
+  frame_app->add_option("--protocol", frame.protocol)->capture_default_str();
+  frame_app->add_option("--station", frame.station, "What `st` stands for")->capture_default_str()->check(CLI::Range(0, 255));
+
+  ErrataOptions errata;
+  CLI::App* errata_app = app.add_subcommand("errata", "List the mistakes of the manuals and their proofs");
+  errata_app->add_option("--vectors", errata.vectors, "Another folder of vectors");
+  errata_app->add_flag("--json", errata.json);
+
+  ReportOptions report;
+  CLI::App* report_app = app.add_subcommand("report", "Derive JUnit and JSON from the results of a run, finished or killed");
+  report_app->add_option("results", report.ndjson, "OUT/results.ndjson")->required();
+  report_app->add_option("--junit", report.junit);
+  report_app->add_option("--json", report.json);
+
+  run_app->callback([&] {
+    const std::string wrong = unknown_argument(run_app->remaining(), run.gtest_arguments);
+    chosen = [&run, wrong] { return wrong.empty() ? run_command(run) : complain(wrong, exit_code::usage); };
+  });
+  list_app->callback([&] { chosen = [&] { return list_command(list); }; });
+  lint_app->callback([&] { chosen = [&] { return lint_command(lint); }; });
+  emulate_app->callback([&] { chosen = [&] { return emulate_command(emulate); }; });
+  frame_app->callback([&] { chosen = [&] { return frame_command(frame); }; });
+  errata_app->callback([&] { chosen = [&] { return errata_command(errata); }; });
+  report_app->callback([&] { chosen = [&] { return report_command(report); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_code::ok : exit_code::usage;
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_tool(argc, argv);
+  } catch (const std::exception& error) {
+    return complain(fmt::format("internal error: {}; please report it with the command line", error.what()), exit_code::trouble);
+  }
+}

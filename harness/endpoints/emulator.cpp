@@ -47,7 +47,8 @@ json take(json& config, const char* key) {
 
 Result<LineSettings> settings_of(const json& value, const char* key) {
   if (value.is_null()) return LineSettings{};
-  if (!value.is_string()) return fail(fmt::format("cannot set up the line: '{}' is {}; write text such as \"9600-8N1\"", key, value.dump()));
+  if (!value.is_string())
+    return fail(fmt::format("cannot set up the line: '{}' is {}; write text such as \"9600-8N1\"", key, value.dump()));
   return parse_line_settings(value.get_ref<const std::string&>());
 }
 
@@ -77,7 +78,9 @@ EmulatorEndpoint::EmulatorEndpoint(const EndpointName& name, DeviceFactory facto
       capabilities_(emulator_capabilities()),
       line_(LineSettings{}) {}
 
-std::string EmulatorEndpoint::describe() const { return model_.empty() ? "emulator of the model of each case" : "emulator " + model_; }
+std::string EmulatorEndpoint::describe() const {
+  return model_.empty() ? "emulator of the model of each case" : "emulator " + model_;
+}
 
 Status EmulatorEndpoint::begin(const json& given) {
   decorated_.reset();
@@ -115,13 +118,15 @@ Status EmulatorEndpoint::attach(std::string_view model, const json& config) {
 
 Status EmulatorEndpoint::attach_neighbours(std::string_view model, const json& neighbours, const json& config) {
   if (neighbours.is_null()) return ok();
-  if (!neighbours.is_array()) return fail("cannot set up the line: 'neighbours' is " + neighbours.dump() + "; write an array of stations");
+  if (!neighbours.is_array())
+    return fail("cannot set up the line: 'neighbours' is " + neighbours.dump() + "; write an array of stations");
   for (const json& neighbour : neighbours) {
     json own = neighbour.is_object() ? neighbour : json{{"station", neighbour}};
     for (const char* key : {"line", "rs485"}) {
       if (config.contains(key) && !own.contains(key)) own[key] = config[key];
     }
-    if (Status attached = attach(model, own); !attached) return fail("neighbour " + neighbour.dump() + ": " + attached.error().message);
+    if (Status attached = attach(model, own); !attached)
+      return fail("neighbour " + neighbour.dump() + ": " + attached.error().message);
   }
   return ok();
 }
@@ -166,8 +171,8 @@ Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name) {
   if (!protocol) {
     std::vector<std::string_view> names;
     for (const Protocol* one : protocols()) names.push_back(one->name());
-    return fail(fmt::format("cannot open emulator:{}: unknown protocol '{}'{}; the protocols are {}", name.target, wanted,
-                            suggestion(wanted, names), fmt::join(names, ", ")));
+    return fail(fmt::format("cannot open emulator:{}: unknown protocol '{}'; the protocols are {}{}", name.target, wanted,
+                            fmt::join(names, ", "), suggestion(wanted, names)));
   }
   auto endpoint = std::make_unique<EmulatorEndpoint>(
       name, [protocol](std::string_view model, const json& config) { return protocol->make_device(model, config); });

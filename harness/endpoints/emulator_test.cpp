@@ -159,7 +159,8 @@ TEST_F(Emulator, TheTargetIsTheModelElseTheCaseElseXbcH) {
 }
 
 TEST_F(Emulator, OptionsAreDefaultsThatTheCaseOverrides) {
-  open("emulator:tiny?station=3&line=19200-8E1&protocol=tiny", {{"station", 7}, {"bench_line", "9600"}, {"neighbours", json::array()}});
+  open("emulator:tiny?station=3&line=19200-8E1&protocol=tiny",
+       {{"station", 7}, {"bench_line", "9600"}, {"neighbours", json::array()}});
   ASSERT_EQ(asked.size(), 1u);
   EXPECT_EQ(asked[0].config, (json{{"station", 7}, {"line", "19200-8E1"}}));
   open("emulator:tiny?station=3");
@@ -217,8 +218,11 @@ TEST_F(Emulator, NeighboursCanBeAnOption) {
 TEST_F(Emulator, TheBenchMayHaveSettingsOfItsOwn) {
   auto endpoint = open("emulator:tiny", {{"line", "9600-8E1"}, {"bench_line", "9600-8N1"}});
   EXPECT_EQ(endpoint->character_time(), ct);
-  EXPECT_EQ(ask(*endpoint, {1}), (Bytes{}));  // 1 has one 1 and no parity bit: the stop bit passes as parity ...
-  EXPECT_EQ(endpoint->line_errors(), "2 framing errors");  // ... and the reply 06 01 00: parity 0 1 0 as stop bit
+  // The stop bit of the request passes as the parity of 01. Of the reply 06 01 00 the parity bits 0 1 0 stand where the
+  // bench expects its stop bit.
+  EXPECT_EQ(ask(*endpoint, {1}), (Bytes{0x01}));
+  EXPECT_TRUE(endpoint->receive(1s)->bytes.empty());
+  EXPECT_EQ(endpoint->line_errors(), "2 framing errors");
   EXPECT_EQ(endpoint->line_errors(), "");
 }
 
@@ -271,7 +275,7 @@ TEST_F(Emulator, OpeningReportsAWrongProtocolModelOrOption) {
     return endpoint ? std::string("opened") : endpoint.error().message;
   };
   EXPECT_EQ(message("emulator:tiny?protocol=tinny"),
-            "cannot open emulator:tiny: unknown protocol 'tinny'; did you mean 'tiny'?; the protocols are tiny");
+            "cannot open emulator:tiny: unknown protocol 'tinny'; the protocols are tiny; did you mean 'tiny'?");
   EXPECT_EQ(message("emulator:huge?protocol=tiny"), "cannot open emulator:huge: unknown model 'huge'");
   EXPECT_EQ(message("emulator:tiny?protocol=tiny&colour=red"), "cannot open emulator:tiny: unknown key 'colour'");
 }

@@ -48,7 +48,7 @@ const Kind* find_kind(std::string_view name) {
 std::string unknown_kind(std::string_view name) {
   std::vector<std::string_view> names;
   for (const Kind& kind : kinds) names.push_back(kind.name);
-  return fmt::format("unknown kind '{}'{}; the kinds are {}", name, suggestion(name, names), fmt::join(names, ", "));
+  return fmt::format("unknown kind '{}'; the kinds are {}{}", name, fmt::join(names, ", "), suggestion(name, names));
 }
 
 bool known(Options options, std::string_view key) { return options.empty() || std::ranges::find(options, key) != options.end(); }
@@ -60,8 +60,8 @@ std::string read_options(std::string_view text, const Kind& kind, std::map<std::
     text.remove_prefix(std::min(text.size(), one.size() + 1));
     const std::string key(one.substr(0, one.find('=')));
     if (!known(kind.options, key)) {
-      return fmt::format("unknown option '{}'{}; the options of {} are {}", key, suggestion(key, kind.options), kind.name,
-                         fmt::join(kind.options, ", "));
+      return fmt::format("unknown option '{}'; the options of {} are {}{}", key, kind.name, fmt::join(kind.options, ", "),
+                         suggestion(key, kind.options));
     }
     if (key.empty() || key.size() == one.size()) return fmt::format("option '{}' has no value; write KEY=VALUE", one);
     if (!options.emplace(key, one.substr(key.size() + 1)).second) return fmt::format("option '{}' is given twice; leave one", key);

@@ -69,13 +69,15 @@ TEST(EndpointName, ACommandMayBeFollowedByKnownOptions) {
 
 TEST(EndpointName, AnUnknownKindGetsASuggestion) {
   EXPECT_EQ(refusal("emulater:xbc-h"),
-            "cannot read endpoint 'emulater:xbc-h': unknown kind 'emulater'; did you mean 'emulator'?; the kinds are emulator, pty, serial, exec, tcp");
+            "cannot read endpoint 'emulater:xbc-h': unknown kind 'emulater'; "
+            "the kinds are emulator, pty, serial, exec, tcp; did you mean 'emulator'?");
   EXPECT_THAT(refusal("/dev/ttyUSB0"), HasSubstr("unknown kind '/dev/ttyUSB0'; the kinds are"));
   EXPECT_THAT(refusal(""), HasSubstr("unknown kind ''"));
 }
 
 TEST(EndpointName, AnUnknownOptionGetsASuggestion) {
-  EXPECT_THAT(refusal("serial:/dev/ttyUSB0?buad=9600"), HasSubstr("unknown option 'buad'; did you mean 'baud'?; the options of serial are protocol,"));
+  EXPECT_THAT(refusal("serial:/dev/ttyUSB0?buad=9600"),
+              HasSubstr("unknown option 'buad'; the options of serial are protocol, station, floor_ms, baud, frame, rs485; did you mean 'baud'?"));
   EXPECT_THAT(refusal("tcp:plc:2004?baud=9600"), HasSubstr("unknown option 'baud'; the options of tcp are"));
 }
 
@@ -94,7 +96,8 @@ TEST(EndpointName, AMissingTargetIsRefused) {
 TEST(Endpoint, OpeningAnUnknownKindNamesTheKinds) {
   const auto endpoint = open_endpoint({.kind = "serail", .target = "/dev/ttyUSB0", .options = {}});
   ASSERT_FALSE(endpoint);
-  EXPECT_THAT(endpoint.error().message, HasSubstr("cannot open an endpoint: unknown kind 'serail'; did you mean 'serial'?"));
+  EXPECT_THAT(endpoint.error().message, HasSubstr("cannot open an endpoint: unknown kind 'serail'; "
+                                                    "the kinds are emulator, pty, serial, exec, tcp; did you mean 'serial'?"));
 }
 
 class Plain : public Endpoint {

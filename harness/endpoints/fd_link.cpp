@@ -17,7 +17,6 @@ namespace fieldproof {
 
 namespace {
 
-constexpr Duration send_limit = 3s;
 /// Bytes that a process wrote before its end pass through a kernel work queue and may come after the news of its end.
 constexpr Duration last_bytes_limit = 20ms;
 constexpr Duration end_limit = 200ms;
@@ -79,7 +78,7 @@ Result<Sent> FdLink::send(ByteView bytes) {
   Sent sent;
   sent.start = std::max(now(), sent_until_);
   sent.end = sent.start + character_time_ * static_cast<Duration::rep>(bytes.size());
-  const Time give_up = sent.end + send_limit;
+  const Time give_up = sent.end + send_limit_;
   while (!bytes.empty()) {
     const ssize_t n = socket_ ? ::send(fd_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL)
                               : ::write(fd_.get(), bytes.data(), bytes.size());
@@ -107,7 +106,7 @@ Status FdLink::wait_writable(Time give_up) {
                             pollfd{far_end_ ? far_end_->end_fd() : -1, POLLIN, 0}};
   const int ready = poll_for(fds.data(), fds.size(), give_up - now());
   if (interrupted()) return interrupted_error("send to", name_);
-  if (ready == 0) return fail("cannot send to " + name_ + ": the far end takes no bytes for 3 s; see that it reads and that flow control is off");
+  if (ready == 0) return fail("cannot send to " + name_ + ": the far end takes no more bytes; see that it reads and that flow control is off");
   if (ready > 0 && fds[0].revents == 0 && fds[2].revents != 0) return ended("send to");
   return ok();
 }

@@ -41,6 +41,8 @@ class FdLink {
 
   /// On a real line, one character: sent bytes end, and received bytes begin, by this time. 0 (pty, socket): no wire.
   void set_character_time(Duration character_time) { character_time_ = character_time; }
+  /// How long a send waits for a far end that takes no bytes.
+  void set_send_limit(Duration limit) { send_limit_ = limit; }
   /// `far_end` outlives the link or is replaced first; nullptr: none.
   void set_far_end(FarEnd* far_end) { far_end_ = far_end; }
 
@@ -50,7 +52,7 @@ class FdLink {
   Time now() const { return clock_.now(); }
 
   /// Sends all. On a real line it returns when the last stop bit is over. Errors: interrupted, the far end is gone,
-  /// or it takes no bytes for 3 s.
+  /// or it takes no bytes (3 s).
   Result<Sent> send(ByteView bytes);
 
   /// The next bytes up to `deadline` (in the past: what is there), or an empty burst. Bytes that a dead far end left
@@ -70,6 +72,7 @@ class FdLink {
   RunClock clock_;
   FarEnd* far_end_ = nullptr;
   Duration character_time_{};
+  Duration send_limit_ = 3s;
   Time sent_until_{};
   Time received_until_{};
   bool socket_ = false;

@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include "harness/test_protocol.hpp"
+
 namespace fieldproof {
 namespace {
 
@@ -12,22 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// As much of a protocol as lint asks for.
-struct StationOnly : Protocol {
-  std::string_view name() const override { return "xgt-cnet"; }
-  std::vector<std::string> models() const override { return {}; }
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view, const nlohmann::json&) const override { return fail("none"); }
-  Bytes station_bytes(int station) const override { return to_bytes(hex_number(static_cast<unsigned>(station), 2)); }
-  std::optional<std::size_t> frame_length(ByteView) const override { return std::nullopt; }
-  std::vector<Field> explain(ByteView) const override { return {}; }
-  Bytes probe(int, ByteView) const override { return {}; }
-  bool is_reply_to_probe(ByteView, ByteView) const override { return false; }
-  Result<std::vector<Bytes>> write_requests(int, std::string_view, std::string_view) const override { return fail("none"); }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view, std::size_t) const override { return fail("none"); }
-  Status write_reply(ByteView) const override { return fail("none"); }
-  Result<std::string> read_reply(ByteView) const override { return fail("none"); }
-  std::vector<Written> written_by(ByteView) const override { return {}; }
-  std::string_view output_areas() const override { return ""; }
+struct StationOnly : TestProtocol {
   Status check_fact(const nlohmann::json& facts) const override { return facts.at("words") == 1024 ? ok() : Status(fail("the table has 1024 words")); }
 };
 

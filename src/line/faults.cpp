@@ -28,8 +28,8 @@ void FaultyDevice::receive(const Burst& burst) {
 /// Gives the device what truncation and loss leave of a burst whose first byte has this index.
 void FaultyDevice::hand_on(Burst burst, std::size_t first_index) {
   const ByteFaults& faults = faults_.request;
-  const auto within = [&](std::size_t index) { return std::clamp(index, first_index, first_index + burst.bytes.size()) - first_index; };
-  if (faults.truncate) burst.bytes.resize(within(*faults.truncate));
+  const std::size_t end_index = first_index + burst.bytes.size();
+  if (faults.truncate) burst.bytes.resize(std::clamp(*faults.truncate, first_index, end_index) - first_index);
   if (!faults.drop || *faults.drop < first_index || *faults.drop >= first_index + burst.bytes.size()) {
     if (!burst.bytes.empty()) device_.receive(burst);
     return;

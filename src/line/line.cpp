@@ -64,9 +64,9 @@ Time SimulatedLine::next_event(Time until) const {
     if (!t.over) next = std::min(next, t.burst.end());
   }
   for (std::size_t i = 0; i < listeners_.size(); ++i) {
-    if (const auto wake = listeners_[i].device ? listeners_[i].device->wake_at() : std::nullopt) next = std::min(next, *wake);
-    if (!listeners_[i].bit_exact) continue;
-    if (const auto character = character_for(i)) next = std::min(next, character->end);
+    const Listener& l = listeners_[i];
+    if (const auto wake = l.device ? l.device->wake_at() : std::nullopt) next = std::min(next, *wake);
+    if (const auto character = l.bit_exact ? character_for(i) : std::nullopt) next = std::min(next, character->end);
   }
   return std::max(next, now_);
 }
@@ -84,17 +84,15 @@ void SimulatedLine::finish_transmissions() {
 bool SimulatedLine::hear_characters() {
   bool any = false;
   for (std::size_t i = 0; i < listeners_.size(); ++i) {
-    if (!listeners_[i].bit_exact) continue;
+    Listener& l = listeners_[i];
+    if (!l.bit_exact) continue;
     const auto character = character_for(i);
-    if (!character) {
-      listeners_[i].hunt_from = std::max(listeners_[i].hunt_from, now_);
-      continue;
-    }
-    if (character->end > now_) continue;
+    if (!character) l.hunt_from = std::max(l.hunt_from, now_);
+    if (!character || character->end > now_) continue;
     any = true;
-    listeners_[i].hunt_from = character->hunt_from;
+    l.hunt_from = character->hunt_from;
     if (character->good()) {
-      deliver(i, {.bytes = {character->value}, .start = character->start, .character_time = listeners_[i].settings.character_time()});
+      deliver(i, {{character->value}, character->start, l.settings.character_time()});
     } else if (i == bench) {
       errors_.parity += character->parity_error;
       errors_.framing += character->framing_error;

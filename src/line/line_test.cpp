@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 #include <stdexcept>
 
 namespace fieldproof {
@@ -353,6 +354,86 @@ TEST(Line, StationsOfOtherSettingsDoNotDisturbThoseThatAgree) {
   }
   EXPECT_EQ(same.all(), (Bytes{1, 2, 1, 2, 1, 2}));
   EXPECT_NE(other.all(), (Bytes{1, 2, 1, 2, 1, 2}));
+}
+
+using Heard = std::vector<std::pair<Time, Byte>>;
+
+Heard by_character(const std::vector<Burst>& bursts) {
+  Heard heard;
+  for (const Burst& burst : bursts) {
+    for (std::size_t i = 0; i < burst.bytes.size(); ++i) {
+      heard.emplace_back(burst.start + static_cast<Duration::rep>(i) * burst.character_time, burst.bytes[i]);
+    }
+  }
+  return heard;
+}
+
+struct Spoken {
+  std::size_t sender;
+  Burst burst;
+};
+
+/// What a listener must hear, from all transmissions at once and bit by bit.
+Heard expected_at(std::size_t listener, const std::vector<Spoken>& all, const std::vector<LineSettings>& settings, Duplex duplex) {
+  Waveform wave;
+  for (const auto& [sender, burst] : all) {
+    if (sender != listener) wave.add(burst, settings[sender]);
+    else if (duplex == Duplex::half) wave.mute(burst.start, burst.end());
+  }
+  Heard heard;
+  for (auto c = next_character(wave, settings[listener], 0ns); c; c = next_character(wave, settings[listener], c->hunt_from)) {
+    if (c->good()) heard.emplace_back(c->start, c->value);
+  }
+  return heard;
+}
+
+// The line mixes whole bursts, parts and single characters; whatever the traffic, it must come to what the bits say.
+TEST(Line, AnyTrafficIsHeardAsTheBitsSay) {
+  std::mt19937 random(20240607);
+  const auto pick = [&](unsigned n) { return random() % n; };
+  for (int round = 0; round < 300; ++round) {
+    const Duplex duplex = pick(2) ? Duplex::full : Duplex::half;
+    const bool mixed = pick(3) == 0;
+    const unsigned traffic_ms = pick(2) ? 60 : 600;  // crowded or quiet
+    std::vector<LineSettings> settings;
+    for (int i = 0; i < 4; ++i) {
+      settings.push_back(mixed && pick(2) ? LineSettings{pick(2) ? 9600 : 19200, pick(2) ? 7 : 8, "NEO"[pick(3)], 1} : n81);
+    }
+    const auto frame = [&] {
+      Bytes bytes(1 + pick(8));
+      for (Byte& b : bytes) b = static_cast<Byte>(random());
+      return bytes;
+    };
+    std::vector<Station> stations(3);
+    std::vector<Spoken> all;
+    const auto speak = [&](std::size_t sender, Bytes bytes, Time start) {
+      drop_unsent_bits(bytes, settings[sender]);
+      all.push_back({sender, {bytes, start, settings[sender].character_time()}});
+    };
+    SimulatedLine line(settings[0], duplex);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (auto n = pick(4); n > 0; --n) stations[i].plan.emplace(std::chrono::microseconds(1 + pick(traffic_ms * 1000)), frame());
+      Time free{};
+      for (const auto& [start, bytes] : stations[i].plan) {
+        speak(i + 1, bytes, std::max(start, free));
+        free = all.back().burst.end();
+      }
+      line.attach(stations[i], settings[i + 1]);
+    }
+    std::vector<Burst> heard;
+    for (auto n = pick(4); n > 0; --n) {
+      const Time moment = line.now() + std::chrono::microseconds(pick(traffic_ms * 500));
+      for (Burst burst = line.receive(moment); !burst.bytes.empty(); burst = line.receive(moment)) heard.push_back(burst);
+      const Bytes bytes = frame();
+      speak(0, bytes, line.transmit(bytes).start);
+    }
+    for (Burst burst = line.receive(5s); !burst.bytes.empty(); burst = line.receive(5s)) heard.push_back(burst);
+    EXPECT_EQ(by_character(heard), expected_at(0, all, settings, duplex)) << "bench, round " << round;
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(by_character(stations[i].heard), expected_at(i + 1, all, settings, duplex)) << "station " << i + 1 << ", round " << round;
+    }
+    if (HasFailure()) return;
+  }
 }
 
 TEST(Line, ADeviceThatNeverRestsIsAProgrammingError) {

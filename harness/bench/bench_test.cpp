@@ -1,0 +1,305 @@
+#include "harness/bench/bench.hpp"
+
+#include <gmock/gmock.h>
+
+#include "harness/bench/scripted_endpoint.hpp"
+#include "harness/test_protocol.hpp"
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Pieces = std::vector<ScriptedEndpoint::Piece>;
+
+class BenchTest : public testing::Test {
+ protected:
+  BenchTest() {
+    options.profile.name = "test";
+    options.profile.model = "xbc-h";
+    options.profile.protocols = {"xgt-cnet"};
+    options.today = "2026-11-21";
+    endpoint.answers["<probe>"] = Pieces{{1ms, "<alive>"}};
+    endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
+  }
+
+  static std::string vector(const std::string& steps, const std::string& more = "") {
+    return R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed", )j" + more +
+           R"j("source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "steps": [)j" + steps + "]}";
+  }
+  static std::string ask() { return R"({"send": "'<ask>'"}, {"expect": "'<answer>'"})"; }
+
+  CaseResult run(const std::string& text) {
+    set_ = {};
+    load_vector_text(text, "f.json", set_);
+    EXPECT_THAT(set_.problems, IsEmpty());
+    if (!bench_) bench_.emplace(endpoint, protocol_, options);
+    return bench_->run(set_.cases.at(0));
+  }
+  Bench& bench() {
+    if (!bench_) bench_.emplace(endpoint, protocol_, options);
+    return *bench_;
+  }
+  void on_real_device() {
+    endpoint.can = {};
+    endpoint.can.wire = true;
+    endpoint.can.real_device = true;
+  }
+
+  ScriptedEndpoint endpoint;
+  BenchOptions options;
+
+ private:
+  TestProtocol protocol_;
+  VectorSet set_;
+  std::optional<Bench> bench_;
+};
+
+TEST_F(BenchTest, StartAsksOnlyWhetherAnythingAnswers) {
+  endpoint.answers["<probe>"] = Pieces{{1ms, "utter nonsense"}};
+  EXPECT_TRUE(bench().start());
+}
+
+TEST_F(BenchTest, SilenceAtTheStartSaysWhatToCheck) {
+  endpoint.answers.clear();
+  const Status started = bench().start();
+  ASSERT_FALSE(started);
+  EXPECT_THAT(started.error().message, HasSubstr("nothing answers on scripted at station 1: check that the device has power"));
+  EXPECT_GT(endpoint.sent.size(), 3u) << "a device that is still starting gets more than one chance";
+}
+
+TEST_F(BenchTest, WhatTheProfileDoesNotDeclareIsSkipped) {
+  EXPECT_EQ(run(vector(ask(), R"("models": ["xec-h"], )")).verdict, Verdict::skip);
+  EXPECT_EQ(run(vector(ask(), R"("models": ["xbm-s", "xbc-h"], )")).verdict, Verdict::pass);
+}
+
+TEST_F(BenchTest, AnExclusionNamesItsReason) {
+  options.profile.exclude = {{"xgt_cnet/a/*", "no such command"}};
+  EXPECT_THAT(run(vector(ask())).message, HasSubstr("no such command"));
+}
+
+TEST_F(BenchTest, EmulatorsBecomeWhatACaseGives) {
+  endpoint.can.back_door = true;
+  EXPECT_EQ(run(vector(ask(), R"("given": {"config": {"station": 32}, "memory": {"%MW1": "1234"}}, )")).verdict, Verdict::pass);
+  EXPECT_EQ(endpoint.begun.back().at("station"), 32);
+  EXPECT_EQ(endpoint.begun.back().at("model"), "xbc-h");
+  EXPECT_EQ(endpoint.memory.at("%MW1"), "1234");
+}
+
+TEST_F(BenchTest, OnARealDeviceTheStationIsTransposedAndTheReportSaysSo) {
+  on_real_device();
+  options.station = 5;
+  endpoint.answers["05"] = Pieces{{1ms, "<05>"}};
+  const CaseResult result = run(vector(R"({"send": "st"}, {"expect": "'<' st '>'"})", R"("given": {"config": {"station": 32}}, )"));
+  EXPECT_EQ(result.verdict, Verdict::pass) << result.message;
+  EXPECT_THAT(result.notes, Contains("transposed: station 32 to 5"));
+}
+
+TEST_F(BenchTest, WhereTheStationIsWhatIsTestedItIsBlocked) {
+  on_real_device();
+  EXPECT_EQ(run(vector(ask(), R"("transpose": false, "given": {"config": {"station": 32}}, )")).verdict, Verdict::blocked);
+}
+
+TEST_F(BenchTest, OnARealDeviceTheConfigurationMustBeDeclared) {
+  on_real_device();
+  const std::string delay = vector(ask(), R"("given": {"config": {"delay_ms": 50}}, )");
+  EXPECT_THAT(run(delay).message, HasSubstr("needs delay_ms = 50; the profile declares 0"));
+}
+
+TEST_F(BenchTest, ADeclaredConfigurationRuns) {
+  on_real_device();
+  options.profile.config["delay_ms"] = "50";
+  EXPECT_EQ(run(vector(ask(), R"("given": {"config": {"delay_ms": 50}}, )")).verdict, Verdict::pass);
+}
+
+TEST_F(BenchTest, NothingIsWrittenOutsideTheFence) {
+  on_real_device();
+  const std::string writes = vector(R"({"send": "'<write>'"}, {"expect": "'<ok>'"})");
+  endpoint.answers["<write>"] = Pieces{{1ms, "<ok>"}};
+  const CaseResult result = run(writes);
+  EXPECT_EQ(result.verdict, Verdict::blocked);
+  EXPECT_EQ(result.message, "writes %MW1; allow it with --allow-write M1");
+  EXPECT_THAT(endpoint.sent, IsEmpty());
+}
+
+TEST_F(BenchTest, GivenMemoryIsBehindTheFenceToo) {
+  on_real_device();
+  EXPECT_EQ(run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )")).verdict, Verdict::blocked);
+}
+
+TEST_F(BenchTest, InsideTheFenceItIsWrittenThroughTheProtocol) {
+  on_real_device();
+  ASSERT_TRUE(options.fence.allow("M"));
+  endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
+  EXPECT_EQ(run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )")).verdict, Verdict::pass);
+}
+
+TEST_F(BenchTest, AFreshStateNeedsAPowerCycle) {
+  on_real_device();
+  const std::string fresh = vector(ask(), R"("given": {"fresh": true}, )");
+  EXPECT_EQ(run(fresh).verdict, Verdict::blocked);
+}
+
+TEST_F(BenchTest, AnEndpointThatCanPowerCyclesForAFreshState) {
+  on_real_device();
+  endpoint.can.can_power_cycle = true;
+  EXPECT_EQ(run(vector(ask(), R"("given": {"fresh": true}, )")).verdict, Verdict::pass);
+  EXPECT_EQ(endpoint.power_cycles, 1);
+}
+
+TEST_F(BenchTest, BehindAPtyShortTimesAndFormatsAreInconclusive) {
+  endpoint.can = {.back_door = true};
+  EXPECT_EQ(run(vector(R"({"send": "'<a' ~50ms 'sk>'"}, {"silence": true})")).verdict, Verdict::inconclusive);
+  EXPECT_EQ(run(vector(R"({"send": "'<ask>'"}, {"wait": "9ms"}, {"expect": "'<answer>'"})")).verdict, Verdict::inconclusive);
+  EXPECT_EQ(run(vector(ask(), R"("given": {"config": {"line": "1200-7E1"}}, )")).verdict, Verdict::inconclusive);
+  EXPECT_EQ(run(vector(ask())).verdict, Verdict::pass);
+}
+
+TEST_F(BenchTest, AfterANegativeCaseSomethingMustStillAnswer) {
+  endpoint.answers.clear();
+  const CaseResult result = run(vector(R"({"send": "'<bad>'"}, {"silence": true})"));
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_THAT(result.message, HasSubstr("link dead after this frame"));
+}
+
+TEST_F(BenchTest, OnARealDeviceADeadLinkBlocksTheRest) {
+  on_real_device();
+  endpoint.answers.erase("<probe>");
+  EXPECT_EQ(run(vector(ask())).verdict, Verdict::fail);
+  const CaseResult next = run(vector(ask()));
+  EXPECT_EQ(next.verdict, Verdict::blocked);
+  EXPECT_THAT(next.message, HasSubstr("the link is dead since xgt_cnet/a/b"));
+}
+
+TEST_F(BenchTest, AFailedPortIsAnErrorAndStopsTheBench) {
+  endpoint.fails_after = 0;
+  EXPECT_EQ(run(vector(ask())).verdict, Verdict::error);
+  EXPECT_TRUE(bench().port_failed());
+  EXPECT_EQ(run(vector(ask())).verdict, Verdict::blocked);
+}
+
+TEST_F(BenchTest, MixedReadingsAreNonStrict) {
+  const std::string steps = R"({"send": "'<ask>'"}, {"expect": {"reading": "echo", "lower": "'<ss>'", "upper": "'<SS>'"}})";
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<SS>"}};
+  EXPECT_EQ(run(vector(steps)).verdict, Verdict::non_strict);
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<ss>"}};
+  const CaseResult second = run(vector(steps));
+  EXPECT_EQ(second.verdict, Verdict::non_strict);
+  EXPECT_THAT(second.message, HasSubstr("mixes readings: echo = lower here, upper in xgt_cnet/a/b"));
+}
+
+TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
+  options.replay = "fieldproof run --filter ";
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<no>"}};
+  const CaseResult result = run(vector(ask()));
+  EXPECT_EQ(result.replay, "fieldproof run --filter 'xgt_cnet/a/b'");
+  EXPECT_EQ(result.expected, "'<answer>'");
+  EXPECT_EQ(result.received, "'<no>'");
+  EXPECT_EQ(result.quote, "q");
+  EXPECT_FALSE(result.differences.empty());
+  ASSERT_GE(result.exchange.size(), 2u);
+  EXPECT_EQ(result.exchange[0].text, "'<ask>'");
+}
+
+// ---- fence, waivers, profile ---------------------------------------------------------------------------------------
+
+std::string objection(const std::string& allowed, const Protocol::Written& written) {
+  WriteFence fence;
+  EXPECT_TRUE(fence.allow(allowed)) << allowed;
+  return fence.objection({written}, "PQU");
+}
+
+TEST(WriteFence, RangesAreaAndAll) {
+  const Protocol::Written m100{"M", 100, 101, "%MD50"};
+  EXPECT_EQ(objection("M100-M101", m100), "");
+  EXPECT_EQ(objection("%MW0-%MW101", m100), "");
+  EXPECT_EQ(objection("D,M", m100), "");
+  EXPECT_EQ(objection("all", m100), "");
+  EXPECT_EQ(objection("M100", m100), "writes %MD50; allow it with --allow-write M100-M101");
+  EXPECT_NE(objection("D", m100), "");
+}
+
+TEST(WriteFence, OutputsOnlyWhenNamed) {
+  EXPECT_NE(objection("all", {"P", 0, 0, "%PW0"}), "");
+  EXPECT_EQ(objection("all,P", {"P", 0, 0, "%PW0"}), "");
+}
+
+TEST(WriteFence, ADamagedRequestNeedsAll) {
+  EXPECT_THAT(objection("M,D,K,L,R", {"?", 0, ~0u, ""}), HasSubstr("--allow-write all"));
+  EXPECT_EQ(objection("all", {"?", 0, ~0u, ""}), "");
+}
+
+TEST(WriteFence, NonsenseIsRefusedByItsName) {
+  for (const char* text : {"M-", "M5-M1", "M1-D2", "%MX1", "5", "M1x", "-"}) {
+    WriteFence fence;
+    const Status allowed = fence.allow(text);
+    ASSERT_FALSE(allowed) << text;
+    EXPECT_THAT(allowed.error().message, HasSubstr("cannot read --allow-write '"));
+  }
+}
+
+CaseResult failed(const std::string& message) {
+  CaseResult result;
+  result.id = "xgt_cnet/a/b";
+  result.verdict = Verdict::fail;
+  result.message = message;
+  return result;
+}
+
+std::vector<Waiver> waivers(const std::string& more) {
+  const Result<std::vector<Waiver>> parsed = parse_waivers(R"([{"id": "xgt_cnet/a/b", "reason": "firmware 1.2", "expires": "2026-12-31")" + more + "}]", "w.json");
+  EXPECT_TRUE(parsed) << parsed.error().message;
+  return *parsed;
+}
+
+TEST(Waivers, HoldUntilTheirLastDay) {
+  CaseResult result = failed("BCC: expected D6, got D7");
+  apply_waivers(waivers(""), "2026-12-31", result);
+  EXPECT_EQ(result.verdict, Verdict::xfail);
+  result = failed("BCC: expected D6, got D7");
+  apply_waivers(waivers(""), "2027-01-01", result);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_THAT(result.notes, Contains(HasSubstr("expired")));
+}
+
+TEST(Waivers, HoldForTheirFailureAlone) {
+  CaseResult result = failed("no answer");
+  apply_waivers(waivers(R"(, "text": "BCC:")"), "2026-11-21", result);
+  EXPECT_EQ(result.verdict, Verdict::fail);
+}
+
+TEST(Waivers, APassIsXpass) {
+  CaseResult result = failed("");
+  result.verdict = Verdict::pass;
+  apply_waivers(waivers(""), "2026-11-21", result);
+  EXPECT_EQ(result.verdict, Verdict::xpass);
+}
+
+TEST(Waivers, BadEntriesAndUnknownTargetsAreNamed) {
+  EXPECT_THAT(parse_waivers(R"([{"id": "a", "reason": "r", "expires": "soon"}])", "w.json").error().message, HasSubstr("w.json: entry 0: expires 'soon'"));
+  EXPECT_THAT(parse_waivers(R"([{"id": "a", "reason": "r", "expires": "2026-01-01", "ownr": "x"}])", "w.json").error().message, HasSubstr("unknown key 'ownr'"));
+  EXPECT_THAT(unmatched(waivers(""), {"xgt_cnet/a/c"}), testing::ElementsAre("xgt_cnet/a/b"));
+}
+
+TEST(Profile, ExtendsAndOverrides) {
+  const std::filesystem::path folder = std::string(FIELDPROOF_SOURCE_DIR) + "/suites/profiles";
+  const Result<Profile> profile = load_profile("xbc-dxxxh", folder);
+  ASSERT_TRUE(profile) << profile.error().message;
+  EXPECT_EQ(profile->model, "xbc-h");
+  EXPECT_FALSE(profile->binding_decisions);
+  EXPECT_EQ(profile->response_max, 500ms);
+}
+
+TEST(Profile, MistakesAreNamed) {
+  const auto message = [](const std::string& text) { return parse_profile(text, "p.json", {}).error().message; };
+  EXPECT_THAT(message(R"({"name": "x", "protocols": ["xgt-cnet"], "modle": "xbc-h"})"), HasSubstr("unknown key 'modle'; did you mean 'model'?"));
+  EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response_max": 1}})"), HasSubstr("unknown key timing.response_max"));
+  EXPECT_THAT(message(R"({"name": "x"})"), HasSubstr("no \"protocols\""));
+  EXPECT_THAT(message("{"), HasSubstr("p.json"));
+  EXPECT_THAT(load_profile("xbc-j", std::string(FIELDPROOF_SOURCE_DIR) + "/suites/profiles").error().message, HasSubstr("did you mean 'xbc-h'?"));
+}
+
+}  // namespace
+}  // namespace fieldproof

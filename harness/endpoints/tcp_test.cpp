@@ -1,0 +1,102 @@
+#include "harness/endpoints/tcp.hpp"
+
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/endpoints/fd_link.hpp"
+#include "harness/endpoints/interrupt.hpp"
+#include "harness/endpoints/socket_address.hpp"
+#include "harness/endpoints/test_link.hpp"
+
+namespace fieldproof {
+namespace {
+
+using endpoint_tests::endpoint_name;
+using endpoint_tests::receive_text;
+using testing::HasSubstr;
+
+class Tcp : public testing::Test {
+ protected:
+  void SetUp() override {
+    listener.reset(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ASSERT_EQ(::bind(listener.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
+    ASSERT_EQ(::listen(listener.get(), 4), 0);
+    ASSERT_EQ(::getsockname(listener.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
+    where = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  }
+  FdLink accept() { return FdLink(UniqueFd(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC)), "device"); }
+  UniqueFd listener;
+  std::string where;
+};
+
+TEST_F(Tcp, CarriesBytesBothWays) {
+  auto endpoint = open_tcp(endpoint_name("tcp", where, {{"station", "1"}, {"floor_ms", "5"}}));
+  ASSERT_TRUE(endpoint) << endpoint.error().message;
+  EXPECT_EQ((*endpoint)->describe(), "tcp:" + where);
+  EXPECT_TRUE((*endpoint)->capabilities().real_device);
+  EXPECT_EQ((*endpoint)->capabilities().timing_floor, 5ms);
+  FdLink device = accept();
+  ASSERT_TRUE((*endpoint)->send(to_bytes("question")));
+  EXPECT_EQ(receive_text(device, "question"), "question");
+  ASSERT_TRUE(device.send(to_bytes("answer")));
+  EXPECT_EQ(receive_text(**endpoint, "answer"), "answer");
+}
+
+TEST_F(Tcp, AClosedConnectionIsAnErrorUntilTheNextCase) {
+  auto endpoint = open_tcp(endpoint_name("tcp", where));
+  ASSERT_TRUE(endpoint);
+  { FdLink device = accept(); }
+  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message, HasSubstr("the far end closed the connection"));
+  ASSERT_TRUE((*endpoint)->begin(nlohmann::json::object()));
+  FdLink device = accept();
+  ASSERT_TRUE((*endpoint)->send(to_bytes("again")));
+  EXPECT_EQ(receive_text(device, "again"), "again");
+  device = FdLink(UniqueFd(), "none");
+  listener.reset();
+  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message, HasSubstr("the far end closed"));
+  const Status begun = (*endpoint)->begin(nlohmann::json::object());
+  ASSERT_FALSE(begun);
+  EXPECT_THAT(begun.error().message, HasSubstr("nothing listens there"));
+}
+
+TEST_F(Tcp, SaysThatNothingListens) {
+  listener.reset();
+  const auto endpoint = open_tcp(endpoint_name("tcp", where));
+  ASSERT_FALSE(endpoint);
+  EXPECT_EQ(endpoint.error().message,
+            "cannot connect to " + where + ": nothing listens there; start the device or serial server, or correct the port");
+}
+
+TEST_F(Tcp, RefusesWhatIsNoAddress) {
+  const auto message = [](const std::string& target) { return open_tcp(endpoint_name("tcp", target)).error().message; };
+  EXPECT_EQ(message("plc"), "cannot connect to plc: there is no port; write HOST:PORT");
+  EXPECT_EQ(message("plc:"), "cannot connect to plc:: there is no port; write HOST:PORT");
+  EXPECT_EQ(message(":2004"), "cannot connect to :2004: there is no host; write HOST:PORT");
+  EXPECT_THAT(message("127.0.0.1:http"), HasSubstr("'http' is no port"));
+  EXPECT_THAT(message("127.0.0.1:65536"), HasSubstr("'65536' is no port"));
+  EXPECT_THAT(open_tcp(endpoint_name("tcp", where, {{"baud", "9600"}})).error().message, HasSubstr("unknown option 'baud'"));
+}
+
+TEST_F(Tcp, AnInterruptEndsConnecting) {
+  interrupt();
+  const auto endpoint = open_tcp(endpoint_name("tcp", where));
+  clear_interrupt();
+  ASSERT_FALSE(endpoint);
+  EXPECT_TRUE(endpoint.error().interrupted);
+}
+
+TEST_F(Tcp, BracketsHoldAnAddressOfIpv6) {
+  const Result<AddressInfo> list = resolve("[::1]:502", false);
+  ASSERT_TRUE(list) << list.error().message;
+  EXPECT_EQ((*list)->ai_family, AF_INET6);
+}
+
+}  // namespace
+}  // namespace fieldproof

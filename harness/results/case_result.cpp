@@ -1,0 +1,176 @@
+#include "harness/results/case_result.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fieldproof {
+namespace {
+
+using nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& message, const json& context) {
+  throw json::other_error::create(501, message, &context);
+}
+
+/// Empty fields are left out: most cases pass, and a long run stays readable.
+template <typename T>
+void put(json& object, const char* key, const T& value) {
+  if (!value.empty()) object[key] = value;
+}
+
+template <typename T>
+void get(const json& object, const char* key, T& value) {
+  if (auto found = object.find(key); found != object.end()) found->get_to(value);
+}
+
+void put_bytes(json& object, const char* key, const Bytes& bytes) {
+  if (!bytes.empty()) object[key] = to_hex(bytes);
+}
+
+void get_bytes(const json& object, const char* key, Bytes& bytes) {
+  std::string text;
+  get(object, key, text);
+  auto parsed = from_hex(text);
+  if (!parsed) refuse("'" + std::string(key) + "' is not hex", object);
+  bytes = std::move(*parsed);
+}
+
+void get_time(const json& object, const char* key, Time& time) {
+  double ms = to_ms(time);
+  get(object, key, ms);
+  if (!(std::abs(ms) < 9e12)) refuse("'" + std::string(key) + "' is not a time of a run", object);
+  time = Time(std::llround(ms * 1e6));
+}
+
+const char* kind_word(Event::Kind kind) {
+  switch (kind) {
+    case Event::Kind::sent: return "sent";
+    case Event::Kind::received: return "received";
+    case Event::Kind::note: break;
+  }
+  return "note";
+}
+
+Event::Kind parse_kind(const json& object) {
+  const auto word = object.at("kind").get<std::string>();
+  for (Event::Kind kind : {Event::Kind::sent, Event::Kind::received, Event::Kind::note}) {
+    if (word == kind_word(kind)) return kind;
+  }
+  refuse("unknown kind of event '" + word + "'", object);
+}
+
+}  // namespace
+
+void to_json(json& object, const Event& event) {
+  object = {{"kind", kind_word(event.kind)}, {"start_ms", to_ms(event.start)}, {"end_ms", to_ms(event.end)}};
+  put_bytes(object, "hex", event.bytes);
+  put(object, "text", event.text);
+}
+
+void from_json(const json& object, Event& event) {
+  event = {};
+  event.kind = parse_kind(object);
+  get_time(object, "start_ms", event.start);
+  get_time(object, "end_ms", event.end);
+  get_bytes(object, "hex", event.bytes);
+  get(object, "text", event.text);
+}
+
+void to_json(json& object, const Difference& difference) {
+  object = {{"field", difference.field}, {"expected", difference.expected}, {"received", difference.received}};
+  put(object, "hint", difference.hint);
+}
+
+void from_json(const json& object, Difference& difference) {
+  difference = {};
+  object.at("field").get_to(difference.field);
+  get(object, "expected", difference.expected);
+  get(object, "received", difference.received);
+  get(object, "hint", difference.hint);
+}
+
+void to_json(json& object, const CaseResult& result) {
+  object = {{"id", result.id},       {"rev", result.rev},     {"protocol", result.protocol},
+            {"title", result.title}, {"level", result.level}, {"basis", result.basis},
+            {"verdict", to_string(result.verdict)},           {"seconds", result.seconds}};
+  if (result.repeat != 0) object["repeat"] = result.repeat;
+  put(object, "manual", result.manual);
+  put(object, "section", result.section);
+  put(object, "quote", result.quote);
+  put(object, "message", result.message);
+  put(object, "notes", result.notes);
+  put(object, "expected", result.expected);
+  put_bytes(object, "expected_bytes", result.expected_bytes);
+  put(object, "expected_hex", result.expected_hex);
+  put(object, "received", result.received);
+  put_bytes(object, "received_bytes", result.received_bytes);
+  put(object, "differences", result.differences);
+  put(object, "exchange", result.exchange);
+  put(object, "readings", result.readings);
+  put(object, "response_ms", result.response_ms);
+  put(object, "replay", result.replay);
+}
+
+void from_json(const json& object, CaseResult& result) {
+  result = {};
+  object.at("id").get_to(result.id);
+  const auto word = object.at("verdict").get<std::string>();
+  const auto verdict = parse_verdict(word);
+  if (!verdict) refuse("unknown verdict '" + word + "'", object);
+  result.verdict = *verdict;
+  get(object, "repeat", result.repeat);
+  get(object, "rev", result.rev);
+  get(object, "protocol", result.protocol);
+  get(object, "title", result.title);
+  get(object, "level", result.level);
+  get(object, "basis", result.basis);
+  get(object, "manual", result.manual);
+  get(object, "section", result.section);
+  get(object, "quote", result.quote);
+  get(object, "message", result.message);
+  get(object, "notes", result.notes);
+  get(object, "expected", result.expected);
+  get_bytes(object, "expected_bytes", result.expected_bytes);
+  get(object, "expected_hex", result.expected_hex);
+  get(object, "received", result.received);
+  get_bytes(object, "received_bytes", result.received_bytes);
+  get(object, "differences", result.differences);
+  get(object, "exchange", result.exchange);
+  get(object, "readings", result.readings);
+  get(object, "response_ms", result.response_ms);
+  get(object, "seconds", result.seconds);
+  get(object, "replay", result.replay);
+}
+
+void to_json(json& object, const RunInfo& info) {
+  object = {{"tool_version", info.tool_version}, {"started", info.started}, {"endpoint", info.endpoint},
+            {"profile", info.profile},           {"command", info.command}, {"vectors_hash", info.vectors_hash},
+            {"properties", info.properties}};
+}
+
+void from_json(const json& object, RunInfo& info) {
+  info = {};
+  object.at("tool_version").get_to(info.tool_version);
+  object.at("started").get_to(info.started);
+  get(object, "endpoint", info.endpoint);
+  get(object, "profile", info.profile);
+  get(object, "command", info.command);
+  get(object, "vectors_hash", info.vectors_hash);
+  get(object, "properties", info.properties);
+}
+
+void to_json(json& object, const RunEnd& end) {
+  object = {{"finished", end.finished}, {"seconds", end.seconds}, {"exit_code", end.exit_code}, {"interrupted", end.interrupted}};
+  put(object, "trouble", end.trouble);
+}
+
+void from_json(const json& object, RunEnd& end) {
+  end = {};
+  object.at("exit_code").get_to(end.exit_code);
+  get(object, "finished", end.finished);
+  get(object, "seconds", end.seconds);
+  get(object, "interrupted", end.interrupted);
+  get(object, "trouble", end.trouble);
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,151 @@
+#include "reports/console.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/case_text.hpp"
+#include "reports/xml_text.hpp"
+
+namespace fieldproof {
+namespace {
+
+constexpr std::size_t verdict_width = 14;   // INCONCLUSIVE and two spaces
+constexpr std::size_t console_limit = 256;  // bytes of a frame; the reports have them all
+constexpr std::size_t red_limit = 20;       // red cases named again in the summary
+
+const char* colour_code(Verdict verdict, const Gate& gate) {
+  if (gates(verdict, gate)) return "1;31";  // bold red
+  switch (verdict) {
+    case Verdict::pass:
+    case Verdict::info: return "32";  // green
+    case Verdict::skip: return "2";   // faint
+    default: return "33";             // yellow: not as it should be, though the gate lets it pass
+  }
+}
+
+std::string coloured(const std::string& text, const char* code, const ConsoleOptions& options) {
+  return options.terminal && options.colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
+}
+
+/// The word of a verdict in its colour, then blanks up to `width`.
+std::string verdict_word(Verdict verdict, std::size_t width, const ConsoleOptions& options) {
+  const std::string word(to_string(verdict));
+  return coloured(word, colour_code(verdict, options.gate), options) + std::string(width - word.size(), ' ');
+}
+
+std::string meaning(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass: return "as the manual says";
+    case Verdict::marginal: return "within limits, inside the guard band";
+    case Verdict::non_strict: return "an allowed alternative, or a SHOULD missed";
+    case Verdict::info: return "measured, the manual gives no limit";
+    case Verdict::fail: return "violates a MUST";
+    case Verdict::xfail: return "waived failure";
+    case Verdict::xpass: return "a waiver that no longer holds";
+    case Verdict::skip: return "outside the profile of the device";
+    case Verdict::blocked: return "needs a permission, fixture or mode not given";
+    case Verdict::inconclusive: return "the bench cannot judge (noise, timing floor)";
+    case Verdict::error: return "port, emulator, vector or harness trouble";
+  }
+  return "";
+}
+
+/// Which option turns a verdict red that this gate lets pass.
+std::string gate_hint(Verdict verdict, const Gate& gate) {
+  if (gates(verdict, gate)) return "";
+  switch (verdict) {
+    case Verdict::marginal: return "; red with --fail-on marginal";
+    case Verdict::non_strict: return "; red with --strict";
+    case Verdict::blocked:
+    case Verdict::inconclusive: return "; red with --qualify";
+    default: return "";
+  }
+}
+
+std::string counts(const Tally& tally, const ConsoleOptions& options) {
+  std::size_t digits = std::to_string(tally.total()).size();
+  std::string text;
+  for (Verdict verdict : Tally::verdicts) {
+    if (tally.of(verdict) == 0) continue;
+    text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, verdict_word(verdict, verdict_width, options), meaning(verdict),
+                        gate_hint(verdict, options.gate));
+  }
+  return text;
+}
+
+std::string red_cases(const std::vector<std::string>& red) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(red.size(), red_limit); ++i) text += fmt::format("  {}\n", red[i]);
+  if (red.size() > red_limit) text += fmt::format("  ... and {} more\n", red.size() - red_limit);
+  return text.empty() ? "" : "\nred:\n" + text;
+}
+
+/// "1 FAIL, 1 ERROR": what turned the gate red.
+std::string red_counts(const Tally& tally, const Gate& gate) {
+  std::string text;
+  for (Verdict verdict : Tally::verdicts) {
+    if (tally.of(verdict) == 0 || !gates(verdict, gate)) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tally.of(verdict), to_string(verdict));
+  }
+  return text;
+}
+
+std::string outcome(const Summary& summary, const ConsoleOptions& options) {
+  const int code = summary.end.exit_code;
+  std::string text = coloured(exit_meaning(code), code == 0 ? "32" : "1;31", options);
+  if (const std::string red = red_counts(summary.tally, options.gate); !red.empty()) text += ": " + red;
+  if (!summary.end.trouble.empty()) text += fmt::format("; {}", xml_line(summary.end.trouble));
+  return fmt::format("exit {}: {}\n", code, text);
+}
+
+}  // namespace
+
+std::string run_head(const RunInfo& run) {
+  std::string text = fmt::format("fieldproof {}  {}", xml_line(run.tool_version), xml_line(run.endpoint));
+  if (!run.profile.empty()) text += fmt::format("  profile {}", xml_line(run.profile));
+  for (const auto& [name, value] : run.properties) text += fmt::format("  {}={}", xml_line(name), xml_line(value));
+  return text + '\n';
+}
+
+std::string case_report(const CaseResult& result, const ConsoleOptions& options) {
+  const bool red = gates(result.verdict, options.gate);
+  if (!red && !options.verbose) return "";
+  std::string text = verdict_word(result.verdict, verdict_width, options) + case_label(result);
+  if (!result.message.empty()) text += "  " + xml_line(result.message);
+  text += '\n';
+  // A case that never started has nothing but its message.
+  const bool executed = red || !result.exchange.empty();
+  if (executed) text += indent(case_block(result, {.limit = console_limit, .exchange = options.verbose}), 2) + '\n';
+  return text;
+}
+
+std::string progress_line(std::size_t done, std::size_t total, const Tally& tally, const std::string& next_id,
+                          const ConsoleOptions& options) {
+  if (!options.terminal) return "";
+  const std::string of = std::to_string(total);
+  const std::size_t red = tally.gating(options.gate);
+  std::string text = fmt::format("[{:>{}}/{}]", done, of.size(), of);
+  if (red > 0) text += fmt::format(" {} red", red);
+  text += "  " + xml_line(next_id);
+  // A line that wraps cannot be erased.
+  const auto room = static_cast<std::size_t>(std::max(options.width - 1, 0));
+  if (text.size() > room) text.resize(room);
+  return erase_progress(options) + text;
+}
+
+std::string erase_progress(const ConsoleOptions& options) { return options.terminal ? "\r\x1b[K" : ""; }
+
+std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
+  const std::size_t total = summary.tally.total();
+  std::string text = fmt::format("\n{} case{} in {:.1f} s\n", total, total == 1 ? "" : "s", summary.end.seconds);
+  text += counts(summary.tally, options);
+  text += red_cases(summary.red);
+  std::size_t width = 0;
+  for (const auto& [kind, path] : summary.reports) width = std::max(width, kind.size());
+  if (!summary.reports.empty()) text += '\n';
+  for (const auto& [kind, path] : summary.reports) text += fmt::format("{:<{}}  {}\n", kind, width, path);
+  return text + '\n' + outcome(summary, options);
+}
+
+}  // namespace fieldproof

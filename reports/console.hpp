@@ -1,0 +1,43 @@
+// What a person at the bench reads. Pure functions from results to text: the caller prints.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/results/case_result.hpp"
+#include "reports/tally.hpp"
+
+namespace fieldproof {
+
+struct ConsoleOptions {
+  Gate gate;
+  bool verbose = false;   // -v: every case, with its exchange
+  bool terminal = false;  // a moving progress line, and colour
+  bool colour = true;     // on a terminal; false where NO_COLOR is set
+  int width = 80;         // of the terminal
+};
+
+/// What a run is about, before its first case.
+std::string run_head(const RunInfo& run);
+
+/// A case as it happens: one line, and the block of case_text.hpp, when it turns the gate red or with -v; else nothing.
+std::string case_report(const CaseResult& result, const ConsoleOptions& options);
+
+/// "[ 12/1480] 1 red  xgt_cnet/rss/two_words" over the line before it; nothing unless on a terminal.
+std::string progress_line(std::size_t done, std::size_t total, const Tally& tally, const std::string& next_id,
+                          const ConsoleOptions& options);
+/// Removes the progress line before anything else is printed; nothing unless on a terminal.
+std::string erase_progress(const ConsoleOptions& options);
+
+struct Summary {
+  Tally tally;
+  RunEnd end;
+  std::vector<std::string> red;  // labels of the cases that turned the gate red, in order
+  std::vector<std::pair<std::string, std::string>> reports;  // kind and path: {"junit", "fieldproof-out/junit.xml"}
+};
+
+/// Counts of the verdicts that occur with their meaning, the red cases, exit code and its meaning, paths of the reports.
+std::string run_summary(const Summary& summary, const ConsoleOptions& options);
+
+}  // namespace fieldproof

@@ -1,0 +1,47 @@
+// The device areas of the emulated PLCs, once, as data (000 and 003 chapter 7 'Available types of device').
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace fieldproof {
+
+/// Base, slot and element of dotted names: XEC I, Q and U ("%IW0.0.0"). All zero: the area has no dotted names.
+struct DottedForm {
+  std::uint32_t bases = 0;
+  std::uint32_t slots = 0;       // a base
+  std::uint32_t slot_words = 0;  // words a slot
+
+  explicit operator bool() const { return bases != 0; }
+};
+
+/// One area of words 0 to `last_word()`. Every area can be read and monitored.
+struct DeviceArea {
+  char letter = 0;
+  std::uint32_t words = 0;
+  bool write = true;
+  std::uint32_t contacts = 0;  // T and C: bit names are contacts, apart from the current values
+  DottedForm dotted{};
+
+  std::uint32_t last_word() const { return words - 1; }
+};
+
+struct PlcModel {
+  std::string_view name;  // "xbc-h"
+  bool iec = false;       // bit names are flat bit indexes, not a word and a hex digit
+  std::span<const DeviceArea> areas;
+
+  /// The area of an upper-case letter, or nullptr.
+  const DeviceArea* area(char letter) const;
+};
+
+/// xbm-s (XBM-DxxxS), xbc-h (XBC-DxxxH), xec-h (XEC-DxxxH).
+std::span<const PlcModel> plc_models();
+/// nullptr when unknown.
+const PlcModel* find_plc_model(std::string_view name);
+/// "xbm-s, xbc-h, xec-h", for messages.
+std::string plc_model_names();
+
+}  // namespace fieldproof

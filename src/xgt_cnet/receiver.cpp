@@ -1,0 +1,92 @@
+#include "src/xgt_cnet/receiver.hpp"
+
+#include <algorithm>
+
+#include "src/xgt_cnet/codec.hpp"
+#include "src/xgt_cnet/counters.hpp"
+
+namespace fieldproof {
+
+namespace {
+constexpr std::size_t command_at = 3;
+constexpr int bcc_size = 2;
+}  // namespace
+
+FrameReceiver::FrameReceiver(Side side, Duration gap) : side_(side), tail_(side == Side::server ? xgt_eot : xgt_etx), gap_(gap) {
+  frame_.reserve(64);
+}
+
+bool FrameReceiver::is_head(Byte b) const { return side_ == Side::server ? b == xgt_enq : b == xgt_ack || b == xgt_nak; }
+
+void FrameReceiver::receive(const Burst& burst, FrameSink& sink) {
+  if (burst.bytes.empty()) return;
+  if (burst.start - last_end_ > gap_) give_up(sink);
+  Time end = burst.start;
+  for (const Byte b : burst.bytes) {
+    end += burst.character_time;
+    take(b, end, sink);
+  }
+  last_end_ = end;
+  character_time_ = burst.character_time;
+}
+
+void FrameReceiver::take(Byte b, Time end, FrameSink& sink) {
+  if (is_head(b)) {
+    if (state_ == State::frame || state_ == State::bcc) give_up(sink);
+    frame_.assign(1, b);
+    state_ = State::frame;
+    return;
+  }
+  switch (state_) {
+    case State::idle:
+      state_ = State::garbage;
+      sink.on_broken_frame(service_status::head);
+      return;
+    case State::garbage: return;
+    case State::frame:
+      if (frame_.size() == max_frame) {
+        state_ = State::garbage;  // already counted
+        sink.on_broken_frame(service_status::tail);
+        return;
+      }
+      frame_.push_back(b);
+      if (b != tail_) return;
+      if (frame_.size() > command_at + 1 && frame_[command_at] >= 'a' && frame_[command_at] <= 'z') {
+        state_ = State::bcc;
+        bcc_missing_ = bcc_size;
+        return;
+      }
+      break;
+    case State::bcc:
+      frame_.push_back(b);
+      if (--bcc_missing_ > 0) return;
+      break;
+  }
+  state_ = State::idle;
+  sink.on_frame(frame_, end);
+}
+
+void FrameReceiver::give_up(FrameSink& sink) {
+  if (state_ == State::frame) sink.on_broken_frame(service_status::tail);
+  if (state_ == State::bcc) sink.on_broken_frame(service_status::bcc);
+  state_ = State::idle;
+}
+
+std::optional<Time> FrameReceiver::wake_at() const {
+  if (state_ == State::idle || state_ == State::garbage) return std::nullopt;
+  // A character that begins at the last moment is complete, and heard, one character time later.
+  return last_end_ + gap_ + character_time_ + Duration(1);
+}
+
+void FrameReceiver::advance(Time now, FrameSink& sink) {
+  if (const auto wake = wake_at(); wake && now >= *wake) give_up(sink);
+}
+
+void FrameReceiver::reset() { state_ = State::idle; }
+
+Duration effective_gap(Duration parameter, Duration floor, const LineSettings& line) {
+  const Duration default_gap(Duration::rep{77} * 1'000'000'000 / 2 / line.baud);  // 3.5 * 11 = 38.5 bits
+  return std::max(parameter > Duration::zero() ? parameter : default_gap, floor);
+}
+
+}  // namespace fieldproof

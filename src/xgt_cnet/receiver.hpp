@@ -1,0 +1,64 @@
+// Finds frames in what arrives: header, tail, BCC, and the inter-character time (003 4.3.1).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "src/base/bytes.hpp"
+#include "src/line/device.hpp"
+#include "src/line/settings.hpp"
+
+namespace fieldproof {
+
+/// Who takes what a receiver finds.
+class FrameSink {
+ public:
+  /// Header to tail, and BCC after a lower-case command. `end` is the end of its last stop bit.
+  virtual void on_frame(ByteView frame, Time end) = 0;
+  /// No frame: service_status::head (bytes outside a frame, once a run of them), tail, or bcc (the BCC never came).
+  virtual void on_broken_frame(std::uint16_t why) = 0;
+
+ protected:
+  ~FrameSink() = default;
+};
+
+class FrameReceiver {
+ public:
+  /// From the header on; more without a tail is dropped (PROTOCOLS.md).
+  static constexpr std::size_t max_frame = 1024;
+
+  /// A server receives ENQ ... EOT, a client ACK or NAK ... ETX.
+  enum class Side { server, client };
+
+  /// A silence longer than `gap` between two characters ends a frame.
+  FrameReceiver(Side side, Duration gap);
+
+  void receive(const Burst& burst, FrameSink& sink);
+  /// When the silence has become too long even for a character that is arriving at that moment.
+  std::optional<Time> wake_at() const;
+  void advance(Time now, FrameSink& sink);
+  /// As after power on.
+  void reset();
+
+ private:
+  enum class State { idle, garbage, frame, bcc };
+
+  bool is_head(Byte b) const;
+  void take(Byte b, Time end, FrameSink& sink);
+  void give_up(FrameSink& sink);
+
+  Side side_;
+  Byte tail_;
+  Duration gap_;
+  State state_ = State::idle;
+  int bcc_missing_ = 0;
+  Bytes frame_;
+  Time last_end_{};
+  Duration character_time_{};
+};
+
+/// The inter-character time: `parameter`, or 3.5 characters of 11 bits where it is zero, but at least `floor` (a pty or
+/// socket has no wire time).
+Duration effective_gap(Duration parameter, Duration floor, const LineSettings& line);
+
+}  // namespace fieldproof

@@ -1,0 +1,161 @@
+#include "src/xgt_cnet/server.hpp"
+
+#include <algorithm>
+
+#include "src/plc/address.hpp"
+
+namespace fieldproof {
+
+namespace {
+std::uint64_t value_of(std::string_view hex) {
+  std::uint64_t value = 0;
+  for (const char c : hex) value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
+  return value;
+}
+
+bool writes(XgtService content) { return content == XgtService::write_blocks || content == XgtService::write_run; }
+bool is_run(XgtService content) { return content == XgtService::read_run || content == XgtService::write_run; }
+
+XgtFault name_fault(AddressFault fault) {
+  switch (fault) {
+    case AddressFault::percent: return {XgtCheck::percent, xgt_error::data, "name", "does not begin with %", 0, 0};
+    case AddressFault::area: return {XgtCheck::area, xgt_error::area, "name", "is of an area that the model does not have", 0, 0};
+    case AddressFault::type: return {XgtCheck::type, xgt_error::type, "name", "is of a type that the area does not have", 0, 0};
+    case AddressFault::form: return {XgtCheck::number_form, xgt_error::data, "name", "has no number", 0, 0};
+    case AddressFault::range: return {XgtCheck::range, xgt_error::range, "name", "is beyond the area", 0, 0};
+    case AddressFault::none: break;
+  }
+  return {};
+}
+}  // namespace
+
+XgtServer::XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay)
+    : memory_(memory), station_(station), delay_(delay), receiver_(FrameReceiver::Side::server, gap) {}
+
+std::optional<Time> XgtServer::wake_at() const {
+  const auto gap = receiver_.wake_at();
+  if (replies_.empty()) return gap;
+  return gap ? std::min(*gap, replies_.front().due) : replies_.front().due;
+}
+
+Bytes XgtServer::advance(Time now) {
+  receiver_.advance(now, *this);
+  if (replies_.empty() || replies_.front().due > now) return {};
+  Bytes bytes = std::move(replies_.front().bytes);
+  replies_.pop_front();
+  return bytes;
+}
+
+void XgtServer::power_cycle() {
+  registrations_ = {};
+  counters_ = {};
+  replies_.clear();
+  receiver_.reset();
+}
+
+void XgtServer::on_frame(ByteView frame, Time end) {
+  XgtRequest request = parse_request(frame);
+  const XgtCheck check = request.fault.check;
+  if (check == XgtCheck::bcc) return counters_.count_error(service_status::bcc);
+  if (check == XgtCheck::station || request.station != station_) return counters_.count_error(service_status::station);
+  if (check == XgtCheck::command) return counters_.count_error(service_status::head);
+
+  Addresses addresses;
+  check_names(request, addresses);
+  XgtReply reply{.station = request.station, .command = request.command, .kind = request.kind};
+  std::array<char, 2> number{'0', '0'};
+  if (request.kind.size() < number.size()) {
+    std::ranges::copy(request.kind, number.begin());
+    reply.kind = {number.data(), number.size()};
+  }
+  if (request.fault) {
+    reply.ack = false;
+    reply.error = request.fault.code;
+  } else {
+    execute(request, addresses, reply);
+  }
+  Bytes bytes;
+  bytes.reserve(frame.size() + 2 * data_size_ + 16);
+  encode_reply(reply, bytes);
+  replies_.push_back({end + delay_, std::move(bytes)});
+  counters_.count_service();
+}
+
+/// What only the model can tell of the names, and for Y whether there is a registration.
+void XgtServer::check_names(XgtRequest& request, Addresses& addresses) const {
+  if (request.service == XgtService::run_monitor) {
+    if (registrations_[request.registration].content == XgtService::unknown) {
+      request.fault.note({XgtCheck::registered, xgt_error::not_registered, "registration number", "is not registered", 0, 4});
+    }
+    return;
+  }
+  const PlcModel& model = memory_.model();
+  for (unsigned i = 0; i < request.blocks; ++i) {
+    const ParsedAddress parsed = parse_address(model, request.block[i].name);
+    addresses[i] = parsed.address;
+    XgtFault fault = name_fault(parsed.fault);
+    const bool area_known = parsed.fault != AddressFault::percent && parsed.fault != AddressFault::area;
+    if (area_known && writes(request.content) && !model.areas[parsed.address.area].write) {
+      fault.note({XgtCheck::area, xgt_error::area, "name", "is of an area that is read only", 0, 0});
+    }
+    if (addresses[i].type != 0 && addresses[0].type != 0 && addresses[i].type != addresses[0].type) {
+      fault.note({XgtCheck::equal_types, xgt_error::mixed_types, "name", "is of another type than the first", 0, 0});
+    }
+    if (!fault && is_run(request.content) && !fits(model, parsed.address, request.count)) {
+      fault.note({XgtCheck::range, xgt_error::range, "number of data", "goes beyond the area", 0, 0});
+    }
+    fault.block = is_run(request.content) ? 0 : i + 1;
+    request.fault.note(fault);
+  }
+}
+
+void XgtServer::execute(const XgtRequest& request, const Addresses& addresses, XgtReply& reply) {
+  data_size_ = 0;
+  switch (request.service) {
+    case XgtService::read_blocks: return read_blocks(std::span(addresses).first(request.blocks), reply);
+    case XgtService::read_run:
+      reply.with_block_count = true;
+      return read_run(addresses[0], request.count, reply);
+    case XgtService::register_monitor: {
+      Registration& r = registrations_[request.registration];
+      r.content = request.content;
+      r.addresses.assign(addresses.begin(), addresses.begin() + request.blocks);
+      r.count = request.count;
+      return;
+    }
+    case XgtService::run_monitor: {
+      const Registration& r = registrations_[request.registration];
+      return r.content == XgtService::read_run ? read_run(r.addresses[0], r.count, reply) : read_blocks(r.addresses, reply);
+    }
+    default: return write(request, addresses);
+  }
+}
+
+void XgtServer::read_blocks(std::span<const DeviceAddress> addresses, XgtReply& reply) {
+  reply.with_block_count = true;
+  for (const DeviceAddress& address : addresses) add_data(address, 1, reply);
+}
+
+void XgtServer::read_run(const DeviceAddress& first, unsigned count, XgtReply& reply) { add_data(first, count, reply); }
+
+void XgtServer::add_data(const DeviceAddress& first, unsigned count, XgtReply& reply) {
+  char* const begin = data_.data() + data_size_;
+  const unsigned digits = 2 * type_bytes(first.type);
+  for (unsigned i = 0; i < count; ++i) {
+    const std::uint64_t value = memory_.read(first + i);
+    for (unsigned d = digits; d-- > 0;) data_[data_size_++] = hex_char(static_cast<unsigned>(value >> (4 * d)));
+  }
+  reply.data[reply.blocks++] = {begin, count * std::size_t{digits}};
+}
+
+/// Everything has been checked: a write is all or nothing.
+void XgtServer::write(const XgtRequest& request, const Addresses& addresses) {
+  if (request.content == XgtService::write_blocks) {
+    for (unsigned i = 0; i < request.blocks; ++i) memory_.write(addresses[i], value_of(request.block[i].data));
+    return;
+  }
+  const std::size_t digits = 2 * type_bytes(addresses[0].type);
+  for (unsigned i = 0; i < request.count; ++i) memory_.write(addresses[0] + i, value_of(request.block[0].data.substr(i * digits, digits)));
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,67 @@
+// The XGT dedicated server of one channel: RSS RSB WSS WSB X Y (000 and 003 chapter 7, Appendix 3.1; PROTOCOLS.md
+// 'XGT Cnet server'). It answers in RUN and STOP. Decisions beyond PROTOCOLS.md:
+// - a BCC is accepted in either case of its hex digits;
+// - an unknown command or type counts with status 1;
+// - a registration number that is cut short is filled up with 0 in the NAK, so that the reply keeps its form;
+// - name length or number of data that is not hex: 0011.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "src/plc/memory.hpp"
+#include "src/xgt_cnet/codec.hpp"
+#include "src/xgt_cnet/counters.hpp"
+#include "src/xgt_cnet/receiver.hpp"
+
+namespace fieldproof {
+
+class XgtServer : private FrameSink {
+ public:
+  /// `gap`: inter-character time. `delay`: from the end of a request to its reply. `memory` outlives the server.
+  XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay);
+
+  void receive(const Burst& burst) { receiver_.receive(burst, *this); }
+  std::optional<Time> wake_at() const;
+  Bytes advance(Time now);
+
+  const ServiceCounters& counters() const { return counters_; }
+  /// Registrations, counters and frames in progress are lost.
+  void power_cycle();
+
+ private:
+  using Addresses = std::array<DeviceAddress, xgt_max_blocks>;
+  struct Registration {
+    XgtService content = XgtService::unknown;  // read_blocks or read_run; unknown: free
+    std::vector<DeviceAddress> addresses;
+    unsigned count = 0;
+  };
+  struct Pending {
+    Time due{};
+    Bytes bytes;
+  };
+
+  void on_frame(ByteView frame, Time end) override;
+  void on_broken_frame(std::uint16_t why) override { counters_.count_error(why); }
+
+  void check_names(XgtRequest& request, Addresses& addresses) const;
+  void execute(const XgtRequest& request, const Addresses& addresses, XgtReply& reply);
+  void read_blocks(std::span<const DeviceAddress> addresses, XgtReply& reply);
+  void read_run(const DeviceAddress& first, unsigned count, XgtReply& reply);
+  void add_data(const DeviceAddress& first, unsigned count, XgtReply& reply);
+  void write(const XgtRequest& request, const Addresses& addresses);
+
+  PlcMemory& memory_;
+  unsigned station_;
+  Duration delay_;
+  FrameReceiver receiver_;
+  ServiceCounters counters_;
+  std::array<Registration, xgt_registrations> registrations_;
+  std::deque<Pending> replies_;                   // in the order of their requests
+  std::array<char, 2 * xgt_max_run + 16> data_;   // digits of the reply in progress; 16 LWords have 256
+  std::size_t data_size_ = 0;
+};
+
+}  // namespace fieldproof

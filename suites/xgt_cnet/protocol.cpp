@@ -1,0 +1,91 @@
+#include "suites/xgt_cnet/protocol.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "src/plc/model.hpp"
+#include "src/xgt_cnet/plc.hpp"
+#include "suites/xgt_cnet/frame_parts.hpp"
+#include "suites/xgt_cnet/memory_requests.hpp"
+
+namespace fieldproof::xgt_cnet {
+
+namespace {
+
+std::string station_text(int station) { return hex_number(static_cast<unsigned>(station), 2); }
+
+class XgtCnet : public Protocol {
+ public:
+  std::string_view name() const override { return "xgt-cnet"; }
+
+  std::vector<std::string> models() const override {
+    std::vector<std::string> names;
+    for (const PlcModel& model : plc_models()) names.emplace_back(model.name);
+    return names;
+  }
+
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
+    Result<PlcConfig> parsed = parse_plc_config(model, config);
+    if (!parsed) return parsed.error();
+    Result<std::unique_ptr<Plc>> plc = make_plc(*parsed);
+    if (!plc) return plc.error();
+    return std::unique_ptr<EmulatedDevice>(std::move(*plc));
+  }
+
+  Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
+  std::optional<std::size_t> frame_length(ByteView bytes) const override { return xgt_cnet::frame_length(bytes); }
+  std::vector<Field> explain(ByteView frame) const override { return xgt_cnet::explain(frame); }
+
+  /// The first word of M, which every model has, in the other case than the tested command: the reply repeats the
+  /// case of the request, so that no reply to the tested frame looks like the probe's.
+  Bytes probe(int station, ByteView tested) const override {
+    const bool tested_lower = tested.size() > 3 && tested[3] >= 'a' && tested[3] <= 'z';
+    const std::string body = fmt::format("\x05{}{}SS0104%MW0\x04", station_text(station), tested_lower ? 'R' : 'r');
+    Bytes frame = to_bytes(body);
+    if (tested_lower) return frame;
+    unsigned sum = 0;
+    for (Byte b : frame) sum += b;
+    for (char c : hex_number(sum & 0xFF, 2)) frame.push_back(static_cast<Byte>(c));
+    return frame;
+  }
+
+  bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
+    constexpr Byte ack = 0x06, nak = 0x15;
+    return reply.size() > 3 && (reply[0] == ack || reply[0] == nak) && reply[3] == probe[3];
+  }
+
+  Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
+    return xgt_cnet::write_requests(station_text(station), address, hex);
+  }
+  Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
+    return xgt_cnet::read_requests(station_text(station), address, digits);
+  }
+  Status write_reply(ByteView reply) const override { return xgt_cnet::write_reply(reply); }
+  Result<std::string> read_reply(ByteView reply) const override { return xgt_cnet::read_reply(reply); }
+  std::vector<Written> written_by(ByteView request) const override { return xgt_cnet::written_by(request); }
+  std::string_view output_areas() const override { return "PQU"; }
+
+  Status check_fact(const nlohmann::json& facts) const override {
+    const PlcModel* model = find_plc_model(facts.value("model", ""));
+    const std::string letter = facts.value("area", "");
+    if (!model || letter.size() != 1) return fail("a fact has model (" + plc_model_names() + ") and area (one letter)");
+    const DeviceArea* area = model->area(letter[0]);
+    const std::uint32_t words = area ? area->words : 0;
+    if (const std::uint32_t due = facts.value("words", words); due != words)
+      return fail(fmt::format("{} of {}: the table has {} words, the manual {}", letter, model->name, words, due));
+    if (area && facts.value("write", area->write) != area->write)
+      return fail(fmt::format("{} of {}: the table has it {}", letter, model->name, area->write ? "writable" : "read only"));
+    for (const auto& [key, value] : facts.items())
+      if (key != "model" && key != "area" && key != "words" && key != "write") return fail(fmt::format("unknown fact '{}'", key));
+    return ok();
+  }
+};
+
+}  // namespace
+
+const Protocol& protocol() {
+  static const XgtCnet xgt_cnet;
+  return xgt_cnet;
+}
+
+}  // namespace fieldproof::xgt_cnet
