@@ -43,6 +43,7 @@ std::optional<Cells> cells_of(std::string_view hex) {
 }
 
 /// Marks what differs: each byte where the lengths are equal, else the first, since all that follow have moved.
+/// Where an answer breaks off, "--" stands for the byte that is missing.
 void mark_differences(const Cells& expected, Cells& received) {
   const std::size_t common = std::min(expected.size(), received.size());
   const bool moved = expected.size() != received.size();
@@ -50,7 +51,8 @@ void mark_differences(const Cells& expected, Cells& received) {
     received[i].marked = expected[i].text != open_byte && expected[i].text != received[i].text;
     if (received[i].marked && moved) return;
   }
-  if (moved && received.size() > common) received[common].marked = true;
+  if (received.size() > common) received[common].marked = true;
+  if (received.size() == common && moved && common > 0) received.push_back({"--", true});  // here it broke off
 }
 
 std::string dump_line(const Cells& cells, std::size_t first, std::size_t last, bool offsets) {
@@ -65,11 +67,11 @@ std::string dump_line(const Cells& cells, std::size_t first, std::size_t last, b
   return text + '\n' + (marks.empty() ? "" : marks + '\n');
 }
 
-std::string dump(const Cells& cells, const CaseTextOptions& options) {
+std::string dump(const Cells& cells, const CaseTextOptions& options, bool offsets) {
   const std::size_t shown = options.limit == 0 ? cells.size() : std::min(cells.size(), options.limit);
   std::string text;
   for (std::size_t first = 0; first < shown; first += bytes_a_line) {
-    text += dump_line(cells, first, std::min(first + bytes_a_line, shown), cells.size() > bytes_a_line);
+    text += dump_line(cells, first, std::min(first + bytes_a_line, shown), offsets);
   }
   if (shown < cells.size()) text += fmt::format("... {} more bytes\n", cells.size() - shown);
   return text;
@@ -133,13 +135,9 @@ std::string clause(const CaseResult& result) {
   return text;
 }
 
-std::string frame(const std::string& notation, const Cells& cells, const CaseTextOptions& options) {
-  return (notation.empty() ? "" : shorten(notation, options) + '\n') + dump(cells, options);
-}
-
-std::string expected_frame(const CaseResult& result, const std::optional<Cells>& cells, const CaseTextOptions& options) {
-  if (cells) return frame(result.expected, *cells, options);
-  return (result.expected.empty() ? "" : shorten(result.expected, options) + '\n') + shorten(result.expected_hex, options);
+/// Notation above, bytes below.
+std::string frame(const std::string& notation, const std::string& bytes, const CaseTextOptions& options) {
+  return (notation.empty() ? "" : shorten(notation, options) + '\n') + bytes;
 }
 
 std::string differences(const CaseResult& result, const CaseTextOptions& options) {
@@ -169,7 +167,7 @@ std::string timing(const CaseResult& result) {
   if (times.size() == 1) return fmt::format("reply after {:.3f} ms", times[0]);
   if (times.size() <= 4) {
     std::string text = "replies after";
-    for (double time : times) text += fmt::format("{} {:.3f}", &time == &times.front() ? "" : ",", time);
+    for (const double& time : times) text += fmt::format("{} {:.3f}", &time == &times.front() ? "" : ",", time);
     return text + " ms";
   }
   std::vector<double> sorted = times;
@@ -183,19 +181,20 @@ bool several_sent(const CaseResult& result) {
 }
 
 void add_frames(Block& block, const CaseResult& result, const CaseTextOptions& options) {
+  const bool judged = !result.expected.empty() || !result.expected_hex.empty() || !result.received_bytes.empty();
+  if (!judged) return;
   auto expected = cells_of(std::string_view(result.expected_hex));
   if (expected && expected->empty()) expected = cells_of(result.expected_bytes);
   Cells received = cells_of(result.received_bytes);
   if (expected && !expected->empty()) mark_differences(*expected, received);
+  // Alike for both, so that they stand byte below byte.
+  const bool offsets = std::max(expected ? expected->size() : 0, received.size()) > bytes_a_line;
 
-  if (const Event* request = request_of(result)) block.add("sent", frame(request->text, cells_of(request->bytes), options));
-  block.add("expected", expected_frame(result, expected, options));
-  const bool judged = !result.expected.empty() || !result.expected_hex.empty() || !result.differences.empty();
-  if (!result.received.empty() || !received.empty()) {
-    block.add("received", frame(result.received, received, options));
-  } else if (judged) {
-    block.add("received", "nothing");
-  }
+  if (const Event* request = request_of(result)) block.add("sent", frame(request->text, hex_dump(request->bytes, options), options));
+  const std::string expected_bytes = expected ? dump(*expected, options, offsets) : shorten(result.expected_hex, options);
+  block.add("expected", frame(result.expected, expected_bytes, options));
+  const std::string came = frame(result.received, dump(received, options, offsets), options);
+  block.add("received", came.empty() ? "nothing" : came);
 }
 
 const char* arrow(Event::Kind kind) {
@@ -217,7 +216,9 @@ std::string case_message(const CaseResult& result) {
   return result.message.empty() ? std::string(to_string(result.verdict)) : xml_line(result.message);
 }
 
-std::string hex_dump(ByteView bytes, const CaseTextOptions& options) { return dump(cells_of(bytes), options); }
+std::string hex_dump(ByteView bytes, const CaseTextOptions& options) {
+  return dump(cells_of(bytes), options, bytes.size() > bytes_a_line);
+}
 
 std::string indent(std::string_view lines, std::size_t columns) {
   std::string text;

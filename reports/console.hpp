@@ -11,7 +11,7 @@
 namespace fieldproof {
 
 struct ConsoleOptions {
-  Gate gate;
+  Gate gate = {};
   bool verbose = false;   // -v: every case, with its exchange
   bool terminal = false;  // a moving progress line, and colour
   bool colour = true;     // on a terminal; false where NO_COLOR is set

@@ -5,7 +5,7 @@
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/ioctl.h>
-#include <sys/pidfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -62,7 +62,7 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const ChildOptions& op
   if (error) return failed(errno_text(error.value()));
   const pid_t pid = child.id();
   child.detach();  // we reap it ourselves
-  UniqueFd pid_fd(::pidfd_open(pid, 0));
+  UniqueFd pid_fd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));  // <sys/pidfd.h> of glibc 2.36 lacks extern "C"
   if (!pid_fd) {
     const int cause = errno;
     ::kill(-pid, SIGKILL);

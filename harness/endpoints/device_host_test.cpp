@@ -126,6 +126,7 @@ TEST(DeviceHost, ATerminalIsOpenedRaw) {
   FdLink bench(std::move(pty->master), "bench");
   ASSERT_TRUE(bench.send(to_bytes("raw\x04.")));
   EXPECT_EQ(receive_text(bench, ">"), "<raw\x04>");
+  EXPECT_EQ(host.end(), 0);
 }
 
 TEST(DeviceHost, AVanishedTerminalIsTrouble) {

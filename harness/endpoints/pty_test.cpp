@@ -9,6 +9,7 @@
 #include "harness/endpoints/fd_link.hpp"
 #include "harness/endpoints/test_link.hpp"
 #include "harness/endpoints/tiny_device.hpp"
+#include "src/line/settings.hpp"
 
 namespace fieldproof {
 namespace {
@@ -111,7 +112,7 @@ TEST(Pty, SaysWhatItIs) {
   EXPECT_FALSE(can.real_device || can.wire || can.simulated);
   EXPECT_EQ(can.timing_floor, 20ms);
   ASSERT_TRUE(endpoint->begin({{"line", "1200-8N1"}}));
-  EXPECT_EQ(to_ms(endpoint->character_time()), 10 / 1.2);
+  EXPECT_EQ(endpoint->character_time(), (LineSettings{1200, 8, 'N', 1}.character_time()));
   EXPECT_THAT(endpoint->begin({{"line", "1200-9N1"}}).error().message, HasSubstr("cannot read line settings '1200-9N1'"));
 }
 

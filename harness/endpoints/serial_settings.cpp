@@ -24,6 +24,21 @@ std::uint32_t format_flags(const LineSettings& settings) {
   return flags;
 }
 
+/// The eight speeds of parse_line_settings by their codes, which a peer behind a pty reads back; others by number.
+std::uint32_t speed_flags(int baud) {
+  switch (baud) {
+    case 1200: return B1200;
+    case 2400: return B2400;
+    case 4800: return B4800;
+    case 9600: return B9600;
+    case 19200: return B19200;
+    case 38400: return B38400;
+    case 57600: return B57600;
+    case 115200: return B115200;
+    default: return any_speed;
+  }
+}
+
 Error cannot_set(const std::string& port, const std::string& what, const std::string& why) {
   return fail(fmt::format("cannot set {} to {}: {}", port, what, why));
 }
@@ -43,10 +58,12 @@ Status apply_settings(const SystemCalls& calls, int fd, const std::string& port,
   const bool pty = is_pty(calls, fd);
   // A byte with a parity or framing error and a break are dropped, as a serial module does it; the driver counts them.
   wanted.input_flags = IGNBRK | IGNPAR | (settings.parity == 'N' ? 0 : INPCK);
+  LineSettings on_line = settings;
+  if (pty) on_line.data_bits = 8, on_line.parity = 'N';  // asked for, they may be refused
   wanted.output_flags = 0;
   wanted.local_flags = 0;
   wanted.control_flags &= ~(speed_mask | speed_mask << input_speed_shift | format_mask | CRTSCTS | static_cast<std::uint32_t>(CMSPAR));
-  wanted.control_flags |= any_speed | CREAD | CLOCAL | (pty ? CS8 : format_flags(settings));
+  wanted.control_flags |= speed_flags(settings.baud) | CREAD | CLOCAL | format_flags(on_line);
   wanted.control_characters.fill(0);
   wanted.control_characters[VMIN] = 1;
   wanted.input_speed = wanted.output_speed = static_cast<std::uint32_t>(settings.baud);

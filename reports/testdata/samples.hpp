@@ -96,7 +96,8 @@ inline void write_results(const std::string& path, const std::vector<CaseResult>
   ASSERT_TRUE(writer) << writer.error().message;
   ASSERT_TRUE(writer->write(run_info()));
   for (const CaseResult& result : results) ASSERT_TRUE(writer->write(result));
-  if (end) ASSERT_TRUE(writer->write(run_end()));
+  if (!end) return;
+  ASSERT_TRUE(writer->write(run_end()));
 }
 
 }  // namespace fieldproof::samples

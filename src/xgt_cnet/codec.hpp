@@ -82,6 +82,7 @@ struct XgtRequest {
   bool has_bcc() const { return command >= 'a' && command <= 'z'; }
 };
 
+/// Bytes behind the frame are not looked at.
 XgtRequest parse_request(ByteView frame);
 /// Appends the frame. Takes everything as it stands: block names, `kind`, counts, too long or not.
 void encode_request(const XgtRequest& request, Bytes& out);

@@ -1,0 +1,151 @@
+#include "reports/console.hpp"
+
+#include <gmock/gmock.h>
+
+#include "reports/testdata/samples.hpp"
+
+namespace fieldproof {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+const ConsoleOptions terminal{.terminal = true};
+
+TEST(RunHead, SaysWhatIsTested) {
+  EXPECT_EQ("fieldproof 0.1.0  emulator:xbc-h?station=1  profile xbc-h  gate=default  line=9600-8N1  seed=7\n",
+            run_head(samples::run_info()));
+}
+
+TEST(CaseReport, AFailureIsALineAndABlock) {
+  auto result = samples::failure();
+  result.exchange.clear();
+  result.quote.clear();
+  result.notes.clear();
+  EXPECT_EQ(R"(FAIL          xgt_cnet/rss/one_word  BCC: expected 0F, received 09 (the sum leaves out the header)
+  Read one word from M100 of station 1
+  clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed)
+  expected  [ACK st 'rSS' '01' '02' '1234' ETX BCC]
+            0000  06 30 31 72 53 53 30 31  30 32 31 32 33 34 03 30
+            0010  46
+  received  ACK '01rSS01021234' ETX '09'
+            0000  06 30 31 72 53 53 30 31  30 32 31 32 33 34 03 30
+            0010  39
+                  ^^
+  differs   field  expected  received
+            BCC    0F        09        the sum leaves out the header
+  timing    reply after 4.208 ms
+  replay    fieldproof run --filter xgt_cnet/rss/one_word --endpoint emulator:xbc-h
+
+)",
+            case_report(result, {}));
+}
+
+TEST(CaseReport, WhatTheGateLetsPassIsQuiet) {
+  for (Verdict verdict : Tally::verdicts) {
+    EXPECT_EQ(gates(verdict, {}), !case_report(samples::with(verdict, "a/b"), {}).empty()) << to_string(verdict);
+  }
+  EXPECT_THAT(case_report(samples::with(Verdict::non_strict, "a/b", "upper case"), {.gate = {.strict = true}}),
+              StartsWith("NON-STRICT    a/b  upper case\n"));
+}
+
+TEST(CaseReport, VerboseShowsEveryCaseWithItsExchange) {
+  EXPECT_EQ("SKIP          a/b  no area P\n", case_report(samples::with(Verdict::skip, "a/b", "no area P"), {.verbose = true}));
+  auto passed = samples::with(Verdict::pass, "a/b");
+  passed.exchange = samples::failure().exchange;
+  EXPECT_EQ(R"(PASS          a/b
+  exchange     time ms     gap ms       frame
+                 0.000             -->  ENQ '01rSS0106%MW100' EOT 'A3'
+                                        0000  05 30 31 72 53 53 30 31  30 36 25 4D 57 31 30 30
+                                        0010  04 41 33
+                24.000      4.208  <--  ACK '01rSS01021234' ETX '09'
+                                        0000  06 30 31 72 53 53 30 31  30 32 31 32 33 34 03 30
+                                        0010  39
+                41.708              .   silence until 1041.7 ms
+
+)",
+            case_report(passed, {.verbose = true}));
+}
+
+TEST(CaseReport, ColourOnATerminalOnly) {
+  EXPECT_THAT(case_report(samples::failure(), {}), Not(HasSubstr("\x1b")));
+  EXPECT_THAT(case_report(samples::failure(), terminal), StartsWith("\x1b[1;31mFAIL\x1b[0m          xgt_cnet"));
+  EXPECT_THAT(case_report(samples::failure(), {.terminal = true, .colour = false}), StartsWith("FAIL          xgt_cnet"));
+}
+
+TEST(CaseReport, TheDeviceCannotDriveTheTerminal) {
+  auto result = samples::failure();
+  result.message = "got \x1b[2J\r\n";
+  EXPECT_THAT(case_report(result, {}), StartsWith("FAIL          xgt_cnet/rss/one_word  got [1B][2J[0D][0A]\n"));
+}
+
+TEST(CaseReport, AFloodIsCutShort) {
+  auto result = samples::failure();
+  result.received_bytes.assign(1 << 20, 0x55);
+  EXPECT_LT(case_report(result, {}).size(), 5000u);
+}
+
+TEST(Progress, IsOneLineThatFits) {
+  Tally tally;
+  EXPECT_EQ("", progress_line(1, 10, tally, "a/b", {}));
+  EXPECT_EQ("", erase_progress({}));
+  EXPECT_EQ("\r\x1b[K[   1/1480]  a/b", progress_line(1, 1480, tally, "a/b", terminal));
+  tally.add(Verdict::fail, 2);
+  EXPECT_EQ("\r\x1b[K[12/99] 2 red  a/b", progress_line(12, 99, tally, "a/b", terminal));
+  EXPECT_EQ("\r\x1b[K[12/99] 2 red  xx", progress_line(12, 99, tally, std::string(200, 'x'), {.terminal = true, .width = 18}));
+}
+
+TEST(RunSummary, CountsWhatOccurs) {
+  Summary summary;
+  summary.tally.add(Verdict::pass, 1402);
+  summary.tally.add(Verdict::non_strict);
+  summary.tally.add(Verdict::fail, 2);
+  summary.tally.add(Verdict::blocked, 12);
+  summary.end = samples::run_end(1);
+  summary.red = {"a/b", "a/c #2"};
+  summary.reports = {{"results", "out/results.ndjson"}, {"junit", "out/junit.xml"}};
+  EXPECT_EQ(R"(
+1417 cases in 2.2 s
+  1402  PASS          as the manual says
+     1  NON-STRICT    an allowed alternative, or a SHOULD missed; red with --strict
+     2  FAIL          violates a MUST
+    12  BLOCKED       needs a permission, fixture or mode not given; red with --qualify
+
+red:
+  a/b
+  a/c #2
+
+results  out/results.ndjson
+junit    out/junit.xml
+
+exit 1: conformance failed: 2 FAIL
+)",
+            run_summary(summary, {}));
+}
+
+TEST(RunSummary, OfAGreenRunIsShort) {
+  Summary summary;
+  summary.tally.add(Verdict::pass);
+  summary.end = samples::run_end(0);
+  EXPECT_EQ("\n1 case in 2.2 s\n  1  PASS          as the manual says\n\nexit 0: gate met\n", run_summary(summary, {}));
+  EXPECT_THAT(run_summary(summary, terminal), HasSubstr("exit 0: \x1b[32mgate met\x1b[0m\n"));
+}
+
+TEST(RunSummary, SaysWhyARunStoppedEarly) {
+  Summary summary;
+  summary.end = samples::run_end(3);
+  summary.end.trouble = "nothing answers; check station and line";
+  EXPECT_EQ("\n0 cases in 2.2 s\n\nexit 3: bench trouble; nothing answers; check station and line\n", run_summary(summary, {}));
+}
+
+TEST(RunSummary, NamesTheFirstOfManyRedCases) {
+  Summary summary;
+  for (int i = 1; i <= 25; ++i) summary.red.push_back("a/" + std::to_string(i));
+  const std::string text = run_summary(summary, {});
+  EXPECT_THAT(text, HasSubstr("  a/20\n  ... and 5 more\n"));
+  EXPECT_THAT(text, Not(HasSubstr("a/21")));
+}
+
+}  // namespace
+}  // namespace fieldproof

@@ -1,0 +1,113 @@
+#include "reports/json_report.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+
+#include "reports/console.hpp"
+#include "reports/junit.hpp"
+#include "reports/testdata/samples.hpp"
+
+namespace fieldproof {
+namespace {
+
+using nlohmann::json;
+using samples::with;
+
+class JsonReport : public testing::Test {
+ protected:
+  json report(const std::vector<CaseResult>& results, bool end = true) {
+    samples::write_results(results_, results, end);
+    auto tally = write_json(results_, report_);
+    EXPECT_TRUE(tally) << tally.error().message;
+    return json::parse(samples::read_file(report_));
+  }
+
+  samples::Folder folder_;
+  std::string results_ = folder_ / "results.ndjson";
+  std::string report_ = folder_ / "report.json";
+};
+
+TEST_F(JsonReport, HoldsTheWholeRun) {
+  const json document = report({samples::failure(), with(Verdict::pass, "a/b")});
+  EXPECT_EQ(1, document["schema"]);
+  EXPECT_EQ(json(samples::run_info()), document["run"]);
+  EXPECT_EQ(json(samples::run_end()), document["end"]);
+  ASSERT_EQ(2u, document["cases"].size());
+  EXPECT_EQ(json(samples::failure()), document["cases"][0]);
+  EXPECT_EQ(2, document["counts"]["total"]);
+  EXPECT_EQ(1, document["counts"]["FAIL"]);
+  EXPECT_EQ(0, document["counts"]["ERROR"]);
+}
+
+TEST_F(JsonReport, AKilledRunHasNoEnd) {
+  const json document = report({with(Verdict::pass, "a/b")}, false);
+  EXPECT_TRUE(document.contains("end"));
+  EXPECT_TRUE(document["end"].is_null());
+  EXPECT_EQ(1u, document["cases"].size());
+}
+
+TEST_F(JsonReport, WithoutResultsIsStillADocument) {
+  const json document = report({});
+  EXPECT_EQ(json::array(), document["cases"]);
+  EXPECT_EQ(0, document["counts"]["total"]);
+}
+
+TEST_F(JsonReport, EveryByteComesBack) {
+  auto result = samples::failure();
+  result.received_bytes.clear();
+  for (int b = 0; b < 256; ++b) result.received_bytes.push_back(static_cast<Byte>(b));
+  result.message = "<script> ]]> \x05 \xFF";
+  const json document = report({result});
+  EXPECT_EQ(result.received_bytes, document["cases"][0].get<CaseResult>().received_bytes);
+  EXPECT_EQ("<script> ]]> \x05 \xEF\xBF\xBD", document["cases"][0]["message"]);
+}
+
+TEST_F(JsonReport, DamageLeavesNoReport) {
+  samples::write_results(results_, {with(Verdict::pass, "a/b")});
+  std::ofstream(results_, std::ios::app) << "rubbish\n";
+  EXPECT_FALSE(write_json(results_, report_));
+  EXPECT_EQ(1u, folder_.files());
+}
+
+/// 100 results with verdicts in uneven numbers, so that no two counts are alike by chance.
+std::vector<CaseResult> uneven_results() {
+  std::vector<CaseResult> results;
+  for (std::size_t i = 0; i < Tally::verdicts.size(); ++i) {
+    for (std::size_t n = 0; n <= i * 2; ++n) {
+      results.push_back(with(Tally::verdicts[i], "xgt_cnet/v" + std::to_string(i) + "/n" + std::to_string(n), "because"));
+    }
+  }
+  return results;
+}
+
+TEST_F(JsonReport, AllReportsCountAlike) {
+  const auto results = uneven_results();
+  const json document = report(results);
+  const Gate gate{.strict = true};
+  const std::string junit_path = folder_ / "junit.xml";
+  auto tally = write_junit(results_, junit_path, gate);
+  ASSERT_TRUE(tally) << tally.error().message;
+  auto json_tally = write_json(results_, report_);
+  ASSERT_TRUE(json_tally);
+  EXPECT_EQ(*tally, *json_tally);
+  EXPECT_EQ(results.size(), tally->total());
+
+  pugi::xml_document junit;
+  ASSERT_TRUE(junit.load_file(junit_path.c_str()));
+  const pugi::xml_node root = junit.child("testsuites");
+  const auto count = [&](Verdict verdict) { return document["counts"].at(std::string(to_string(verdict))).get<unsigned>(); };
+  EXPECT_EQ(document["counts"]["total"].get<unsigned>(), root.attribute("tests").as_uint());
+  EXPECT_EQ(count(Verdict::fail) + count(Verdict::xpass) + count(Verdict::non_strict), root.attribute("failures").as_uint());
+  EXPECT_EQ(count(Verdict::error), root.attribute("errors").as_uint());
+
+  const std::string text = run_summary({*tally, {}, {}, {}}, {.gate = gate});
+  EXPECT_THAT(text, testing::HasSubstr("\n" + std::to_string(results.size()) + " cases in"));
+  for (Verdict verdict : Tally::verdicts) {
+    EXPECT_THAT(text, testing::ContainsRegex(" " + std::to_string(count(verdict)) + "  " + std::string(to_string(verdict)) + " "));
+  }
+}
+
+}  // namespace
+}  // namespace fieldproof

@@ -1,0 +1,301 @@
+#include "reports/junit.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <pugixml.hpp>
+#include <set>
+
+#include "reports/testdata/samples.hpp"
+
+namespace fieldproof {
+namespace {
+
+using samples::with;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+class Junit : public testing::Test {
+ protected:
+  /// Writes the report of the results and loads it again.
+  void report(const std::vector<CaseResult>& results, const Gate& gate = {}, bool end = true) {
+    samples::write_results(results_, results, end);
+    make(gate);
+  }
+  void make(const Gate& gate = {}) {
+    auto tally = write_junit(results_, report_, gate);
+    ASSERT_TRUE(tally) << tally.error().message;
+    const auto loaded = document_.load_file(report_.c_str());
+    ASSERT_TRUE(loaded) << loaded.description() << " at " << loaded.offset;
+  }
+
+  /// "" when xmllint accepts the report; its complaints otherwise.
+  std::string xmllint() const {
+    const std::string log = folder_ / "xmllint.txt";
+    const std::string command = "xmllint --huge --noout --schema '" FIELDPROOF_SOURCE_DIR "/reports/testdata/junit-10.xsd' '" + report_ +
+                                "' >'" + log + "' 2>&1";
+    return std::system(command.c_str()) == 0 ? "" : samples::read_file(log);
+  }
+  static bool have_xmllint() { return std::system("xmllint --version >/dev/null 2>&1") == 0; }
+
+  pugi::xml_node root() const { return document_.child("testsuites"); }
+  pugi::xml_node suite() const { return root().child("testsuite"); }
+  pugi::xml_node testcase(const std::string& name) const {
+    return suite().find_child_by_attribute("testcase", "name", name.c_str());
+  }
+  std::string property(const char* name) const {
+    return suite().child("properties").find_child_by_attribute("name", name).attribute("value").value();
+  }
+
+  samples::Folder folder_;
+  std::string results_ = folder_ / "results.ndjson";
+  std::string report_ = folder_ / "junit.xml";
+  pugi::xml_document document_;
+};
+
+std::vector<CaseResult> one_of_each() {
+  std::vector<CaseResult> results;
+  for (Verdict verdict : Tally::verdicts) {
+    results.push_back(with(verdict, "xgt_cnet/each/v" + std::to_string(static_cast<int>(verdict)), "because"));
+    results.back().seconds = 0.001;
+  }
+  return results;
+}
+
+/// Each count of the attributes must be the number of such children.
+void expect_counts_equal_children(pugi::xml_node root) {
+  std::map<std::string, unsigned> all;
+  for (pugi::xml_node suite : root.children("testsuite")) {
+    std::map<std::string, unsigned> found;
+    for (pugi::xml_node testcase : suite.children("testcase")) {
+      ++found["tests"];
+      found["failures"] += testcase.child("failure") ? 1 : 0;
+      found["errors"] += testcase.child("error") ? 1 : 0;
+      found["skipped"] += testcase.child("skipped") ? 1 : 0;
+    }
+    for (const char* name : {"tests", "failures", "errors", "skipped"}) {
+      ASSERT_TRUE(suite.attribute(name)) << name;
+      EXPECT_EQ(found[name], suite.attribute(name).as_uint()) << name;
+      all[name] += found[name];
+    }
+  }
+  for (const char* name : {"tests", "failures", "errors"}) EXPECT_EQ(all[name], root.attribute(name).as_uint(99999)) << name;
+}
+
+TEST(JunitNames, FolderAndGroupAreTheClass) {
+  const auto name = [](const std::string& id, int repeat = 0) {
+    auto result = with(Verdict::pass, id);
+    result.repeat = repeat;
+    const auto [classname, rest] = junit_name(result);
+    return classname + "|" + rest;
+  };
+  EXPECT_EQ("fieldproof.xgt_cnet.rss|two_words", name("xgt_cnet/rss/two_words"));
+  EXPECT_EQ("fieldproof.xgt_cnet.rss|two_words #3", name("xgt_cnet/rss/two_words", 2));
+  EXPECT_EQ("fieldproof.xgt_cnet.rss|each/lower/p", name("xgt_cnet/rss/each/lower/p"));
+  EXPECT_EQ("fieldproof.xgt_cnet|sanity", name("xgt_cnet/sanity"));
+  EXPECT_EQ("fieldproof|sanity", name("sanity"));
+}
+
+TEST_F(Junit, AFailureIsComplete) {
+  report({samples::failure()});
+  const pugi::xml_node node = testcase("one_word").child("failure");
+  EXPECT_STREQ("FAIL", node.attribute("type").value());
+  EXPECT_STREQ("BCC: expected 0F, received 09 (the sum leaves out the header)", node.attribute("message").value());
+  const std::string body = node.text().get();
+  for (const char* part : {"FAIL: BCC: expected 0F, received 09", "xgb-cnet-en-1.6, 7.1.5 (1)(e)", "BCC is the low byte of the sum",
+                           "sent      ENQ '01rSS0106%MW100' EOT 'A3'", "expected  [ACK st 'rSS'", "0010  46", "received  ACK '01rSS01021234' ETX '09'",
+                           "0010  39\n                ^^", "BCC    0F        09", "reply after 4.208 ms", "24.000      4.208  <--",
+                           "replay    fieldproof run --filter xgt_cnet/rss/one_word"}) {
+    EXPECT_THAT(body, HasSubstr(part));
+  }
+  EXPECT_STREQ("fieldproof.xgt_cnet.rss", testcase("one_word").attribute("classname").value());
+  EXPECT_STREQ("0.013", testcase("one_word").attribute("time").value());
+}
+
+TEST_F(Junit, EachVerdictHasItsElement) {
+  report(one_of_each());
+  std::map<std::string, std::string> found;
+  for (pugi::xml_node node : suite().children("testcase")) {
+    const pugi::xml_node outcome = node.first_child();
+    found[outcome.attribute("type").value()] += outcome.name();
+  }
+  EXPECT_EQ((std::map<std::string, std::string>{{"", "system-outsystem-outsystem-out"},  // PASS is plain
+                                                {"FAIL", "failure"}, {"XPASS", "failure"}, {"ERROR", "error"}, {"XFAIL", "skipped"},
+                                                {"SKIP", "skipped"}, {"BLOCKED", "skipped"}, {"INCONCLUSIVE", "skipped"}}),
+            found);
+  EXPECT_FALSE(testcase("v0").first_child());
+  EXPECT_THAT(testcase("v1").child("system-out").text().get(), HasSubstr("MARGINAL: because"));
+  EXPECT_STREQ("BLOCKED: because", testcase("v8").child("skipped").attribute("message").value());
+}
+
+TEST_F(Junit, FailuresFollowTheGate) {
+  report(one_of_each(), {.strict = true, .fail_on_marginal = true, .qualify = true});
+  EXPECT_STREQ("NON-STRICT", testcase("v2").child("failure").attribute("type").value());
+  EXPECT_STREQ("MARGINAL", testcase("v1").child("failure").attribute("type").value());
+  EXPECT_TRUE(testcase("v8").child("skipped")) << "BLOCKED stays skipped";
+  EXPECT_TRUE(testcase("v9").child("skipped")) << "INCONCLUSIVE stays skipped";
+  EXPECT_EQ("strict, fail-on marginal, qualify", property("gate"));
+  expect_counts_equal_children(root());
+}
+
+TEST_F(Junit, CountsEqualTheChildren) {
+  for (int bits = 0; bits < 8; ++bits) {
+    report(one_of_each(), {.strict = (bits & 1) != 0, .fail_on_marginal = (bits & 2) != 0, .qualify = (bits & 4) != 0});
+    EXPECT_EQ(11u, root().attribute("tests").as_uint());
+    expect_counts_equal_children(root());
+  }
+}
+
+TEST_F(Junit, OneSuiteAProtocolInOrderOfAppearance) {
+  auto modbus = with(Verdict::pass, "modbus/fc3/one");
+  modbus.protocol = "modbus-rtu";
+  report({with(Verdict::pass, "xgt_cnet/rss/a"), modbus, with(Verdict::fail, "xgt_cnet/rss/b")});
+  std::string layout;
+  for (pugi::xml_node node : root().children("testsuite")) {
+    layout += std::string(node.attribute("name").value()) + ":";
+    for (pugi::xml_node child : node.children("testcase")) layout += std::string(" ") + child.attribute("name").value();
+    layout += "; ";
+  }
+  EXPECT_EQ("xgt-cnet: a b; modbus-rtu: one; ", layout);
+  expect_counts_equal_children(root());
+}
+
+TEST_F(Junit, TheRunIsInThePropertiesOfTheSuite) {
+  report({samples::failure()});
+  EXPECT_EQ("emulator:xbc-h?station=1", property("endpoint"));
+  EXPECT_EQ("xbc-h", property("profile"));
+  EXPECT_EQ("9600-8N1", property("line"));
+  EXPECT_EQ("7", property("seed"));
+  EXPECT_EQ("1", property("exit_code"));
+  EXPECT_EQ("", property("ended_early"));
+  EXPECT_STREQ("2026-11-21T12:39:03+00:00", suite().attribute("timestamp").value());
+  EXPECT_THAT(samples::read_file(report_), Not(HasSubstr("<testcase><properties")));
+  EXPECT_FALSE(testcase("one_word").child("properties"));
+}
+
+TEST_F(Junit, RepetitionsHaveNamesOfTheirOwn) {
+  std::vector<CaseResult> results(3, with(Verdict::pass, "xgt_cnet/rss/a"));
+  results[1].repeat = 1;
+  results[2].repeat = 2;
+  report(results);
+  std::set<std::string> names;
+  for (pugi::xml_node node : suite().children("testcase")) names.insert(node.attribute("name").value());
+  EXPECT_EQ((std::set<std::string>{"a", "a #2", "a #3"}), names);
+}
+
+TEST_F(Junit, NothingThatADeviceSendsBreaksTheFile) {
+  std::vector<CaseResult> results;
+  for (int b = 0; b < 256; ++b) {
+    auto result = samples::failure();
+    result.id += std::to_string(b);
+    result.received_bytes = {static_cast<Byte>(b)};
+    result.message = result.received = std::string("got ") + static_cast<char>(b);
+    results.push_back(result);
+  }
+  auto hostile = samples::failure();
+  hostile.message = hostile.title = hostile.received = hostile.quote = "<script>alert(\"1\")</script> ]]> & &#5; \xED\xA0\x80 \xEF\xBF\xBF <!-- --";
+  results.push_back(hostile);
+  report(results);
+  expect_counts_equal_children(root());
+  EXPECT_EQ(257u, suite().attribute("tests").as_uint());
+  EXPECT_STREQ("got [05]", testcase("one_word5").child("failure").attribute("message").value());
+  EXPECT_THAT(testcase("one_word5").child("failure").text().get(), HasSubstr("received  got [05]\n          0000  05\n                ^^\n"));
+  EXPECT_THAT(testcase("one_word").child("failure").text().get(), HasSubstr("<script>alert(\"1\")</script> ]]> & &#5; "));
+  EXPECT_EQ(std::string::npos, samples::read_file(report_).find("<script"));
+  if (have_xmllint()) {
+    EXPECT_EQ("", xmllint());
+  }
+}
+
+TEST_F(Junit, AFrameOfAMebibyteIsWhole) {
+  auto result = samples::failure();
+  result.received_bytes.assign(1 << 20, 0x15);
+  report({result, with(Verdict::pass, "xgt_cnet/rss/after")});
+  EXPECT_THAT(testcase("one_word").child("failure").text().get(), HasSubstr("FFFF0  15 15"));
+  expect_counts_equal_children(root());
+  if (have_xmllint()) {
+    EXPECT_EQ("", xmllint());
+  }
+}
+
+TEST_F(Junit, LongIdsStayWhole) {
+  const std::string part(4000, 'x');
+  report({with(Verdict::fail, part + "/" + part + "/" + part)});
+  EXPECT_EQ("fieldproof." + part + "." + part, suite().child("testcase").attribute("classname").value());
+  EXPECT_EQ(part, suite().child("testcase").attribute("name").value());
+}
+
+TEST_F(Junit, IsValidUnderTheSchema) {
+  if (!have_xmllint()) GTEST_SKIP() << "xmllint is not installed (package libxml2-utils)";
+  auto results = one_of_each();
+  results.push_back(samples::failure());
+  report(results);
+  EXPECT_EQ("", xmllint());
+  report(results, {.strict = true, .fail_on_marginal = true, .qualify = true}, false);
+  EXPECT_EQ("", xmllint());
+  report({});
+  EXPECT_EQ("", xmllint());
+}
+
+TEST_F(Junit, TheSchemaRefusesWhatJenkinsAndGitLabRefuse) {
+  if (!have_xmllint()) GTEST_SKIP() << "xmllint is not installed (package libxml2-utils)";
+  report({samples::failure()});
+  const std::string good = samples::read_file(report_);
+  const auto complaint = [&](const std::string& what, const std::string& with_this) {
+    std::string bad = good;
+    const std::size_t at = bad.find(what);
+    EXPECT_NE(std::string::npos, at) << what;
+    std::ofstream(report_, std::ios::binary) << bad.replace(at, what.size(), with_this);
+    return xmllint();
+  };
+  EXPECT_THAT(complaint("<failure", "<properties/><failure"), HasSubstr("'properties': This element is not expected"));
+  EXPECT_THAT(complaint(" time=\"0.013\"", " time=\"0,013\""), HasSubstr("'0,013' is not accepted"));
+  EXPECT_THAT(complaint("+00:00\">", "\">"), HasSubstr("timestamp"));
+  EXPECT_THAT(complaint("<testcase ", "<testcase status=\"run\" "), HasSubstr("'status'"));
+  EXPECT_THAT(complaint("<testcase ", "<testcase classname=\"fieldproof.xgt_cnet.rss\" name=\"one_word\" time=\"0.000\"/><testcase "),
+              HasSubstr("Duplicate key-sequence"));
+  EXPECT_THAT(complaint("FAIL: ", "\x05"), HasSubstr("PCDATA invalid Char value 5"));
+}
+
+TEST_F(Junit, AKilledRunSaysSo) {
+  report({samples::failure(), with(Verdict::pass, "xgt_cnet/rss/a")}, {}, false);
+  std::ofstream(results_, std::ios::app | std::ios::binary) << "{\"case\":{\"id\":\"xgt";
+  make();
+  EXPECT_EQ("missing", property("end"));
+  EXPECT_EQ("the run was killed: 2 results were written before, and one incomplete", property("ended_early"));
+  EXPECT_STREQ("the run was killed: 2 results were written before, and one incomplete", suite().child("system-err").text().get());
+  EXPECT_EQ(2u, suite().attribute("tests").as_uint());
+  expect_counts_equal_children(root());
+}
+
+TEST_F(Junit, ARunWithoutResultsSaysWhy) {
+  {
+    auto writer = NdjsonWriter::create(results_);
+    ASSERT_TRUE(writer);
+    ASSERT_TRUE(writer->write(samples::run_info()));
+    auto end = samples::run_end(3);
+    end.trouble = "nothing answers on emulator:xbc-h";
+    ASSERT_TRUE(writer->write(end));
+  }
+  make();
+  EXPECT_EQ(0u, suite().attribute("tests").as_uint(1));
+  EXPECT_EQ("nothing answers on emulator:xbc-h", property("ended_early"));
+  EXPECT_EQ("emulator:xbc-h?station=1", property("endpoint"));
+}
+
+TEST_F(Junit, DamagedResultsLeaveTheOldReport) {
+  report({samples::failure()});
+  const std::string before = samples::read_file(report_);
+  std::ofstream(results_, std::ios::app) << "rubbish\n";
+  auto tally = write_junit(results_, report_, {});
+  ASSERT_FALSE(tally);
+  EXPECT_THAT(tally.error().message, HasSubstr("results.ndjson, line 4: "));
+  EXPECT_EQ(before, samples::read_file(report_));
+  EXPECT_EQ(2u, folder_.files()) << "nothing temporary is left";
+}
+
+}  // namespace
+}  // namespace fieldproof
