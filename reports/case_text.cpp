@@ -88,7 +88,8 @@ std::string shorten(const std::string& text, const CaseTextOptions& options) {
 }
 
 std::size_t characters(std::string_view utf8) {
-  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), [](char c) { return (static_cast<Byte>(c) & 0xC0u) != 0x80u; }));
+  const auto starts_one = [](char c) { return (static_cast<Byte>(c) & 0xC0u) != 0x80u; };
+  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), starts_one));
 }
 
 std::string padded(const std::string& text, std::size_t width) {
@@ -121,8 +122,8 @@ const Event* request_of(const CaseResult& result) {
   const Event* before_answer = nullptr;
   for (const Event& event : result.exchange) {
     if (event.kind == Event::Kind::sent) request = &event;
-    const bool answer = event.kind == Event::Kind::received && !event.bytes.empty() && event.bytes == result.received_bytes;
-    if (answer && request != nullptr) before_answer = request;
+    const bool came = event.kind == Event::Kind::received && !event.bytes.empty();
+    if (came && event.bytes == result.received_bytes && request != nullptr) before_answer = request;
   }
   return before_answer != nullptr ? before_answer : request;
 }
@@ -130,7 +131,9 @@ const Event* request_of(const CaseResult& result) {
 std::string clause(const CaseResult& result) {
   std::string text = xml_line(result.manual);
   if (!result.section.empty()) text += (text.empty() ? "" : ", ") + xml_line(result.section);
-  if (!result.level.empty()) text += fmt::format("{}({}, {})", text.empty() ? "" : " ", xml_line(result.level), xml_line(result.basis));
+  if (!result.level.empty()) {
+    text += fmt::format("{}({}, {})", text.empty() ? "" : " ", xml_line(result.level), xml_line(result.basis));
+  }
   if (!result.quote.empty()) text += fmt::format("\n\"{}\"", xml_line(result.quote));
   return text;
 }
@@ -154,7 +157,9 @@ std::string differences(const CaseResult& result, const CaseTextOptions& options
   }
   std::string text;
   for (const Row& row : rows) {
-    std::string line = fmt::format("{}  {}  {}  {}", padded(row[0], widths[0]), padded(row[1], widths[1]), padded(row[2], widths[2]), row[3]);
+    std::string line;
+    for (std::size_t i = 0; i < widths.size(); ++i) line += padded(row[i], widths[i]) + "  ";
+    line += row[3];
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + '\n';
   }
@@ -177,7 +182,8 @@ std::string timing(const CaseResult& result) {
 }
 
 bool several_sent(const CaseResult& result) {
-  return std::count_if(result.exchange.begin(), result.exchange.end(), [](const Event& event) { return event.kind == Event::Kind::sent; }) > 1;
+  const auto sent = [](const Event& event) { return event.kind == Event::Kind::sent; };
+  return std::count_if(result.exchange.begin(), result.exchange.end(), sent) > 1;
 }
 
 void add_frames(Block& block, const CaseResult& result, const CaseTextOptions& options) {
@@ -190,7 +196,9 @@ void add_frames(Block& block, const CaseResult& result, const CaseTextOptions& o
   // Alike for both, so that they stand byte below byte.
   const bool offsets = std::max(expected ? expected->size() : 0, received.size()) > bytes_a_line;
 
-  if (const Event* request = request_of(result)) block.add("sent", frame(request->text, hex_dump(request->bytes, options), options));
+  if (const Event* request = request_of(result)) {
+    block.add("sent", frame(request->text, hex_dump(request->bytes, options), options));
+  }
   const std::string expected_bytes = expected ? dump(*expected, options, offsets) : shorten(result.expected_hex, options);
   block.add("expected", frame(result.expected, expected_bytes, options));
   const std::string came = frame(result.received, dump(received, options, offsets), options);

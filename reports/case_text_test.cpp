@@ -53,7 +53,8 @@ CaseResult answer(const std::string& expected_hex, const std::string& received) 
 }
 
 TEST(CaseBlock, MarksEachByteThatDiffers) {
-  EXPECT_EQ("expected  06 30 ?? 31\nreceived  06 31 99 32\n             ^^    ^^\n", case_block(answer("06 30 ?? 31", "06 31 99 32")));
+  EXPECT_EQ("expected  06 30 ?? 31\n"
+            "received  06 31 99 32\n             ^^    ^^\n", case_block(answer("06 30 ?? 31", "06 31 99 32")));
 }
 
 TEST(CaseBlock, MarksTheFirstByteOnlyWhereTheRestHasMoved) {
@@ -89,7 +90,8 @@ TEST(CaseBlock, SeveralFramesShowTheExchange) {
 
 TEST(CaseBlock, DifferencesAreAligned) {
   CaseResult result;
-  result.differences = {{"block count", "01", "00", ""}, {"국번", "00", "01", "station"}, {"data", std::string(50, '1'), "2", "long"}};
+  result.differences = {{"block count", "01", "00", ""}, {"국번", "00", "01", "station"},
+                        {"data", std::string(50, '1'), "2", "long"}};
   EXPECT_EQ("differs   field        expected                                  received\n"
             "          block count  01                                        00\n"
             "          국번           00                                        01        station\n"

@@ -64,12 +64,12 @@ std::string gate_hint(Verdict verdict, const Gate& gate) {
 }
 
 std::string counts(const Tally& tally, const ConsoleOptions& options) {
-  std::size_t digits = std::to_string(tally.total()).size();
+  const std::size_t digits = std::to_string(tally.total()).size();
   std::string text;
   for (Verdict verdict : Tally::verdicts) {
     if (tally.of(verdict) == 0) continue;
-    text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, verdict_word(verdict, verdict_width, options), meaning(verdict),
-                        gate_hint(verdict, options.gate));
+    const std::string word = verdict_word(verdict, verdict_width, options);
+    text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, word, meaning(verdict), gate_hint(verdict, options.gate));
   }
   return text;
 }

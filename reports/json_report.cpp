@@ -38,7 +38,9 @@ Result<Tally> write_json(const std::string& ndjson, const std::string& path) {
     written.add(result.verdict);
   });
   if (!again) return again.error();
-  if (written != tally) return fail(fmt::format("cannot report {}: it changed while it was read; wait for the run to end, then repeat", ndjson));
+  if (written != tally) {
+    return fail(fmt::format("cannot report {}: it changed while it was read; wait for the run to end, then repeat", ndjson));
+  }
   out << "\n],\n\"end\":" << (log->end ? print(*log->end) : "null") << "}\n";
   if (Status done = file->commit(); !done) return done.error();
   return tally;

@@ -118,7 +118,10 @@ std::string suite_tag(const Suite& suite, const RunLog& log, const Gate& gate) {
 
 /// Empty for a run that ended as it should.
 std::string early_end(const RunLog& log) {
-  if (!log.end) return fmt::format("the run was killed: {} results were written before{}", log.results, log.truncated ? ", and one incomplete" : "");
+  if (!log.end) {
+    const char* incomplete = log.truncated ? ", and one incomplete" : "";
+    return fmt::format("the run was killed: {} results were written before{}", log.results, incomplete);
+  }
   if (log.end->interrupted) return "the run was interrupted" + (log.end->trouble.empty() ? "" : ": " + log.end->trouble);
   return log.end->trouble;
 }
@@ -146,6 +149,10 @@ std::string properties(const RunLog& log, const Gate& gate) {
   return print(list, 2);
 }
 
+std::string headline(const CaseResult& result) {
+  return fmt::format("{}: {}\n", to_string(result.verdict), case_message(result));
+}
+
 /// What a case that does not fail has to say.
 std::string remarks(const CaseResult& result) {
   switch (result.verdict) {
@@ -153,7 +160,7 @@ std::string remarks(const CaseResult& result) {
     case Verdict::non_strict:
     case Verdict::info:
     case Verdict::xfail:
-    case Verdict::inconclusive: return fmt::format("{}: {}\n{}", to_string(result.verdict), case_message(result), case_block(result));
+    case Verdict::inconclusive: return headline(result) + case_block(result);
     default: break;
   }
   std::string text;
@@ -166,7 +173,7 @@ void add_outcome(pugi::xml_node testcase, const CaseResult& result, const char* 
   set(node, "type", std::string(to_string(result.verdict)));
   set(node, "message", case_message(result));
   // GitLab shows the body and not the message.
-  set_body(node, fmt::format("{}: {}\n{}", to_string(result.verdict), case_message(result), case_block(result, {.exchange = true})));
+  set_body(node, headline(result) + case_block(result, {.exchange = true}));
 }
 
 std::string testcase(const CaseResult& result, const Gate& gate) {
@@ -200,7 +207,9 @@ Status write_suite(std::ostream& out, const std::string& ndjson, const Suite& su
     out << testcase(result, gate);
   });
   if (!again) return again.error();
-  if (written != suite.tally) return fail(fmt::format("cannot report {}: it changed while it was read; wait for the run to end, then repeat", ndjson));
+  if (written != suite.tally) {
+    return fail(fmt::format("cannot report {}: it changed while it was read; wait for the run to end, then repeat", ndjson));
+  }
   if (const std::string why = early_end(log); !why.empty()) {
     pugi::xml_document document;
     pugi::xml_node node = document.append_child("system-err");

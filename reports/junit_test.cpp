@@ -14,9 +14,7 @@ namespace fieldproof {
 namespace {
 
 using samples::with;
-using testing::EndsWith;
 using testing::HasSubstr;
-using testing::Not;
 
 class Junit : public testing::Test {
  protected:
@@ -35,8 +33,8 @@ class Junit : public testing::Test {
   /// "" when xmllint accepts the report; its complaints otherwise.
   std::string xmllint() const {
     const std::string log = folder_ / "xmllint.txt";
-    const std::string command = "xmllint --huge --noout --schema '" FIELDPROOF_SOURCE_DIR "/reports/testdata/junit-10.xsd' '" + report_ +
-                                "' >'" + log + "' 2>&1";
+    const std::string schema = FIELDPROOF_SOURCE_DIR "/reports/testdata/junit-10.xsd";
+    const std::string command = "xmllint --huge --noout --schema '" + schema + "' '" + report_ + "' >'" + log + "' 2>&1";
     return std::system(command.c_str()) == 0 ? "" : samples::read_file(log);
   }
   static bool have_xmllint() { return std::system("xmllint --version >/dev/null 2>&1") == 0; }
@@ -106,7 +104,8 @@ TEST_F(Junit, AFailureIsComplete) {
   EXPECT_STREQ("BCC: expected 0F, received 09 (the sum leaves out the header)", node.attribute("message").value());
   const std::string body = node.text().get();
   for (const char* part : {"FAIL: BCC: expected 0F, received 09", "xgb-cnet-en-1.6, 7.1.5 (1)(e)", "BCC is the low byte of the sum",
-                           "sent      ENQ '01rSS0106%MW100' EOT 'A3'", "expected  [ACK st 'rSS'", "0010  46", "received  ACK '01rSS01021234' ETX '09'",
+                           "sent      ENQ '01rSS0106%MW100' EOT 'A3'", "expected  [ACK st 'rSS'", "0010  46",
+                           "received  ACK '01rSS01021234' ETX '09'",
                            "0010  39\n                ^^", "BCC    0F        09", "reply after 4.208 ms", "24.000      4.208  <--",
                            "replay    fieldproof run --filter xgt_cnet/rss/one_word"}) {
     EXPECT_THAT(body, HasSubstr(part));
@@ -172,7 +171,6 @@ TEST_F(Junit, TheRunIsInThePropertiesOfTheSuite) {
   EXPECT_EQ("1", property("exit_code"));
   EXPECT_EQ("", property("ended_early"));
   EXPECT_STREQ("2026-11-21T12:39:03+00:00", suite().attribute("timestamp").value());
-  EXPECT_THAT(samples::read_file(report_), Not(HasSubstr("<testcase><properties")));
   EXPECT_FALSE(testcase("one_word").child("properties"));
 }
 
@@ -196,13 +194,15 @@ TEST_F(Junit, NothingThatADeviceSendsBreaksTheFile) {
     results.push_back(result);
   }
   auto hostile = samples::failure();
-  hostile.message = hostile.title = hostile.received = hostile.quote = "<script>alert(\"1\")</script> ]]> & &#5; \xED\xA0\x80 \xEF\xBF\xBF <!-- --";
+  hostile.message = hostile.title = hostile.received = hostile.quote =
+      "<script>alert(\"1\")</script> ]]> & &#5; \xED\xA0\x80 \xEF\xBF\xBF <!-- --";
   results.push_back(hostile);
   report(results);
   expect_counts_equal_children(root());
   EXPECT_EQ(257u, suite().attribute("tests").as_uint());
   EXPECT_STREQ("got [05]", testcase("one_word5").child("failure").attribute("message").value());
-  EXPECT_THAT(testcase("one_word5").child("failure").text().get(), HasSubstr("received  got [05]\n          0000  05\n                ^^\n"));
+  EXPECT_THAT(testcase("one_word5").child("failure").text().get(),
+              HasSubstr("received  got [05]\n          0000  05\n                ^^\n"));
   EXPECT_THAT(testcase("one_word").child("failure").text().get(), HasSubstr("<script>alert(\"1\")</script> ]]> & &#5; "));
   EXPECT_EQ(std::string::npos, samples::read_file(report_).find("<script"));
   if (have_xmllint()) {
@@ -255,8 +255,8 @@ TEST_F(Junit, TheSchemaRefusesWhatJenkinsAndGitLabRefuse) {
   EXPECT_THAT(complaint(" time=\"0.013\"", " time=\"0,013\""), HasSubstr("'0,013' is not accepted"));
   EXPECT_THAT(complaint("+00:00\">", "\">"), HasSubstr("timestamp"));
   EXPECT_THAT(complaint("<testcase ", "<testcase status=\"run\" "), HasSubstr("'status'"));
-  EXPECT_THAT(complaint("<testcase ", "<testcase classname=\"fieldproof.xgt_cnet.rss\" name=\"one_word\" time=\"0.000\"/><testcase "),
-              HasSubstr("Duplicate key-sequence"));
+  const std::string twin = "<testcase classname=\"fieldproof.xgt_cnet.rss\" name=\"one_word\" time=\"0.000\"/>";
+  EXPECT_THAT(complaint("<testcase ", twin + "<testcase "), HasSubstr("Duplicate key-sequence"));
   EXPECT_THAT(complaint("FAIL: ", "\x05"), HasSubstr("PCDATA invalid Char value 5"));
 }
 

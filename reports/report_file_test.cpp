@@ -57,7 +57,8 @@ TEST_F(ReportFileTest, AnOldReportStaysUntilTheNewIsWhole) {
 TEST_F(ReportFileTest, AFolderThatIsNotThereIsNamed) {
   auto file = ReportFile::create((folder_ / "none" / "r.xml").string());
   ASSERT_FALSE(file);
-  EXPECT_THAT(file.error().message, testing::EndsWith("none/r.xml: no such file or directory; check the path, and that its folder exists"));
+  EXPECT_THAT(file.error().message,
+              testing::EndsWith("none/r.xml: no such file or directory; check the path, and that its folder exists"));
 }
 
 TEST_F(ReportFileTest, ADeviceStaysADevice) {

@@ -23,8 +23,8 @@ TEST(XmlText, AFrameReadsAsOne) { EXPECT_EQ("[05]00RSS0106%MW100[04]", xml_text(
 TEST(XmlText, CarriageReturnIsDataNotALineBreak) { EXPECT_EQ("a[0D]\nb", xml_text("a\r\nb")); }
 
 TEST(XmlText, Utf8IsKept) {
-  for (const char* text : {"국번 \xC2\xB5s \xE2\x89\xA4", "\xF0\x9F\x98\x80", "\xED\x9F\xBF\xEE\x80\x80", "\xF4\x8F\xBF\xBD", "\xC2\xA0",
-                           "\xEF\xBF\xBD"}) {
+  for (const char* text : {"국번 \xC2\xB5s \xE2\x89\xA4", "\xF0\x9F\x98\x80", "\xED\x9F\xBF\xEE\x80\x80",
+                           "\xF4\x8F\xBF\xBD", "\xC2\xA0", "\xEF\xBF\xBD"}) {
     EXPECT_EQ(text, xml_text(text));
   }
 }

@@ -40,10 +40,12 @@ std::string read_lock(const fs::path& folder) {
 int lint_command(const LintOptions& options) {
   const DataPaths data = find_data();
   const fs::path folder = options.vectors.empty() ? data.vectors : fs::path(options.vectors);
-  const VectorSet set = load_vectors(folder, data.vectors / "schema.json");
+  VectorSet set = load_vectors(folder, data.vectors / "schema.json");
+  load_wires(folder, set);
   std::vector<std::string> problems = set.problems;
   add(problems, lint_wires(set, find_protocol));
   add(problems, lint_statements(set));
+  add(problems, lint_readings(set));
   add(problems, lint_tables(set, find_protocol));
   if (fs::is_directory(data.profiles)) add(problems, lint_profiles(data.profiles));
   const std::vector<std::string> quotes = options.manuals.empty() ? lint_lock(set, read_lock(folder)) : lint_quotes(set, options.manuals);

@@ -137,6 +137,30 @@ std::vector<std::string> lint_statements(const VectorSet& set) {
   return problems;
 }
 
+std::vector<std::string> lint_readings(const VectorSet& set) {
+  std::map<std::string, std::pair<const Case*, std::vector<std::string>>> first;  // the vector that names most alternatives
+  std::vector<std::string> problems;
+  const auto names = [](const Step& step) {
+    std::vector<std::string> result;
+    for (const Frame& frame : step.frames) result.push_back(frame.reading);
+    return result;
+  };
+  for (const Case& one : set.cases)
+    for (const Step& step : one.steps)
+      if (!step.reading.empty() && first[step.reading].second.size() < step.frames.size()) first[step.reading] = {&one, names(step)};
+  for (const Case& one : set.cases)
+    for (const Step& step : one.steps) {
+      if (step.reading.empty()) continue;
+      const auto& [model, known] = first[step.reading];
+      for (const std::string& name : names(step))
+        if (std::ranges::find(known, name) == known.end())
+          problems.push_back(fmt::format("{}: {}: reading {} has no alternative '{}' in {} ({})", one.file, one.id, step.reading, name, model->id, fmt::join(known, ", ")));
+      if (step.frames.front().reading != known.front())
+        problems.push_back(fmt::format("{}: {}: reading {} prefers '{}', but '{}' in {}", one.file, one.id, step.reading, step.frames.front().reading, known.front(), model->id));
+    }
+  return problems;
+}
+
 std::vector<std::string> lint_tables(const VectorSet& set, const ProtocolLookup& lookup) {
   std::vector<std::string> problems;
   for (const Case& one : set.tables) {

@@ -21,6 +21,9 @@ std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& 
 /// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are unique.
 std::vector<std::string> lint_statements(const VectorSet& set);
 
+/// One name ties all vectors of a reading together: each names the same alternatives, the same one preferred.
+std::vector<std::string> lint_readings(const VectorSet& set);
+
 /// Facts of kind `table` against the tables in src/.
 std::vector<std::string> lint_tables(const VectorSet& set, const ProtocolLookup& protocol);
 

@@ -248,7 +248,7 @@ void load_manuals(const std::string& text, VectorSet& set) {
 
 void load_file(const fs::path& folder, const fs::path& path, VectorSet& set, std::uint64_t& hash) {
   const std::string name = fs::relative(path, folder).generic_string();
-  if (name == "schema.json") return;
+  if (name == "schema.json" || name.starts_with("wires/")) return;
   try {
     const std::string text = read_file(path);
     hash = add_to_hash(add_to_hash(hash, name), text);
@@ -274,6 +274,46 @@ bool glob(std::string_view text, std::string_view pattern) {
 }
 
 }  // namespace
+
+namespace {
+
+/// The literal bytes of one case: {"0": "05 30 ..", "1": {"as_sent": "06 ..", "upper": "06 .."}}.
+void take_wires(const json& wires, Case& one) {
+  for (const auto& [index, wire] : wires.items()) {
+    const std::size_t at = index.find_first_not_of("0123456789") == std::string::npos ? std::stoul(index) : one.steps.size();
+    if (at >= one.steps.size() || one.steps[at].frames.empty()) throw Broken(fmt::format("steps[{}] sends and expects nothing", index));
+    for (Frame& frame : one.steps[at].frames) {
+      if (frame.wire) continue;
+      if (wire.is_string()) frame.wire = wire.get<std::string>();
+      else if (wire.contains(frame.reading)) frame.wire = wire.at(frame.reading).get<std::string>();
+    }
+  }
+}
+
+void load_wire_file(const fs::path& path, const std::string& name, VectorSet& set) {
+  const json document = json::parse(read_file(path));
+  for (const auto& [id, wires] : document.items()) try {
+      const auto one = std::ranges::lower_bound(set.cases, id, {}, &Case::id);
+      if (one == set.cases.end() || one->id != id) throw Broken("no such case");
+      take_wires(wires, *one);
+    } catch (const std::exception& error) {
+      set.problems.push_back(fmt::format("{}: {}: {}", name, id, error.what()));
+    }
+}
+
+}  // namespace
+
+void load_wires(const fs::path& folder, VectorSet& set) {
+  if (!fs::is_directory(folder / "wires")) return;
+  for (const fs::path& path : json_files(folder / "wires")) {
+    const std::string name = fs::relative(path, folder).generic_string();
+    try {
+      load_wire_file(path, name, set);
+    } catch (const std::exception& error) {
+      set.problems.push_back(fmt::format("{}: {}", name, error.what()));
+    }
+  }
+}
 
 void load_vector_text(std::string_view text, const std::string& file, VectorSet& set) {
   const json document = json::parse(text);

@@ -41,6 +41,10 @@ struct VectorSet {
 /// The folder's own schema.json, where it has one, else `schema_file`.
 VectorSet load_vectors(const std::filesystem::path& folder, const std::filesystem::path& schema_file = {});
 
+/// Adds the second entry of the double entry: `folder`/wires/**.json gives the literal bytes of each step of a case,
+/// {"CASE ID": {"STEP": "05 30 .."}}, where the vector itself prints none. Only `lint` needs them.
+void load_wires(const std::filesystem::path& folder, VectorSet& set);
+
 /// The vectors of one file's text; `file` is for messages. Used by load_vectors and by tests.
 void load_vector_text(std::string_view text, const std::string& file, VectorSet& set);
 

@@ -14,9 +14,9 @@ namespace fieldproof {
 
 /// A P2P block as it is entered: device names.
 struct P2pConfig {
-  std::string flag;      // "%MX00000"
-  std::string read;      // in the partner
-  std::string save;
+  std::string flag{};      // "%MX00000"
+  std::string read{};      // in the partner
+  std::string save{};
   unsigned station = 0;  // of the partner, 0-255
   unsigned count = 1;    // values, at most 60 words
 
@@ -31,13 +31,13 @@ struct PlcConfig {
   unsigned station = 0;             // 0-255
   Role role = Role::server;
   bool run = true;                  // STOP: servers keep answering, the client is silent
-  LineSettings line;
+  LineSettings line{};
   Duration inter_character{};       // 0: 3.5 characters of 11 bits
   Duration inter_character_floor{}; // 20 ms behind a pty or socket
   Duration delay{};                 // of a reply, 0-2550 ms in steps of 10 ms; only with rs485
   bool rs485 = false;
   unsigned time_out = 1;            // of the client: (time_out + 1) * 100 ms
-  std::vector<P2pConfig> p2p;
+  std::vector<P2pConfig> p2p{};
 
   bool operator==(const PlcConfig&) const = default;
 };

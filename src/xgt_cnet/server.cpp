@@ -27,6 +27,15 @@ XgtFault name_fault(AddressFault fault) {
   }
   return {};
 }
+
+/// A registration number that is none, as it was sent, but such that the reply keeps its form.
+std::string_view echoed_number(std::string_view sent, std::array<char, 2>& number) {
+  number = {'0', '0'};
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    if (sent[i] > ' ' && sent[i] < '\x7F') number[i] = sent[i];
+  }
+  return {number.data(), number.size()};
+}
 }  // namespace
 
 XgtServer::XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay)
@@ -63,11 +72,8 @@ void XgtServer::on_frame(ByteView frame, Time end) {
   Addresses addresses;
   check_names(request, addresses);
   XgtReply reply{.station = request.station, .command = request.command, .kind = request.kind};
-  std::array<char, 2> number{'0', '0'};
-  if (request.kind.size() < number.size()) {
-    std::ranges::copy(request.kind, number.begin());
-    reply.kind = {number.data(), number.size()};
-  }
+  std::array<char, 2> number;
+  if (check == XgtCheck::registration_number) reply.kind = echoed_number(request.kind, number);
   if (request.fault) {
     reply.ack = false;
     reply.error = request.fault.code;

