@@ -1,2 +1,170 @@
+// fieldproof_bench: the figures of the README. Times are measured here and never asserted in a test.
 #include <benchmark/benchmark.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+#include "harness/bench/bench.hpp"
+#include "harness/cli/paths.hpp"
+#include "harness/endpoints/pty_pair.hpp"
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const Protocol& xgt() { return *find_protocol("xgt-cnet"); }
+
+std::unique_ptr<Endpoint> open(const std::string& text) {
+  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(*parse_endpoint(text));
+  if (!endpoint) throw std::runtime_error(endpoint.error().message);
+  return std::move(*endpoint);
+}
+
+/// A one-word RSS and its ACK.
+const char* one_word = R"j([{"id": "xgt_cnet/bench/one_word", "rev": 1, "title": "one word", "level": "must", "basis": "printed",
+  "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"},
+  "steps": [{"send": "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]"}, {"expect": "[ACK st 'rSS' '01' '02' '0000' ETX BCC]"}]}])j";
+
+struct OneWord {
+  VectorSet set;
+  PreparedCase prepared;
+  OneWord() {
+    load_vector_text(one_word, "bench", set);
+    prepared = *prepare(set.cases.at(0), 1, xgt());
+  }
+};
+
+double median(std::vector<double>& samples) {
+  std::ranges::nth_element(samples, samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2));
+  return samples[samples.size() / 2];
+}
+
+void judge_or_throw(const PreparedCase& prepared, const Transcript& transcript) {
+  const Judgement judgement = judge(prepared, transcript, {}, xgt());
+  if (judgement.verdict != Verdict::pass) throw std::runtime_error(judgement.message);
+}
+
+void in_process_exchange(benchmark::State& state) {
+  const OneWord one;
+  const std::unique_ptr<Endpoint> endpoint = open("emulator:xbc-h");
+  Exchange exchange(*endpoint, xgt(), {});
+  for (auto _ : state) {
+    (void)_;
+    judge_or_throw(one.prepared, exchange.run(one.prepared));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(in_process_exchange);
+
+void whole_suite(benchmark::State& state) {
+  const DataPaths data = find_data();
+  const VectorSet set = load_vectors(data.vectors);
+  const std::unique_ptr<Endpoint> endpoint = open("emulator:");
+  BenchOptions options;
+  options.profile = *load_profile("emulator", data.profiles);
+  for (auto _ : state) {
+    (void)_;
+    Bench bench(*endpoint, xgt(), options);
+    for (const Case& source : set.cases) benchmark::DoNotOptimize(bench.run(source));
+  }
+  state.counters["cases"] = static_cast<double>(set.cases.size());
+}
+BENCHMARK(whole_suite)->Unit(benchmark::kMillisecond);
+
+void load_all_vectors(benchmark::State& state) {
+  for (auto _ : state) {
+    (void)_;
+    benchmark::DoNotOptimize(load_vectors(find_data().vectors));
+  }
+}
+BENCHMARK(load_all_vectors)->Unit(benchmark::kMillisecond);
+
+/// Another process on the slave that answers `request` bytes with `reply` bytes: what no harness could beat.
+class BareEcho {
+ public:
+  BareEcho(int slave, std::size_t request, std::size_t reply) : child_(fork()) {
+    if (child_ != 0) return;
+    Bytes buffer(256);
+    const Bytes answer(reply, 'x');
+    for (std::size_t have = 0;;) {
+      const ssize_t got = read(slave, buffer.data(), buffer.size());
+      if (got <= 0) _exit(0);
+      have += static_cast<std::size_t>(got);
+      if (have < request) continue;
+      have = 0;
+      if (write(slave, answer.data(), answer.size()) < 0) _exit(1);
+    }
+  }
+  ~BareEcho() {
+    kill(child_, SIGKILL);
+    waitpid(child_, nullptr, 0);
+  }
+
+ private:
+  pid_t child_;
+};
+
+double bare_round_trip_us(int master, const Bytes& request, std::size_t reply) {
+  Bytes buffer(256);
+  const auto started = Clock::now();
+  if (write(master, request.data(), request.size()) < 0) throw std::runtime_error("bare write failed");
+  for (std::size_t have = 0; have < reply;) have += static_cast<std::size_t>(std::max<ssize_t>(0, read(master, buffer.data(), buffer.size())));
+  return std::chrono::duration<double, std::micro>(Clock::now() - started).count();
+}
+
+/// Both kinds in turn, so that they see the same machine.
+void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
+  const OneWord one;
+  const std::unique_ptr<Endpoint> endpoint = open("pty:xbc-h");
+  if (!endpoint->begin(nlohmann::json::object())) throw std::runtime_error("cannot begin");
+  Exchange exchange(*endpoint, xgt(), {});
+  const Bytes request = one.prepared.steps[0].frames[0].frame.bytes;
+  const std::size_t reply = one.prepared.steps[1].frames[0].frame.bytes.size();
+  Result<PtyPair> pair = open_pty_pair();
+  if (!pair) throw std::runtime_error(pair.error().message);
+  const BareEcho echo(pair->slave.get(), request.size(), reply);
+  fcntl(pair->master.get(), F_SETFL, fcntl(pair->master.get(), F_GETFL) & ~O_NONBLOCK);
+  std::vector<double> ours, bare;
+  for (auto _ : state) {
+    (void)_;
+    bare.push_back(bare_round_trip_us(pair->master.get(), request, reply));
+    const auto started = Clock::now();
+    const Transcript transcript = exchange.run(one.prepared);
+    ours.push_back(std::chrono::duration<double, std::micro>(Clock::now() - started).count());
+    judge_or_throw(one.prepared, transcript);
+  }
+  state.counters["bare_median_us"] = median(bare);
+  state.counters["exchange_median_us"] = median(ours);
+  state.counters["ratio"] = median(ours) / median(bare);
+}
+BENCHMARK(pty_exchange_against_bare_ping_pong)->Unit(benchmark::kMicrosecond)->Iterations(20'000);
+
+/// The whole tool for one case: start, load, one exchange, reports. `repeat` shows what does not grow with the run.
+void tool_run(benchmark::State& state) {
+  const std::filesystem::path out = std::filesystem::temp_directory_path() / "fieldproof_bench";
+  const std::string command = (own_executable().parent_path() / "fieldproof").string() + " run --filter 'xgt_cnet/rss/two_words/*' --repeat " +
+                              std::to_string(state.range(0)) + " --out " + out.string() + " >/dev/null";
+  for (auto _ : state) {
+    (void)_;
+    if (std::system(command.c_str()) != 0) throw std::runtime_error("the tool failed: " + command);
+  }
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024;
+  std::filesystem::remove_all(out);
+}
+BENCHMARK(tool_run)->Arg(1)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace fieldproof
+
 BENCHMARK_MAIN();

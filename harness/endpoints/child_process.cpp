@@ -62,7 +62,8 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const ChildOptions& op
   if (error) return failed(errno_text(error.value()));
   const pid_t pid = child.id();
   child.detach();  // we reap it ourselves
-  UniqueFd pid_fd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));  // <sys/pidfd.h> of glibc 2.36 lacks extern "C"
+  // Not by <sys/pidfd.h>: that of glibc 2.36 lacks extern "C".
+  UniqueFd pid_fd(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
   if (!pid_fd) {
     const int cause = errno;
     ::kill(-pid, SIGKILL);
@@ -96,7 +97,8 @@ void ChildProcess::watch() {
   sigset_t all;
   sigfillset(&all);
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
-  std::array<pollfd, 3> fds{pollfd{stop_.get(), POLLIN, 0}, pollfd{standard_error_.get(), POLLIN, 0}, pollfd{pid_fd_.get(), POLLIN, 0}};
+  std::array<pollfd, 3> fds{pollfd{stop_.get(), POLLIN, 0}, pollfd{standard_error_.get(), POLLIN, 0},
+                            pollfd{pid_fd_.get(), POLLIN, 0}};
   while (fds[0].revents == 0) {
     if (::poll(fds.data(), fds.size(), -1) < 0) continue;
     if (fds[1].revents & POLLIN) read_standard_error();
@@ -124,7 +126,9 @@ std::string ChildProcess::last_lines() {
   std::string text = said_;
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::size_t from = text.size();
-  for (std::size_t lines = 0; lines < said_lines && from != std::string::npos && from > 0; ++lines) from = text.rfind('\n', from - 1);
+  for (std::size_t lines = 0; lines < said_lines && from != std::string::npos && from > 0; ++lines) {
+    from = text.rfind('\n', from - 1);
+  }
   return from == std::string::npos || from == 0 ? text : text.substr(from + 1);
 }
 

@@ -31,9 +31,12 @@ json ask(EmulatedDevice& device, const std::string& verb, const json& what) {
   return {{"error", "cannot do '" + verb + "': write {\"begin\":{}}, {\"set\":{}}, {\"get\":{}} or {\"act\":\"\"}"}};
 }
 
-json answer(std::string_view line, const std::function<Status(const json&)>& begin, const std::function<EmulatedDevice*()>& device) {
+json answer(std::string_view line, const std::function<Status(const json&)>& begin,
+            const std::function<EmulatedDevice*()>& device) {
   const json request = json::parse(line, nullptr, false);
-  if (!request.is_object() || request.size() != 1) return {{"error", "cannot read the control line: write one JSON object with one key"}};
+  if (!request.is_object() || request.size() != 1) {
+    return {{"error", "cannot read the control line: write one JSON object with one key"}};
+  }
   const std::string verb = request.begin().key();
   const json& what = request.begin().value();
   if (verb == "begin" && what.is_object()) return done(begin(what));

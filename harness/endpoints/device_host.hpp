@@ -14,8 +14,9 @@
 
 namespace fieldproof {
 
-/// Makes a device from a merged configuration (vectors/README.md, `given.config`). It always has "model" (a string)
-/// and "inter_character_floor_ms" (a number): behind a pty or a socket, parts of one write arrive milliseconds apart.
+/// Makes a device from a merged configuration (vectors/README.md, `given.config`). It always has "model" (a string),
+/// "station" (1 unless given) and "inter_character_floor_ms" (a number): behind a pty or a socket, parts of one write
+/// arrive milliseconds apart.
 using DeviceFactory = std::function<Result<std::unique_ptr<EmulatedDevice>>(const nlohmann::json& config)>;
 
 /// Bytes that crossed the line at once, as a frame monitor shows them.

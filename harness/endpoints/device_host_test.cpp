@@ -160,6 +160,11 @@ TEST(DeviceHost, ServesTheControlSocket) {
             nlohmann::json({{"model", "tiny"}, {"station", 7}, {"delay_ms", 1}, {"inter_character_floor_ms", 20}}));
 }
 
+TEST(DeviceHost, TheStationIsOneUnlessGiven) {
+  Hosted host({});
+  EXPECT_THAT(host.ask(R"({"get":{"address":"@config"}})"), HasSubstr(R"(\"station\":1)"));
+}
+
 TEST(DeviceHost, RepliesWhenTheDeviceIsDue) {
   HostOptions options;
   options.config = {{"delay_ms", 30}};

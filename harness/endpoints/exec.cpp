@@ -16,7 +16,9 @@ namespace {
 
 std::string with_tty(std::string command, const std::string& path) {
   constexpr std::string_view mark = "{tty}";
-  for (std::size_t at = 0; (at = command.find(mark, at)) != std::string::npos; at += path.size()) command.replace(at, mark.size(), path);
+  for (std::size_t at = 0; (at = command.find(mark, at)) != std::string::npos; at += path.size()) {
+    command.replace(at, mark.size(), path);
+  }
   return command;
 }
 
@@ -73,8 +75,9 @@ class ExecEndpoint final : public Endpoint {
 }  // namespace
 
 Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name) {
-  if (const Status known = check_options(name, {}); !known) return known.error();
-  if (name.target.empty()) return fail("cannot open exec: there is no command; write exec:COMMAND, with {tty} for the path of its port");
+  if (name.target.empty()) {
+    return fail("cannot open exec: there is no command; write exec:COMMAND, with {tty} for the path of its port");
+  }
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();
   Result<PtyPair> pty = open_pty_pair();

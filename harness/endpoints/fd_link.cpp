@@ -64,7 +64,8 @@ Error FdLink::gone(const char* verb, int error) {
                 "; see that the device or serial server still runs");
   }
   if (error != 0 && error != EIO && error != ENXIO && error != ENODEV) return fail(start + errno_text(error));
-  return fail(start + "the far end is gone; see that the adapter is still plugged in, or that the process behind the pty still runs");
+  return fail(start +
+              "the far end is gone; see that the adapter is still plugged in, or that the process behind the pty still runs");
 }
 
 Error FdLink::ended(const char* verb) {
@@ -106,7 +107,9 @@ Status FdLink::wait_writable(Time give_up) {
                             pollfd{far_end_ ? far_end_->end_fd() : -1, POLLIN, 0}};
   const int ready = poll_for(fds.data(), fds.size(), give_up - now());
   if (interrupted()) return interrupted_error("send to", name_);
-  if (ready == 0) return fail("cannot send to " + name_ + ": the far end takes no more bytes; see that it reads and that flow control is off");
+  if (ready == 0) {
+    return fail("cannot send to " + name_ + ": the far end takes no more bytes; see that it reads and that flow control is off");
+  }
   if (ready > 0 && fds[0].revents == 0 && fds[2].revents != 0) return ended("send to");
   return ok();
 }

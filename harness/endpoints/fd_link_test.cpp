@@ -23,7 +23,9 @@ struct Sockets {
     near.reset(ends[0]);
     far.reset(ends[1]);
   }
-  void write_far(std::string_view text) const { ASSERT_EQ(::send(far.get(), text.data(), text.size(), 0), static_cast<ssize_t>(text.size())); }
+  void write_far(std::string_view text) const {
+    ASSERT_EQ(::send(far.get(), text.data(), text.size(), 0), static_cast<ssize_t>(text.size()));
+  }
   UniqueFd near, far;
 };
 

@@ -72,7 +72,10 @@ Result<std::unique_ptr<HostPort>> make_pty(const std::string& path) {
     std::error_code error;
     fs::remove(path, error);  // a link to nothing, left by one that was killed
     fs::create_symlink(pty->path, path, error);
-    if (error) return fail("cannot make the link " + path + ": " + errno_text(error.value()) + "; choose a path in a folder that you may write");
+    if (error) {
+      return fail("cannot make the link " + path + ": " + errno_text(error.value()) +
+                  "; choose a path in a folder that you may write");
+    }
     description += ", linked from " + path;
   }
   return std::unique_ptr<HostPort>(
@@ -164,8 +167,9 @@ Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const s
   if (path.empty()) return make_pty(path);
   UniqueFd fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd && errno == ENOENT) return make_pty(path);
-  if (!fd) return fail("cannot open " + path + ": " + errno_text(errno) + "; choose a terminal, or a path where there is nothing yet");
-  if (!::isatty(fd.get())) return fail("cannot use " + path + ": it is no terminal; choose a terminal, or a path where there is nothing yet");
+  constexpr std::string_view advice = "; choose a terminal, or a path where there is nothing yet";
+  if (!fd) return fail("cannot open " + path + ": " + errno_text(errno).append(advice));
+  if (!::isatty(fd.get())) return fail("cannot use " + path + ": it is no terminal" + std::string(advice));
   return use_terminal(std::move(fd), path, line);
 }
 

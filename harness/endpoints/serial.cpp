@@ -123,7 +123,6 @@ Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name) { return
 
 Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const SystemCalls& calls) {
   const std::string& path = name.target;
-  if (const Status known = check_options(name, {"baud", "frame", "rs485"}); !known) return known.error();
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();
   const Result<LineSettings> settings = parse_line_settings(name.option("baud", "9600") + '-' + name.option("frame", "8N1"));

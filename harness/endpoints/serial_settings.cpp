@@ -53,7 +53,8 @@ bool is_pty(const SystemCalls& calls, int fd) {
 Status apply_settings(const SystemCalls& calls, int fd, const std::string& port, const LineSettings& settings) {
   KernelTermios wanted{};
   if (calls.ioctl(fd, get_kernel_termios, &wanted) != 0) {
-    return fail("cannot use " + port + " as a serial port: " + errno_text(errno) + "; name a terminal device such as /dev/ttyUSB0");
+    return fail("cannot use " + port + " as a serial port: " + errno_text(errno) +
+                "; name a terminal device such as /dev/ttyUSB0");
   }
   const bool pty = is_pty(calls, fd);
   // A byte with a parity or framing error and a break are dropped, as a serial module does it; the driver counts them.
@@ -62,7 +63,8 @@ Status apply_settings(const SystemCalls& calls, int fd, const std::string& port,
   if (pty) on_line.data_bits = 8, on_line.parity = 'N';  // asked for, they may be refused
   wanted.output_flags = 0;
   wanted.local_flags = 0;
-  wanted.control_flags &= ~(speed_mask | speed_mask << input_speed_shift | format_mask | CRTSCTS | static_cast<std::uint32_t>(CMSPAR));
+  wanted.control_flags &= ~(speed_mask | speed_mask << input_speed_shift | format_mask | CRTSCTS);
+  wanted.control_flags &= ~static_cast<std::uint32_t>(CMSPAR);
   wanted.control_flags |= speed_flags(settings.baud) | CREAD | CLOCAL | format_flags(on_line);
   wanted.control_characters.fill(0);
   wanted.control_characters[VMIN] = 1;
@@ -97,13 +99,15 @@ Status apply_direction(const SystemCalls& calls, int fd, const std::string& port
   mode.flags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
   if (calls.ioctl(fd, TIOCSRS485, &mode) == 0) return ok();
   const std::string why = errno == ENOTTY || errno == EINVAL ? "its driver has no RS-485 mode" : errno_text(errno);
-  return fail("cannot switch " + port + " to RS-485: " + why + "; use rs485=rts, or leave rs485 out where the adapter switches by itself");
+  return fail("cannot switch " + port + " to RS-485: " + why +
+              "; use rs485=rts, or leave rs485 out where the adapter switches by itself");
 }
 
 Status set_rts(const SystemCalls& calls, int fd, const std::string& port, bool on) {
   int line = TIOCM_RTS;
   if (calls.ioctl(fd, on ? TIOCMBIS : TIOCMBIC, &line) == 0) return ok();
-  return fail("cannot switch RTS of " + port + ": " + (errno == ENOTTY || errno == EINVAL ? "it has no such line" : errno_text(errno)) +
+  const std::string why = errno == ENOTTY || errno == EINVAL ? "it has no such line" : errno_text(errno);
+  return fail("cannot switch RTS of " + port + ": " + why +
               "; use rs485=1, or leave rs485 out where the adapter switches by itself");
 }
 

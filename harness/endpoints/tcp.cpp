@@ -100,7 +100,6 @@ class TcpEndpoint final : public Endpoint {
 }  // namespace
 
 Result<std::unique_ptr<Endpoint>> open_tcp(const EndpointName& name) {
-  if (const Status known = check_options(name, {}); !known) return known.error();
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();
   auto endpoint = std::make_unique<TcpEndpoint>(name.target, *floor);

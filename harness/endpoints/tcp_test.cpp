@@ -81,7 +81,6 @@ TEST_F(Tcp, RefusesWhatIsNoAddress) {
   EXPECT_EQ(message(":2004"), "cannot connect to :2004: there is no host; write HOST:PORT");
   EXPECT_THAT(message("127.0.0.1:http"), HasSubstr("'http' is no port"));
   EXPECT_THAT(message("127.0.0.1:65536"), HasSubstr("'65536' is no port"));
-  EXPECT_THAT(open_tcp(endpoint_name("tcp", where, {{"baud", "9600"}})).error().message, HasSubstr("unknown option 'baud'"));
 }
 
 TEST_F(Tcp, AnInterruptEndsConnecting) {

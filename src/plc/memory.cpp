@@ -75,8 +75,8 @@ Result<Elements> find_elements(const PlcMemory& memory, std::string_view verb, s
   Elements elements{parsed.address, 1, type_bytes(parsed.address.type) * std::size_t{2}};
   if (digits == 0) return elements;
   if (digits % elements.digits != 0) {
-    return fail(fmt::format("cannot {} {}: {} digits are not a whole number of elements; give {} digits for each", verb, name, digits,
-                            elements.digits));
+    return fail(fmt::format("cannot {} {}: {} digits are not a whole number of elements; give {} digits for each", verb, name,
+                            digits, elements.digits));
   }
   elements.count = static_cast<std::uint32_t>(digits / elements.digits);
   if (!fits(memory.model(), elements.first, elements.count)) {
@@ -97,7 +97,9 @@ Status set_by_name(PlcMemory& memory, std::string_view address, std::string_view
       if (hex_digit(c) < 0) return fail(fmt::format("cannot set {} to {}: '{}' is not a hex digit", address, hex, c));
       value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
     }
-    if (elements->first.type == 'X' && value > 1) return fail(fmt::format("cannot set {} to {}: a bit is 00 or 01", address, hex));
+    if (elements->first.type == 'X' && value > 1) {
+      return fail(fmt::format("cannot set {} to {}: a bit is 00 or 01", address, hex));
+    }
     values.push_back(value);
   }
   for (std::uint32_t i = 0; i < values.size(); ++i) memory.write(elements->first + i, values[i]);

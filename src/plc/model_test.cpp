@@ -43,7 +43,8 @@ TEST(PlcModel, RangesOfTypeH) {
 
 TEST(PlcModel, RangesOfXec) {
   expect_rows("xec-h", {{'I', {1023, true}}, {'Q', {1023, true}}, {'M', {8191, true}}, {'W', {10239, true}}, {'R', {10239, true}},
-                        {'F', {1023, false}}, {'K', {4095, true}}, {'L', {2047, true}}, {'N', {5119, false}}, {'U', {511, true}}});
+                        {'F', {1023, false}}, {'K', {4095, true}}, {'L', {2047, true}}, {'N', {5119, false}},
+                        {'U', {511, true}}});
 }
 
 TEST(PlcModel, OnlyTimersAndCountersHaveContacts) {

@@ -71,7 +71,7 @@ Envelope open_envelope(ByteView frame, bool request) {
   const std::size_t tail = std::min(text.find(static_cast<char>(request ? xgt_eot : xgt_etx)), text.size());
   if (tail == text.size()) e.fault.note({XgtCheck::tail, 0, "tail", request ? "EOT is missing" : "ETX is missing", 0, tail});
   const std::string_view body = text.substr(0, tail);
-  const auto field = [body](std::size_t at, std::size_t size) { return at < body.size() ? body.substr(at, size) : std::string_view(); };
+  const auto field = [body](std::size_t at, std::size_t size) { return body.substr(std::min(at, body.size()), size); };
 
   const std::string_view station = field(1, 2);
   const std::int64_t number = hex_value(station);
@@ -133,9 +133,10 @@ class ContentReader {
   bool read_blocks(bool write) {
     const std::size_t offset = in_.offset();
     const int blocks = number(XgtCheck::block_count, "block count");
+    const bool too_many = blocks > static_cast<int>(xgt_max_blocks);
     if (blocks == 0) wrong(XgtCheck::block_count, xgt_error::data, "block count", "is zero", offset);
-    if (blocks > static_cast<int>(xgt_max_blocks)) wrong(XgtCheck::block_count, xgt_error::blocks, "block count", "is more than 16", offset);
-    if (blocks <= 0 || blocks > static_cast<int>(xgt_max_blocks)) return false;
+    if (too_many) wrong(XgtCheck::block_count, xgt_error::blocks, "block count", "is more than 16", offset);
+    if (blocks <= 0 || too_many) return false;
     for (block_ = 1; block_ <= static_cast<unsigned>(blocks); ++block_) {
       XgtBlock& block = request_.block[block_ - 1];
       if (!read_name(block)) return false;
@@ -155,14 +156,17 @@ class ContentReader {
     request_.blocks = 1;
     const unsigned bytes = element_bytes(block);
     if (block.name.size() > 2 && upper(block.name[2]) == 'X') {
-      wrong(XgtCheck::type, xgt_error::type, "name", "is of bits, which have no continuous read or write", in_.offset() - block.name.size());
+      const std::size_t name_offset = in_.offset() - block.name.size();
+      wrong(XgtCheck::type, xgt_error::type, "name", "is of bits, which have no continuous read or write", name_offset);
     }
     const std::size_t offset = in_.offset();
     const int count = number(XgtCheck::count, "number of data");
     if (count < 0) return false;
     request_.count = static_cast<unsigned>(count);
     if (count == 0) wrong(XgtCheck::count, xgt_error::data, "number of data", "is zero", offset);
-    if (request_.count * bytes > xgt_max_run) wrong(XgtCheck::count, xgt_error::size, "number of data", "is more than 60 words", offset);
+    if (request_.count * bytes > xgt_max_run) {
+      wrong(XgtCheck::count, xgt_error::size, "number of data", "is more than 60 words", offset);
+    }
     if (!write) return true;
     return bytes != 0 && read_data(block, std::size_t{request_.count} * bytes * 2);
   }
@@ -170,9 +174,10 @@ class ContentReader {
   bool read_name(XgtBlock& block) {
     const std::size_t offset = in_.offset();
     const int length = number(XgtCheck::name_length, "name length");
+    const bool too_long = length > static_cast<int>(xgt_max_name);
     if (length == 0) wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is zero", offset);
-    if (length > static_cast<int>(xgt_max_name)) wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is more than 16", offset);
-    if (length <= 0 || length > static_cast<int>(xgt_max_name)) return false;
+    if (too_long) wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is more than 16", offset);
+    if (length <= 0 || too_long) return false;
     const std::size_t name_offset = in_.offset();
     block.name = in_.take(static_cast<std::size_t>(length));
     if (block.name.size() == static_cast<std::size_t>(length)) return true;
@@ -271,7 +276,8 @@ XgtRequest parse_request(ByteView frame) {
     const std::int64_t number = e.kind.size() < 2 ? -1 : hex_value(e.kind);
     if (number < 0 || number >= xgt_registrations) {
       const std::uint16_t code = command == 'X' ? xgt_error::register_number : xgt_error::execute_number;
-      request.fault.note({XgtCheck::registration_number, code, "registration number", number < 0 ? "is not two hex digits" : "is not 00 to 0F", 0, 4});
+      const std::string_view problem = number < 0 ? "is not two hex digits" : "is not 00 to 0F";
+      request.fault.note({XgtCheck::registration_number, code, "registration number", problem, 0, 4});
     } else {
       request.registration = static_cast<unsigned>(number);
     }
@@ -279,8 +285,9 @@ XgtRequest parse_request(ByteView frame) {
     request.service = request.content = service_of(e.command, e.kind);
     if (request.service == XgtService::unknown) {
       const bool known = command == 'R' || command == 'W';
-      request.fault.note({XgtCheck::command, 0, known ? "command type" : "command", known ? "is neither SS nor SB" : "is not R, W, X or Y", 0,
-                          known ? std::size_t{4} : std::size_t{3}});
+      const XgtFault wrong_command{XgtCheck::command, 0, "command", "is not R, W, X or Y", 0, 3};
+      const XgtFault wrong_type{XgtCheck::command, 0, "command type", "is neither SS nor SB", 0, 4};
+      request.fault.note(known ? wrong_type : wrong_command);
       return request;
     }
   }
@@ -377,8 +384,8 @@ XgtReply parse_reply(ByteView frame) {
   reply.kind = e.kind;
   const char command = upper(e.command);
   const bool numbered = command == 'X' || command == 'Y';
-  const bool known = numbered ? e.kind.size() == 2 && hex_value(e.kind) >= 0 : service_of(e.command, e.kind) != XgtService::unknown;
-  if (!known) {
+  const bool is_number = e.kind.size() == 2 && hex_value(e.kind) >= 0;
+  if (numbered ? !is_number : service_of(e.command, e.kind) == XgtService::unknown) {
     reply.fault.note({XgtCheck::command, 0, "command", "is not RSS, RSB, WSS, WSB, X or Y", 0, 3});
     return reply;
   }

@@ -226,7 +226,7 @@ TEST(XgtCodec, FaultsOfReplies) {
 
 TEST(XgtCodec, SixteenBlocksAndNames) {
   std::string body = "01wSS10";
-  for (int i = 0; i < 16; ++i) body += "10%ML00000000000" + std::string{hex_char(0), hex_char(static_cast<unsigned>(i) % 10)} + "0123456789ABCDEF";
+  for (unsigned i = 0; i < 16; ++i) body += std::string("10%ML000000000000") + hex_char(i % 10) + "0123456789ABCDEF";
   const Bytes frame = enq(body);
   EXPECT_EQ(frame.size(), 1u + 7 + 16 * (2 + 16 + 16) + 3);  // 555
   const XgtRequest r = parse_request(frame);
@@ -235,8 +235,8 @@ TEST(XgtCodec, SixteenBlocksAndNames) {
   EXPECT_EQ(encoded(r), frame);
 }
 
-/// Every frame cut at every length (always a fault), and with every byte changed, is parsed in a buffer of exactly its size, so that a
-/// sanitizer sees any byte read past it.
+/// Every frame cut at every length (always a fault), and with every byte changed, is parsed in a buffer of exactly its
+/// size, so that a sanitizer sees any byte read past it.
 TEST(XgtCodec, DamagedFramesNeverReadPastTheEnd) {
   const Bytes frames[] = {enq("01rSS0206%MW02006%PW001"), enq("01wSB06%DW00002AA15BB26"), enq("01x01RSB06%MW00002"), enq("01y01"),
                           ack("01rSS0202123402" "5678"),   nak("01rSS1132"),             ack("01y01049183AABB")};

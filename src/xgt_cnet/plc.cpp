@@ -17,7 +17,8 @@ constexpr unsigned longest_time_out = 50;  // 000 4.3.1 dialog: 0-50
 Result<DeviceAddress> own_address(const PlcModel& model, std::size_t block, std::string_view what, const std::string& name) {
   const ParsedAddress parsed = parse_address(model, name);
   if (parsed) return parsed.address;
-  return fail(fmt::format("cannot set up p2p block {}: {} '{}' is wrong on {}: {}", block, what, name, model.name, describe(parsed.fault)));
+  return fail(fmt::format("cannot set up p2p block {}: {} '{}' is wrong on {}: {}", block, what, name, model.name,
+                          describe(parsed.fault)));
 }
 
 Result<P2pBlock> make_block(const PlcModel& model, std::size_t number, const P2pConfig& config) {
@@ -29,7 +30,9 @@ Result<P2pBlock> make_block(const PlcModel& model, std::size_t number, const P2p
   if (!save) return save.error();
   // The read name belongs to the partner, whose areas are not known here.
   const char type = config.read.size() > 3 && config.read[0] == '%' ? config.read[2] : '\0';
-  if (type_bytes(type) == 0 || config.read.size() > xgt_max_name) return wrong("read '" + config.read + "' is no device name such as %MW100");
+  if (type_bytes(type) == 0 || config.read.size() > xgt_max_name) {
+    return wrong("read '" + config.read + "' is no device name such as %MW100");
+  }
   if ((type & ~0x20) != save->type) return wrong("read and save are of different types; make them equal");
   if (config.station > 255) return wrong("station is not 0 to 255");
   const unsigned bytes = config.count * type_bytes(type);
@@ -108,7 +111,8 @@ Result<std::string> Plc::get(std::string_view address, std::size_t digits) const
   if (address == "@errors") return number(counters().errors, 4);
   if (address == "@services") return number(counters().services, 4);
   constexpr std::array<std::string_view, 3> names{"@status", "@errors", "@services"};
-  return fail(fmt::format("cannot get {}: there is no such counter; use @status, @errors or @services{}", address, suggestion(address, names)));
+  return fail(fmt::format("cannot get {}: there is no such counter; use @status, @errors or @services{}", address,
+                          suggestion(address, names)));
 }
 
 Status Plc::act(std::string_view action) {
@@ -122,7 +126,8 @@ Status Plc::act(std::string_view action) {
     return ok();
   }
   constexpr std::array<std::string_view, 3> names{"run", "stop", "power_cycle"};
-  return fail(fmt::format("cannot do '{}': there is no such action; use run, stop or power_cycle{}", action, suggestion(action, names)));
+  return fail(fmt::format("cannot do '{}': there is no such action; use run, stop or power_cycle{}", action,
+                          suggestion(action, names)));
 }
 
 }  // namespace fieldproof

@@ -34,7 +34,8 @@ Status known_keys(const json& object, std::string_view what, std::span<const std
   if (!object.is_object()) return fail(fmt::format("cannot read {}: it is not a JSON object", what));
   for (const auto& [key, value] : object.items()) {
     if (std::ranges::find(keys, key) != keys.end()) continue;
-    return fail(fmt::format("cannot read {}: there is no key '{}'; the keys are {}{}", what, key, joined(keys), suggestion(key, keys)));
+    return fail(fmt::format("cannot read {}: there is no key '{}'; the keys are {}{}", what, key, joined(keys),
+                            suggestion(key, keys)));
   }
   return ok();
 }
@@ -83,7 +84,9 @@ class Reader {
   }
 
   void wrong(const std::string& key, const json& value, const std::string& expected) {
-    if (!error_) error_ = fail(fmt::format("cannot read {}: {} is {}, which is not {}", what_, key, value.dump(-1, ' ', true, json::error_handler_t::replace), expected));
+    if (error_) return;
+    const std::string given = value.dump(-1, ' ', true, json::error_handler_t::replace);
+    error_ = fail(fmt::format("cannot read {}: {} is {}, which is not {}", what_, key, given, expected));
   }
 
  private:
@@ -108,7 +111,8 @@ Result<P2pConfig> parse_p2p(const json& object, std::size_t number) {
   const std::string what = fmt::format("p2p block {}", number);
   if (const Status status = known_keys(object, what, p2p_keys); !status) return status.error();
   for (const char* key : {"flag", "read", "save", "station"}) {
-    if (!object.contains(key)) return fail(fmt::format("cannot read {}: there is no {}; give flag, read, save and station", what, key));
+    if (object.contains(key)) continue;
+    return fail(fmt::format("cannot read {}: there is no {}; give flag, read, save and station", what, key));
   }
   P2pConfig block;
   Reader reader(object, what);

@@ -208,7 +208,8 @@ TEST(PlcOnALine, ServerAndClientTalkToEachOther) {
 // --- Configurations that make no PLC ---
 
 TEST(MakePlc, ErrorsNameTheParameter) {
-  EXPECT_EQ(error_of({.model = "xbc_h"}), "cannot make a PLC 'xbc_h': there is no such model; use one of xbm-s, xbc-h, xec-h; did you mean 'xbc-h'?");
+  EXPECT_EQ(error_of({.model = "xbc_h"}),
+            "cannot make a PLC 'xbc_h': there is no such model; use one of xbm-s, xbc-h, xec-h; did you mean 'xbc-h'?");
   EXPECT_THAT(error_of({.station = 256}), HasSubstr("station is not 0 to 255"));
   EXPECT_THAT(error_of({.delay = 15ms}), HasSubstr("steps of 10 ms"));
   EXPECT_THAT(error_of({.delay = 2560ms}), HasSubstr("0 to 2550 ms"));

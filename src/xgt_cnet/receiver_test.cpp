@@ -171,7 +171,8 @@ TEST(FrameReceiverFuzz, HowBytesAreCutIntoBurstsDoesNotMatter) {
     for (std::size_t from = 0; from < bytes.size();) {
       const std::size_t size = std::min<std::size_t>(1 + random() % 5, bytes.size() - from);
       const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(from);
-      cut.receive({Bytes(first, first + static_cast<std::ptrdiff_t>(size)), character * static_cast<int>(from), character}, in_parts);
+      const Bytes part(first, first + static_cast<std::ptrdiff_t>(size));
+      cut.receive({part, character * static_cast<int>(from), character}, in_parts);
       from += size;
     }
     ASSERT_EQ(at_once.frames, in_parts.frames) << to_hex(bytes);

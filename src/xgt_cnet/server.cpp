@@ -28,11 +28,14 @@ XgtFault name_fault(AddressFault fault) {
   return {};
 }
 
-/// A registration number that is none, as it was sent, but such that the reply keeps its form.
-std::string_view echoed_number(std::string_view sent, std::array<char, 2>& number) {
+/// A registration number as it stands in the reply: upper-case hex; one that is none as it was sent, but such that the
+/// reply keeps its form.
+std::string_view replied_number(std::string_view sent, std::array<char, 2>& number) {
   number = {'0', '0'};
-  for (std::size_t i = 0; i < sent.size(); ++i) {
-    if (sent[i] > ' ' && sent[i] < '\x7F') number[i] = sent[i];
+  if (sent.size() == number.size() && hex_value(sent) >= 0) {
+    for (std::size_t i = 0; i < sent.size(); ++i) number[i] = hex_char(static_cast<unsigned>(hex_digit(sent[i])));
+  } else {
+    for (std::size_t i = 0; i < sent.size(); ++i) number[i] = sent[i] > ' ' && sent[i] < '\x7F' ? sent[i] : '0';
   }
   return {number.data(), number.size()};
 }
@@ -73,7 +76,8 @@ void XgtServer::on_frame(ByteView frame, Time end) {
   check_names(request, addresses);
   XgtReply reply{.station = request.station, .command = request.command, .kind = request.kind};
   std::array<char, 2> number;
-  if (check == XgtCheck::registration_number) reply.kind = echoed_number(request.kind, number);
+  const bool numbered = request.service == XgtService::register_monitor || request.service == XgtService::run_monitor;
+  if (numbered) reply.kind = replied_number(request.kind, number);
   if (request.fault) {
     reply.ack = false;
     reply.error = request.fault.code;
@@ -121,7 +125,7 @@ void XgtServer::execute(const XgtRequest& request, const Addresses& addresses, X
     case XgtService::read_blocks: return read_blocks(std::span(addresses).first(request.blocks), reply);
     case XgtService::read_run:
       reply.with_block_count = true;
-      return read_run(addresses[0], request.count, reply);
+      return add_data(addresses[0], request.count, reply);
     case XgtService::register_monitor: {
       Registration& r = registrations_[request.registration];
       r.content = request.content;
@@ -131,7 +135,7 @@ void XgtServer::execute(const XgtRequest& request, const Addresses& addresses, X
     }
     case XgtService::run_monitor: {
       const Registration& r = registrations_[request.registration];
-      return r.content == XgtService::read_run ? read_run(r.addresses[0], r.count, reply) : read_blocks(r.addresses, reply);
+      return r.content == XgtService::read_run ? add_data(r.addresses[0], r.count, reply) : read_blocks(r.addresses, reply);
     }
     default: return write(request, addresses);
   }
@@ -141,8 +145,6 @@ void XgtServer::read_blocks(std::span<const DeviceAddress> addresses, XgtReply& 
   reply.with_block_count = true;
   for (const DeviceAddress& address : addresses) add_data(address, 1, reply);
 }
-
-void XgtServer::read_run(const DeviceAddress& first, unsigned count, XgtReply& reply) { add_data(first, count, reply); }
 
 void XgtServer::add_data(const DeviceAddress& first, unsigned count, XgtReply& reply) {
   char* const begin = data_.data() + data_size_;
@@ -161,7 +163,9 @@ void XgtServer::write(const XgtRequest& request, const Addresses& addresses) {
     return;
   }
   const std::size_t digits = 2 * type_bytes(addresses[0].type);
-  for (unsigned i = 0; i < request.count; ++i) memory_.write(addresses[0] + i, value_of(request.block[0].data.substr(i * digits, digits)));
+  for (unsigned i = 0; i < request.count; ++i) {
+    memory_.write(addresses[0] + i, value_of(request.block[0].data.substr(i * digits, digits)));
+  }
 }
 
 }  // namespace fieldproof

@@ -3,6 +3,7 @@
 // - a BCC is accepted in either case of its hex digits;
 // - an unknown command or type counts with status 1;
 // - a registration number that is cut short, or not printable, is filled up with 0 in the NAK, which so keeps its form;
+// - a registration number is replied in upper-case hex, as other numbers are;
 // - name length or number of data that is not hex: 0011.
 #pragma once
 
@@ -49,7 +50,7 @@ class XgtServer : private FrameSink {
   void check_names(XgtRequest& request, Addresses& addresses) const;
   void execute(const XgtRequest& request, const Addresses& addresses, XgtReply& reply);
   void read_blocks(std::span<const DeviceAddress> addresses, XgtReply& reply);
-  void read_run(const DeviceAddress& first, unsigned count, XgtReply& reply);
+  /// One block of `count` elements.
   void add_data(const DeviceAddress& first, unsigned count, XgtReply& reply);
   void write(const XgtRequest& request, const Addresses& addresses);
 

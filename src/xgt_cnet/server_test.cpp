@@ -201,7 +201,7 @@ TEST(XgtServer, LetterCase) {
   b.set("%MW100", "ABCD");
   EXPECT_EQ(b.ask("1Frss0106%mw100"), "ACK 1Frss0102ABCD");
   EXPECT_EQ(b.ask("1fRsB06%Mw10001"), "ACK 1FRsB0102ABCD");  // the station in the reply is its own, in upper case
-  EXPECT_EQ(b.ask("1FX0arss0106%mw100"), "ACK 1FX0a");
+  EXPECT_EQ(b.ask("1FX0arss0106%mw100"), "ACK 1FX0A");
   EXPECT_EQ(b.ask("1Fy0A"), "ACK 1Fy0A0102ABCD");
   EXPECT_EQ(b.ask("1Fwss0106%mw100abcd"), "ACK 1Fwss");
 }
@@ -353,6 +353,7 @@ TEST(XgtServerMonitor, SurplusAndNumbersCutShort) {
   EXPECT_EQ(b.ask("01y0000"), "NAK 01y001234");
   EXPECT_EQ(b.ask("01x"), "NAK 01x000290");
   EXPECT_EQ(b.ask("01y0"), "NAK 01y000190");
+  EXPECT_EQ(b.ask("01xffRSS0104%MW0"), "NAK 01xFF0290");
   EXPECT_EQ(b.ask("01Y\x03" "2"), "NAK 01Y020190");  // a control character in the reply would break its form
 }
 

@@ -1,0 +1,51 @@
+// A PLC with one known fault, so that the suite can be shown to find it.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string_view>
+
+#include "src/plc/emulated_device.hpp"
+#include "src/xgt_cnet/receiver.hpp"
+#include "suites/xgt_cnet/broken/faults.hpp"
+
+namespace fieldproof::xgt_cnet {
+
+class BrokenPlc : public EmulatedDevice, private FrameSink {
+ public:
+  void receive(const Burst& burst) override;
+  std::optional<Time> wake_at() const override;
+  Bytes advance(Time now) override;
+
+  Status set(std::string_view address, std::string_view hex) override { return plc_.memory().set(address, hex); }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override;
+  Status act(std::string_view action) override;
+
+ private:
+  friend Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view, const PlcConfig&, Storage&);
+  BrokenPlc(Behaviour behaviour, GoodPlc plc, Duration gap);
+
+  void on_frame(ByteView frame, Time end) override;
+  void on_broken_frame(std::uint16_t why) override;
+  void remember(ByteView bytes);
+  void put(Sendings sendings, Time from);
+
+  struct Pending {
+    Time due{};
+    Sending sending;
+  };
+
+  Behaviour behaviour_;
+  mutable GoodPlc plc_;
+  FrameReceiver receiver_;
+  Bytes since_head_;             // of the frame that is arriving
+  Time now_{};
+  bool in_silence_ = false;
+  unsigned frames_in_burst_ = 0;
+  std::deque<Pending> pending_;  // in the order of time
+};
+
+/// A server with the fault of that name, or without ("none"). `storage` outlives it. Errors name the fault or the parameter.
+Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault, const PlcConfig& config, Storage& storage);
+
+}  // namespace fieldproof::xgt_cnet
