@@ -116,7 +116,7 @@ std::size_t Exchange::complete_length(const PreparedStep& step) {
 void Exchange::silence(const PreparedCase& prepared, StepRecord& record, Transcript& transcript) {
   if (endpoint_.capabilities().simulated) return wait_until(last_sent_.end + timing_.promised_silence, record, transcript);
   // A probe would change the counters, and a client answers none: there the time is waited out.
-  if (prepared.looks_at_counters() || prepared.is_client()) return wait_until(last_sent_.end + timing_.response_max, record, transcript);
+  if (prepared.looks_at_counters() || !prepared.answers_probes()) return wait_until(last_sent_.end + timing_.response_max, record, transcript);
   if (!protocol_.frame_length(last_bytes_)) {
     // Without a tail the probe would be taken for more of the same frame until the inter-character time is over.
     wait_until(last_sent_.end + timing_.quiet, record, transcript);
@@ -158,7 +158,7 @@ void Exchange::close(const PreparedCase& prepared, Transcript& transcript) {
   if (transcript.trouble) return;
   StepRecord rest;
   const bool simulated = endpoint_.capabilities().simulated;
-  if (simulated || prepared.is_client()) {
+  if (simulated || !prepared.answers_probes()) {
     wait_until(endpoint_.now() + (simulated ? timing_.promised_silence : timing_.quiet), rest, transcript);
     transcript.events.pop_back();
   } else if (!probe(prepared.station, rest.received, transcript) && !transcript.trouble) {

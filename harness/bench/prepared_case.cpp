@@ -7,6 +7,8 @@ namespace fieldproof {
 
 bool PreparedCase::is_client() const { return source->config.value("role", "server") == "client"; }
 
+bool PreparedCase::answers_probes() const { return !is_client() && !source->config.contains("bench_line"); }
+
 bool PreparedCase::listens_for_silence() const {
   return std::ranges::any_of(steps, [](const PreparedStep& step) { return step.step->kind == Step::Kind::silence; });
 }

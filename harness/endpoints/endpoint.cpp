@@ -69,10 +69,11 @@ std::string read_options(std::string_view text, const Kind& kind, std::map<std::
   return {};
 }
 
-/// A command keeps its own '?': behind the last one there are options only if it reads as such.
+/// A command keeps its own '?': behind the last one there are options only if it reads as such, and no option of ours
+/// has a space (`exec:tool emulate xbc-h?station=1 --pty {tty}` is all command).
 std::size_t options_of_command(std::string_view rest, const Kind& kind) {
   const std::size_t mark = rest.rfind('?');
-  if (mark == std::string_view::npos || mark + 1 == rest.size()) return std::string_view::npos;
+  if (mark == std::string_view::npos || mark + 1 == rest.size() || rest.find(' ', mark) != std::string_view::npos) return std::string_view::npos;
   std::map<std::string, std::string> trial;
   return read_options(rest.substr(mark + 1), kind, trial).empty() ? mark : std::string_view::npos;
 }

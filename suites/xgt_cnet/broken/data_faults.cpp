@@ -1,0 +1,182 @@
+// Faults in what is read and written: order of bytes and words, addresses, rights (000 7.1.4).
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+#include "suites/xgt_cnet/broken/faults.hpp"
+
+namespace fieldproof::xgt_cnet {
+
+namespace {
+
+char type_of(const XgtRequest& request) { return request.blocks > 0 && request.block[0].name.size() > 2 ? request.block[0].name[2] : '\0'; }
+
+/// Cuts digits into groups and puts the `part`s of each group in reverse order.
+std::string reversed(std::string_view digits, std::size_t group, std::size_t part) {
+  std::string out;
+  for (std::size_t at = 0; at < digits.size(); at += group) {
+    const std::string_view one = digits.substr(at, group);
+    for (std::size_t end = one.size(); end >= part; end -= part) out += one.substr(end - part, part);
+  }
+  return out;
+}
+
+struct Order {
+  char type;          // of the names it applies to
+  std::size_t group;  // digits
+  std::size_t part;
+};
+constexpr Order word_bytes{'W', 4, 2}, dword_halves{'D', 8, 4}, lword_quarters{'L', 16, 4};
+
+Bytes reordered_write(const Bytes& frame, const Order& order) {
+  XgtRequest request = parse_request(frame);
+  if (request.fault || type_of(request) != order.type || (request.command | 0x20) != 'w') return frame;
+  std::array<std::string, xgt_max_blocks> data;
+  for (unsigned i = 0; i < request.blocks; ++i) {
+    data[i] = reversed(request.block[i].data, order.group, order.part);
+    request.block[i].data = data[i];
+  }
+  Bytes out;
+  encode_request(request, out);
+  return out;
+}
+
+Bytes reordered_read(const Bytes& frame, Bytes reply_bytes, const Order& order) {
+  const XgtRequest request = parse_request(frame);
+  XgtReply reply = parse_reply(reply_bytes);
+  if (reply_bytes.empty() || type_of(request) != order.type || (request.command | 0x20) != 'r' || !reply.ack) return reply_bytes;
+  std::array<std::string, xgt_max_blocks> data;
+  for (unsigned i = 0; i < reply.blocks; ++i) {
+    data[i] = reversed(reply.data[i], order.group, order.part);
+    reply.data[i] = data[i];
+  }
+  Bytes out;
+  encode_reply(reply, out);
+  return out;
+}
+
+MakeBehaviour reorder(Order order, bool reads, bool writes) {
+  return answer_with([=](const Bytes& request, GoodPlc& plc) {
+    Bytes reply = plc.answer(writes ? reordered_write(request, order) : request);
+    return reads ? reordered_read(request, std::move(reply), order) : reply;
+  });
+}
+
+/// Understands one type's numbers differently.
+MakeBehaviour renumber(char type, std::uint32_t (*number)(std::uint32_t)) {
+  return misread([type, number](const Bytes& request, GoodPlc&) {
+    return with_names(request, [type, number](std::string name) {
+      const NameParts parts = split_name(name);
+      return parts.number && name[2] == type ? parts.area_and_type + std::to_string(number(*parts.number)) : name;
+    });
+  });
+}
+
+/// %MX1A becomes %MX15: bit 15 is counted as bit 0.
+std::string mirrored_bit(std::string name) {
+  if (name.size() < 4 || name[2] != 'X' || name[1] == 'T' || name[1] == 'C') return name;
+  const int bit = hex_digit(name.back());
+  if (bit >= 0) name.back() = hex_char(static_cast<unsigned>(15 - bit));
+  return name;
+}
+
+bool is_contact(std::string_view name) { return name.size() > 3 && name[2] == 'X' && (name[1] == 'T' || name[1] == 'C'); }
+
+/// One block: the contact is on where the current value is not 0, and writing it writes the value.
+Bytes contact_of_value(const Bytes& frame, GoodPlc& plc) {
+  const XgtRequest request = parse_request(frame);
+  Bytes reply = plc.answer(frame);
+  if (request.blocks != 1 || !is_contact(request.block[0].name) || reply.empty() || reply[0] != xgt_ack) return reply;
+  const std::string value = fmt::format("%{}W{}", request.block[0].name[1], request.block[0].name.substr(3));
+  if ((request.command | 0x20) == 'w') {
+    (void)plc.memory().set(value, "00" + std::string(request.block[0].data));
+    return reply;
+  }
+  const Result<std::string> held = plc.memory().get(value, 0);
+  return ack_to(request, held && *held != "0000" ? "010101" : "010100");
+}
+
+/// Answers NAK 1132 to a write to F or N as it should, or rather: would, if it did not write.
+Bytes write_read_only(const Bytes& frame, GoodPlc& plc) {
+  const XgtRequest request = parse_request(frame);
+  Bytes reply = plc.answer(frame);
+  if (refusal(reply) != xgt_error::area || (request.command | 0x20) != 'w') return reply;
+  for (unsigned i = 0; i < request.blocks; ++i)
+    if (!plc.memory().set(request.block[i].name, request.block[i].data)) return reply;
+  return ack_to(request);
+}
+
+/// Checks each block as it writes it.
+Bytes write_until_refused(const Bytes& frame, GoodPlc& plc) {
+  const XgtRequest request = parse_request(frame);
+  Bytes reply = plc.answer(frame);
+  if (!refusal(reply) || request.service != XgtService::write_blocks) return reply;
+  for (unsigned i = 0; i < request.blocks; ++i) {
+    XgtRequest one = request;
+    one.blocks = 1;
+    one.block[0] = request.block[i];
+    Bytes single;
+    encode_request(one, single);
+    if (refusal(plc.answer(single))) return reply;
+  }
+  return reply;
+}
+
+/// Every write is acknowledged, and nothing happens.
+Bytes acknowledge_only(const Bytes& frame, GoodPlc& plc) {
+  const XgtRequest request = parse_request(frame);
+  if (request.service != XgtService::write_run || request.station != plc.station() || request.fault) return plc.answer(frame);
+  return ack_to(request);
+}
+
+/// The neighbour byte is cleared by a write of one byte.
+Bytes clear_other_byte(const Bytes& frame, GoodPlc& plc) {
+  const XgtRequest request = parse_request(frame);
+  Bytes reply = plc.answer(frame);
+  if (request.service != XgtService::write_blocks || type_of(request) != 'B' || reply.empty() || reply[0] != xgt_ack) return reply;
+  for (unsigned i = 0; i < request.blocks; ++i) {
+    const NameParts parts = split_name(request.block[i].name);
+    if (parts.number) (void)plc.memory().set(parts.area_and_type + std::to_string(*parts.number ^ 1), "00");
+  }
+  return reply;
+}
+
+}  // namespace
+
+std::vector<Fault> data_faults() {
+  return {
+      {"word_bytes_swapped_in_reads", "words are read with the low byte first", reorder(word_bytes, true, false), "rss/two_words/lower", "data"},
+      {"word_bytes_swapped_in_writes", "words are written with the low byte first", reorder(word_bytes, false, true), "wss/type_word/lower", "is due"},
+      {"word_bytes_swapped_in_both", "words are read and written with the low byte first: it cancels where words are read back as words",
+       reorder(word_bytes, true, true), "wss/value_1234_is_31323334/lower", "%MB200"},
+      {"dword_halves_swapped", "dwords are read and written with the low word first", reorder(dword_halves, true, true), "wss/type_dword/lower", "is due"},
+      {"lword_quarters_reversed", "lwords are read and written with the lowest word first", reorder(lword_quarters, true, true), "wss/type_lword/lower",
+       "is due"},
+      {"bytes_swapped", "an even byte address is the high byte", renumber('B', [](std::uint32_t n) { return n ^ 1; }),
+       "data_types/bytes_read_as_words/lower", "data"},
+      {"odd_byte_is_the_even_one", "an odd byte address reads and writes the low byte", renumber('B', [](std::uint32_t n) { return n & ~1u; }),
+       "rsb/bytes_from_an_odd_one/lower/01", "data"},
+      {"byte_address_not_doubled", "a byte address counts words", renumber('B', [](std::uint32_t n) { return n * 2; }),
+       "data_types/byte_address_is_doubled/lower/k/20", "data"},
+      {"dword_address_in_words", "a dword address counts words", renumber('D', [](std::uint32_t n) { return n / 2; }),
+       "data_types/dword_and_lword_numbers/lower/d1", "data"},
+      {"bit_order_reversed", "bit 0 is the highest bit of a word",
+       misread([](const Bytes& request, GoodPlc&) { return with_names(request, mirrored_bit); }), "data_types/bits_of_a_word/lower/2", "data"},
+      {"bit_is_ff", "a bit that is on reads FF",
+       edit_reply([](FrameText& reply, const FrameText& request) {
+         if (reply.is_ack() && request.service() == "RSS" && request.content().find("X") != std::string::npos && reply.content() == "010101")
+           reply.body = reply.front() + "0101FF";
+       }),
+       "rss/bit_is_00_or_01/lower/on_2", "data"},
+      {"contacts_alias_values", "the contact of a timer or counter is its current value", answer_with(contact_of_value),
+       "data_types/contact_against_value/lower/t/off", "data"},
+      {"writes_read_only_areas", "F and N can be written", answer_with(write_read_only), "wss/read_only_areas_without_memory/f", "header"},
+      {"writes_first_blocks_of_a_refused_write", "a refused WSS has written the blocks before the wrong one", answer_with(write_until_refused),
+       "wss/all_or_nothing/area_lower", "%MW100"},
+      {"wsb_writes_nothing", "WSB is acknowledged and writes nothing", answer_with(acknowledge_only), "wsb/individual_after_continuous", "data"},
+      {"byte_write_clears_its_neighbour", "writing one byte clears the other byte of the word", answer_with(clear_other_byte),
+       "wss/type_byte/even_lower", "%MW"},
+  };
+}
+
+}  // namespace fieldproof::xgt_cnet

@@ -1,0 +1,153 @@
+// Faults of time and of the line: late, split, repeated, lost and surplus bytes, and what makes a device fall silent.
+#include "suites/xgt_cnet/broken/faults.hpp"
+
+namespace fieldproof::xgt_cnet {
+
+namespace {
+
+Bytes operator+(Bytes a, const Bytes& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+MakeBehaviour late_by(Duration delay) {
+  return send_with([delay](const Bytes&, Bytes reply) { return Sendings{{std::move(reply), delay}}; });
+}
+
+Sendings in_halves(const Bytes&, Bytes reply) {
+  const auto middle = reply.begin() + static_cast<std::ptrdiff_t>(reply.size() / 2);
+  return {{Bytes(reply.begin(), middle)}, {Bytes(middle, reply.end()), 200ms}};
+}
+
+Sendings one_byte_a_second(const Bytes&, Bytes reply) {
+  Sendings sendings;
+  for (const Byte b : reply) sendings.push_back({{b}, 1s * static_cast<Duration::rep>(sendings.size())});
+  return sendings;
+}
+
+Sendings flood(const Bytes&, Bytes reply) { return {{std::move(reply)}, {Bytes(200, 'U'), 1ms, 1ms}}; }
+
+Behaviour swallow_every_tenth(Storage&) {
+  Behaviour behaviour;
+  behaviour.answer = [count = 0](const Bytes& request, bool, GoodPlc& plc) mutable {
+    Bytes reply = plc.answer(request);
+    return ++count % 10 == 0 ? Sendings{} : Sendings{{std::move(reply)}};
+  };
+  return behaviour;
+}
+
+bool has_wrong_check(const Bytes& request) { return parse_request(request).fault.check == XgtCheck::bcc; }
+
+Behaviour die_of_wrong_check(Storage&) {
+  Behaviour behaviour;
+  behaviour.answer = [dead = false](const Bytes& request, bool, GoodPlc& plc) mutable {
+    dead = dead || has_wrong_check(request);
+    return dead ? Sendings{} : Sendings{{plc.answer(request)}};
+  };
+  return behaviour;
+}
+
+Behaviour die_of_a_broken_frame(Storage&) {
+  Behaviour behaviour;
+  const auto dead = std::make_shared<bool>(false);
+  behaviour.answer = [dead](const Bytes& request, bool, GoodPlc& plc) { return *dead ? Sendings{} : Sendings{{plc.answer(request)}}; };
+  behaviour.cut_off = [dead](const Bytes&, GoodPlc&) {
+    *dead = true;
+    return Sendings{};
+  };
+  return behaviour;
+}
+
+/// Executes what a silence has ended as if its tail had come.
+Behaviour time_for_a_tail(Storage&) {
+  Behaviour behaviour;
+  behaviour.cut_off = [](const Bytes& heard, GoodPlc& plc) {
+    FrameText text = take_apart(heard + Bytes{xgt_eot});
+    if (text.lower_case()) text.check = sum_of(text.without_check());
+    return Sendings{{plc.answer(text.bytes())}};
+  };
+  return behaviour;
+}
+
+/// An ENQ inside a frame is one more character of it. A new burst begins a new frame.
+Behaviour no_restart_at_enq(Storage&) {
+  Behaviour behaviour;
+  behaviour.hear = [](Bytes& bytes) {
+    bool inside = false;
+    for (Byte& b : bytes) {
+      if (b == xgt_enq && inside) b = '?';
+      inside = b == xgt_enq || (inside && b != xgt_eot);
+    }
+  };
+  return behaviour;
+}
+
+Behaviour deaf_while_busy(Storage&) {
+  Behaviour behaviour;
+  behaviour.answer = [](const Bytes& request, bool together, GoodPlc& plc) { return together ? Sendings{} : Sendings{{plc.answer(request)}}; };
+  return behaviour;
+}
+
+/// The reply of the request before.
+Behaviour one_behind(Storage&) {
+  Behaviour behaviour;
+  behaviour.answer = [last = Bytes()](const Bytes& request, bool, GoodPlc& plc) mutable {
+    Bytes reply = plc.answer(request);
+    std::swap(reply, last);
+    return Sendings{{reply.empty() ? last : std::move(reply)}};
+  };
+  return behaviour;
+}
+
+Behaviour frame_must_begin_the_line(Storage&) {
+  Behaviour behaviour;
+  behaviour.hear = [](Bytes& bytes) {
+    if (!bytes.empty() && bytes.front() != xgt_enq && bytes.size() > 1)
+      for (Byte& b : bytes)
+        if (b == xgt_enq) b = '?';
+  };
+  return behaviour;
+}
+
+}  // namespace
+
+std::vector<Fault> line_faults() {
+  return {
+      {"late_answer", "replies come after 700 ms", late_by(700ms), "rss/two_words/lower", "late answer"},
+      {"late_refusal", "a refusal comes after 700 ms",
+       send_with([](const Bytes&, Bytes reply) {
+         const Duration delay = refusal(reply) ? 700ms : 0ms;
+         return Sendings{{std::move(reply), delay}};
+       }),
+       "frame_structure/nak/lower", "late answer"},
+      {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves), "rss/two_words/lower", "split answer"},
+      {"one_byte_a_second", "replies come at one byte a second", send_with(one_byte_a_second), "rss/two_words/lower", "split answer"},
+      {"echo", "the request comes back before the reply", send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }),
+       "rss/two_words/lower", "echo"},
+      {"echo_alone", "requests come back, and no reply", send_with([](const Bytes& request, const Bytes&) { return Sendings{{request}}; }),
+       "rss/two_words/lower", "echo"},
+      {"reply_twice", "each reply is sent twice", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }), "rss/two_words/lower",
+       "after the complete"},
+      {"reply_again_later", "each reply is sent again after 50 ms", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply}, {reply, 50ms}}; }),
+       "rss/two_words/lower", "after the complete"},
+      {"trailing_byte", "a byte 00 follows each reply", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }),
+       "rss/two_words/lower", "after the complete"},
+      {"cr_lf_behind_reply", "CR LF follow each reply", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0x0D, 0x0A}}}; }),
+       "rss/two_words/lower", "after the complete"},
+      {"garbage_before_reply", "a byte FF comes before each reply", send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }),
+       "rss/two_words/lower", "header"},
+      {"reply_one_behind", "each reply is that to the request before", one_behind, "rss/two_words/lower", ""},
+      {"swallows_every_tenth_request", "every tenth request is not answered", swallow_every_tenth, "monitor_execute/all_sixteen", "no answer"},
+      {"floods", "sends without end after the first request", send_with(flood), "rss/two_words/lower", "floods"},
+      {"dies_of_a_wrong_bcc", "silent for ever after a wrong BCC", die_of_wrong_check, "frame_structure/wrong_bcc_is_silent/ss", "dead"},
+      {"dies_of_a_missing_tail", "silent for ever after a frame without tail", die_of_a_broken_frame, "frame_structure/no_tail_is_silent/lower/bare", "dead"},
+      {"needs_no_tail", "a frame without tail is executed when nothing more comes", time_for_a_tail, "frame_structure/no_tail_is_silent/lower/bare", "silence"},
+      {"no_restart_at_enq", "ENQ inside a frame does not begin a new one", no_restart_at_enq, "frame_structure/enq_inside_a_frame/head", "no answer"},
+      {"first_of_two_requests", "of two requests without a pause between them the first is answered", deaf_while_busy, "frame_structure/back_to_back/continuous",
+       "no answer"},
+      {"noise_spoils_the_frame", "a frame right after other bytes is not heard", frame_must_begin_the_line, "frame_structure/noise_before_enq/headless",
+       "no answer"},
+  };
+}
+
+}  // namespace fieldproof::xgt_cnet
