@@ -38,6 +38,7 @@ std::uint64_t add_to_hash(std::uint64_t hash, std::string_view text) {
 using Row = std::vector<std::pair<std::string, std::string>>;
 
 std::string substitute(const std::string& text, const Row& row) {
+  if (text.find("${") == std::string::npos) return text;
   std::string result;
   std::size_t from = 0;
   for (std::size_t at; (at = text.find("${", from)) != std::string::npos;) {
@@ -54,13 +55,14 @@ std::string substitute(const std::string& text, const Row& row) {
 
 json substitute(const json& value, const Row& row) {
   if (value.is_string()) return substitute(value.get_ref<const std::string&>(), row);
-  json result = value;
-  if (value.is_array())
-    for (json& element : result) element = substitute(element, row);
-  if (value.is_object()) {
-    result = json::object();
-    for (const auto& [key, element] : value.items()) result[substitute(key, row)] = substitute(element, row);
+  if (value.is_array()) {
+    json result = json::array();
+    for (const json& element : value) result.push_back(substitute(element, row));
+    return result;
   }
+  if (!value.is_object()) return value;
+  json result = json::object();
+  for (const auto& [key, element] : value.items()) result[substitute(key, row)] = substitute(element, row);
   return result;
 }
 
@@ -206,10 +208,11 @@ Case read_case(const json& value, const std::string& vector_id, const std::strin
 void read_vector(const json& vector, const std::string& file, VectorSet& set) {
   const std::string id = vector.at("id");
   const bool table = vector.value("kind", "case") == "table";
+  json bare = vector;  // what each combination is made of: the rows themselves are not copied a thousand times
+  bare.erase("each");
+  bare.erase("errata");
   for (const Combination& combination : combinations(vector.value("each", json::object()))) {
-    json one = vector;
-    one.erase("each");
-    one = substitute(one, combination.row);
+    json one = substitute(bare, combination.row);
     one["id"] = id + combination.suffix;
     (table ? set.tables : set.cases).push_back(read_case(one, id, file));
   }

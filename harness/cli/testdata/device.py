@@ -1,0 +1,95 @@
+"""Small devices for the tests of the built tool: device.py BEHAVIOUR TTY [ARGUMENT].
+
+They answer each request that ends with EOT and its check with one word of zero (upper case: without check).
+  good               nothing else
+  die N              ends with exit status 3 at the request after the N-th
+  mute N             is silent for ever after the N-th request
+  flood              sends without end once it was asked
+  drip               sends its answers, one byte a second
+  tell FIFO N        is silent for ever after the N-th request, and says so to the FIFO
+  close LINK N       makes a pty of its own, linked from LINK, says 'ready', and closes it at the request after the N-th
+"""
+import os
+import select
+import sys
+import tty
+
+ENQ, ACK, EOT, ETX = b"\x05", b"\x06", b"\x04", b"\x03"
+
+
+def answer(request):
+    head = ACK + request[1:6] + b"01020000" + ETX
+    return head + b"%02X" % (sum(head) % 256) if request[3:4].islower() else head
+
+
+class Requests:
+    """One request after another from a terminal."""
+
+    def __init__(self, port):
+        self.port, self.bytes = port, b""
+
+    def next(self):
+        while True:
+            start, end = self.bytes.find(ENQ), self.bytes.find(EOT)
+            size = end + (3 if self.bytes[start + 3:start + 4].islower() else 1)
+            if 0 <= start < end and len(self.bytes) >= size:
+                request, self.bytes = self.bytes[start:size], self.bytes[size:]
+                return request
+            more = os.read(self.port, 4096)
+            if not more:
+                sys.exit(0)
+            self.bytes += more
+
+
+def wait_for_ever():
+    select.select([], [], [])
+
+
+def flood(port):
+    os.set_blocking(port, True)
+    while True:
+        os.write(port, b"\x00" * 4096)
+
+
+def drip(port, data):
+    for byte in data:
+        os.write(port, bytes([byte]))
+        select.select([], [], [], 1.0)
+
+
+def main():
+    behaviour, path, arguments = sys.argv[1], sys.argv[2], sys.argv[3:]
+    if behaviour == "close":
+        port, slave = os.openpty()
+        tty.setraw(slave)
+        os.symlink(os.ttyname(slave), path)
+        print("ready", flush=True)
+    else:
+        port = os.open(path, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(port, 0)  # TCSANOW: what waits already is kept
+    requests = Requests(port)
+    last = int(arguments[-1]) if behaviour in ("die", "mute", "tell", "close") else None
+    asked = 0
+    while True:
+        request = requests.next()
+        asked += 1
+        if last is not None and asked > last:
+            break
+        if behaviour == "flood":
+            flood(port)
+        elif behaviour == "drip":
+            drip(port, answer(request))
+        else:
+            os.write(port, answer(request))
+    if behaviour == "die":
+        sys.stderr.write("the device has burnt out\n")
+        sys.exit(3)
+    if behaviour == "close":
+        sys.exit(0)
+    if behaviour == "tell":
+        with open(arguments[0], "w") as fifo:
+            fifo.write("asked")
+    wait_for_ever()
+
+
+main()
