@@ -252,7 +252,7 @@ void Bench::after(const PreparedCase& prepared, const Transcript& transcript, Ca
   // In simulated time the sanity exchange after a negative case is made here; in real time closing the case was one.
   const bool negative = prepared.listens_for_silence() || result.verdict == Verdict::fail;
   if (endpoint_.capabilities().simulated && negative && prepared.answers_probes()) {
-    const Result<bool> alive = exchange_.anything_answers(prepared.station, 3 * options_.profile.response_max);
+    const Result<bool> alive = exchange_.anything_answers(prepared.station, 3 * options_.profile.response_max, prepared.reply_delay());
     if (!alive) return stop("the port failed after " + result.id + ": " + alive.error().message, &alive.error());
     dead = !*alive;
     if (dead && result.verdict != Verdict::fail) {

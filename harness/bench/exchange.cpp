@@ -122,7 +122,7 @@ void Exchange::silence(const PreparedCase& prepared, StepRecord& record, Transcr
     wait_until(last_sent_.end + timing_.quiet, record, transcript);
     if (transcript.trouble || !record.received.bytes.empty()) return;
   }
-  if (!probe(prepared.station, record.received, transcript)) wait_until(last_sent_.end + timing_.response_max, record, transcript);
+  if (!probe(prepared, record.received, transcript)) wait_until(last_sent_.end + timing_.response_max, record, transcript);
   record.listened_until = endpoint_.now();
 }
 
@@ -136,6 +136,12 @@ void Exchange::wait_until(Time moment, StepRecord& record, Transcript& transcrip
 void Exchange::access_memory(const PreparedCase& prepared, const Step& step, StepRecord& record, Transcript& transcript) {
   const bool setting = step.kind == Step::Kind::set;
   if (setting) stimulus_ = endpoint_.now();
+  // A frame that nobody answers (the bench's own reply to a client) is still on its way when the send returns.
+  const bool unanswered = transcript.steps.size() > 1 && !transcript.steps[transcript.steps.size() - 2].sent_bytes.empty();
+  if (!setting && unanswered && !endpoint_.capabilities().simulated) {
+    const Time settled = last_sent_.end + timing_.quiet;
+    while (listen(settled, transcript)) {}
+  }
   for (const auto& [address, hex] : step.memory) {
     Status done = ok();
     if (setting) {
@@ -161,8 +167,8 @@ void Exchange::close(const PreparedCase& prepared, Transcript& transcript) {
   if (simulated || !prepared.answers_probes()) {
     wait_until(endpoint_.now() + (simulated ? timing_.promised_silence : timing_.quiet), rest, transcript);
     transcript.events.pop_back();
-  } else if (!probe(prepared.station, rest.received, transcript) && !transcript.trouble) {
-    if (const Result<bool> alive = anything_answers(prepared.station, 3 * timing_.response_max); !alive) transcript.trouble = alive.error();
+  } else if (!probe(prepared, rest.received, transcript) && !transcript.trouble) {
+    if (const Result<bool> alive = anything_answers(prepared.station, 3 * timing_.response_max, prepared.reply_delay()); !alive) transcript.trouble = alive.error();
     else if (!*alive) transcript.dead = "nothing answers any more";
   }
   if (rest.received.bytes.empty() || !transcript.surplus.bytes.empty()) return;
@@ -170,12 +176,12 @@ void Exchange::close(const PreparedCase& prepared, Transcript& transcript) {
   transcript.surplus_after = transcript.steps.size();
 }
 
-Result<bool> Exchange::anything_answers(int station, Duration patience) {
-  const Time give_up = endpoint_.now() + patience;
+Result<bool> Exchange::anything_answers(int station, Duration patience, Duration reply_delay) {
+  const Time give_up = endpoint_.now() + patience + reply_delay;
   while (endpoint_.now() < give_up) {
     const Result<Sent> sent = endpoint_.send(protocol_.probe(station, {}));
     if (!sent) return sent.error();
-    const Time until = std::min(give_up, sent->end + timing_.response_max);
+    const Time until = std::min(give_up, sent->end + timing_.response_max + reply_delay);
     Bytes answer;
     bool any = false;
     // After the first byte: until a frame is complete, and then whatever else comes at once (answers to earlier probes).
@@ -193,8 +199,8 @@ Result<bool> Exchange::anything_answers(int station, Duration patience) {
   return false;
 }
 
-bool Exchange::probe(int station, Received& before, Transcript& transcript) {
-  const Bytes request = protocol_.probe(station, last_bytes_);
+bool Exchange::probe(const PreparedCase& prepared, Received& before, Transcript& transcript) {
+  const Bytes request = protocol_.probe(prepared.station, last_bytes_);
   const Result<Sent> sent = endpoint_.send(request);
   if (!sent) {
     transcript.trouble = sent.error();
@@ -208,7 +214,7 @@ bool Exchange::probe(int station, Received& before, Transcript& transcript) {
       answered = protocol_.is_reply_to_probe(request, frames.back().bytes);
       if (answered) break;
     }
-    if (answered || !listen(sent->end + timing_.response_max, transcript)) break;
+    if (answered || !listen(sent->end + timing_.response_max + prepared.reply_delay(), transcript)) break;
   }
   // A device that answers every request in a form of its own must still reach the case that names the fault:
   // replies come in order, so the last frame is its answer to the probe.

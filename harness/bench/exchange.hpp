@@ -27,8 +27,9 @@ class Exchange {
   /// until a probe is answered, since replies come in order. A link that answers no probe is `dead`.
   void close(const PreparedCase& prepared, Transcript& transcript);
 
-  /// Does anything answer? Repeats the probe until `patience` is over. What answers is not judged.
-  Result<bool> anything_answers(int station, Duration patience);
+  /// Does anything answer? Repeats the probe until `patience` is over; a device may be set to delay its replies.
+  /// What answers is not judged.
+  Result<bool> anything_answers(int station, Duration patience, Duration reply_delay = {});
 
  private:
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);
@@ -43,7 +44,7 @@ class Exchange {
   bool listen(Time deadline, Transcript& transcript);
   std::size_t complete_length(const PreparedStep& step);
   /// Sends a probe and takes out what came before its reply; false when no reply to the probe came.
-  bool probe(int station, Received& before, Transcript& transcript);
+  bool probe(const PreparedCase& prepared, Received& before, Transcript& transcript);
   void note(std::string text, Transcript& transcript);
 
   Endpoint& endpoint_;

@@ -1,6 +1,7 @@
 #include "harness/bench/prepared_case.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace fieldproof {
@@ -8,6 +9,12 @@ namespace fieldproof {
 bool PreparedCase::is_client() const { return source->config.value("role", "server") == "client"; }
 
 bool PreparedCase::answers_probes() const { return !is_client() && !source->config.contains("bench_line"); }
+
+Duration PreparedCase::reply_delay() const {
+  const nlohmann::json value = source->config.value("delay_ms", nlohmann::json(0));
+  const double ms = value.is_number() ? value.get<double>() : value.is_string() ? std::strtod(value.get_ref<const std::string&>().c_str(), nullptr) : 0;
+  return Duration(static_cast<Duration::rep>(ms * 1e6));
+}
 
 bool PreparedCase::listens_for_silence() const {
   return std::ranges::any_of(steps, [](const PreparedStep& step) { return step.step->kind == Step::Kind::silence; });

@@ -30,6 +30,8 @@ struct PreparedCase {
   bool is_client() const;                       // the module asks, the bench answers
   /// A device that asks, or one whose line settings differ from the bench's, answers no probe.
   bool answers_probes() const;
+  /// The configured delay of every reply (delay_ms).
+  Duration reply_delay() const;
   bool listens_for_silence() const;
   bool looks_at_counters() const;               // a check of @status, @errors or @services
   /// The shortest pause or wait, or 0 when there is none.

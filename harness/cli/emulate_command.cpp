@@ -8,7 +8,7 @@
 #include "harness/endpoints/interrupt.hpp"
 #include "harness/notation/notation.hpp"
 #include "harness/protocol.hpp"
-#include "src/base/spelling.hpp"
+#include "src/plc/multi_drop.hpp"
 
 namespace fieldproof {
 
@@ -17,6 +17,27 @@ namespace {
 void print_traffic(const Traffic& traffic) {
   fmt::print("{}\n    {}\n", monitor_line(traffic), print_bytes(traffic.bytes));
   std::fflush(stdout);
+}
+
+/// The device, and its `neighbours` on the same line: stations, or objects of config keys.
+Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol, nlohmann::json config) {
+  const std::string model = config.value("model", "xbc-h");
+  const nlohmann::json neighbours = config.value("neighbours", nlohmann::json::array());
+  config.erase("model");
+  config.erase("neighbours");
+  Result<std::unique_ptr<EmulatedDevice>> first = protocol.make_device(model, config);
+  if (!first || neighbours.empty()) return first;
+  std::vector<std::unique_ptr<EmulatedDevice>> devices;
+  devices.push_back(std::move(*first));
+  for (const nlohmann::json& neighbour : neighbours) {
+    nlohmann::json own = neighbour.is_object() ? neighbour : nlohmann::json{{"station", neighbour}};
+    for (const char* shared : {"line", "rs485", "inter_character_floor_ms"})
+      if (config.contains(shared) && !own.contains(shared)) own[shared] = config[shared];
+    Result<std::unique_ptr<EmulatedDevice>> device = protocol.make_device(model, own);
+    if (!device) return fail("neighbour " + neighbour.dump() + ": " + device.error().message);
+    devices.push_back(std::move(*device));
+  }
+  return std::unique_ptr<EmulatedDevice>(std::make_unique<MultiDrop>(std::move(devices)));
 }
 
 std::string protocol_names() {
@@ -38,12 +59,7 @@ int emulate_command(const EmulateOptions& options) {
   host.model = name->target;
   for (const auto& [key, value] : name->options)
     if (key != "protocol") host.config[key] = value;
-  host.make_device = [protocol](const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
-    const std::string model = config.value("model", "xbc-h");
-    nlohmann::json rest = config;
-    rest.erase("model");
-    return protocol->make_device(model, rest);
-  };
+  host.make_device = [protocol](const nlohmann::json& config) { return make_stations(*protocol, config); };
   host.tcp = options.tcp;
   host.tty = options.tty.empty() ? options.pty : options.tty;
   host.control = options.control;

@@ -118,7 +118,8 @@ TEST_F(Verdicts, junit_shows_each_as_the_design_says) {
       if (node.child(name)) element = name;
     const bool noted = std::string(node.child_value("system-out")).find(one.verdict) != std::string::npos;
     EXPECT_EQ(element == "plain" && noted ? "noted" : element, one.junit) << id_of(one);
-    if (element != "plain") EXPECT_EQ(node.child(element.c_str()).attribute("type").value(), one.verdict) << id_of(one);
+    if (element == "plain") continue;
+    EXPECT_EQ(node.child(element.c_str()).attribute("type").value(), one.verdict) << id_of(one);
   }
 }
 

@@ -44,6 +44,8 @@ class DeviceHost {
   void wait();
   Status hear();
   void run_due(Time until);
+  void tell_time();
+  void transmit(const Bytes& bytes);
   void serve_control();
   void answer_lines();
   void power_cycle();
@@ -85,6 +87,7 @@ int DeviceHost::run() {
       return exit_trouble;
     }
     run_due(clock_.now());
+    if (fds_[hangup_slot].revents != 0 || fds_[control_slot].revents != 0) tell_time();
     if (fds_[hangup_slot].revents != 0) power_cycle();
     if (fds_[control_slot].revents != 0) serve_control();
   }
@@ -126,11 +129,21 @@ void DeviceHost::run_due(Time until) {
     const std::optional<Time> wake = device_->wake_at();
     if (!wake || *wake > until) return;
     device_time_ = std::max(device_time_, *wake);
-    const Bytes bytes = device_->advance(device_time_);
-    if (bytes.empty()) continue;
-    port_.write(bytes);
-    show(false, bytes);
+    transmit(device_->advance(device_time_));
   }
+}
+
+/// What is changed through the back door is changed now, not when the device last had something to do: a client whose
+/// flag rises counts its time-out from here.
+void DeviceHost::tell_time() {
+  device_time_ = std::max(device_time_, clock_.now());
+  transmit(device_->advance(device_time_));
+}
+
+void DeviceHost::transmit(const Bytes& bytes) {
+  if (bytes.empty()) return;
+  port_.write(bytes);
+  show(false, bytes);
 }
 
 void DeviceHost::serve_control() {

@@ -141,6 +141,23 @@ Bytes clear_other_byte(const Bytes& frame, GoodPlc& plc) {
   return reply;
 }
 
+/// Writing one bit clears the other bits of its word. Names of XBM and XBC.
+Bytes clear_other_bits(const Bytes& frame, GoodPlc& plc) {
+  const XgtRequest request = parse_request(frame);
+  if (request.service == XgtService::write_blocks && type_of(request) == 'X' && !refusal(plc.answer(frame))) {
+    const std::string_view name = request.block[0].name;
+    const std::string word = name.size() > 4 ? std::string(name.substr(3, name.size() - 4)) : "0";
+    if (!is_contact(name)) (void)plc.memory().set(fmt::format("%{}W{}", name[1], word), "0000");
+  }
+  return plc.answer(frame);
+}
+
+/// An area under the name of another.
+std::string area_for(std::string name, char from, char to) {
+  if (name.size() > 1 && name[1] == from) name[1] = to;
+  return name;
+}
+
 }  // namespace
 
 std::vector<Fault> data_faults() {
@@ -173,7 +190,13 @@ std::vector<Fault> data_faults() {
       {"writes_read_only_areas", "F and N can be written", answer_with(write_read_only), "wss/read_only_areas_without_memory/f", "header"},
       {"writes_first_blocks_of_a_refused_write", "a refused WSS has written the blocks before the wrong one", answer_with(write_until_refused),
        "wss/all_or_nothing/area_lower", "%MW100"},
-      {"wsb_writes_nothing", "WSB is acknowledged and writes nothing", answer_with(acknowledge_only), "wsb/individual_after_continuous", "data"},
+      {"wsb_writes_nothing", "WSB is acknowledged and writes nothing", answer_with(acknowledge_only), "wsb/five_words/lower", "is due"},
+      {"bit_write_clears_its_word", "writing one bit clears the others of its word", answer_with(clear_other_bits), "wss/type_bit/xbc_h_set_lower", "%MW"},
+      {"areas_alias", "K is M under another name", misread([](const Bytes& request, GoodPlc&) { return with_names(request, [](std::string name) { return area_for(name, 'K', 'M'); }); }),
+       "rss/mixed_areas/lower/words", "data"},
+      {"counters_alias_timers", "C is T under another name",
+       misread([](const Bytes& request, GoodPlc&) { return with_names(request, [](std::string name) { return area_for(name, 'C', 'T'); }); }),
+       "rss/mixed_contacts_and_bits", "data"},
       {"byte_write_clears_its_neighbour", "writing one byte clears the other byte of the word", answer_with(clear_other_byte),
        "wss/type_byte/even_lower", "%MW"},
   };

@@ -52,7 +52,8 @@ struct FrameText {
   std::string without_check() const { return head + body + tail; }
   /// The right BCC where the frame has one.
   void seal();
-  Bytes bytes() const { return to_bytes(without_check() + check); }
+  /// Nothing where there is no header.
+  Bytes bytes() const { return head == 0 ? Bytes{} : to_bytes(without_check() + check); }
 };
 
 /// A frame with a tail; a request ends with EOT, a reply with ETX.

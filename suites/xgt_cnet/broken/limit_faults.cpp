@@ -228,7 +228,14 @@ std::vector<Fault> limit_faults() {
        refuse(xgt_error::data, [](const XgtRequest& r) { return any_name(r, [](std::string_view n) { return n.size() > 4 && n[2] != 'X' && n[3] == '0'; }); }),
        "rss/name_lengths/05", "header"},
       {"small_letters_refused", "device names in lower case are refused",
-       refuse(xgt_error::data, [](const XgtRequest& r) { return any_name(r, has_small_letter); }), "commands/name_in_lower_case/lower/both", "header"},
+       refuse(xgt_error::data, [](const XgtRequest& r) { return any_name(r, has_small_letter); }), "commands/name_in_lower_case/lower/lower", "header"},
+      {"small_digits_refused", "data with lower-case hex digits are refused",
+       refuse(xgt_error::not_hex, [](const XgtRequest& r) { return std::any_of(r.block.begin(), r.block.begin() + r.blocks, [](const XgtBlock& b) { return has_small_letter(b.data); }); }),
+       "wss/data_lower_case_hex/lower", "header"},
+      {"small_type_refused", "a command type in lower case is not answered", answer_with([](const Bytes& request, GoodPlc& plc) {
+         return has_small_letter(take_apart(request).front().substr(3)) ? Bytes{} : plc.answer(request);
+       }),
+       "commands/type_in_lower_case/lower/ss", "no answer", "xgt_cnet/commands/type_in_lower_case/*/ss"},
       {"mixed_types_accepted", "blocks of different types are read", answer_with(read_mixed_types), "errors/printed_1332", "header"},
       {"surplus_ignored", "what follows the last field is not looked at", forgive(xgt_error::surplus, drop_surplus), "errors/printed_1234", "header"},
       {"any_bit_value_accepted", "a bit may be written as 11", forgive(xgt_error::data, take_any_bit), "errors/printed_0011_bit", "header"},

@@ -27,7 +27,7 @@ int usage() {
 }
 
 int list() {
-  for (const xgt_cnet::Fault& fault : xgt_cnet::faults()) fmt::print("{:<34} {}\n", fault.name, fault.what);
+  for (const xgt_cnet::Fault& fault : xgt_cnet::faults()) fmt::print("{:<38} {}\n", fault.name, fault.what);
   return 0;
 }
 

@@ -107,6 +107,15 @@ Bytes serve_once(const Bytes& request, GoodPlc& plc, Registered& served) {
   return served.try_emplace(number_of(text)).second ? reply : nak_to(parse_request(request), xgt_error::not_registered);
 }
 
+/// The case of the command is part of the number.
+Bytes keep_cases_apart(const Bytes& request, GoodPlc& plc, Registered& registered) {
+  const FrameText text = take_apart(request);
+  const Bytes reply = plc.answer(request);
+  if (is(text, 'x') && acknowledged(reply)) registered[number_of(text)] = text.lower_case() ? "lower" : "upper";
+  const bool other = is(text, 'y') && acknowledged(reply) && registered[number_of(text)] != (text.lower_case() ? "lower" : "upper");
+  return other ? nak_to(parse_request(request), xgt_error::not_registered) : reply;
+}
+
 /// What is registered is not looked at before it is executed.
 Bytes accept_any_content(const Bytes& request, GoodPlc& plc) {
   const Bytes reply = plc.answer(request);
@@ -143,6 +152,7 @@ std::vector<Fault> monitor_faults() {
       {"registration_10_accepted", "registration number 10 is accepted", answer_with(seventeen_numbers), "monitor_register/number_out_of_range/n10_lower",
        "header"},
       {"one_registration_alone", "all registration numbers are the same place", answer_with(one_number), "monitor_register/numbers_are_separate/lower", "data"},
+      {"registrations_by_case", "X registers for Y, and x for y", with_memory(keep_cases_apart), "monitor_execute/case_is_free/lower_then_upper", "header"},
       {"registration_keeps_the_first", "registering a number again changes nothing", with_memory(keep_first), "monitor_register/registered_again/lower", "data"},
       {"monitor_gives_old_values", "Y answers with the values of the moment of registration", with_memory(keep_values),
        "monitor_execute/new_value_at_each_execution/lower", "data"},
@@ -162,7 +172,8 @@ std::vector<Fault> monitor_faults() {
          if (is(request, 'y') && reply.is_ack() && parse_reply(reply.bytes()).with_block_count) reply.body.erase(5, 2);
        }),
        "monitor_execute/printed_rss/lower", "block count"},
-      {"registrations_survive_power_off", "registrations are still there after power was off", survive, "monitor_execute/lost_at_power_off/lower", "header"},
+      {"registrations_survive_power_off", "registrations are still there after power was off", survive, "monitor_execute/example_nak/lower", "header",
+       "xgt_cnet/monitor_execute/example_*"},
   };
 }
 

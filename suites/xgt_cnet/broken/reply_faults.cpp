@@ -70,18 +70,15 @@ std::vector<Fault> reply_faults() {
        "commands/main_command_case_in_reply/r", "command"},
       {"ack_for_nak", "a refusal begins with ACK", edit_nak([](FrameText& r) { r.head = '\x06'; }), "frame_structure/control_codes_nak/lower", "head"},
       {"enq_for_ack", "an acknowledgement begins with ENQ", edit_ack("", [](FrameText& r) { r.head = '\x05'; }),
-       "frame_structure/control_codes_ack/lower", "head"},
+       "areas/read_word_limits/xbc_h_m", "header", "xgt_cnet/areas/read_word_limits/xbc_h_m"},
       {"eot_for_etx", "replies end with EOT", edit_reply([](FrameText& r, const FrameText&) { r.tail = '\x04'; }),
-       "frame_structure/control_codes_ack/lower", "tail"},
-      {"no_tail", "replies have no ETX",
-       spoil_frame([](FrameText& r, const FrameText&) {
-         if (r.check.empty()) r.check = r.body;
-         else r.check = r.body + sum_of(r.head + r.body);
-         r.body.clear();
-         r.tail = r.head;
-         r.head = '\0';
+       "errors/code_1132", "tail"},
+      {"no_tail", "replies have no ETX", answer_with([](const Bytes& request, GoodPlc& plc) {
+         Bytes reply = plc.answer(request);
+         std::erase(reply, xgt_etx);
+         return reply;
        }),
-       "frame_structure/control_codes_ack/lower", "tail"},
+       "errors/code_1132", "tail"},
       {"nak_in_three_digits", "the error code has three digits", edit_nak([](FrameText& r) { r.body.erase(5, 1); }),
        "errors/code_is_four_characters/lower", "error code"},
       {"nak_without_code", "a refusal has no error code", edit_nak([](FrameText& r) { r.body = r.front(); }), "errors/code_is_four_characters/lower",
@@ -99,7 +96,7 @@ std::vector<Fault> reply_faults() {
        "errors/code_1132", "no answer"},
       {"rsb_without_block_count", "the reply to RSB has no block count", edit_ack("RSB", [](FrameText& r) { r.body.erase(5, 2); }),
        "rsb/reply_has_a_block_count/lower/word", "block count"},
-      {"rss_without_block_count", "the reply to RSS has no block count", edit_ack("RSS", [](FrameText& r) { r.body.erase(5, 2); }), "rss/two_words/lower",
+      {"rss_without_block_count", "the reply to RSS has no block count", edit_ack("RSS", [](FrameText& r) { r.body.erase(5, 2); }), "rss/data_of_four_bytes/lower",
        "block count"},
       {"block_count_one_more", "the block count of replies to RSS is one too high",
        edit_ack("RSS", [](FrameText& r) { r.body.replace(5, 2, plus_one(r.content().substr(0, 2))); }), "rss/two_words/lower", "block count"},
