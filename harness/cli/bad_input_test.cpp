@@ -275,7 +275,7 @@ TEST_F(BadDevices, healthy_one_is_green) {
 /// The command of a report can be pasted into a shell, whatever the endpoint is.
 TEST_F(BadDevices, replay_command_runs_the_case_again) {
   const std::string vectors = write_vectors(folder_, {small_vector("replay/wrong", wrong_word), small_vector("replay/right")});
-  const std::string endpoint = "exec:/usr/bin/python3 " + quoted(FIELDPROOF_SOURCE_DIR "/harness/cli/testdata/device.py") + " good {tty}";
+  const std::string endpoint = "exec:sh -c " + quoted("exec /usr/bin/python3 " FIELDPROOF_SOURCE_DIR "/harness/cli/testdata/device.py good {tty}");
   ASSERT_EQ(run_tool(arguments(endpoint, vectors)).code, 1);
   const std::string replay = results().of("xgt_cnet/replay/wrong").at("replay");
   const std::string folder_of_tool = std::filesystem::path(FIELDPROOF_TOOL).parent_path();

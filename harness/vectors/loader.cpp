@@ -105,59 +105,66 @@ Duration read_duration(const std::string& text) {
   return Duration(static_cast<Duration::rep>(amount * scale));
 }
 
-std::vector<std::pair<std::string, std::string>> read_memory(const json& value) {
+// One vector makes up to a thousand cases: texts are substituted where they are read, without a JSON tree for each case.
+
+/// The text at `value`, substituted.
+std::string text_of(const json& value, const Row& row) { return substitute(value.get_ref<const std::string&>(), row); }
+std::string text_of(const json& value, const char* key, const Row& row) { return value.contains(key) ? text_of(value[key], row) : ""; }
+
+std::vector<std::pair<std::string, std::string>> read_memory(const json& value, const Row& row) {
   std::vector<std::pair<std::string, std::string>> memory;
-  for (const auto& [address, text] : value.items()) {
-    const std::optional<std::string> digits = expand_hex(text.get<std::string>());
-    if (!digits) throw Broken(fmt::format("{}: '{}' are no hex digits", address, text.get<std::string>()));
+  for (const auto& [key, hex] : value.items()) {
+    const std::string address = substitute(key, row), text = text_of(hex, row);
+    const std::optional<std::string> digits = expand_hex(text);
+    if (!digits) throw Broken(fmt::format("{}: '{}' are no hex digits", address, text));
     memory.emplace_back(address, *digits);
   }
   return memory;
 }
 
-Frame read_frame(const std::string& reading, const std::string& text, const json* wire) {
-  Frame frame{reading, text, {}, {}};
-  Result<Notation> notation = parse_notation(text);
-  if (!notation) throw Broken(fmt::format("\"{}\": {}", text, notation.error().message));
+Frame read_frame(const std::string& reading, const json& text, const json* wire, const Row& row) {
+  Frame frame{reading, text_of(text, row), {}, {}};
+  Result<Notation> notation = parse_notation(frame.text);
+  if (!notation) throw Broken(fmt::format("\"{}\": {}", frame.text, notation.error().message));
   frame.notation = std::move(*notation);
-  if (wire && wire->is_string()) frame.wire = wire->get<std::string>();
-  if (wire && wire->is_object() && wire->contains(reading)) frame.wire = wire->at(reading).get<std::string>();
+  if (wire && wire->is_string()) frame.wire = text_of(*wire, row);
+  if (wire && wire->is_object() && wire->contains(reading)) frame.wire = text_of(wire->at(reading), row);
   return frame;
 }
 
-void read_expect(const json& value, const json* wire, Step& step) {
+void read_expect(const json& value, const json* wire, const Row& row, Step& step) {
   step.kind = Step::Kind::expect;
   if (value.is_string()) {
-    step.frames.push_back(read_frame("", value, wire));
+    step.frames.push_back(read_frame("", value, wire, row));
     return;
   }
   step.reading = value.at("reading");
   for (const auto& [name, text] : value.items())
-    if (name != "reading") step.frames.push_back(read_frame(name, text, wire));
+    if (name != "reading") step.frames.push_back(read_frame(name, text, wire, row));
 }
 
-Step read_step(const json& value) {
+Step read_step(const json& value, const Row& row) {
   Step step;
   const json* wire = value.contains("wire") ? &value["wire"] : nullptr;
   int kinds = 0;
   const auto is = [&](const char* key) { return value.contains(key) && ++kinds; };
   if (is("send")) {
     step.kind = Step::Kind::send;
-    step.frames.push_back(read_frame("", value["send"], wire));
+    step.frames.push_back(read_frame("", value["send"], wire, row));
   }
-  if (is("expect")) read_expect(value["expect"], wire, step);
+  if (is("expect")) read_expect(value["expect"], wire, row, step);
   if (is("silence")) step.kind = Step::Kind::silence;
-  if (is("wait")) step.kind = Step::Kind::wait, step.duration = read_duration(value["wait"]);
-  if (is("set")) step.kind = Step::Kind::set, step.memory = read_memory(value["set"]);
-  if (is("check")) step.kind = Step::Kind::check, step.memory = read_memory(value["check"]);
-  if (is("do")) step.kind = Step::Kind::act, step.action = value["do"];
+  if (is("wait")) step.kind = Step::Kind::wait, step.duration = read_duration(text_of(value["wait"], row));
+  if (is("set")) step.kind = Step::Kind::set, step.memory = read_memory(value["set"], row);
+  if (is("check")) step.kind = Step::Kind::check, step.memory = read_memory(value["check"], row);
+  if (is("do")) step.kind = Step::Kind::act, step.action = text_of(value["do"], row);
   if (is("open")) step.kind = Step::Kind::open;
   if (is("close")) step.kind = Step::Kind::close;
   if (is("expect_close")) step.kind = Step::Kind::expect_close;
   if (kinds != 1) throw Broken(fmt::format("a step is one of send, expect, silence, wait, set, check, do, open, close, expect_close; this one has {}", kinds));
-  if (value.contains("within")) step.within = read_duration(value["within"]);
-  if (value.contains("every")) step.every = read_duration(value["every"]);
-  if (value.contains("max_gap")) step.max_gap = read_duration(value["max_gap"]);
+  if (value.contains("within")) step.within = read_duration(text_of(value["within"], row));
+  if (value.contains("every")) step.every = read_duration(text_of(value["every"], row));
+  if (value.contains("max_gap")) step.max_gap = read_duration(text_of(value["max_gap"], row));
   step.times = value.value("times", 1);
   return step;
 }
@@ -176,29 +183,35 @@ Source read_source(const json& value) {
   return source;
 }
 
-Case read_case(const json& value, const std::string& vector_id, const std::string& file) {
-  Case result;
-  result.id = value.at("id");
-  result.vector_id = vector_id;
-  result.rev = value.at("rev");
-  result.title = value.at("title");
-  result.protocol = protocol_of(result.id);
-  result.source = read_source(value.at("source"));
-  result.level = value.at("level");
-  result.basis = value.at("basis");
-  result.why = value.value("why", "");
-  result.models = value.value("models", std::vector<std::string>{});
-  result.transpose = value.value("transpose", true);
-  result.file = file;
-  const json given = value.value("given", json::object());
-  result.config = nlohmann::json(given.value("config", json::object()));
+void read_given(const json& given, const Row& row, Case& result) {
+  if (given.contains("config")) result.config = nlohmann::json(substitute(given["config"], row));
   if (!config_station(result.config, 1)) throw Broken("given.config.station is not a number from 0 to 255");
-  if (given.contains("memory")) result.memory = read_memory(given["memory"]);
+  if (given.contains("memory")) result.memory = read_memory(given["memory"], row);
   result.fresh = given.value("fresh", false);
-  if (value.contains("facts")) result.facts = nlohmann::json(value["facts"]);
-  const json steps = value.value("steps", json::array());
+}
+
+Case read_case(const json& vector, const Source& source, const Combination& combination, const std::string& file) {
+  const Row& row = combination.row;
+  Case result;
+  result.vector_id = vector.at("id");
+  result.id = result.vector_id + combination.suffix;
+  result.rev = vector.at("rev");
+  result.title = text_of(vector.at("title"), row);
+  result.protocol = protocol_of(result.id);
+  result.source = source;
+  result.level = text_of(vector.at("level"), row);
+  result.basis = text_of(vector.at("basis"), row);
+  result.why = text_of(vector, "why", row);
+  if (vector.contains("models"))
+    for (const json& model : vector["models"]) result.models.push_back(text_of(model, row));
+  result.transpose = vector.value("transpose", true);
+  result.file = file;
+  if (vector.contains("given")) read_given(vector["given"], row, result);
+  if (vector.contains("facts")) result.facts = nlohmann::json(substitute(vector["facts"], row));
+  if (!vector.contains("steps")) return result;
+  const json& steps = vector["steps"];
   for (std::size_t i = 0; i < steps.size(); ++i) try {
-      result.steps.push_back(read_step(steps[i]));
+      result.steps.push_back(read_step(steps[i], row));
     } catch (const Broken& broken) {
       throw Broken(fmt::format("steps[{}]: {}", i, broken.what()));
     }
@@ -208,16 +221,12 @@ Case read_case(const json& value, const std::string& vector_id, const std::strin
 void read_vector(const json& vector, const std::string& file, VectorSet& set) {
   const std::string id = vector.at("id");
   const bool table = vector.value("kind", "case") == "table";
-  json bare = vector;  // what each combination is made of: the rows themselves are not copied a thousand times
-  bare.erase("each");
-  bare.erase("errata");
-  for (const Combination& combination : combinations(vector.value("each", json::object()))) {
-    json one = substitute(bare, combination.row);
-    one["id"] = id + combination.suffix;
-    (table ? set.tables : set.cases).push_back(read_case(one, id, file));
-  }
-  for (const json& erratum : vector.value("errata", json::array()))
-    set.errata.push_back({id, vector["source"]["manual"], vector["source"]["section"], erratum["printed"], erratum["correct"], erratum["why"]});
+  const Source source = read_source(vector.at("source"));
+  for (const Combination& combination : combinations(vector.contains("each") ? vector["each"] : json::object()))
+    (table ? set.tables : set.cases).push_back(read_case(vector, source, combination, file));
+  if (!vector.contains("errata")) return;
+  for (const json& erratum : vector["errata"])
+    set.errata.push_back({id, source.manual, source.section, erratum["printed"], erratum["correct"], erratum["why"]});
 }
 
 /// "[12][steps][0]: ..." with the vector's id in place of its number.

@@ -69,7 +69,7 @@ TEST(Loader, EachIsAProductOfRows) {
 }
 
 TEST(Loader, ASubstitutionWithoutItsRowIsNamed) {
-  EXPECT_THAT(only_problem(replaced(two_words, "'rSS'", "'${r}SS'")), HasSubstr("test.json: xgt_cnet/rss/two_words: no row of `each` gives '${r}'"));
+  EXPECT_THAT(only_problem(replaced(two_words, "'rSS'", "'${r}SS'")), HasSubstr("test.json: xgt_cnet/rss/two_words: steps[0]: no row of `each` gives '${r}'"));
 }
 
 TEST(Loader, NamedAlternativesKeepTheirOrder) {
