@@ -146,7 +146,20 @@ TEST(HealthyDevice, PassesTheWholeSuite) {
 TEST(FaultTable, NamesAreUnique) {
   std::map<std::string_view, int> names;
   for (const Fault& fault : faults()) EXPECT_EQ(++names[fault.name], 1) << fault.name;
-  EXPECT_GE(faults().size(), 40u);
+  EXPECT_GE(faults().size(), 100u);
+}
+
+TEST(BrokenServer, ListsItsFaults) {
+  const Finished list = run_program({BROKEN_SERVER, "--list"});
+  EXPECT_EQ(list.code, 0) << list.err;
+  for (const Fault& fault : faults()) EXPECT_THAT(list.out, HasSubstr(fault.name));
+}
+
+TEST(BrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
+  const TestFolder folder;
+  const Finished ended = run_program({BROKEN_SERVER, "bcc_off_by_on", folder / "tty"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("bcc_off_by_one"));
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ Bytes contact_of_value(const Bytes& frame, GoodPlc& plc) {
   return ack_to(request, held && *held != "0000" ? "010101" : "010100");
 }
 
-/// Answers NAK 1132 to a write to F or N as it should, or rather: would, if it did not write.
+/// Writes what it should refuse with 1132.
 Bytes write_read_only(const Bytes& frame, GoodPlc& plc) {
   const XgtRequest request = parse_request(frame);
   Bytes reply = plc.answer(frame);
@@ -119,6 +119,38 @@ Bytes write_until_refused(const Bytes& frame, GoodPlc& plc) {
     encode_request(one, single);
     if (refusal(plc.answer(single))) return reply;
   }
+  return reply;
+}
+
+Bytes write_up_to_the_end(const Bytes& frame, GoodPlc& plc) {
+  XgtRequest request = parse_request(frame);
+  Bytes reply = plc.answer(frame);
+  if (refusal(reply) != xgt_error::range || request.service != XgtService::write_run) return reply;
+  const std::size_t digits = 2 * type_bytes(type_of(request));
+  while (--request.count > 0) {
+    request.block[0].data.remove_suffix(digits);
+    Bytes shorter;
+    encode_request(request, shorter);
+    if (!refusal(plc.answer(shorter))) break;
+  }
+  return reply;
+}
+
+Bytes write_unanswered(const Bytes& frame, GoodPlc& plc) {
+  const Bytes reply = plc.answer(frame);
+  FrameText text = take_apart(frame);
+  text.seal();
+  if (reply.empty() && text.service()[0] == 'W') (void)plc.answer(text.bytes());
+  return reply;
+}
+
+Bytes write_for_others(const Bytes& frame, GoodPlc& plc) {
+  const Bytes reply = plc.answer(frame);
+  FrameText text = take_apart(frame);
+  if (!reply.empty() || text.service()[0] != 'W') return reply;
+  text.body.replace(0, 2, hex_number(plc.station(), 2));
+  text.seal();
+  (void)plc.answer(text.bytes());
   return reply;
 }
 
@@ -189,16 +221,17 @@ std::vector<Fault> data_faults() {
        "data_types/contact_against_value/lower/t/off", "data"},
       {"writes_read_only_areas", "F and N can be written", answer_with(write_read_only), "wss/read_only_areas_without_memory/f", "header"},
       {"writes_first_blocks_of_a_refused_write", "a refused WSS has written the blocks before the wrong one", answer_with(write_until_refused),
-       "wss/all_or_nothing/area_lower", "%MW100"},
+       "wss/all_or_nothing/area_lower", "is due"},
+      {"refused_wsb_writes_its_beginning", "a WSB that leaves the area has written up to the end", answer_with(write_up_to_the_end),
+       "areas/continuous_write_across_the_end/xbc_h_m", "is due"},
+      {"wrong_bcc_writes", "a write with a wrong BCC is not answered, but executed", answer_with(write_unanswered), "wss/wrong_bcc", "is due"},
+      {"foreign_station_writes", "a write to another station is not answered, but executed", answer_with(write_for_others), "wss/other_station/lower", "is due"},
       {"wsb_writes_nothing", "WSB is acknowledged and writes nothing", answer_with(acknowledge_only), "wsb/five_words/lower", "is due"},
-      {"bit_write_clears_its_word", "writing one bit clears the others of its word", answer_with(clear_other_bits), "wss/type_bit/xbc_h_set_lower", "%MW"},
+      {"bit_write_clears_its_word", "writing one bit clears the others of its word", answer_with(clear_other_bits), "wss/type_bit/xbc_h_set_lower", "is due"},
       {"areas_alias", "K is M under another name", misread([](const Bytes& request, GoodPlc&) { return with_names(request, [](std::string name) { return area_for(name, 'K', 'M'); }); }),
        "rss/mixed_areas/lower/words", "data"},
-      {"counters_alias_timers", "C is T under another name",
-       misread([](const Bytes& request, GoodPlc&) { return with_names(request, [](std::string name) { return area_for(name, 'C', 'T'); }); }),
-       "rss/mixed_contacts_and_bits", "data"},
       {"byte_write_clears_its_neighbour", "writing one byte clears the other byte of the word", answer_with(clear_other_byte),
-       "wss/type_byte/even_lower", "%MW"},
+       "wss/type_byte/even_lower", "is due"},
   };
 }
 

@@ -1,4 +1,8 @@
 // Faults of time and of the line: late, split, repeated, lost and surplus bytes, and what makes a device fall silent.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 #include "suites/xgt_cnet/broken/faults.hpp"
 
 namespace fieldproof::xgt_cnet {
@@ -25,7 +29,11 @@ Sendings one_byte_a_second(const Bytes&, Bytes reply) {
   return sendings;
 }
 
-Sendings flood(const Bytes&, Bytes reply) { return {{std::move(reply)}, {Bytes(4000, 'U'), 1ms, 1ms}}; }
+Behaviour flood_after_a_broken_frame(Storage&) {
+  Behaviour behaviour;
+  behaviour.cut_off = [](const Bytes&, GoodPlc&) { return Sendings{{Bytes(4000, 'U'), 1ms, 1ms}}; };
+  return behaviour;
+}
 
 Behaviour swallow_every_tenth(Storage&) {
   Behaviour behaviour;
@@ -99,6 +107,26 @@ Behaviour one_behind(Storage&) {
   return behaviour;
 }
 
+/// After a refusal one request is lost.
+Behaviour deaf_after_nak(Storage&) {
+  Behaviour behaviour;
+  behaviour.answer = [deaf = false](const Bytes& request, bool, GoodPlc& plc) mutable {
+    Bytes reply = plc.answer(request);
+    if (std::exchange(deaf, false)) return Sendings{};
+    deaf = refusal(reply).has_value();
+    return Sendings{{std::move(reply)}};
+  };
+  return behaviour;
+}
+
+MakeBehaviour takes_for(Byte other, Byte right) {
+  return [other, right](Storage&) {
+    Behaviour behaviour;
+    behaviour.hear = [other, right](Bytes& bytes) { std::replace(bytes.begin(), bytes.end(), other, right); };
+    return behaviour;
+  };
+}
+
 Behaviour frame_must_begin_the_line(Storage&) {
   Behaviour behaviour;
   behaviour.hear = [](Bytes& bytes) {
@@ -141,12 +169,15 @@ std::vector<Fault> line_faults() {
        "errors/code_0190/lower", "header"},
       {"reply_one_behind", "each reply is that to the request before", one_behind, "errors/code_0190/lower", "header"},
       {"swallows_every_tenth_request", "every tenth request is not answered", swallow_every_tenth, "monitor_execute/all_sixteen", "no answer"},
-      {"floods", "sends without end after the first request", send_with(flood), "frame_structure/request_ending_with_etx/lower", "floods", "xgt_cnet/frame_structure/request_ending_with_etx/lower"},
+      {"floods", "sends without end after a frame without tail", flood_after_a_broken_frame, "frame_structure/request_ending_with_etx/lower", "floods", "xgt_cnet/frame_structure/request_ending_with_etx/lower"},
       {"dies_of_a_wrong_bcc", "silent for ever after a wrong BCC", die_of_wrong_check, "frame_structure/other_sums_are_wrong/body", "dead",
        "xgt_cnet/frame_structure/other_sums_are_wrong/body", 32},
       {"dies_of_a_missing_tail", "silent for ever after a frame without tail", die_of_a_broken_frame, "frame_structure/request_ending_with_etx/lower", "dead"},
       {"needs_no_tail", "a frame without tail is executed when nothing more comes", time_for_a_tail, "frame_structure/no_tail_is_silent/lower/bare", "silence"},
       {"no_restart_at_enq", "ENQ inside a frame does not begin a new one", no_restart_at_enq, "frame_structure/enq_inside_a_frame/head", "no answer", "xgt_cnet/frame_structure/enq_inside_a_frame/head"},
+      {"etx_ends_a_request", "ETX ends a request as EOT does", takes_for(xgt_etx, xgt_eot), "frame_structure/request_ending_with_etx/upper", "silence"},
+      {"stx_begins_a_request", "STX begins a request as ENQ does", takes_for(0x02, xgt_enq), "frame_structure/request_with_another_head/upper/stx", "silence"},
+      {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak, "errors/good_after_refused/lower", "no answer"},
       {"first_of_two_requests", "of two requests without a pause between them the first is answered", deaf_while_busy, "frame_structure/back_to_back/continuous", "no answer", "xgt_cnet/frame_structure/back_to_back/continuous"},
       {"noise_spoils_the_frame", "a frame right after other bytes is not heard", frame_must_begin_the_line, "frame_structure/noise_before_enq/headless", "no answer", "xgt_cnet/frame_structure/noise_before_enq/headless"},
   };

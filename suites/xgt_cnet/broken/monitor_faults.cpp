@@ -166,7 +166,7 @@ std::vector<Fault> monitor_faults() {
        edit_reply([](FrameText& reply, const FrameText& request) {
          if (is(request, 'y') && reply.is_ack()) reply.body.erase(number_at, 2);
        }),
-       "monitor_execute/example_m000/lower", "registration number"},
+       "monitor_execute/example_m000/lower", "block count"},
       {"monitor_rss_without_block_count", "replies to Y of an individual registration have no block count",
        edit_reply([](FrameText& reply, const FrameText& request) {
          if (is(request, 'y') && reply.is_ack() && parse_reply(reply.bytes()).with_block_count) reply.body.erase(5, 2);

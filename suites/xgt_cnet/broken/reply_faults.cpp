@@ -83,6 +83,10 @@ std::vector<Fault> reply_faults() {
        "errors/code_is_four_characters/lower", "error code"},
       {"nak_without_code", "a refusal has no error code", edit_nak([](FrameText& r) { r.body = r.front(); }), "errors/code_is_four_characters/lower",
        "error code"},
+      {"nak_of_rss", "every refusal says that it answers SS", edit_nak([](FrameText& r) {
+         if ((r.command() | 0x20) == 'r') r.body.replace(3, 2, "SS");
+       }),
+       "rsb/refused/lower", "command"},
       {"nak_code_low_byte_first", "the error code has its low byte first",
        edit_nak([](FrameText& r) { r.body = r.front() + r.content().substr(2) + r.content().substr(0, 2); }), "errors/code_1132", "error code"},
       {"0011_for_1132", "a wrong area is refused with 0011", other_code("1132", "0011"), "errors/code_1132", "error code"},
