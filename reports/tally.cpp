@@ -38,7 +38,7 @@ int gate_exit_code(const Tally& tally, const Gate& gate, bool interrupted) {
   if (interrupted) return 130;
   if (tally.of(Verdict::error) > 0) return 3;
   if (tally.gating(gate) > 0) return 1;
-  if (tally.total() == tally.of(Verdict::skip) + tally.of(Verdict::blocked)) return 4;
+  if (tally.total() == tally.of(Verdict::skip) + tally.of(Verdict::blocked) + tally.of(Verdict::inconclusive)) return 4;
   return 0;
 }
 

@@ -36,7 +36,7 @@ enum class JunitOutcome { plain, failure, error, skipped };
 JunitOutcome junit_outcome(Verdict verdict, const Gate& gate);
 
 /// The exit code of a run that was started, by precedence: 130 interrupted, 3 any ERROR, 1 conformance failed, 4 nothing
-/// selected or executed (no result, or only SKIP and BLOCKED), 0 gate met. 2 and 77 are decided before a run starts,
+/// selected or judged (no result, or only SKIP, BLOCKED and INCONCLUSIVE), 0 gate met. 2 and 77 are decided before a run starts,
 /// as are trouble without a result (3) and the empty shard of a selection that is not (0).
 int gate_exit_code(const Tally& tally, const Gate& gate, bool interrupted);
 

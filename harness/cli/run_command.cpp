@@ -296,7 +296,7 @@ int run_command(const RunOptions& options) {
   if (options.dry_run) return dry_run(*plan);
   catch_interrupts();
   Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(plan->endpoint);
-  if (!endpoint) return complain(endpoint.error().message, options.skip_absent ? exit_code::absent : exit_code::trouble);
+  if (!endpoint) return complain(endpoint.error().message, options.skip_absent && endpoint.error().absent ? exit_code::absent : exit_code::trouble);
   return execute(options, *plan, **endpoint);
 }
 

@@ -39,15 +39,21 @@ std::string ports_there() {
   return list.empty() ? "plug in the adapter (none is listed in /dev/serial/by-id)" : "these are there: " + list;
 }
 
+Error absent(std::string message) {
+  Error error = fail(std::move(message));
+  error.absent = true;
+  return error;
+}
+
 Error open_error(const std::string& path, int error) {
   const std::string start = "cannot open " + path + ": ";
   switch (error) {
     case EACCES: return fail(start + "permission denied; add yourself to the group " + group_of(path));
-    case ENOENT: return fail(start + "there is no such port; " + ports_there());
+    case ENOENT: return absent(start + "there is no such port; " + ports_there());
     case EBUSY:
     case EWOULDBLOCK: return fail(start + "the port is in use" + port_user(path) + "; end that process or choose another port");
     case ENODEV:
-    case ENXIO: return fail(start + "no adapter behind this name; plug it in or choose another port");
+    case ENXIO: return absent(start + "no adapter behind this name; plug it in or choose another port");
     default: return fail(start + errno_text(error) + "; name a terminal device such as /dev/ttyUSB0");
   }
 }

@@ -13,6 +13,8 @@ struct Error {
   std::string message;
   /// The user pressed Ctrl-C.
   bool interrupted = false;
+  /// The hardware is not there (`run --skip-absent`).
+  bool absent = false;
 };
 
 template <typename T>

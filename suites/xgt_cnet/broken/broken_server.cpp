@@ -67,12 +67,15 @@ void BrokenPlc::put(Sendings sendings, Time from) {
   for (Sending& sending : sendings) {
     if (sending.bytes.empty()) continue;
     const Time due = from + sending.after;
-    const auto behind = std::upper_bound(pending_.begin(), pending_.end(), due, [](Time time, const Pending& other) { return time < other.due; });
+    const auto behind =
+        std::upper_bound(pending_.begin(), pending_.end(), due, [](Time time, const Pending& other) { return time < other.due; });
     pending_.insert(behind, {due, std::move(sending)});
   }
 }
 
-Result<std::string> BrokenPlc::get(std::string_view address, std::size_t digits) const { return plc_.memory().get(address, digits); }
+Result<std::string> BrokenPlc::get(std::string_view address, std::size_t digits) const {
+  return plc_.memory().get(address, digits);
+}
 
 Status BrokenPlc::act(std::string_view action) {
   const Status done = plc_.memory().act(action);
@@ -88,7 +91,8 @@ Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault, 
   if (!known && fault != "none") {
     std::vector<std::string_view> names{"none"};
     for (const Fault& one : faults()) names.push_back(one.name);
-    return fail(fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}", fault, suggestion(fault, names)));
+    return fail(fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}", fault,
+                            suggestion(fault, names)));
   }
   Result<std::unique_ptr<Plc>> plc = make_plc(config);
   if (!plc) return plc.error();

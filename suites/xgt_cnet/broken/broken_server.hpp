@@ -38,7 +38,7 @@ class BrokenPlc : public EmulatedDevice, private FrameSink {
   Behaviour behaviour_;
   mutable GoodPlc plc_;
   FrameReceiver receiver_;
-  Bytes since_head_;             // of the frame that is arriving
+  Bytes since_head_;  // of the frame that is arriving
   Time now_{};
   bool in_silence_ = false;
   unsigned frames_in_burst_ = 0;

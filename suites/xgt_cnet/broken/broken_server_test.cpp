@@ -1,12 +1,12 @@
 // The suite against broken devices: each fault must turn its case red, with a message that names it, and the healthy
 // device must pass. Everything runs as a user would: the built tool, the device in a process of its own, a pty between.
 // Most of the time of a run is waiting, so several run at once.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <fmt/format.h>
 #include <future>
 #include <map>
 #include <thread>
@@ -30,8 +30,9 @@ std::string case_id(const Fault& fault) { return fmt::format("xgt_cnet/{}", faul
 
 /// The case and its neighbours: what else is made of the same vector.
 std::string filter_of(const Fault& fault) {
-  if (!fault.neighbours.empty()) return std::string(fault.neighbours);
   const std::string id = case_id(fault);
+  if (fault.neighbours == alone) return id;
+  if (!fault.neighbours.empty()) return std::string(fault.neighbours);
   const bool one_of_many = std::count(id.begin(), id.end(), '/') > 2;
   return one_of_many ? id.substr(0, id.rfind('/')) + "/*" : id;
 }
@@ -43,13 +44,15 @@ struct SuiteRun {
 };
 
 SuiteRun run_suite(const std::string& fault, const std::string& filter, unsigned station, const std::string& folder) {
-  const std::string device = fmt::format("{} {} {{tty}} {} {}", quoted(BROKEN_SERVER), fault, station, quoted(folder + "/storage"));
+  const std::string device =
+      fmt::format("{} {} {{tty}} {} {}", quoted(BROKEN_SERVER), fault, station, quoted(folder + "/storage"));
   const auto start = std::chrono::steady_clock::now();
   std::filesystem::create_directories(folder);
   SuiteRun run;
-  run.tool = run_tool({"run", "--endpoint", fmt::format("exec:{}?station={}", device, station), "--profile", "xbc-h", "--allow-write", "all,P,Q,U",
-                       "--filter", filter, "--out", folder});
-  const Result<RunLog> log = read_ndjson(folder + "/results.ndjson", [&run](const CaseResult& result) { run.results.emplace(result.id, result); });
+  run.tool = run_tool({"run", "--endpoint", fmt::format("exec:{}?station={}", device, station), "--profile", "xbc-h",
+                       "--allow-write", "all,P,Q,U", "--filter", filter, "--out", folder});
+  const Result<RunLog> log =
+      read_ndjson(folder + "/results.ndjson", [&run](const CaseResult& result) { run.results.emplace(result.id, result); });
   if (!log) run.tool.err += log.error().message;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
@@ -111,7 +114,8 @@ SuiteRuns& runs() {
 /// The line of the verdict, or a field that it shows as different.
 bool names(const CaseResult& result, std::string_view what) {
   if (result.message.find(what) != std::string::npos) return true;
-  return std::ranges::any_of(result.differences, [what](const Difference& one) { return one.field.find(what) != std::string::npos; });
+  return std::ranges::any_of(result.differences,
+                             [what](const Difference& one) { return one.field.find(what) != std::string::npos; });
 }
 
 class TheSuite : public testing::TestWithParam<Fault> {};
@@ -129,7 +133,8 @@ TEST_P(TheSuite, Catches) {
   runs().report(fmt::format("{:<40} {:<54} {:>4.1f} s  {}", fault.name, fault.caught_by, run.seconds, result.message));
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()), [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(HealthyDevice, PassesTheWholeSuite) {
   const SuiteRun run = runs().take(healthy);

@@ -1,7 +1,8 @@
 // Faults in what is read and written: order of bytes and words, addresses, rights (000 7.1.4).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 
 #include "suites/xgt_cnet/broken/faults.hpp"
 
@@ -9,7 +10,9 @@ namespace fieldproof::xgt_cnet {
 
 namespace {
 
-char type_of(const XgtRequest& request) { return request.blocks > 0 && request.block[0].name.size() > 2 ? request.block[0].name[2] : '\0'; }
+char type_of(const XgtRequest& request) {
+  return request.blocks > 0 && request.block[0].name.size() > 2 ? request.block[0].name[2] : '\0';
+}
 
 /// Cuts digits into groups and puts the `part`s of each group in reverse order.
 std::string reversed(std::string_view digits, std::size_t group, std::size_t part) {
@@ -165,7 +168,8 @@ Bytes acknowledge_only(const Bytes& frame, GoodPlc& plc) {
 Bytes clear_other_byte(const Bytes& frame, GoodPlc& plc) {
   const XgtRequest request = parse_request(frame);
   Bytes reply = plc.answer(frame);
-  if (request.service != XgtService::write_blocks || type_of(request) != 'B' || reply.empty() || reply[0] != xgt_ack) return reply;
+  if (request.service != XgtService::write_blocks || type_of(request) != 'B' || reply.empty() || reply[0] != xgt_ack)
+    return reply;
   for (unsigned i = 0; i < request.blocks; ++i) {
     const NameParts parts = split_name(request.block[i].name);
     if (parts.number) (void)plc.memory().set(parts.area_and_type + std::to_string(*parts.number ^ 1), "00");
@@ -194,41 +198,53 @@ std::string area_for(std::string name, char from, char to) {
 
 std::vector<Fault> data_faults() {
   return {
-      {"word_bytes_swapped_in_reads", "words are read with the low byte first", reorder(word_bytes, true, false), "rss/two_words/lower", "data"},
-      {"word_bytes_swapped_in_writes", "words are written with the low byte first", reorder(word_bytes, false, true), "wss/type_word/lower", "is due"},
-      {"word_bytes_swapped_in_both", "words are read and written with the low byte first: it cancels where words are read back as words",
+      {"word_bytes_swapped_in_reads", "words are read with the low byte first", reorder(word_bytes, true, false),
+       "rss/two_words/lower", "data"},
+      {"word_bytes_swapped_in_writes", "words are written with the low byte first", reorder(word_bytes, false, true),
+       "wss/type_word/lower", "is due"},
+      {"word_bytes_swapped_in_both",
+       "words are read and written with the low byte first: it cancels where words are read back as words",
        reorder(word_bytes, true, true), "wss/value_1234_is_31323334/lower", "%MB200"},
-      {"dword_halves_swapped", "dwords are read and written with the low word first", reorder(dword_halves, true, true), "wss/type_dword/lower", "is due"},
-      {"lword_quarters_reversed", "lwords are read and written with the lowest word first", reorder(lword_quarters, true, true), "wss/type_lword/lower",
-       "is due"},
+      {"dword_halves_swapped", "dwords are read and written with the low word first", reorder(dword_halves, true, true),
+       "wss/type_dword/lower", "is due"},
+      {"lword_quarters_reversed", "lwords are read and written with the lowest word first", reorder(lword_quarters, true, true),
+       "wss/type_lword/lower", "is due"},
       {"bytes_swapped", "an even byte address is the high byte", renumber('B', [](std::uint32_t n) { return n ^ 1; }),
        "data_types/bytes_read_as_words/lower", "data"},
-      {"odd_byte_is_the_even_one", "an odd byte address reads and writes the low byte", renumber('B', [](std::uint32_t n) { return n & ~1u; }),
-       "rsb/bytes_from_an_odd_one/lower/01", "data"},
+      {"odd_byte_is_the_even_one", "an odd byte address reads and writes the low byte",
+       renumber('B', [](std::uint32_t n) { return n & ~1u; }), "rsb/bytes_from_an_odd_one/lower/01", "data"},
       {"byte_address_not_doubled", "a byte address counts words", renumber('B', [](std::uint32_t n) { return n * 2; }),
        "data_types/byte_address_is_doubled/lower/k/20", "data"},
       {"dword_address_in_words", "a dword address counts words", renumber('D', [](std::uint32_t n) { return n / 2; }),
        "data_types/dword_and_lword_numbers/lower/d1", "data"},
       {"bit_order_reversed", "bit 0 is the highest bit of a word",
-       misread([](const Bytes& request, GoodPlc&) { return with_names(request, mirrored_bit); }), "data_types/bits_of_a_word/lower/2", "data"},
-      {"bit_is_ff", "a bit that is on reads FF",
-       edit_reply([](FrameText& reply, const FrameText& request) {
-         if (reply.is_ack() && request.service() == "RSS" && request.content().find("X") != std::string::npos && reply.content() == "010101")
+       misread([](const Bytes& request, GoodPlc&) { return with_names(request, mirrored_bit); }),
+       "data_types/bits_of_a_word/lower/2", "data"},
+      {"bit_is_ff", "a bit that is on reads FF", edit_reply([](FrameText& reply, const FrameText& request) {
+         if (reply.is_ack() && request.service() == "RSS" && request.content().find("X") != std::string::npos &&
+             reply.content() == "010101")
            reply.body = reply.front() + "0101FF";
        }),
        "rss/bit_is_00_or_01/lower/on_2", "data"},
       {"contacts_alias_values", "the contact of a timer or counter is its current value", answer_with(contact_of_value),
        "data_types/contact_against_value/lower/t/off", "data"},
-      {"writes_read_only_areas", "F and N can be written", answer_with(write_read_only), "wss/read_only_areas_without_memory/f", "header"},
-      {"writes_first_blocks_of_a_refused_write", "a refused WSS has written the blocks before the wrong one", answer_with(write_until_refused),
-       "wss/all_or_nothing/area_lower", "is due"},
-      {"refused_wsb_writes_its_beginning", "a WSB that leaves the area has written up to the end", answer_with(write_up_to_the_end),
-       "areas/continuous_write_across_the_end/xbc_h_m", "is due"},
-      {"wrong_bcc_writes", "a write with a wrong BCC is not answered, but executed", answer_with(write_unanswered), "wss/wrong_bcc", "is due"},
-      {"foreign_station_writes", "a write to another station is not answered, but executed", answer_with(write_for_others), "wss/other_station/lower", "is due"},
-      {"wsb_writes_nothing", "WSB is acknowledged and writes nothing", answer_with(acknowledge_only), "wsb/five_words/lower", "is due"},
-      {"bit_write_clears_its_word", "writing one bit clears the others of its word", answer_with(clear_other_bits), "wss/type_bit/xbc_h_set_lower", "is due"},
-      {"areas_alias", "K is M under another name", misread([](const Bytes& request, GoodPlc&) { return with_names(request, [](std::string name) { return area_for(name, 'K', 'M'); }); }),
+      {"writes_read_only_areas", "F and N can be written", answer_with(write_read_only), "wss/read_only_areas_without_memory/f",
+       "header"},
+      {"writes_first_blocks_of_a_refused_write", "a refused WSS has written the blocks before the wrong one",
+       answer_with(write_until_refused), "wss/all_or_nothing/area_lower", "is due"},
+      {"refused_wsb_writes_its_beginning", "a WSB that leaves the area has written up to the end",
+       answer_with(write_up_to_the_end), "areas/continuous_write_across_the_end/xbc_h_m", "is due"},
+      {"wrong_bcc_writes", "a write with a wrong BCC is not answered, but executed", answer_with(write_unanswered),
+       "wss/wrong_bcc", "is due"},
+      {"foreign_station_writes", "a write to another station is not answered, but executed", answer_with(write_for_others),
+       "wss/other_station/lower", "is due"},
+      {"wsb_writes_nothing", "WSB is acknowledged and writes nothing", answer_with(acknowledge_only), "wsb/five_words/lower",
+       "is due"},
+      {"bit_write_clears_its_word", "writing one bit clears the others of its word", answer_with(clear_other_bits),
+       "wss/type_bit/xbc_h_set_lower", "is due"},
+      {"areas_alias", "K is M under another name", misread([](const Bytes& request, GoodPlc&) {
+         return with_names(request, [](std::string name) { return area_for(name, 'K', 'M'); });
+       }),
        "rss/mixed_areas/lower/words", "data"},
       {"byte_write_clears_its_neighbour", "writing one byte clears the other byte of the word", answer_with(clear_other_byte),
        "wss/type_byte/even_lower", "is due"},

@@ -7,7 +7,8 @@ namespace fieldproof::xgt_cnet {
 namespace {
 std::vector<Fault> all_faults() {
   std::vector<Fault> all;
-  for (auto part : {check_faults, reply_faults, data_faults, limit_faults, monitor_faults, line_faults}) std::ranges::move(part(), std::back_inserter(all));
+  for (auto part : {check_faults, reply_faults, data_faults, limit_faults, monitor_faults, line_faults})
+    std::ranges::move(part(), std::back_inserter(all));
   return all;
 }
 }  // namespace

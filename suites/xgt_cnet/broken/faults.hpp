@@ -37,14 +37,16 @@ struct Behaviour {
   std::function<void(GoodPlc& plc)> power_on;
 };
 
+constexpr std::string_view alone = "-";
+
 struct Fault {
   std::string_view name;
   std::string_view what;
   std::function<Behaviour(Storage&)> make;
-  std::string_view caught_by;      // the case that must turn red, without "xgt_cnet/"
-  std::string_view message;        // part of its message
-  std::string_view neighbours{};   // filter of what runs with it; empty: the cases of the same vector
-  unsigned station = 1;            // the fault shows at this station
+  std::string_view caught_by;     // the case that must turn red, without "xgt_cnet/"
+  std::string_view message;       // part of its message
+  std::string_view neighbours{};  // filter of what runs with it; empty: the cases of the same vector; or `alone`
+  unsigned station = 1;           // the fault shows at this station
 };
 
 /// All of them, in the order of the chapters. "none" is no fault and not among them.

@@ -57,7 +57,8 @@ Bytes ack_to(const XgtRequest& request, std::string_view content) {
 
 Bytes nak_to(const XgtRequest& request, std::uint16_t code) {
   Bytes bytes;
-  encode_reply({.ack = false, .station = request.station, .command = request.command, .kind = request.kind, .error = code}, bytes);
+  encode_reply({.ack = false, .station = request.station, .command = request.command, .kind = request.kind, .error = code},
+               bytes);
   return bytes;
 }
 

@@ -15,7 +15,8 @@ namespace fieldproof::xgt_cnet {
 
 class GoodPlc {
  public:
-  GoodPlc(std::unique_ptr<Plc> plc, const PlcModel& model, unsigned station) : plc_(std::move(plc)), model_(&model), station_(station) {}
+  GoodPlc(std::unique_ptr<Plc> plc, const PlcModel& model, unsigned station)
+      : plc_(std::move(plc)), model_(&model), station_(station) {}
 
   /// What the good PLC answers to a request; empty: silence.
   Bytes answer(ByteView request);
@@ -35,7 +36,7 @@ class GoodPlc {
 /// A frame taken apart: what a fault edits as text.
 struct FrameText {
   char head = 0;
-  std::string body;   // station, command, type or number, content
+  std::string body;  // station, command, type or number, content
   char tail = 0;
   std::string check;  // BCC; empty without
 

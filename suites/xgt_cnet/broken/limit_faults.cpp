@@ -58,7 +58,8 @@ MakeBehaviour refuse(std::uint16_t code, bool (*refuses)(const XgtRequest& reque
 }
 
 bool any_name(const XgtRequest& request, bool (*test)(std::string_view name)) {
-  return std::any_of(request.block.begin(), request.block.begin() + request.blocks, [test](const XgtBlock& block) { return test(block.name); });
+  return std::any_of(request.block.begin(), request.block.begin() + request.blocks,
+                     [test](const XgtBlock& block) { return test(block.name); });
 }
 
 /// What was refused with `code`, cut or changed in its body and asked again.
@@ -190,10 +191,12 @@ bool has_small_letter(std::string_view name) {
 
 std::vector<Fault> limit_faults() {
   return {
-      {"one_past_the_end_accepted", "the address behind the last of an area is taken for the last", forgive_name(xgt_error::range, last_for_one_past),
+      {"one_past_the_end_accepted", "the address behind the last of an area is taken for the last",
+       forgive_name(xgt_error::range, last_for_one_past), "areas/read_word_limits/xbc_h_m", "header"},
+      {"last_address_refused", "the last address of an area is refused", answer_with(refuse_last),
        "areas/read_word_limits/xbc_h_m", "header"},
-      {"last_address_refused", "the last address of an area is refused", answer_with(refuse_last), "areas/read_word_limits/xbc_h_m", "header"},
-      {"addresses_wrap", "an address past the end begins again at 0", forgive_name(xgt_error::range, wrapped), "wss/example_nak/lower", "header"},
+      {"addresses_wrap", "an address past the end begins again at 0", forgive_name(xgt_error::range, wrapped),
+       "wss/example_nak/lower", "header"},
       {"run_may_leave_the_area", "RSB looks at its first address alone, and reads 0 behind the end",
        answer_with([](const Bytes& request, GoodPlc& plc) {
          const Bytes reply = plc.answer(request);
@@ -204,11 +207,11 @@ std::vector<Fault> limit_faults() {
          return ack_to(parsed, "01" + hex_number(bytes, 2) + std::string(std::size_t{bytes} * 2, '0'));
        }),
        "areas/continuous_read_across_the_end/xbc_h_m", "header"},
-      {"seventeen_blocks_accepted", "RSS of 17 blocks is answered", answer_with(read_seventeen), "rss/seventeen_blocks/lower", "header"},
-      {"sixteen_blocks_refused", "16 blocks are one too many", refuse(xgt_error::blocks, [](const XgtRequest& r) { return r.blocks == 16; }),
-       "rss/block_counts/10", "header"},
-      {"block_count_in_decimal", "the block count is decimal: 10 is ten blocks",
-       misread([](const Bytes& request, GoodPlc&) {
+      {"seventeen_blocks_accepted", "RSS of 17 blocks is answered", answer_with(read_seventeen), "rss/seventeen_blocks/lower",
+       "header"},
+      {"sixteen_blocks_refused", "16 blocks are one too many",
+       refuse(xgt_error::blocks, [](const XgtRequest& r) { return r.blocks == 16; }), "rss/block_counts/10", "header"},
+      {"block_count_in_decimal", "the block count is decimal: 10 is ten blocks", misread([](const Bytes& request, GoodPlc&) {
          FrameText text = take_apart(request);
          if (text.service() != "RSS" || text.content().substr(0, 2) != "10") return request;
          text.body = text.front() + "0A" + text.content().substr(2, behind_names(text.content(), 10) - 2);
@@ -216,37 +219,54 @@ std::vector<Fault> limit_faults() {
          return text.bytes();
        }),
        "rss/block_counts/10", "block count"},
-      {"sixty_one_words_accepted", "RSB of 61 words is answered", answer_with(read_sixty_one), "rsb/sixty_one_words/lower", "header"},
+      {"sixty_one_words_accepted", "RSB of 61 words is answered", answer_with(read_sixty_one), "rsb/sixty_one_words/lower",
+       "header"},
       {"sixty_words_refused", "60 words are one too many",
-       refuse(xgt_error::size, [](const XgtRequest& r) { return r.count == 60 && r.content == XgtService::read_run; }), "rsb/sixty_words/lower", "header"},
+       refuse(xgt_error::size, [](const XgtRequest& r) { return r.count == 60 && r.content == XgtService::read_run; }),
+       "rsb/sixty_words/lower", "header"},
       {"seventeen_characters_accepted", "a name of 17 characters is taken", forgive(xgt_error::name_length, shorten_name),
        "rss/seventeen_characters/lower", "header"},
       {"sixteen_characters_refused", "a name of 16 characters is too long",
-       refuse(xgt_error::name_length, [](const XgtRequest& r) { return any_name(r, [](std::string_view name) { return name.size() == 16; }); }),
+       refuse(xgt_error::name_length,
+              [](const XgtRequest& r) { return any_name(r, [](std::string_view name) { return name.size() == 16; }); }),
        "rss/sixteen_characters/lower", "header"},
       {"leading_zeros_refused", "a number with leading zeros is refused",
-       refuse(xgt_error::data, [](const XgtRequest& r) { return any_name(r, [](std::string_view n) { return n.size() > 4 && n[2] != 'X' && n[3] == '0'; }); }),
+       refuse(xgt_error::data,
+              [](const XgtRequest& r) {
+                return any_name(r, [](std::string_view n) { return n.size() > 4 && n[2] != 'X' && n[3] == '0'; });
+              }),
        "rss/name_lengths/05", "header"},
       {"small_letters_refused", "device names in lower case are refused",
-       refuse(xgt_error::data, [](const XgtRequest& r) { return any_name(r, has_small_letter); }), "commands/name_in_lower_case/lower/lower", "header"},
+       refuse(xgt_error::data, [](const XgtRequest& r) { return any_name(r, has_small_letter); }),
+       "commands/name_in_lower_case/lower/lower", "header"},
       {"small_digits_refused", "data with lower-case hex digits are refused",
-       refuse(xgt_error::not_hex, [](const XgtRequest& r) { return std::any_of(r.block.begin(), r.block.begin() + r.blocks, [](const XgtBlock& b) { return has_small_letter(b.data); }); }),
+       refuse(xgt_error::not_hex,
+              [](const XgtRequest& r) {
+                return std::any_of(r.block.begin(), r.block.begin() + r.blocks,
+                                   [](const XgtBlock& b) { return has_small_letter(b.data); });
+              }),
        "wss/data_lower_case_hex/lower", "header"},
       {"small_type_refused", "a command type in lower case is not answered", answer_with([](const Bytes& request, GoodPlc& plc) {
          return has_small_letter(take_apart(request).front().substr(3)) ? Bytes{} : plc.answer(request);
        }),
        "commands/type_in_lower_case/lower/ss", "no answer", "xgt_cnet/commands/type_in_lower_case/*/ss"},
-      {"mixed_types_accepted", "blocks of different types are read", answer_with(read_mixed_types), "errors/printed_1332", "header"},
-      {"surplus_ignored", "what follows the last field is not looked at", forgive(xgt_error::surplus, drop_surplus), "errors/printed_1234", "header"},
-      {"any_bit_value_accepted", "a bit may be written as 11", forgive(xgt_error::data, take_any_bit), "errors/printed_0011_bit", "header"},
-      {"not_hex_is_zero", "data that are not hex are taken for 0", forgive(xgt_error::not_hex, zero_for_not_hex), "errors/printed_1432", "header"},
-      {"count_zero_accepted", "RSB of 00 is acknowledged with no data",
-       answer_with([](const Bytes& request, GoodPlc& plc) {
+      {"mixed_types_accepted", "blocks of different types are read", answer_with(read_mixed_types), "errors/printed_1332",
+       "header"},
+      {"surplus_ignored", "what follows the last field is not looked at", forgive(xgt_error::surplus, drop_surplus),
+       "errors/printed_1234", "header"},
+      {"any_bit_value_accepted", "a bit may be written as 11", forgive(xgt_error::data, take_any_bit), "errors/printed_0011_bit",
+       "header"},
+      {"not_hex_is_zero", "data that are not hex are taken for 0", forgive(xgt_error::not_hex, zero_for_not_hex),
+       "errors/printed_1432", "header"},
+      {"count_zero_accepted", "RSB of 00 is acknowledged with no data", answer_with([](const Bytes& request, GoodPlc& plc) {
          const XgtRequest parsed = parse_request(request);
-         return parsed.service == XgtService::read_run && parsed.fault.check == XgtCheck::count && parsed.count == 0 ? ack_to(parsed, "0100") : plc.answer(request);
+         return parsed.service == XgtService::read_run && parsed.fault.check == XgtCheck::count && parsed.count == 0
+                    ? ack_to(parsed, "0100")
+                    : plc.answer(request);
        }),
        "rsb/count_00/lower/word", "header"},
-      {"unknown_command_refused", "an unknown command draws NAK 0011", answer_with(refuse_unknown_command), "commands/unknown_command/a", "silence"},
+      {"unknown_command_refused", "an unknown command draws NAK 0011", answer_with(refuse_unknown_command),
+       "commands/unknown_command/a", "silence"},
   };
 }
 

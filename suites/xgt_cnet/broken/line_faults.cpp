@@ -58,7 +58,9 @@ Behaviour die_of_wrong_check(Storage&) {
 Behaviour die_of_a_broken_frame(Storage&) {
   Behaviour behaviour;
   const auto dead = std::make_shared<bool>(false);
-  behaviour.answer = [dead](const Bytes& request, bool, GoodPlc& plc) { return *dead ? Sendings{} : Sendings{{plc.answer(request)}}; };
+  behaviour.answer = [dead](const Bytes& request, bool, GoodPlc& plc) {
+    return *dead ? Sendings{} : Sendings{{plc.answer(request)}};
+  };
   behaviour.cut_off = [dead](const Bytes&, GoodPlc&) {
     *dead = true;
     return Sendings{};
@@ -92,7 +94,9 @@ Behaviour no_restart_at_enq(Storage&) {
 
 Behaviour deaf_while_busy(Storage&) {
   Behaviour behaviour;
-  behaviour.answer = [](const Bytes& request, bool together, GoodPlc& plc) { return together ? Sendings{} : Sendings{{plc.answer(request)}}; };
+  behaviour.answer = [](const Bytes& request, bool together, GoodPlc& plc) {
+    return together ? Sendings{} : Sendings{{plc.answer(request)}};
+  };
   return behaviour;
 }
 
@@ -142,44 +146,60 @@ Behaviour frame_must_begin_the_line(Storage&) {
 std::vector<Fault> line_faults() {
   return {
       {"late_answer", "replies come after 700 ms", late_by(700ms), "errors/code_0190/lower", ""},
-      {"late_refusal", "a refusal comes after 700 ms",
-       send_with([](const Bytes&, Bytes reply) {
+      {"late_refusal", "a refusal comes after 700 ms", send_with([](const Bytes&, Bytes reply) {
          const Duration delay = refusal(reply) ? 700ms : 0ms;
          return Sendings{{std::move(reply), delay}};
        }),
        "frame_structure/nak/lower", "late answer"},
       {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves), "errors/code_0190/lower", ""},
-      {"split_refusal", "a refusal pauses for 200 ms in the middle",
-       send_with([](const Bytes& request, Bytes reply) { return refusal(reply) ? in_halves(request, std::move(reply)) : Sendings{{std::move(reply)}}; }),
+      {"split_refusal", "a refusal pauses for 200 ms in the middle", send_with([](const Bytes& request, Bytes reply) {
+         return refusal(reply) ? in_halves(request, std::move(reply)) : Sendings{{std::move(reply)}};
+       }),
        "frame_structure/nak/lower", "split answer"},
       {"one_byte_a_second", "replies come at one byte a second", send_with(one_byte_a_second), "errors/code_0190/lower", ""},
-      {"echo", "the request comes back before the reply", send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }),
-       "errors/code_0190/lower", "echo"},
-      {"echo_alone", "requests come back, and no reply", send_with([](const Bytes& request, const Bytes&) { return Sendings{{request}}; }),
-       "errors/code_0190/lower", "echo"},
-      {"reply_twice", "each reply is sent twice", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }), "rss/two_words/lower",
-       "after the complete"},
-      {"reply_again_later", "each reply is sent again after 50 ms", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply}, {reply, 50ms}}; }),
+      {"echo", "the request comes back before the reply",
+       send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }), "errors/code_0190/lower",
+       "echo"},
+      {"echo_alone", "requests come back, and no reply",
+       send_with([](const Bytes& request, const Bytes&) { return Sendings{{request}}; }), "errors/code_0190/lower", "echo"},
+      {"reply_twice", "each reply is sent twice", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),
+       "rss/two_words/lower", "after the complete"},
+      {"reply_again_later", "each reply is sent again after 50 ms", send_with([](const Bytes&, Bytes reply) {
+         return Sendings{{reply}, {reply, 50ms}};
+       }),
        "frame_structure/no_tail_is_silent/lower/bare", "silence"},
-      {"trailing_byte", "a byte 00 follows each reply", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }),
+      {"trailing_byte", "a byte 00 follows each reply",
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }), "rss/two_words/lower",
+       "after the complete"},
+      {"cr_lf_behind_reply", "CR LF follow each reply", send_with([](const Bytes&, Bytes reply) {
+         return Sendings{{reply + Bytes{0x0D, 0x0A}}};
+       }),
        "rss/two_words/lower", "after the complete"},
-      {"cr_lf_behind_reply", "CR LF follow each reply", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0x0D, 0x0A}}}; }),
-       "rss/two_words/lower", "after the complete"},
-      {"garbage_before_reply", "a byte FF comes before each reply", send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }),
-       "errors/code_0190/lower", "header"},
+      {"garbage_before_reply", "a byte FF comes before each reply",
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }), "errors/code_0190/lower", "header"},
       {"reply_one_behind", "each reply is that to the request before", one_behind, "errors/code_0190/lower", "header"},
-      {"swallows_every_tenth_request", "every tenth request is not answered", swallow_every_tenth, "monitor_execute/all_sixteen", "no answer"},
-      {"floods", "sends without end after a frame without tail", flood_after_a_broken_frame, "frame_structure/request_ending_with_etx/lower", "floods", "xgt_cnet/frame_structure/request_ending_with_etx/lower"},
-      {"dies_of_a_wrong_bcc", "silent for ever after a wrong BCC", die_of_wrong_check, "frame_structure/other_sums_are_wrong/body", "dead",
-       "xgt_cnet/frame_structure/other_sums_are_wrong/body", 32},
-      {"dies_of_a_missing_tail", "silent for ever after a frame without tail", die_of_a_broken_frame, "frame_structure/request_ending_with_etx/lower", "dead"},
-      {"needs_no_tail", "a frame without tail is executed when nothing more comes", time_for_a_tail, "frame_structure/no_tail_is_silent/lower/bare", "silence"},
-      {"no_restart_at_enq", "ENQ inside a frame does not begin a new one", no_restart_at_enq, "frame_structure/enq_inside_a_frame/head", "no answer", "xgt_cnet/frame_structure/enq_inside_a_frame/head"},
-      {"etx_ends_a_request", "ETX ends a request as EOT does", takes_for(xgt_etx, xgt_eot), "frame_structure/request_ending_with_etx/upper", "silence"},
-      {"stx_begins_a_request", "STX begins a request as ENQ does", takes_for(0x02, xgt_enq), "frame_structure/request_with_another_head/upper/stx", "silence"},
-      {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak, "errors/good_after_refused/lower", "no answer"},
-      {"first_of_two_requests", "of two requests without a pause between them the first is answered", deaf_while_busy, "frame_structure/back_to_back/continuous", "no answer", "xgt_cnet/frame_structure/back_to_back/continuous"},
-      {"noise_spoils_the_frame", "a frame right after other bytes is not heard", frame_must_begin_the_line, "frame_structure/noise_before_enq/headless", "no answer", "xgt_cnet/frame_structure/noise_before_enq/headless"},
+      {"swallows_every_tenth_request", "every tenth request is not answered", swallow_every_tenth, "monitor_execute/all_sixteen",
+       "no answer"},
+      {"floods", "sends without end after a frame without tail", flood_after_a_broken_frame,
+       "frame_structure/request_ending_with_etx/lower", "floods", alone},
+      {"dies_of_a_wrong_bcc", "silent for ever after a wrong BCC", die_of_wrong_check,
+       "frame_structure/other_sums_are_wrong/body", "dead", alone, 32},
+      {"dies_of_a_missing_tail", "silent for ever after a frame without tail", die_of_a_broken_frame,
+       "frame_structure/request_ending_with_etx/lower", "dead"},
+      {"needs_no_tail", "a frame without tail is executed when nothing more comes", time_for_a_tail,
+       "frame_structure/no_tail_is_silent/lower/bare", "silence"},
+      {"no_restart_at_enq", "ENQ inside a frame does not begin a new one", no_restart_at_enq,
+       "frame_structure/enq_inside_a_frame/head", "no answer", alone},
+      {"etx_ends_a_request", "ETX ends a request as EOT does", takes_for(xgt_etx, xgt_eot),
+       "frame_structure/request_ending_with_etx/upper", "silence"},
+      {"stx_begins_a_request", "STX begins a request as ENQ does", takes_for(0x02, xgt_enq),
+       "frame_structure/request_with_another_head/upper/stx", "silence"},
+      {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak, "errors/good_after_refused/lower",
+       "no answer"},
+      {"first_of_two_requests", "of two requests without a pause between them the first is answered", deaf_while_busy,
+       "frame_structure/back_to_back/continuous", "no answer", alone},
+      {"noise_spoils_the_frame", "a frame right after other bytes is not heard", frame_must_begin_the_line,
+       "frame_structure/noise_before_enq/headless", "no answer", alone},
   };
 }
 

@@ -64,7 +64,8 @@ MakeBehaviour with_memory(Watch watch) {
 Bytes keep_first(const Bytes& request, GoodPlc& plc, Registered& registered) {
   const FrameText text = take_apart(request);
   const XgtRequest parsed = parse_request(request);
-  if (is(text, 'x') && !parsed.fault && parsed.station == plc.station() && registered.contains(number_of(text))) return ack_to(parsed);
+  if (is(text, 'x') && !parsed.fault && parsed.station == plc.station() && registered.contains(number_of(text)))
+    return ack_to(parsed);
   const Bytes reply = plc.answer(request);
   if (is(text, 'x') && acknowledged(reply)) registered[number_of(text)];
   return reply;
@@ -95,7 +96,9 @@ Bytes forget_when_refused(const Bytes& request, GoodPlc& plc, Registered& forgot
   const Bytes reply = plc.answer(request);
   if (is(text, 'x') && refusal(reply)) forgotten[number_of(text)];
   if (is(text, 'x') && acknowledged(reply)) forgotten.erase(number_of(text));
-  return is(text, 'y') && acknowledged(reply) && forgotten.contains(number_of(text)) ? nak_to(parse_request(request), xgt_error::not_registered) : reply;
+  return is(text, 'y') && acknowledged(reply) && forgotten.contains(number_of(text))
+             ? nak_to(parse_request(request), xgt_error::not_registered)
+             : reply;
 }
 
 /// Each registration serves once.
@@ -112,7 +115,8 @@ Bytes keep_cases_apart(const Bytes& request, GoodPlc& plc, Registered& registere
   const FrameText text = take_apart(request);
   const Bytes reply = plc.answer(request);
   if (is(text, 'x') && acknowledged(reply)) registered[number_of(text)] = text.lower_case() ? "lower" : "upper";
-  const bool other = is(text, 'y') && acknowledged(reply) && registered[number_of(text)] != (text.lower_case() ? "lower" : "upper");
+  const bool other =
+      is(text, 'y') && acknowledged(reply) && registered[number_of(text)] != (text.lower_case() ? "lower" : "upper");
   return other ? nak_to(parse_request(request), xgt_error::not_registered) : reply;
 }
 
@@ -148,20 +152,26 @@ Behaviour survive(Storage& storage) {
 
 std::vector<Fault> monitor_faults() {
   return {
-      {"registration_0f_refused", "registration number 0F is refused", answer_with(fifteen_numbers), "monitor_register/each_number/n0f_lower", "header"},
-      {"registration_10_accepted", "registration number 10 is accepted", answer_with(seventeen_numbers), "monitor_register/number_out_of_range/n10_lower",
-       "header"},
-      {"one_registration_alone", "all registration numbers are the same place", answer_with(one_number), "monitor_register/numbers_are_separate/lower", "data"},
-      {"registrations_by_case", "X registers for Y, and x for y", with_memory(keep_cases_apart), "monitor_execute/case_is_free/lower_then_upper", "header"},
-      {"registration_keeps_the_first", "registering a number again changes nothing", with_memory(keep_first), "monitor_register/registered_again/lower", "data"},
+      {"registration_0f_refused", "registration number 0F is refused", answer_with(fifteen_numbers),
+       "monitor_register/each_number/n0f_lower", "header"},
+      {"registration_10_accepted", "registration number 10 is accepted", answer_with(seventeen_numbers),
+       "monitor_register/number_out_of_range/n10_lower", "header"},
+      {"one_registration_alone", "all registration numbers are the same place", answer_with(one_number),
+       "monitor_register/numbers_are_separate/lower", "data"},
+      {"registrations_by_case", "X registers for Y, and x for y", with_memory(keep_cases_apart),
+       "monitor_execute/case_is_free/lower_then_upper", "header"},
+      {"registration_keeps_the_first", "registering a number again changes nothing", with_memory(keep_first),
+       "monitor_register/registered_again/lower", "data"},
       {"monitor_gives_old_values", "Y answers with the values of the moment of registration", with_memory(keep_values),
        "monitor_execute/new_value_at_each_execution/lower", "data"},
       {"refused_registration_forgets", "a refused registration clears the earlier one", with_memory(forget_when_refused),
        "monitor_register/refused_leaves_earlier/lower", "header"},
-      {"registration_serves_once", "a registration is used up by its first execution", with_memory(serve_once), "monitor_execute/executed_again/lower", "header"},
-      {"registration_unchecked", "the content of a registration is not checked", answer_with(accept_any_content), "monitor_register/example_nak/lower", "header"},
-      {"unregistered_is_empty", "executing what is not registered draws an ACK without blocks", answer_with(empty_for_unregistered), "errors/code_0090/lower",
-       "header"},
+      {"registration_serves_once", "a registration is used up by its first execution", with_memory(serve_once),
+       "monitor_execute/executed_again/lower", "header"},
+      {"registration_unchecked", "the content of a registration is not checked", answer_with(accept_any_content),
+       "monitor_register/example_nak/lower", "header"},
+      {"unregistered_is_empty", "executing what is not registered draws an ACK without blocks",
+       answer_with(empty_for_unregistered), "errors/code_0090/lower", "header"},
       {"monitor_reply_without_number", "replies to Y have no registration number",
        edit_reply([](FrameText& reply, const FrameText& request) {
          if (is(request, 'y') && reply.is_ack()) reply.body.erase(number_at, 2);
@@ -172,8 +182,8 @@ std::vector<Fault> monitor_faults() {
          if (is(request, 'y') && reply.is_ack() && parse_reply(reply.bytes()).with_block_count) reply.body.erase(5, 2);
        }),
        "monitor_execute/printed_rss/lower", "block count"},
-      {"registrations_survive_power_off", "registrations are still there after power was off", survive, "monitor_execute/example_nak/lower", "header",
-       "xgt_cnet/monitor_execute/example_*"},
+      {"registrations_survive_power_off", "registrations are still there after power was off", survive,
+       "monitor_execute/example_nak/lower", "header", "xgt_cnet/monitor_execute/example_*"},
   };
 }
 
