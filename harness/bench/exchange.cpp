@@ -13,6 +13,8 @@ constexpr std::size_t flood_limit = 16'384;
 /// No reply of these protocols is longer on the wire at the slowest speed: bytes that trickle in for longer are no reply.
 constexpr Duration longest_reply = 10s;
 
+constexpr Duration restart_patience = 10s;
+
 }  // namespace
 
 Transcript Exchange::run(const PreparedCase& prepared) {
@@ -43,12 +45,19 @@ void Exchange::step(const PreparedCase& prepared, const PreparedStep& step, Tran
     case Step::Kind::check: return access_memory(prepared, *step.step, record, transcript);
     case Step::Kind::act:
       if (const Status done = endpoint_.act(step.step->action); !done) record.refused = done.error().message;
+      else if (step.step->action == "power_cycle" && endpoint_.capabilities().real_device) await_return(prepared, transcript);
       stimulus_ = endpoint_.now();
       return note("do " + step.step->action, transcript);
     case Step::Kind::open:
     case Step::Kind::close:
     case Step::Kind::expect_close: record.refused = "this endpoint has no link that opens and closes"; return;
   }
+}
+
+/// A real device needs time to start again.
+void Exchange::await_return(const PreparedCase& prepared, Transcript& transcript) {
+  const Result<bool> back = anything_answers(prepared.station, restart_patience, prepared.reply_delay());
+  if (!back) transcript.trouble = back.error();
 }
 
 void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& transcript) {

@@ -33,6 +33,7 @@ class Exchange {
 
  private:
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);
+  void await_return(const PreparedCase& prepared, Transcript& transcript);
   void send(const PreparedStep& step, StepRecord& record, Transcript& transcript);
   void expect(const PreparedStep& step, StepRecord& record, Transcript& transcript);
   void silence(const PreparedCase& prepared, StepRecord& record, Transcript& transcript);

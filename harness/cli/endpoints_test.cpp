@@ -65,6 +65,8 @@ ordered_json used_memory() {
   ordered_json vector = small_vector("used/memory", "[ACK st 'rSS' '01' '02' 'FFFF' ETX BCC]");
   vector["given"]["memory"] = {{"%PW0", "FFFF*1024"}, {"%MW0", "FFFF*1024"}, {"%KW0", "FFFF*4096"},  {"%LW0", "FFFF*2048"}, {"%DW0", "FFFF*10240"},
                                {"%RW0", "FFFF*10240"}, {"%UW0", "FFFF*352"}, {"%TW0", "FFFF*1024"}, {"%CW0", "FFFF*1024"}};
+  for (int i = 0; i < 64; ++i)
+    for (const char* contact : {"%TX", "%CX"}) vector["given"]["memory"][contact + std::to_string(i)] = "01";
   return vector;
 }
 

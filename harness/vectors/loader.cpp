@@ -239,6 +239,7 @@ std::string name_vector(const nlohmann::json& document, const std::string& probl
 }
 
 std::vector<fs::path> json_files(const fs::path& folder) {
+  if (fs::is_regular_file(folder)) return {folder};
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file() && entry.path().extension() == ".json") files.push_back(entry.path());
@@ -345,8 +346,8 @@ void load_vector_text(std::string_view text, const std::string& file, VectorSet&
 
 VectorSet load_vectors(const fs::path& folder, const fs::path& schema_file) {
   VectorSet set;
-  if (!fs::is_directory(folder)) {
-    set.problems.push_back(fmt::format("cannot find the vectors in {}; name their folder with --vectors", folder.string()));
+  if (!fs::exists(folder)) {
+    set.problems.push_back(fmt::format("cannot find the vectors in {}; name their folder, or one file, with --vectors", folder.string()));
     return set;
   }
   try {
@@ -357,7 +358,8 @@ VectorSet load_vectors(const fs::path& folder, const fs::path& schema_file) {
     return set;
   }
   std::uint64_t hash = 0xCBF29CE484222325ull;
-  for (const fs::path& path : json_files(folder)) load_file(folder, path, set, hash);
+  const fs::path base = fs::is_directory(folder) ? folder : folder.parent_path();
+  for (const fs::path& path : json_files(folder)) load_file(base, path, set, hash);
   report_duplicates(set);
   std::ranges::sort(set.cases, {}, &Case::id);
   set.hash = fmt::format("{:016x}", hash);

@@ -38,7 +38,7 @@ struct VectorSet {
   nlohmann::json schema;     // vectors/schema.json; null: files are not checked against it
 };
 
-/// The folder's own schema.json, where it has one, else `schema_file`.
+/// A folder, or one file of vectors. The folder's own schema.json, where it has one, else `schema_file`.
 VectorSet load_vectors(const std::filesystem::path& folder, const std::filesystem::path& schema_file = {});
 
 /// Adds the second entry of the double entry: `folder`/wires/**.json gives the literal bytes of each step of a case,

@@ -105,6 +105,20 @@ TEST(Loader, BadInputNamesFileVectorAndKey) {
   EXPECT_THAT(load(replaced(two_words, "\"basis\": \"printed\"", "\"basis\": \"derived\"")).problems, testing::Not(IsEmpty())) << "derived needs why";
 }
 
+TEST(Loader, TheSecondEntryFillsInWhatTheVectorDoesNotPrint) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "loader_wires";
+  std::filesystem::create_directories(folder / "wires");
+  std::ofstream(folder / "a.json") << two_words;
+  std::ofstream(folder / "wires" / "a.json") << R"({"xgt_cnet/rss/two_words": {"0": "FF", "1": "06 03"}, "xgt_cnet/no/such": {"0": "05"}})";
+  VectorSet set = load_vectors(folder, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json");
+  load_wires(folder, set);
+  ASSERT_EQ(set.cases.size(), 1u);
+  EXPECT_EQ(set.cases[0].steps[0].frames[0].wire, "05") << "what is printed stays";
+  EXPECT_EQ(set.cases[0].steps[1].frames[0].wire, "06 03");
+  EXPECT_THAT(set.problems, ElementsAre("wires/a.json: xgt_cnet/no/such: no such case"));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Loader, AFolderWithABrokenFileStillShowsTheOthers) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "loader_folder";
   std::filesystem::create_directories(folder);
@@ -117,8 +131,15 @@ TEST(Loader, AFolderWithABrokenFileStillShowsTheOthers) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Loader, OneFileAloneCanBeLoaded) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "one_vector.json";
+  std::ofstream(file) << two_words;
+  EXPECT_EQ(load_vectors(file, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json").cases.size(), 1u);
+  std::filesystem::remove(file);
+}
+
 TEST(Loader, AnAbsentFolderSaysWhatToDo) {
-  EXPECT_THAT(load_vectors("no/such/folder").problems, ElementsAre(HasSubstr("name their folder with --vectors")));
+  EXPECT_THAT(load_vectors("no/such/folder").problems, ElementsAre(HasSubstr("name their folder, or one file, with --vectors")));
 }
 
 TEST(Filter, GlobsCrossSlashesAndExclude) {
