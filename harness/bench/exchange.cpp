@@ -186,26 +186,39 @@ void Exchange::close(const PreparedCase& prepared, Transcript& transcript) {
 }
 
 Result<bool> Exchange::anything_answers(int station, Duration patience, Duration reply_delay) {
-  const Time give_up = endpoint_.now() + patience + reply_delay;
+  const Time begun = endpoint_.now();
+  const Time give_up = begun + patience + reply_delay;
+  Bytes heard;
+  std::size_t probes = 0, answers = 0;
   while (endpoint_.now() < give_up) {
     const Result<Sent> sent = endpoint_.send(protocol_.probe(station, {}));
     if (!sent) return sent.error();
-    const Time until = std::min(give_up, sent->end + timing_.response_max + reply_delay);
-    Bytes answer;
-    bool any = false;
-    // After the first byte: until a frame is complete, and then whatever else comes at once (answers to earlier probes).
-    for (Time deadline = until;;) {
-      const Result<Burst> burst = endpoint_.receive(deadline);
+    ++probes;
+    // A child that has just been started flushes what came before it opened the port: the first probe is often lost.
+    const bool maybe_lost = probes == 1 && endpoint_.capabilities().can_power_cycle;
+    Time until = std::min(give_up, sent->end + (maybe_lost ? timing_.quiet : timing_.response_max) + reply_delay);
+    while (answers < probes) {
+      const Result<Burst> burst = endpoint_.receive(until);
       if (!burst) return burst.error();
       if (burst->bytes.empty()) break;
-      any = true;
-      answer.insert(answer.end(), burst->bytes.begin(), burst->bytes.end());
-      if (answer.size() > flood_limit) return true;
-      deadline = protocol_.frame_length(answer) ? endpoint_.now() + (endpoint_.capabilities().simulated ? 0ms : 20ms) : endpoint_.now() + timing_.quiet;
+      heard.insert(heard.end(), burst->bytes.begin(), burst->bytes.end());
+      if (heard.size() > flood_limit) return true;
+      answers += take_frames(heard);
+      // Answers to earlier probes may still be on their way: as long as the first one took, and never mid-frame.
+      const Duration slowness = endpoint_.now() - begun;
+      until = endpoint_.now() + (heard.empty() ? std::max<Duration>(timing_.quiet, slowness) : std::max<Duration>(timing_.response_max, slowness));
     }
-    if (any) return true;
+    if (answers > 0 || !heard.empty()) return true;
   }
   return false;
+}
+
+/// Takes complete frames off the front; how many.
+std::size_t Exchange::take_frames(Bytes& bytes) const {
+  std::size_t count = 0;
+  for (; const std::optional<std::size_t> length = protocol_.frame_length(bytes); ++count)
+    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(*length));
+  return count;
 }
 
 bool Exchange::probe(const PreparedCase& prepared, Received& before, Transcript& transcript) {
@@ -215,6 +228,8 @@ bool Exchange::probe(const PreparedCase& prepared, Received& before, Transcript&
     transcript.trouble = sent.error();
     return false;
   }
+  note("probe:", transcript);
+  transcript.events.push_back({Event::Kind::sent, sent->start, sent->end, request, {}});
   std::vector<Received> frames;
   bool answered = false;
   while (!answered) {

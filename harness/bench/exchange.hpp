@@ -44,6 +44,7 @@ class Exchange {
   /// Waits for one burst into `pending_`; false when `deadline` passed, the port failed or the device floods.
   bool listen(Time deadline, Transcript& transcript);
   std::size_t complete_length(const PreparedStep& step);
+  std::size_t take_frames(Bytes& bytes) const;
   /// Sends a probe and takes out what came before its reply; false when no reply to the probe came.
   bool probe(const PreparedCase& prepared, Received& before, Transcript& transcript);
   void note(std::string text, Transcript& transcript);

@@ -7,6 +7,9 @@ namespace fieldproof {
 
 namespace {
 
+/// The beginning of what came, for a message of one line.
+std::string shortened(ByteView bytes) { return print_bytes(bytes.first(std::min<std::size_t>(bytes.size(), 64))); }
+
 class Judge {
  public:
   Judge(const PreparedCase& prepared, const Transcript& transcript, const JudgeRules& rules, const Protocol& protocol)
@@ -205,7 +208,7 @@ class Judge {
   void judge_silence(const StepRecord& record) {
     if (record.received.bytes.empty() || missed_) return;
     result_.received = record.received;
-    miss(fmt::format("{} bytes came where silence is due", record.received.bytes.size()));
+    miss(fmt::format("{} bytes came where silence is due: {}", record.received.bytes.size(), shortened(record.received.bytes)));
   }
 
   void judge_memory(const Step& step, const StepRecord& record) {
@@ -222,7 +225,7 @@ class Judge {
     if (missed_) return;
     result_.received = transcript_.surplus;
     const Bytes& bytes = transcript_.surplus.bytes;
-    miss(fmt::format("{} bytes after the complete exchange: {}", bytes.size(), print_bytes(ByteView(bytes).first(std::min<std::size_t>(bytes.size(), 64)))));
+    miss(fmt::format("{} bytes after the complete exchange: {}", bytes.size(), shortened(bytes)));
   }
 
   const PreparedCase& prepared_;
@@ -243,18 +246,20 @@ Judgement judge(const PreparedCase& prepared, const Transcript& transcript, cons
 
 std::vector<Difference> compare_frames(ByteView expected, ByteView received, const Protocol& protocol) {
   std::vector<Field> due = protocol.explain(expected);
-  const std::vector<Field> came = protocol.explain(received);
-  std::vector<Difference> differences;
-  for (const Field& field : came) {
+  std::vector<std::pair<std::size_t, Difference>> found;  // with the place in the frame: what comes first, a check follows from
+  for (const Field& field : protocol.explain(received)) {
     const auto same = std::ranges::find(due, field.name, &Field::name);
     if (same == due.end()) {
-      differences.push_back({field.name, "nothing", field.text, field.problem});
+      found.push_back({field.offset, {field.name, "nothing", field.text, field.problem}});
       continue;
     }
-    if (same->text != field.text) differences.push_back({field.name, same->text, field.text, field.problem});
+    if (same->text != field.text) found.push_back({std::max(same->offset, field.offset), {field.name, same->text, field.text, field.problem}});
     due.erase(same);
   }
-  for (const Field& field : due) differences.push_back({field.name, field.text, "nothing", ""});
+  for (const Field& field : due) found.push_back({field.offset, {field.name, field.text, "nothing", ""}});
+  std::ranges::stable_sort(found, {}, &std::pair<std::size_t, Difference>::first);
+  std::vector<Difference> differences;
+  for (auto& [place, difference] : found) differences.push_back(std::move(difference));
   return differences;
 }
 

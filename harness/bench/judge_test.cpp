@@ -150,7 +150,7 @@ TEST_F(JudgeTest, SilenceIsWaitedOutAndBroken) {
   const std::string steps = R"({"send": "'<bad>'"}, {"silence": true})";
   EXPECT_EQ(judged(steps).verdict, Verdict::pass);
   endpoint.answers["<bad>"] = Pieces{{900ms, "<answer>"}};
-  EXPECT_EQ(judged(steps).message, "8 bytes came where silence is due");
+  EXPECT_EQ(judged(steps).message, "8 bytes came where silence is due: '<answer>'");
 }
 
 TEST_F(JudgeTest, InRealTimeAProbeProvesSilence) {
@@ -160,7 +160,7 @@ TEST_F(JudgeTest, InRealTimeAProbeProvesSilence) {
   EXPECT_EQ(judged(steps).verdict, Verdict::pass);
   EXPECT_LT(endpoint.now(), 200ms) << "no wait longer than the proof needs";
   endpoint.answers["<bad>"] = Pieces{{1ms, "<answer>"}};
-  EXPECT_EQ(judged(steps).message, "8 bytes came where silence is due");
+  EXPECT_EQ(judged(steps).message, "8 bytes came where silence is due: '<answer>'");
 }
 
 TEST_F(JudgeTest, InRealTimeWhatComesBeforeTheClosingProbesReplyBelongsToTheCase) {

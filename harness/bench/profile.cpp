@@ -91,7 +91,11 @@ Result<Profile> parse_profile(const std::string& text, const std::string& file, 
   try {
     const json value = json::parse(text);
     if (!value.is_object()) return fail(fmt::format("{}: a profile is a JSON object", file));
-    for (const auto& [key, entry] : value.items()) read_key(key, entry, base);
+    for (const auto& [key, entry] : value.items()) try {
+        read_key(key, entry, base);
+      } catch (const json::exception& error) {
+        throw std::runtime_error(fmt::format("key '{}': {}", key, error.what()));
+      }
   } catch (const std::exception& error) {
     return fail(fmt::format("cannot read profile {}: {}", file, error.what()));
   }

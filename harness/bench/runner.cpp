@@ -39,7 +39,9 @@ class Repetitions : public testing::EmptyTestEventListener {
 };
 
 void initialize(const RunnerOptions& options) {
-  std::vector<std::string> arguments{"fieldproof", "--gtest_color=no", fmt::format("--gtest_repeat={}", options.repeat)};
+  // Selection, repetition and reports are ours, whatever GTEST_FILTER and its like say in the environment.
+  std::vector<std::string> arguments{"fieldproof", "--gtest_color=no", "--gtest_filter=*", "--gtest_output=", "--gtest_fail_fast=0",
+                                     "--gtest_also_run_disabled_tests=1", fmt::format("--gtest_repeat={}", options.repeat)};
   if (options.shuffle) {
     arguments.push_back("--gtest_shuffle");
     arguments.push_back(fmt::format("--gtest_random_seed={}", options.seed % 100'000));  // what GoogleTest takes

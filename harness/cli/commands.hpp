@@ -71,6 +71,9 @@ struct ReportOptions {
 };
 int report_command(const ReportOptions& options);
 
+/// A word of a command line as a shell reads it: quoted where it must be.
+std::string shell_word(const std::string& word);
+
 /// Prints "fieldproof: MESSAGE" to stderr and returns `code`.
 int complain(const std::string& message, int code);
 

@@ -56,11 +56,7 @@ std::string unknown_argument(const std::vector<std::string>& extras, std::vector
 
 std::string command_line(int argc, char** argv) {
   std::string line = "fieldproof";
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const bool plain = !argument.empty() && argument.find_first_of(" \t\n'\"$&?*;<>|()[]{}\\`!#~") == std::string::npos;
-    line += plain ? " " + argument : " '" + argument + "'";
-  }
+  for (int i = 1; i < argc; ++i) line += " " + shell_word(argv[i]);
   return line;
 }
 

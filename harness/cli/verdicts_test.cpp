@@ -65,7 +65,7 @@ const std::vector<Expectation>& expectations() {
       {small_vector("v/waived_in_vain"), "XPASS", "failure", 1, {}},
       {with(small_vector("v/other_model"), "models", {"xec-h"}), "SKIP", "skipped", 4, {}},
       {needs_a_link(), "BLOCKED", "skipped", 4, {"--qualify"}},
-      {below_floor(), "INCONCLUSIVE", "skipped", 0, {"--qualify"}},
+      {below_floor(), "INCONCLUSIVE", "skipped", 4, {"--qualify"}},
       {impossible_line(), "ERROR", "error", 3, {}},
   };
   return all;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "harness/notation/notation.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
 
 namespace fieldproof::xgt_cnet {
@@ -113,7 +114,7 @@ std::optional<std::string> refusal(ByteView reply) {
       if (field.name == "error code") return "the device answers NAK " + field.text;
     return "the device answers NAK";
   }
-  if (reply[0] != 0x06) return "the answer is neither ACK nor NAK";
+  if (reply[0] != 0x06) return "the answer is neither ACK nor NAK: " + print_bytes(reply);
   return std::nullopt;
 }
 

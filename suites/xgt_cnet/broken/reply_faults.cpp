@@ -40,7 +40,8 @@ void recount(FrameText& reply, unsigned (*count)(unsigned bytes)) {
 }
 
 void reverse_blocks(FrameText& reply) {
-  const XgtReply parsed = parse_reply(reply.bytes());
+  const Bytes bytes = reply.bytes();
+  const XgtReply parsed = parse_reply(bytes);
   std::string content = hex_number(parsed.blocks, 2);
   for (unsigned i = parsed.blocks; i-- > 0;) content += hex_number(parsed.data[i].size() / 2, 2) + std::string(parsed.data[i]);
   reply.body = reply.front() + content;
