@@ -34,6 +34,8 @@ build() {
   local preset=$1 log="build/$1.log"
   mkdir -p build
   local launcher=()
+  # Paths relative to this folder: another clone of the same tree hits the same cache.
+  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
   command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   if [ ! -f "build/$preset/build.ninja" ]; then
     say "Configuring $preset ..."
