@@ -53,11 +53,9 @@ class PtyLink : public Link {
   std::string endpoint() override { return "pty:xbc-h"; }
 };
 
-const std::string emulate = std::string(FIELDPROOF_TOOL) + " emulate 'xbc-h?delay_ms=0&station=1' --pty ";
-
 class ExecLink : public Link {
  public:
-  std::string endpoint() override { return "exec:" + emulate + "{tty}"; }
+  std::string endpoint() override { return "exec:" FIELDPROOF_TOOL " emulate xbc-h --pty {tty}"; }
 };
 
 /// All memory that a protocol can write, filled: whoever asks later cannot rely on zeros.
@@ -76,7 +74,7 @@ class SerialLink : public Link {
   SerialLink()
       : socat_({"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"), "pty,raw,echo=0,link=" + (folder_ / "device")}) {
     EXPECT_TRUE(socat_.wait_for("starting data transfer loop"));
-    device_ = std::make_unique<Process>(std::vector<std::string>{FIELDPROOF_TOOL, "emulate", "xbc-h?station=1", "--pty", folder_ / "device"});
+    device_ = std::make_unique<Process>(std::vector<std::string>{FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
     EXPECT_TRUE(device_->wait_for(folder_ / "device"));
     const Finished filled = run_tool({"run", "--endpoint", "serial:" + (folder_ / "bench"), "--profile", "xbc-h", "--allow-write", "all,P,Q,U", "--vectors",
                                       write_vectors(folder_, {used_memory()}), "--out", folder_ / "out"});
