@@ -7,7 +7,7 @@ caller=$PWD
 cd "$here" || exit 3
 . ./setup.sh
 install_packages build || exit $?
-build tool fieldproof || exit $?
+build tool || exit $?
 cd "$caller" || exit 3
 if [ $# -eq 0 ]; then set -- run; fi
 exec "$here/build/tool/fieldproof" "$@"

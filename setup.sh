@@ -41,6 +41,6 @@ build() {
     say "Configuring $preset ..."
     cmake --preset "$preset" "${launcher[@]}" >"$log" 2>&1 || { cat "$log" >&2; return 3; }
   fi
-  if ! ninja -C "build/$preset" -n ${2:-} 2>/dev/null | grep -q 'no work to do'; then say "Building $preset (the first time takes minutes) ..."; fi
+  [ -x "build/$preset/fieldproof" ] || say "Building $preset (the first time takes minutes) ..."
   cmake --build --preset "$preset" >"$log" 2>&1 || { grep -v '^\[' "$log" | tail -n 60 >&2; say "The build failed; all of it is in $log"; return 3; }
 }
