@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "harness/notation/frame_template.hpp"
+#include "harness/vectors/fingerprint.hpp"
 
 namespace fieldproof {
 
@@ -78,9 +79,7 @@ std::vector<Quote> quotes(const VectorSet& set) {
 }
 
 std::string quote_hash(const Quote& quote) {
-  std::uint64_t hash = 0xCBF29CE484222325ull;
-  for (char c : quote.manual + '\n' + fold_space(quote.text)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", extend_fingerprint(empty_fingerprint, quote.manual + '\n' + fold_space(quote.text)));
 }
 
 /// At least five words; a table row or a Korean sentence counts its words likewise, shorter ones must be long in bytes.

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "harness/vectors/fingerprint.hpp"
 #include "harness/vectors/schema.hpp"
 
 namespace fieldproof {
@@ -25,12 +26,6 @@ std::string read_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Broken(fmt::format("cannot read {}; is it readable?", path.string()));
   return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
-/// FNV-1a: tells vector sets apart, guards nothing.
-std::uint64_t add_to_hash(std::uint64_t hash, std::string_view text) {
-  for (char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;
-  return hash;
 }
 
 // ---- expansion of `each` -------------------------------------------------------------------------------------------
@@ -264,7 +259,7 @@ void load_file(const fs::path& folder, const fs::path& path, VectorSet& set, std
   if (name == "schema.json" || name.starts_with("wires/")) return;
   try {
     const std::string text = read_file(path);
-    hash = add_to_hash(add_to_hash(hash, name), text);
+    hash = extend_fingerprint(extend_fingerprint(hash, name), text);
     if (name == "manuals.json") load_manuals(text, set);
     else if (name.starts_with("statements/")) load_statements(text, set);
     else load_vector_text(text, name, set);
@@ -357,7 +352,7 @@ VectorSet load_vectors(const fs::path& folder, const fs::path& schema_file) {
     set.problems.push_back(fmt::format("schema.json: {}", error.what()));
     return set;
   }
-  std::uint64_t hash = 0xCBF29CE484222325ull;
+  std::uint64_t hash = empty_fingerprint;
   const fs::path base = fs::is_directory(folder) ? folder : folder.parent_path();
   for (const fs::path& path : json_files(folder)) load_file(base, path, set, hash);
   report_duplicates(set);
