@@ -12,6 +12,7 @@
 
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
+#include "src/base/time.hpp"
 #include "src/plc/emulated_device.hpp"
 
 namespace fieldproof {
@@ -32,8 +33,11 @@ class Protocol {
   /// "xgt-cnet", as in the endpoint option `protocol`; vectors of folder "xgt_cnet" belong to it.
   virtual std::string_view name() const = 0;
 
-  /// Models that `make_device` knows: "xbm-s", "xbc-h", "xec-h".
+  /// Models that `make_device` knows, the default first: "xbc-h", "xbm-s", "xec-h".
   virtual std::vector<std::string> models() const = 0;
+  virtual bool has_model(std::string_view model) const;
+  /// What is known of the frames and the probe of one model, where models differ in it.
+  virtual const Protocol& of_model([[maybe_unused]] std::string_view model) const { return *this; }
 
   /// A new emulated device in its power-on state. Errors name the model or the key of `config` (vectors/README.md).
   virtual Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const = 0;
@@ -47,8 +51,12 @@ class Protocol {
   /// The parts of a frame, as far as it can be read; never fails.
   virtual std::vector<Field> explain(ByteView frame) const = 0;
 
+  /// The silence that must lie between anything on the line and the next request. Modbus RTU ends a frame by it.
+  /// Zero where a frame has an end of its own.
+  virtual Duration frame_gap([[maybe_unused]] Duration character_time) const { return {}; }
+
   /// A harmless request that any healthy device answers. Its reply cannot be mistaken for a reply to `tested`
-  /// (empty: no such demand).
+  /// (empty: no such demand). Empty: there is none, silences are waited out.
   virtual Bytes probe(int station, ByteView tested) const = 0;
   /// Does `reply` have the form of a reply to `probe`? Its check is not judged, only what tells it from others.
   virtual bool is_reply_to_probe(ByteView probe, ByteView reply) const = 0;
@@ -70,6 +78,9 @@ class Protocol {
     std::string address;           // as it stands in the request, for messages
   };
   virtual std::vector<Written> written_by(ByteView request) const = 0;
+  /// The configuration (keys of `given.config`) under which `written_by` and the memory requests are right: on a real
+  /// device that declares another one nothing is written.
+  virtual nlohmann::json write_config() const;
   /// Areas whose words may be physical outputs: written only when named.
   virtual std::string_view output_areas() const = 0;
 
@@ -77,9 +88,12 @@ class Protocol {
   virtual Status check_fact(const nlohmann::json& facts) const = 0;
 };
 
-/// The table of protocols, defined in suites/protocols.cpp.
+/// The table of protocols, defined in suites/protocols.cpp. The first is the default.
 std::span<const Protocol* const> protocols();
 /// nullptr when unknown.
 const Protocol* find_protocol(std::string_view name);
+/// The protocol `name`, or where it is empty, the first one that has `model` (empty: the default protocol).
+/// Errors name what there is.
+Result<const Protocol*> choose_protocol(std::string_view name, std::string_view model);
 
 }  // namespace fieldproof

@@ -8,54 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "reports/frame_cells.hpp"
 #include "reports/xml_text.hpp"
 
 namespace fieldproof {
 namespace {
 
 constexpr std::size_t bytes_a_line = 16;
-constexpr std::string_view open_byte = "??";
 
-/// A byte of a dump: two characters, and whether it is marked below.
-struct Cell {
-  std::string text;
-  bool marked = false;
-};
-using Cells = std::vector<Cell>;
-
-Cells cells_of(ByteView bytes) {
-  Cells cells(bytes.size());
-  for (std::size_t i = 0; i < bytes.size(); ++i) cells[i].text = hex_number(bytes[i], 2);
-  return cells;
-}
-
-/// "06 30 ??"; nothing when it is something else (alternatives in words, say).
-std::optional<Cells> cells_of(std::string_view hex) {
-  Cells cells;
-  for (std::size_t at = 0; at < hex.size(); at += 3) {
-    const std::string_view pair = hex.substr(at, 2);
-    const bool digits = pair.size() == 2 && hex_digit(pair[0]) >= 0 && hex_digit(pair[1]) >= 0;
-    const bool separated = at + 2 >= hex.size() || hex[at + 2] == ' ';
-    if (!separated || !(digits || pair == open_byte)) return std::nullopt;
-    cells.push_back({std::string(pair)});
-  }
-  return cells;
-}
-
-/// Marks what differs: each byte where the lengths are equal, else the first, since all that follow have moved.
-/// Where an answer breaks off, "--" stands for the byte that is missing.
-void mark_differences(const Cells& expected, Cells& received) {
-  const std::size_t common = std::min(expected.size(), received.size());
-  const bool moved = expected.size() != received.size();
-  for (std::size_t i = 0; i < common; ++i) {
-    received[i].marked = expected[i].text != open_byte && expected[i].text != received[i].text;
-    if (received[i].marked && moved) return;
-  }
-  if (received.size() > common) received[common].marked = true;
-  if (received.size() == common && moved && common > 0) received.push_back({"--", true});  // here it broke off
-}
-
-std::string dump_line(const Cells& cells, std::size_t first, std::size_t last, bool offsets) {
+std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t last, bool offsets) {
   std::string text = offsets ? fmt::format("{:04X}  ", first) : "";
   std::string marks(text.size(), ' ');
   for (std::size_t i = first; i < last; ++i) {
@@ -67,7 +28,7 @@ std::string dump_line(const Cells& cells, std::size_t first, std::size_t last, b
   return text + '\n' + (marks.empty() ? "" : marks + '\n');
 }
 
-std::string dump(const Cells& cells, const CaseTextOptions& options, bool offsets) {
+std::string dump(const FrameCells& cells, const CaseTextOptions& options, bool offsets) {
   const std::size_t shown = options.limit == 0 ? cells.size() : std::min(cells.size(), options.limit);
   std::string text;
   for (std::size_t first = 0; first < shown; first += bytes_a_line) {
@@ -75,16 +36,6 @@ std::string dump(const Cells& cells, const CaseTextOptions& options, bool offset
   }
   if (shown < cells.size()) text += fmt::format("... {} more bytes\n", cells.size() - shown);
   return text;
-}
-
-/// Text that may be long, cut where the frame would be.
-std::string shorten(const std::string& text, const CaseTextOptions& options) {
-  const std::string clean = xml_line(text);
-  const std::size_t limit = options.limit * 4;  // a byte in notation takes one to four characters
-  if (limit == 0 || clean.size() <= limit) return clean;
-  std::size_t cut = limit;
-  while (cut > 0 && (static_cast<Byte>(clean[cut]) & 0xC0u) == 0x80u) --cut;  // not within a character
-  return clean.substr(0, cut) + " ...";
 }
 
 std::size_t characters(std::string_view utf8) {
@@ -166,33 +117,14 @@ std::string differences(const CaseResult& result, const CaseTextOptions& options
   return text;
 }
 
-std::string timing(const CaseResult& result) {
-  const auto& times = result.response_ms;
-  if (times.empty()) return "";
-  if (times.size() == 1) return fmt::format("reply after {:.3f} ms", times[0]);
-  if (times.size() <= 4) {
-    std::string text = "replies after";
-    for (const double& time : times) text += fmt::format("{} {:.3f}", &time == &times.front() ? "" : ",", time);
-    return text + " ms";
-  }
-  std::vector<double> sorted = times;
-  std::sort(sorted.begin(), sorted.end());
-  return fmt::format("{} replies after {:.3f} to {:.3f} ms, median {:.3f} ms", sorted.size(), sorted.front(), sorted.back(),
-                     sorted[sorted.size() / 2]);
-}
-
 bool several_sent(const CaseResult& result) {
   const auto sent = [](const Event& event) { return event.kind == Event::Kind::sent; };
   return std::count_if(result.exchange.begin(), result.exchange.end(), sent) > 1;
 }
 
 void add_frames(Block& block, const CaseResult& result, const CaseTextOptions& options) {
-  const bool judged = !result.expected.empty() || !result.expected_hex.empty() || !result.received_bytes.empty();
-  if (!judged) return;
-  auto expected = cells_of(std::string_view(result.expected_hex));
-  if (expected && expected->empty()) expected = cells_of(result.expected_bytes);
-  Cells received = cells_of(result.received_bytes);
-  if (expected && !expected->empty()) mark_differences(*expected, received);
+  if (!has_judged_frames(result)) return;
+  const auto [expected, received] = judged_frames(result);
   // Alike for both, so that they stand byte below byte.
   const bool offsets = std::max(expected ? expected->size() : 0, received.size()) > bytes_a_line;
 
@@ -216,8 +148,33 @@ const char* arrow(Event::Kind kind) {
 
 }  // namespace
 
+std::string shorten(const std::string& text, const CaseTextOptions& options) {
+  const std::size_t limit = options.limit * 4;  // a byte in notation takes one to four characters
+  // Cleaning never shortens: what stands far behind the cut need not be cleaned. A character split here is behind it, too.
+  const std::string clean = xml_line(limit == 0 ? std::string_view(text) : std::string_view(text).substr(0, limit + 4));
+  if (limit == 0 || clean.size() <= limit) return clean;
+  std::size_t cut = limit;
+  while (cut > 0 && (static_cast<Byte>(clean[cut]) & 0xC0u) == 0x80u) --cut;  // not within a character
+  return clean.substr(0, cut) + " ...";
+}
+
 std::string case_label(const CaseResult& result) {
   return result.repeat == 0 ? xml_line(result.id) : fmt::format("{} #{}", xml_line(result.id), result.repeat + 1);
+}
+
+std::string case_timing(const CaseResult& result) {
+  const auto& times = result.response_ms;
+  if (times.empty()) return "";
+  if (times.size() == 1) return fmt::format("reply after {:.3f} ms", times[0]);
+  if (times.size() <= 4) {
+    std::string text = "replies after";
+    for (const double& time : times) text += fmt::format("{} {:.3f}", &time == &times.front() ? "" : ",", time);
+    return text + " ms";
+  }
+  std::vector<double> sorted = times;
+  std::sort(sorted.begin(), sorted.end());
+  return fmt::format("{} replies after {:.3f} to {:.3f} ms, median {:.3f} ms", sorted.size(), sorted.front(), sorted.back(),
+                     sorted[sorted.size() / 2]);
 }
 
 std::string case_message(const CaseResult& result) {
@@ -266,7 +223,7 @@ std::string case_block(const CaseResult& result, const CaseTextOptions& options)
   block.add("clause", clause(result));
   add_frames(block, result, options);
   if (!result.differences.empty()) block.add("differs", differences(result, options));
-  block.add("timing", timing(result));
+  block.add("timing", case_timing(result));
   if (!result.exchange.empty() && (options.exchange || several_sent(result))) block.add("exchange", frame_monitor(result, options));
   std::string readings;
   for (const auto& [name, taken] : result.readings) readings += fmt::format("{} = {}\n", xml_line(name), xml_line(taken));

@@ -14,11 +14,17 @@ struct CaseTextOptions {
   bool exchange = false;  // the exchange in any case; else only where a case sends more than one frame
 };
 
+/// One line of text that may be long, cut where the frame that it is about would be.
+std::string shorten(const std::string& text, const CaseTextOptions& options);
+
 /// "xgt_cnet/rss/two_words", or "xgt_cnet/rss/two_words #2" for its first repetition.
 std::string case_label(const CaseResult& result);
 
 /// One line: what is wrong; the verdict's word where nothing is said.
 std::string case_message(const CaseResult& result);
+
+/// "reply after 4.208 ms"; of many, how many with least, greatest and median. Empty without a reply.
+std::string case_timing(const CaseResult& result);
 
 /// Title, clause and quote, sent, expected and received frames (notation, and hex with the bytes that differ marked),
 /// differences as a table, timing, readings, notes and replay command. What is not known is left out.

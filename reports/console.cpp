@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <utility>
 
 #include "reports/case_text.hpp"
+#include "reports/run_text.hpp"
 #include "reports/xml_text.hpp"
 
 namespace fieldproof {
@@ -13,6 +16,8 @@ namespace {
 constexpr std::size_t verdict_width = 14;   // INCONCLUSIVE and two spaces
 constexpr std::size_t console_limit = 256;  // bytes of a frame; the reports have them all
 constexpr std::size_t red_limit = 20;       // red cases named again in the summary
+constexpr Duration shortest_display = 20ms;
+const std::string erase_line = "\r\x1b[K";
 
 const char* colour_code(Verdict verdict, const Gate& gate) {
   if (gates(verdict, gate)) return "1;31";  // bold red
@@ -34,42 +39,13 @@ std::string verdict_word(Verdict verdict, std::size_t width, const ConsoleOption
   return coloured(word, colour_code(verdict, options.gate), options) + std::string(width - word.size(), ' ');
 }
 
-std::string meaning(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass: return "as the manual says";
-    case Verdict::marginal: return "within limits, inside the guard band";
-    case Verdict::non_strict: return "an allowed alternative, or a SHOULD missed";
-    case Verdict::info: return "measured, the manual gives no limit";
-    case Verdict::fail: return "violates a MUST";
-    case Verdict::xfail: return "waived failure";
-    case Verdict::xpass: return "a waiver that no longer holds";
-    case Verdict::skip: return "outside the profile of the device";
-    case Verdict::blocked: return "needs a permission, fixture or mode not given";
-    case Verdict::inconclusive: return "the bench cannot judge (noise, timing floor)";
-    case Verdict::error: return "port, emulator, vector or harness trouble";
-  }
-  return "";
-}
-
-/// Which option turns a verdict red that this gate lets pass.
-std::string gate_hint(Verdict verdict, const Gate& gate) {
-  if (gates(verdict, gate)) return "";
-  switch (verdict) {
-    case Verdict::marginal: return "; red with --fail-on marginal";
-    case Verdict::non_strict: return "; red with --strict";
-    case Verdict::blocked:
-    case Verdict::inconclusive: return "; red with --qualify";
-    default: return "";
-  }
-}
-
 std::string counts(const Tally& tally, const ConsoleOptions& options) {
   const std::size_t digits = std::to_string(tally.total()).size();
   std::string text;
   for (Verdict verdict : Tally::verdicts) {
     if (tally.of(verdict) == 0) continue;
     const std::string word = verdict_word(verdict, verdict_width, options);
-    text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, word, meaning(verdict), gate_hint(verdict, options.gate));
+    text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, word, verdict_meaning(verdict), gate_hint(verdict, options.gate));
   }
   return text;
 }
@@ -81,14 +57,10 @@ std::string red_cases(const std::vector<std::string>& red) {
   return text.empty() ? "" : "\nred:\n" + text;
 }
 
-/// "1 FAIL, 1 ERROR": what turned the gate red.
-std::string red_counts(const Tally& tally, const Gate& gate) {
-  std::string text;
-  for (Verdict verdict : Tally::verdicts) {
-    if (tally.of(verdict) == 0 || !gates(verdict, gate)) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tally.of(verdict), to_string(verdict));
-  }
-  return text;
+/// "45 s", "3 min", "2 h".
+std::string rough_time(double seconds) {
+  if (seconds < 90) return fmt::format("{:.0f} s", seconds);
+  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.0f} h", seconds / 3600);
 }
 
 std::string outcome(const Summary& summary, const ConsoleOptions& options) {
@@ -120,21 +92,25 @@ std::string case_report(const CaseResult& result, const ConsoleOptions& options)
   return text;
 }
 
-std::string progress_line(std::size_t done, std::size_t total, const Tally& tally, const std::string& next_id,
-                          const ConsoleOptions& options) {
-  if (!options.terminal) return "";
+std::string Progress::line(const Tally& tally, std::size_t total, const std::string& next_id, Duration elapsed) {
+  if (!options_.terminal || (shown_ && elapsed - drawn_ < shortest_display)) return "";
+  const std::size_t done = tally.total();
+  const std::size_t left = total - std::min(done, total);
   const std::string of = std::to_string(total);
-  const std::size_t red = tally.gating(options.gate);
-  std::string text = fmt::format("[{:>{}}/{}]", done, of.size(), of);
-  if (red > 0) text += fmt::format(" {} red", red);
+  std::string text = fmt::format("[{:>{}}/{}] ", done, of.size(), of);
+  if (const std::size_t red = tally.gating(options_.gate); red > 0) text += fmt::format("{} red, ", red);
+  text += fmt::format("{} to go", left);
+  if (done > 0 && elapsed >= 1s) text += ", ~" + rough_time(std::chrono::duration<double>(elapsed).count() / static_cast<double>(done) * static_cast<double>(left));
   text += "  " + xml_line(next_id);
   // A line that wraps cannot be erased.
-  const auto room = static_cast<std::size_t>(std::max(options.width - 1, 0));
+  const auto room = static_cast<std::size_t>(std::max(options_.width - 1, 0));
   if (text.size() > room) text.resize(room);
-  return erase_progress(options) + text;
+  shown_ = true;
+  drawn_ = elapsed;
+  return erase_line + text;
 }
 
-std::string erase_progress(const ConsoleOptions& options) { return options.terminal ? "\r\x1b[K" : ""; }
+std::string Progress::erase() { return std::exchange(shown_, false) ? erase_line : ""; }
 
 std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   const std::size_t total = summary.tally.total();

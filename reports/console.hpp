@@ -24,11 +24,24 @@ std::string run_head(const RunInfo& run);
 /// A case as it happens: one line, and the block of case_text.hpp, when it turns the gate red or with -v; else nothing.
 std::string case_report(const CaseResult& result, const ConsoleOptions& options);
 
-/// "[ 12/1480] 1 red  xgt_cnet/rss/two_words" over the line before it; nothing unless on a terminal.
-std::string progress_line(std::size_t done, std::size_t total, const Tally& tally, const std::string& next_id,
-                          const ConsoleOptions& options);
-/// Removes the progress line before anything else is printed; nothing unless on a terminal.
-std::string erase_progress(const ConsoleOptions& options);
+/// The one line that moves. Only on a terminal: a log gets the cases that turn the gate red, and the summary.
+class Progress {
+ public:
+  explicit Progress(const ConsoleOptions& options) : options_(options) {}
+
+  /// "[  12/1480] 1 red, 1468 to go, ~3 min  xgt_cnet/rss/two_words" over the line before it, before case `next_id` runs.
+  /// `elapsed` counts from the start of the run. Empty where the line is younger than 20 ms: a terminal must not slow
+  /// down cases of a tenth of a millisecond, while each case on a real line still shows.
+  std::string line(const Tally& tally, std::size_t total, const std::string& next_id, Duration elapsed);
+
+  /// Removes the line before anything else is printed; empty where none stands.
+  std::string erase();
+
+ private:
+  ConsoleOptions options_;
+  Duration drawn_{};
+  bool shown_ = false;
+};
 
 struct Summary {
   Tally tally;

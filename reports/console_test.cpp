@@ -86,14 +86,54 @@ TEST(CaseReport, AFloodIsCutShort) {
   EXPECT_LT(case_report(result, {}).size(), 5000u);
 }
 
-TEST(Progress, IsOneLineThatFits) {
+Tally tally_of(std::size_t passed, std::size_t failed = 0) {
   Tally tally;
-  EXPECT_EQ("", progress_line(1, 10, tally, "a/b", {}));
-  EXPECT_EQ("", erase_progress({}));
-  EXPECT_EQ("\r\x1b[K[   1/1480]  a/b", progress_line(1, 1480, tally, "a/b", terminal));
-  tally.add(Verdict::fail, 2);
-  EXPECT_EQ("\r\x1b[K[12/99] 2 red  a/b", progress_line(12, 99, tally, "a/b", terminal));
-  EXPECT_EQ("\r\x1b[K[12/99] 2 red  xx", progress_line(12, 99, tally, std::string(200, 'x'), {.terminal = true, .width = 18}));
+  tally.add(Verdict::pass, passed);
+  tally.add(Verdict::fail, failed);
+  return tally;
+}
+
+TEST(Progress, SaysWhatIsDoneAndWhatIsLeft) {
+  Progress progress(terminal);
+  EXPECT_EQ("\r\x1b[K[   0/1480] 1480 to go  a/b", progress.line({}, 1480, "a/b", 0s));
+  EXPECT_EQ("\r\x1b[K[  12/1480] 2 red, 1468 to go, ~4 min  a/c", progress.line(tally_of(10, 2), 1480, "a/c", 2s));
+  EXPECT_EQ("\r\x1b[K[1479/1480] 2 red, 1 to go, ~0 s  a/c", progress.line(tally_of(1477, 2), 1480, "a/c", 300s));
+}
+
+TEST(Progress, EstimatesRoughly) {
+  Progress progress(terminal);
+  EXPECT_THAT(progress.line(tally_of(1), 90, "", 1s), HasSubstr(", ~89 s"));
+  EXPECT_THAT(progress.line(tally_of(1), 91, "", 1100ms), HasSubstr(", ~2 min"));
+  EXPECT_THAT(progress.line(tally_of(1), 7201, "", 2s), HasSubstr(", ~4 h"));
+  EXPECT_THAT(progress.line(tally_of(7300), 7201, "", 3s), HasSubstr("] 0 to go, ~0 s"));
+}
+
+TEST(Progress, IsDrawnAgainWhenTimeHasPassed) {
+  Progress progress(terminal);
+  EXPECT_NE("", progress.line({}, 9, "a/1", 100ms));
+  EXPECT_EQ("", progress.line({}, 9, "a/2", 119ms));
+  EXPECT_NE("", progress.line({}, 9, "a/3", 120ms));
+  EXPECT_NE("", progress.erase());
+  EXPECT_NE("", progress.line({}, 9, "a/4", 121ms)) << "what was erased is drawn again";
+}
+
+TEST(Progress, IsErasedOnce) {
+  Progress progress(terminal);
+  EXPECT_EQ("", progress.erase());
+  progress.line({}, 9, "a/1", 0s);
+  EXPECT_EQ("\r\x1b[K", progress.erase());
+  EXPECT_EQ("", progress.erase());
+}
+
+TEST(Progress, FitsTheTerminal) {
+  Progress progress({.terminal = true, .width = 18});
+  EXPECT_EQ("\r\x1b[K[0/9] 9 to go  xx", progress.line({}, 9, std::string(200, 'x'), 0s));
+}
+
+TEST(Progress, NeedsATerminal) {
+  Progress progress({});
+  EXPECT_EQ("", progress.line({}, 9, "a/b", 0s));
+  EXPECT_EQ("", progress.erase());
 }
 
 TEST(RunSummary, CountsWhatOccurs) {

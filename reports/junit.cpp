@@ -10,6 +10,7 @@
 #include "harness/results/ndjson.hpp"
 #include "reports/case_text.hpp"
 #include "reports/report_file.hpp"
+#include "reports/run_text.hpp"
 #include "reports/xml_text.hpp"
 
 namespace fieldproof {
@@ -114,16 +115,6 @@ std::string suite_tag(const Suite& suite, const RunLog& log, const Gate& gate) {
   set(node, "time", seconds_text(suite.seconds));
   if (!log.run.started.empty()) set(node, "timestamp", log.run.started);
   return opening_tag(node, 1);
-}
-
-/// Empty for a run that ended as it should.
-std::string early_end(const RunLog& log) {
-  if (!log.end) {
-    const char* incomplete = log.truncated ? ", and one incomplete" : "";
-    return fmt::format("the run was killed: {} results were written before{}", log.results, incomplete);
-  }
-  if (log.end->interrupted) return "the run was interrupted" + (log.end->trouble.empty() ? "" : ": " + log.end->trouble);
-  return log.end->trouble;
 }
 
 std::string properties(const RunLog& log, const Gate& gate) {

@@ -2,19 +2,16 @@
 #include <array>
 
 #include "harness/protocol.hpp"
+#include "suites/ls_bus/protocol.hpp"
+#include "suites/modbus/protocol.hpp"
+#include "suites/user_frames/protocol.hpp"
 #include "suites/xgt_cnet/protocol.hpp"
 
 namespace fieldproof {
 
 std::span<const Protocol* const> protocols() {
-  static const std::array table{&xgt_cnet::protocol()};
+  static const std::array table{&xgt_cnet::protocol(), &modbus::rtu(), &modbus::ascii(), &ls_bus::protocol(), &user_frames::protocol()};
   return table;
-}
-
-const Protocol* find_protocol(std::string_view name) {
-  for (const Protocol* protocol : protocols())
-    if (protocol->name() == name) return protocol;
-  return nullptr;
 }
 
 }  // namespace fieldproof

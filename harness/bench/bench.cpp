@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
+#include "harness/bench/recording.hpp"
 #include "harness/vectors/loader.hpp"
 
 namespace fieldproof {
@@ -27,18 +28,6 @@ const json& default_config() {
 }
 
 std::string plain(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
-
-void describe(const Case& source, CaseResult& result) {
-  result.id = source.id;
-  result.rev = source.rev;
-  result.protocol = source.protocol;
-  result.title = source.title;
-  result.level = source.level;
-  result.basis = source.basis;
-  result.manual = source.source.manual;
-  result.section = source.source.section;
-  result.quote = source.source.quote;
-}
 
 }  // namespace
 
@@ -87,7 +76,7 @@ json Bench::device_config(const Case& source) const {
   json config = source.config;
   config["station"] = station_for(source);
   if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
-  else config["model"] = source.models.empty() ? "xbc-h" : source.models.front();
+  else config["model"] = source.models.empty() ? protocol_.models().front() : source.models.front();
   return config;
 }
 
@@ -115,8 +104,23 @@ std::string Bench::undeclared(const json& config) const {
   return {};
 }
 
+/// The fence can only tell where a request writes under the configuration that the protocol knows.
+std::string Bench::other_write_config(const json& config) const {
+  const json write_config = protocol_.write_config();
+  for (const auto& [key, known] : write_config.items()) {
+    const json has = config.value(key, options_.profile.config.value(key, known));
+    if (plain(has) != plain(known))
+      return fmt::format("writes with {} = {}; the write fence can follow {} alone", key, plain(has), plain(known));
+  }
+  return {};
+}
+
 std::string Bench::fence_objection(const PreparedCase& prepared) const {
-  const auto objection = [&](ByteView bytes) { return options_.fence.objection(protocol_.written_by(bytes), protocol_.output_areas()); };
+  const std::string other = other_write_config(prepared.source->config);
+  const auto objection = [&](ByteView bytes) {
+    const std::vector<Protocol::Written> written = protocol_.written_by(bytes);
+    return !written.empty() && !other.empty() ? other : options_.fence.objection(written, protocol_.output_areas());
+  };
   const auto setting = [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
     for (const auto& [address, hex] : memory) {
       const Result<std::vector<Bytes>> requests = protocol_.write_requests(prepared.station, address, hex);
@@ -162,8 +166,7 @@ Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
 }
 
 CaseResult Bench::run(const Case& source) {
-  CaseResult result;
-  describe(source, result);
+  CaseResult result = result_of(source);
   result.replay = options_.replay + "'" + source.id + "'";
   const auto decline = [&](const Eligibility& why) {
     result.verdict = why.verdict;
@@ -183,16 +186,13 @@ CaseResult Bench::run(const Case& source) {
 }
 
 void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
-  const Case& source = *prepared.source;
-  if (const int named = config_station(source.config, prepared.station).value_or(prepared.station); named != prepared.station)
-    result.notes.push_back(fmt::format("transposed: station {} to {}", named, prepared.station));
+  note_transposition(prepared, result);
   if (!prepare_device(prepared, result)) return;
   Transcript transcript = exchange_.run(prepared);
   exchange_.close(prepared, transcript);
   judge_exchange(prepared, transcript, result);
   after(prepared, transcript, result);
-  note_mixed_readings(result);
-  apply_waivers(options_.waivers, options_.today, result);
+  readings_.note(result);
 }
 
 bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
@@ -215,35 +215,13 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
 }
 
 void Bench::judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result) {
-  Judgement judgement = judge(prepared, transcript, rules(), protocol_);
-  result.verdict = judgement.verdict;
-  result.message = std::move(judgement.message);
-  std::ranges::move(judgement.notes, std::back_inserter(result.notes));
-  result.differences = std::move(judgement.differences);
-  result.readings = std::move(judgement.readings);
-  result.response_ms = std::move(judgement.response_ms);
-  if (judgement.expected) {
-    result.expected = judgement.expected->source->text;
-    result.expected_bytes = judgement.expected->frame.bytes;
-    result.expected_hex = to_hex_with_holes(judgement.expected->frame);
-  }
-  result.received = print_bytes(judgement.received.bytes);
-  result.received_bytes = std::move(judgement.received.bytes);
-  for (Event event : transcript.events) {
+  take_judgement(judge(prepared, transcript, rules(), protocol_), result);
+  result.recording = make_recording(prepared, transcript, rules());
+  for (Event& event : recorded_events(transcript)) {
     if (event.kind != Event::Kind::note) event.text = print_bytes(event.bytes);
     result.exchange.push_back(std::move(event));
   }
   if (const std::string errors = endpoint_.line_errors(); !errors.empty()) result.notes.push_back("the driver counted " + errors);
-}
-
-/// One name ties the vectors together: a device that mixes readings is NON-STRICT.
-void Bench::note_mixed_readings(CaseResult& result) {
-  for (const auto& [name, choice] : result.readings) {
-    const auto [first, is_new] = readings_.try_emplace(name, choice, result.id);
-    if (is_new || first->second.first == choice || (result.verdict != Verdict::pass && result.verdict != Verdict::non_strict)) continue;
-    result.verdict = Verdict::non_strict;
-    result.message = fmt::format("mixes readings: {} = {} here, {} in {}", name, choice, first->second.first, first->second.second);
-  }
 }
 
 void Bench::after(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result) {
@@ -255,6 +233,7 @@ void Bench::after(const PreparedCase& prepared, const Transcript& transcript, Ca
     const Result<bool> alive = exchange_.anything_answers(prepared.station, 3 * options_.profile.response_max, prepared.reply_delay());
     if (!alive) return stop("the port failed after " + result.id + ": " + alive.error().message, &alive.error());
     dead = !*alive;
+    if (dead) result.recording.dead = "nothing answers any more";
     if (dead && result.verdict != Verdict::fail) {
       result.verdict = Verdict::fail;
       result.message = "link dead after this frame: nothing answers any more";

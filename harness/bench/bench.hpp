@@ -10,7 +10,7 @@
 #include "harness/bench/fence.hpp"
 #include "harness/bench/judge.hpp"
 #include "harness/bench/profile.hpp"
-#include "harness/bench/waivers.hpp"
+#include "harness/bench/readings.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/vectors/case.hpp"
 
@@ -19,8 +19,6 @@ namespace fieldproof {
 struct BenchOptions {
   Profile profile;
   WriteFence fence;
-  std::vector<Waiver> waivers;
-  std::string today;               // ISO date, for waivers
   int station = 1;                 // the device's, where the endpoint cannot become another station
   std::string power_cycle_command; // --power-cycle: what switches a real device off and on
   std::string replay;              // command line that the id of the case completes
@@ -50,6 +48,7 @@ class Bench {
   Eligibility blocked(const Case& source, const PreparedCase& prepared) const;
   Eligibility below_floor(const PreparedCase& prepared) const;
   std::string undeclared(const nlohmann::json& config) const;
+  std::string other_write_config(const nlohmann::json& config) const;
   std::string fence_objection(const PreparedCase& prepared) const;
 
   int station_for(const Case& source) const;
@@ -60,7 +59,6 @@ class Bench {
   void execute(const PreparedCase& prepared, CaseResult& result);
   bool prepare_device(const PreparedCase& prepared, CaseResult& result);
   void judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
-  void note_mixed_readings(CaseResult& result);
   bool power_cycle(CaseResult& result);
   void after(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
   void stop(std::string why, const Error* error = nullptr);
@@ -69,7 +67,7 @@ class Bench {
   const Protocol& protocol_;
   BenchOptions options_;
   Exchange exchange_;
-  std::map<std::string, std::pair<std::string, std::string>> readings_;  // name: first choice and the case that made it
+  Readings readings_;
   std::string stopped_;
   int errors_in_a_row_ = 0;
   bool port_failed_ = false;

@@ -10,7 +10,6 @@ namespace fieldproof {
 
 // The table of protocols lives in suites/; these tests need none.
 std::span<const Protocol* const> protocols() { return {}; }
-const Protocol* find_protocol(std::string_view) { return nullptr; }
 
 namespace {
 
@@ -25,7 +24,6 @@ class BenchTest : public testing::Test {
     options.profile.name = "test";
     options.profile.model = "xbc-h";
     options.profile.protocols = {"xgt-cnet"};
-    options.today = "2026-11-21";
     endpoint.answers["<probe>"] = Pieces{{1ms, "<alive>"}};
     endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
   }
@@ -83,6 +81,16 @@ TEST_F(BenchTest, WhatTheProfileDoesNotDeclareIsSkipped) {
 TEST_F(BenchTest, AnExclusionNamesItsReason) {
   options.profile.exclude = {{"xgt_cnet/a/*", "no such command"}};
   EXPECT_THAT(run(vector(ask())).message, HasSubstr("no such command"));
+}
+
+TEST_F(BenchTest, NothingIsWrittenUnderAConfigurationThatTheFenceCannotFollow) {
+  on_real_device();
+  ASSERT_TRUE(options.fence.allow("M"));
+  options.profile.config = {{"base", "D0"}};
+  const CaseResult write = run(vector(R"({"send": "'<w>'"}, {"expect": "'<ok>'"})"));
+  EXPECT_EQ(write.verdict, Verdict::blocked);
+  EXPECT_EQ(write.message, "writes with base = D0; the write fence can follow M0 alone");
+  EXPECT_EQ(run(vector(ask())).verdict, Verdict::pass) << "a read is no write";
 }
 
 TEST_F(BenchTest, EmulatorsBecomeWhatACaseGives) {
@@ -208,7 +216,7 @@ TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
   EXPECT_EQ(result.exchange[0].text, "'<ask>'");
 }
 
-// ---- fence, waivers, profile ---------------------------------------------------------------------------------------
+// ---- fence, profile ------------------------------------------------------------------------------------------------
 
 std::string objection(const std::string& allowed, const Protocol::Written& written) {
   WriteFence fence;
@@ -243,49 +251,6 @@ TEST(WriteFence, NonsenseIsRefusedByItsName) {
     ASSERT_FALSE(allowed) << text;
     EXPECT_THAT(allowed.error().message, HasSubstr("cannot read --allow-write '"));
   }
-}
-
-CaseResult failed(const std::string& message) {
-  CaseResult result;
-  result.id = "xgt_cnet/a/b";
-  result.verdict = Verdict::fail;
-  result.message = message;
-  return result;
-}
-
-std::vector<Waiver> waivers(const std::string& more) {
-  const Result<std::vector<Waiver>> parsed = parse_waivers(R"([{"id": "xgt_cnet/a/b", "reason": "firmware 1.2", "expires": "2026-12-31")" + more + "}]", "w.json");
-  EXPECT_TRUE(parsed) << parsed.error().message;
-  return *parsed;
-}
-
-TEST(Waivers, HoldUntilTheirLastDay) {
-  CaseResult result = failed("BCC: expected D6, got D7");
-  apply_waivers(waivers(""), "2026-12-31", result);
-  EXPECT_EQ(result.verdict, Verdict::xfail);
-  result = failed("BCC: expected D6, got D7");
-  apply_waivers(waivers(""), "2027-01-01", result);
-  EXPECT_EQ(result.verdict, Verdict::fail);
-  EXPECT_THAT(result.notes, Contains(HasSubstr("expired")));
-}
-
-TEST(Waivers, HoldForTheirFailureAlone) {
-  CaseResult result = failed("no answer");
-  apply_waivers(waivers(R"(, "text": "BCC:")"), "2026-11-21", result);
-  EXPECT_EQ(result.verdict, Verdict::fail);
-}
-
-TEST(Waivers, APassIsXpass) {
-  CaseResult result = failed("");
-  result.verdict = Verdict::pass;
-  apply_waivers(waivers(""), "2026-11-21", result);
-  EXPECT_EQ(result.verdict, Verdict::xpass);
-}
-
-TEST(Waivers, BadEntriesAndUnknownTargetsAreNamed) {
-  EXPECT_THAT(parse_waivers(R"([{"id": "a", "reason": "r", "expires": "soon"}])", "w.json").error().message, HasSubstr("w.json: entry 0: expires 'soon'"));
-  EXPECT_THAT(parse_waivers(R"([{"id": "a", "reason": "r", "expires": "2026-01-01", "ownr": "x"}])", "w.json").error().message, HasSubstr("unknown key 'ownr'"));
-  EXPECT_THAT(unmatched(waivers(""), {"xgt_cnet/a/c"}), testing::ElementsAre("xgt_cnet/a/b"));
 }
 
 TEST(Profile, ExtendsAndOverrides) {

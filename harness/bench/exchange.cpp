@@ -23,8 +23,10 @@ Transcript Exchange::run(const PreparedCase& prepared) {
   captures_.clear();
   pending_ = {};
   last_bytes_.clear();
-  last_sent_ = {endpoint_.now(), endpoint_.now()};
-  stimulus_ = last_sent_.end;
+  neighbours_ = prepared.source->config.contains("neighbours");
+  // Memory that was given through the protocol may just have been answered.
+  last_heard_ = stimulus_ = endpoint_.now();
+  last_sent_ = {last_heard_, last_heard_};
   for (const PreparedStep& one : prepared.steps) {
     for (int i = 0; i < one.step->times; ++i) {
       step(prepared, one, transcript);
@@ -61,6 +63,7 @@ void Exchange::await_return(const PreparedCase& prepared, Transcript& transcript
 }
 
 void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& transcript) {
+  await_frame_gap(transcript);
   // What came before this send belongs to what was open until now.
   while (listen(endpoint_.now(), transcript)) {}
   if (!pending_.bytes.empty() && transcript.surplus.bytes.empty()) {
@@ -190,6 +193,7 @@ Result<bool> Exchange::anything_answers(int station, Duration patience, Duration
   const Time give_up = begun + patience + reply_delay;
   Bytes heard;
   std::size_t probes = 0, answers = 0;
+  if (protocol_.probe(station, {}).empty()) return true;
   while (endpoint_.now() < give_up) {
     const Result<Sent> sent = endpoint_.send(protocol_.probe(station, {}));
     if (!sent) return sent.error();
@@ -222,13 +226,13 @@ std::size_t Exchange::take_frames(Bytes& bytes) const {
 }
 
 bool Exchange::probe(const PreparedCase& prepared, Received& before, Transcript& transcript) {
+  await_frame_gap(transcript);
   const Bytes request = protocol_.probe(prepared.station, last_bytes_);
   const Result<Sent> sent = endpoint_.send(request);
   if (!sent) {
     transcript.trouble = sent.error();
     return false;
   }
-  note("probe:", transcript);
   transcript.events.push_back({Event::Kind::sent, sent->start, sent->end, request, {}});
   std::vector<Received> frames;
   bool answered = false;
@@ -250,6 +254,18 @@ bool Exchange::probe(const PreparedCase& prepared, Received& before, Transcript&
   return alive;
 }
 
+void Exchange::await_frame_gap(Transcript& transcript) {
+  const Duration gap = protocol_.frame_gap(endpoint_.character_time());
+  if (gap == 0ns) return;
+  const auto end = [&] {
+    // Without a wire a frame ends later. Who has answered has seen the end of it, but its neighbours heard the answer.
+    const bool seen = last_heard_ >= last_sent_.end && !neighbours_;
+    if (!endpoint_.capabilities().wire) return std::max(last_sent_.end, last_heard_) + (seen ? 0ns : timing_.quiet);
+    return std::max(last_sent_.end, last_heard_) + gap;
+  };
+  while (listen(end(), transcript)) {}
+}
+
 bool Exchange::transmit(ByteView bytes, Transcript& transcript) {
   const Result<Sent> sent = endpoint_.send(bytes);
   if (!sent) {
@@ -258,7 +274,8 @@ bool Exchange::transmit(ByteView bytes, Transcript& transcript) {
   }
   last_sent_ = *sent;
   stimulus_ = sent->end;
-  transcript.events.push_back({Event::Kind::sent, sent->start, sent->end, Bytes(bytes.begin(), bytes.end()), {}});
+  const int step = static_cast<int>(transcript.steps.size()) - 1;
+  transcript.events.push_back({Event::Kind::sent, sent->start, sent->end, Bytes(bytes.begin(), bytes.end()), {}, step});
   return true;
 }
 
@@ -270,7 +287,8 @@ bool Exchange::listen(Time deadline, Transcript& transcript) {
     return false;
   }
   if (burst->bytes.empty()) return false;
-  pending_.add(*burst);
+  pending_.add(*burst, transcript.events.size());
+  last_heard_ = burst->end();
   transcript.flooded = pending_.bytes.size() > flood_limit;
   transcript.events.push_back({Event::Kind::received, burst->start, burst->end(), std::move(burst->bytes), {}});
   return !transcript.flooded;

@@ -41,6 +41,8 @@ class Exchange {
   void access_memory(const PreparedCase& prepared, const Step& step, StepRecord& record, Transcript& transcript);
 
   bool transmit(ByteView bytes, Transcript& transcript);
+  /// Keeps the silence that a request needs before it where silence is what ends a frame.
+  void await_frame_gap(Transcript& transcript);
   /// Waits for one burst into `pending_`; false when `deadline` passed, the port failed or the device floods.
   bool listen(Time deadline, Transcript& transcript);
   std::size_t complete_length(const PreparedStep& step);
@@ -55,6 +57,8 @@ class Exchange {
   MemoryAccess memory_;
   Received pending_;  // came, but no step has taken it
   Sent last_sent_;
+  Time last_heard_{};
+  bool neighbours_ = false;  // further stations hear all that is said
   Time stimulus_{};   // what the next reply answers: a transmission, the reply before it, a set or do
   Bytes last_bytes_;
   Captures captures_;

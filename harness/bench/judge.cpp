@@ -244,6 +244,41 @@ Judgement judge(const PreparedCase& prepared, const Transcript& transcript, cons
   return Judge(prepared, transcript, rules, protocol).judge();
 }
 
+CaseResult result_of(const Case& source) {
+  CaseResult result;
+  result.id = source.id;
+  result.rev = source.rev;
+  result.protocol = source.protocol;
+  result.title = source.title;
+  result.level = source.level;
+  result.basis = source.basis;
+  result.manual = source.source.manual;
+  result.section = source.source.section;
+  result.quote = source.source.quote;
+  return result;
+}
+
+void note_transposition(const PreparedCase& prepared, CaseResult& result) {
+  const int named = config_station(prepared.source->config, prepared.station).value_or(prepared.station);
+  if (named != prepared.station) result.notes.push_back(fmt::format("transposed: station {} to {}", named, prepared.station));
+}
+
+void take_judgement(Judgement judgement, CaseResult& result) {
+  result.verdict = judgement.verdict;
+  result.message = std::move(judgement.message);
+  std::ranges::move(judgement.notes, std::back_inserter(result.notes));
+  result.differences = std::move(judgement.differences);
+  result.readings = std::move(judgement.readings);
+  result.response_ms = std::move(judgement.response_ms);
+  if (judgement.expected) {
+    result.expected = judgement.expected->source->text;
+    result.expected_bytes = judgement.expected->frame.bytes;
+    result.expected_hex = to_hex_with_holes(judgement.expected->frame);
+  }
+  result.received = print_bytes(judgement.received.bytes);
+  result.received_bytes = std::move(judgement.received.bytes);
+}
+
 std::vector<Difference> compare_frames(ByteView expected, ByteView received, const Protocol& protocol) {
   std::vector<Field> due = protocol.explain(expected);
   std::vector<std::pair<std::size_t, Difference>> found;  // with the place in the frame: what comes first, a check follows from

@@ -31,6 +31,13 @@ struct Judgement {
 
 Judgement judge(const PreparedCase& prepared, const Transcript& transcript, const JudgeRules& rules, const Protocol& protocol);
 
+/// A result that knows its case, and no verdict yet.
+CaseResult result_of(const Case& source);
+/// Notes where a case runs at another station than the manual's example names.
+void note_transposition(const PreparedCase& prepared, CaseResult& result);
+/// Writes a judgement into the result of its case.
+void take_judgement(Judgement judgement, CaseResult& result);
+
 /// The fields in which two frames differ, named by the protocol.
 std::vector<Difference> compare_frames(ByteView expected, ByteView received, const Protocol& protocol);
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "harness/bench/exchange.hpp"
+#include "harness/bench/recording.hpp"
 #include "harness/bench/scripted_endpoint.hpp"
 #include "harness/test_protocol.hpp"
 #include "harness/vectors/loader.hpp"
@@ -28,7 +29,28 @@ class JudgeTest : public testing::Test {
     Exchange exchange(endpoint, protocol_, {});
     transcript = exchange.run(prepared_);
     exchange.close(prepared_, transcript);
-    return judge(prepared_, transcript, rules, protocol_);
+    const Judgement judgement = judge(prepared_, transcript, rules, protocol_);
+    expect_recording_judged_alike(judgement);
+    return judgement;
+  }
+
+  /// Whatever is judged live is judged alike from a result file.
+  void expect_recording_judged_alike(const Judgement& live) {
+    CaseResult recorded;
+    recorded.id = "xgt_cnet/a/b";
+    recorded.exchange = recorded_events(transcript);
+    recorded.recording = make_recording(prepared_, transcript, rules);
+    EXPECT_EQ(recorded.recording.stimulus.empty(), transcript.trouble.has_value()) << "trouble of the bench cannot be judged";
+    if (transcript.trouble) return;
+    const auto loaded = nlohmann::json::parse(nlohmann::json(recorded).dump()).get<CaseResult>();
+    const Result<Transcript> again = replay(loaded, prepared_, 500ms);
+    ASSERT_TRUE(again) << again.error().message;
+    const Judgement offline = judge(prepared_, *again, rules, protocol_);
+    EXPECT_EQ(offline.verdict, live.verdict) << offline.message;
+    EXPECT_EQ(offline.message, live.message);
+    EXPECT_EQ(offline.received.bytes, live.received.bytes);
+    EXPECT_EQ(offline.response_ms, live.response_ms);
+    EXPECT_EQ(offline.readings, live.readings);
   }
 
   static std::string ask() { return R"({"send": "'<ask>'"}, {"expect": "'<answer>'"})"; }

@@ -3,6 +3,8 @@
 namespace fieldproof {
 
 Result<Bytes> MemoryAccess::ask(ByteView request) {
+  if (const Duration gap = protocol_.frame_gap(endpoint_.character_time()); gap > 0ns && endpoint_.capabilities().wire)
+    if (const Result<Burst> quiet = endpoint_.receive(endpoint_.now() + gap); !quiet) return quiet.error();
   const Result<Sent> sent = endpoint_.send(request);
   if (!sent) return sent.error();
   Bytes reply;

@@ -8,7 +8,7 @@ namespace fieldproof {
 
 bool PreparedCase::is_client() const { return source->config.value("role", "server") == "client"; }
 
-bool PreparedCase::answers_probes() const { return !is_client() && !source->config.contains("bench_line"); }
+bool PreparedCase::answers_probes() const { return has_probe && !is_client() && !source->config.contains("bench_line"); }
 
 Duration PreparedCase::reply_delay() const {
   const nlohmann::json value = source->config.value("delay_ms", nlohmann::json(0));
@@ -41,7 +41,7 @@ Duration PreparedCase::shortest_pause(Duration character_time) const {
 }
 
 Result<PreparedCase> prepare(const Case& source, int station, const Protocol& protocol) {
-  PreparedCase prepared{&source, station, {}};
+  PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), {}};
   const Stations stations{protocol.station_bytes(station), protocol.station_bytes((station + 1) % 256)};
   for (std::size_t i = 0; i < source.steps.size(); ++i) {
     PreparedStep step{&source.steps[i], {}};

@@ -25,6 +25,7 @@ struct PreparedStep {
 struct PreparedCase {
   const Case* source = nullptr;
   int station = 1;
+  bool has_probe = true;                        // the protocol has a request that anything healthy answers
   std::vector<PreparedStep> steps;
 
   bool is_client() const;                       // the module asks, the bench answers

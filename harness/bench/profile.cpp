@@ -69,9 +69,11 @@ std::string known_profiles(const std::string& name, const fs::path& folder) {
   return fmt::format("{}; there are {}", suggestion(name, views), fmt::join(names, ", "));
 }
 
+bool names_a_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".json"); }
+
 Result<Profile> load(const std::string& name, const fs::path& folder, int depth) {
-  const bool is_path = name.find('/') != std::string::npos || name.ends_with(".json");
-  const fs::path path = is_path ? fs::path(name) : folder / (name + ".json");
+  const bool is_path = names_a_path(name);
+  const fs::path path = profile_path(name, folder);
   if (!fs::exists(path)) return fail(fmt::format("no profile '{}'{}", name, known_profiles(name, folder)));
   const Result<std::string> text = read_text(path);
   if (!text) return text.error();
@@ -102,6 +104,10 @@ Result<Profile> parse_profile(const std::string& text, const std::string& file, 
   if (base.name.empty()) return fail(fmt::format("cannot read profile {}: it has no \"name\"", file));
   if (base.protocols.empty()) return fail(fmt::format("cannot read profile {}: it has no \"protocols\"", file));
   return base;
+}
+
+fs::path profile_path(const std::string& name_or_path, const fs::path& folder) {
+  return names_a_path(name_or_path) ? fs::path(name_or_path) : folder / (name_or_path + ".json");
 }
 
 Result<Profile> load_profile(const std::string& name_or_path, const fs::path& folder) { return load(name_or_path, folder, 0); }

@@ -27,6 +27,9 @@ struct Profile {
   Duration max_gap{};             // silence allowed inside a reply; 0: 3.5 characters of 11 bits
 };
 
+/// The file of a profile: a path as it stands (it has a '/' or ends with .json), a name in `folder`.
+std::filesystem::path profile_path(const std::string& name_or_path, const std::filesystem::path& folder);
+
 /// Reads NAME from `folder`/NAME.json, or a path. "extends" names another profile of the folder.
 /// Errors name the file and the key; an unknown name suggests a near one.
 Result<Profile> load_profile(const std::string& name_or_path, const std::filesystem::path& folder);

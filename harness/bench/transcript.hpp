@@ -17,11 +17,13 @@ struct Received {
     std::size_t offset = 0;  // of its first byte
     Time start{};
     Time end{};
+    std::size_t event = 0;   // which of the transcript's events it stands in, and its first byte there
+    std::size_t event_offset = 0;
   };
   Bytes bytes;
   std::vector<Arrival> arrivals;
 
-  void add(const Burst& burst);
+  void add(const Burst& burst, std::size_t event = 0);
   void append(Received other);
   /// Takes the first `count` bytes out.
   Received take(std::size_t count);

@@ -1,6 +1,7 @@
-// Known failures that the team accepts for a while: id, reason and expiry date.
+// Known failures that the team accepts for a while. A waiver that no longer does what it says turns the gate red.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,19 +13,48 @@ namespace fieldproof {
 struct Waiver {
   std::string id;       // of a case, or a glob
   std::string reason, owner;
+  std::string text;     // must be part of the failure's message
   std::string expires;  // ISO date, the last day on which it holds
-  std::string text;     // must be part of the failure's message; empty: any failure
+  std::string firmware_from, firmware_to;  // holds for these versions alone, both included; empty: open on this side
 };
 
-/// Reads [{"id","reason","expires","owner"?,"text"?}]. Errors name file and entry.
+/// Reads [{"id","reason","owner","text","expires","firmware":{"from"?,"to"?}?}]. Errors name file and entry.
 Result<std::vector<Waiver>> parse_waivers(const std::string& text, const std::string& file);
+/// An empty path: there are none.
 Result<std::vector<Waiver>> load_waivers(const std::string& path);
 
-/// Waivers that select none of `ids`: an unknown target is an error.
-std::vector<std::string> unmatched(const std::vector<Waiver>& waivers, const std::vector<std::string>& ids);
+/// Begins the id of a result that speaks of a waiver, not of a case: "waiver/xgt_cnet/*".
+inline constexpr std::string_view waiver_result = "waiver/";
 
-/// FAIL becomes XFAIL while a waiver holds; PASS becomes XPASS, and a waiver that is expired or whose text no longer
-/// matches leaves the failure as it is and says so. `today` is an ISO date.
-void apply_waivers(const std::vector<Waiver>& waivers, const std::string& today, CaseResult& result);
+/// What a run does with its waivers: each failure that one covers, and at the end those that cover none.
+class Waivers {
+ public:
+  /// `today` is an ISO date; `firmware` is the device's as entered, empty where nobody did.
+  Waivers(std::vector<Waiver> waivers, std::string today, std::string firmware)
+      : waivers_(std::move(waivers)), today_(std::move(today)), firmware_(std::move(firmware)) {}
+  Waivers() = default;
+
+  /// FAIL becomes XFAIL while a waiver holds; otherwise the failure stays and a note says what became of the waiver.
+  /// A case that is waived by its own id and no longer fails is XPASS.
+  void apply(CaseResult& result);
+
+  /// One XPASS for each glob whose cases, `ids` being all there are, were all judged and none failed.
+  std::vector<CaseResult> superfluous(const std::vector<std::string>& ids) const;
+
+ private:
+  enum class Firmware { covered, other, unknown };
+  Firmware firmware_of(const Waiver& waiver) const;
+  const Waiver* find(const std::string& id) const;
+
+  std::vector<Waiver> waivers_;
+  std::string today_, firmware_;
+  std::map<std::string, bool> failed_;  // judged cases that a waiver selects: did any repetition fail?
+};
+
+/// "no case 'xgt_cnet/rss/two_wrds'; did you mean ..." for each waiver that selects none of `ids`.
+std::vector<std::string> unknown_targets(const std::vector<Waiver>& waivers, const std::vector<std::string>& ids);
+
+/// Compares versions by their numbers: "V1.10" is newer than "1.9". Negative, 0, positive.
+int compare_versions(std::string_view a, std::string_view b);
 
 }  // namespace fieldproof

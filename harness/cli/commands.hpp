@@ -12,13 +12,16 @@ inline constexpr int ok = 0, failed = 1, usage = 2, trouble = 3, nothing = 4, ab
 }
 
 struct RunOptions {
-  std::string endpoint = "emulator:";
+  std::string endpoint;          // empty: of the bench file's device, else "emulator:"
   std::string profile;           // empty: by the endpoint
   std::string filter;
   std::string vectors;           // empty: the tool's own
   std::string out = "fieldproof-out";
-  std::string junit, json;       // empty: in `out`
+  std::string junit, json, html; // empty: in `out`
+  std::string capture;           // empty: none
+  std::string bench, dut;        // bench file, and the device of it
   std::string waivers;
+  std::string baseline;          // results of an earlier run, to compare with
   std::string power_cycle;
   std::vector<std::string> allow_write;
   std::vector<std::string> gtest_arguments;
@@ -33,7 +36,10 @@ int run_command(const RunOptions& options);
 
 struct ListOptions {
   std::string filter, vectors;
-  bool coverage = false, json = false;
+  bool coverage = false;         // statements instead of cases
+  std::string results, html;     // with coverage: verdicts of a run; a report
+  double min_coverage = 0;       // with coverage: percent of the statements
+  bool json = false, markdown = false;
 };
 int list_command(const ListOptions& options);
 
@@ -53,23 +59,51 @@ struct EmulateOptions {
 };
 int emulate_command(const EmulateOptions& options);
 
+struct ProbeOptions {
+  std::string endpoint;
+  std::vector<std::string> stations, speeds, frames, protocols;  // empty: all that is usual
+  int wait_ms = 500;             // for the first byte of an answer
+  bool all = false;              // go on after the first find
+};
+int probe_command(const ProbeOptions& options);
+
 struct FrameOptions {
   std::string frame;
-  std::string protocol = "xgt-cnet";
+  std::string protocol;          // empty: the one that the frame fits best
   int station = 1;
 };
 int frame_command(const FrameOptions& options);
 
 struct ErrataOptions {
   std::string vectors;
-  bool json = false;
+  bool json = false, markdown = false;
 };
 int errata_command(const ErrataOptions& options);
 
 struct ReportOptions {
-  std::string ndjson, junit, json;
+  std::string ndjson, junit, json, html, capture;
 };
 int report_command(const ReportOptions& options);
+
+struct CompareOptions {
+  std::vector<std::string> files;  // results: the first is what the others are compared with
+  std::string html, junit;
+};
+int compare_command(const CompareOptions& options);
+
+struct JudgeOptions {
+  std::string file;              // results.ndjson or results.json
+  std::string profile;           // empty: the one it was recorded with
+  std::string filter;
+  std::string vectors;           // empty: the tool's own
+  std::string waivers;
+  std::string out = "fieldproof-judged";
+  std::string junit, json, html; // empty: in `out`
+  bool strict = false, qualify = false, fail_on_marginal = false;
+  bool verbose = false;
+  std::string command;           // as typed, for reports
+};
+int judge_command(const JudgeOptions& options);
 
 /// A word of a command line as a shell reads it: quoted where it must be.
 std::string shell_word(const std::string& word);

@@ -21,7 +21,7 @@ void print_traffic(const Traffic& traffic) {
 
 /// The device, and its `neighbours` on the same line: stations, or objects of config keys.
 Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol, nlohmann::json config) {
-  const std::string model = config.value("model", "xbc-h");
+  const std::string model = config.value("model", protocol.models().front());
   const nlohmann::json neighbours = config.value("neighbours", nlohmann::json::array());
   config.erase("model");
   config.erase("neighbours");
@@ -40,26 +40,19 @@ Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol, 
   return std::unique_ptr<EmulatedDevice>(std::make_unique<MultiDrop>(std::move(devices)));
 }
 
-std::string protocol_names() {
-  std::string names;
-  for (const Protocol* one : protocols()) names += (names.empty() ? "" : ", ") + std::string(one->name());
-  return names;
-}
-
 }  // namespace
 
 int emulate_command(const EmulateOptions& options) {
   const Result<EndpointName> name = parse_endpoint("emulator:" + options.model);
   if (!name) return complain(name.error().message, exit_code::usage);
-  const std::string protocol_name = name->option("protocol", "xgt-cnet");
-  const Protocol* protocol = find_protocol(protocol_name);
-  if (!protocol) return complain(fmt::format("no protocol '{}'; there are {}", protocol_name, protocol_names()), exit_code::usage);
+  const Result<const Protocol*> protocol = choose_protocol(name->option("protocol", ""), name->target);
+  if (!protocol) return complain("cannot emulate " + options.model + ": " + protocol.error().message, exit_code::usage);
 
   HostOptions host;
   host.model = name->target;
   for (const auto& [key, value] : name->options)
     if (key != "protocol") host.config[key] = value;
-  host.make_device = [protocol](const nlohmann::json& config) { return make_stations(*protocol, config); };
+  host.make_device = [protocol = *protocol](const nlohmann::json& config) { return make_stations(*protocol, config); };
   host.tcp = options.tcp;
   host.tty = options.tty.empty() ? options.pty : options.tty;
   host.control = options.control;

@@ -18,6 +18,9 @@ using Verdicts = std::map<std::string, std::string>;  // by id of the case
 /// Real time is mostly waiting: shards run side by side, each with a device of its own.
 const std::map<std::string, int> shards{{"pty", 4}, {"serial", 1}, {"exec", 2}};
 
+/// One protocol stands for the links; the others' broken devices and peers are judged over exec: in suites/.
+constexpr const char* all_cases = "xgt_cnet/*";
+
 struct Difference {
   std::string pattern, verdict, reason;
   std::set<std::string> links;
@@ -101,7 +104,7 @@ Verdicts run_over(const std::string& kind) {
   for (int shard = 0; shard < total; ++shard)
     parts.push_back(std::async(std::launch::async, [kind, shard, total] {
       const std::unique_ptr<Link> link = make_link(kind);
-      return run(link->endpoint(), "*", {.environment = {{"GTEST_TOTAL_SHARDS", std::to_string(total)}, {"GTEST_SHARD_INDEX", std::to_string(shard)}}, .folder = ""});
+      return run(link->endpoint(), all_cases, {.environment = {{"GTEST_TOTAL_SHARDS", std::to_string(total)}, {"GTEST_SHARD_INDEX", std::to_string(shard)}}, .folder = ""});
     }));
   Verdicts verdicts;
   for (std::future<Verdicts>& part : parts) verdicts.merge(part.get());
@@ -121,7 +124,7 @@ void run_again(const std::string& kind, const std::vector<std::string>& ids, Ver
 class Links : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    emulator_ = run("emulator:xbc-h", "*", {});
+    emulator_ = run("emulator:xbc-h", all_cases, {});
     differences_ = allowed_differences();
     std::map<std::string, std::future<Verdicts>> running;
     for (const char* kind : {"pty", "serial", "exec"}) running[kind] = std::async(std::launch::async, run_over, std::string(kind));
@@ -192,6 +195,31 @@ TEST_F(Links, most_cases_are_judged_over_each_link) {
     const auto judged = std::ranges::count_if(verdicts, [](const auto& one) { return one.second == "PASS" || one.second == "INFO"; });
     EXPECT_GT(judged, 1700) << kind;
   }
+}
+
+/// In real time each protocol has an endpoint of its own.
+TEST(EveryProtocol, speaks_over_a_pty) {
+  const TestFolder folder;
+  const Finished finished = run_tool({"run", "--endpoint", "pty:", "--filter", "*/examples/*:ls_bus/read/*:user_frames/px7_controller/*:xgt_cnet/rss/*",
+                                      "--out", folder / "out"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  std::set<std::string> judged;
+  for (const json& one : read_results(folder / "out/results.ndjson").cases)
+    if (one.at("verdict") == "PASS") judged.insert(one.at("protocol"));
+  EXPECT_EQ(judged.size(), 5u) << json(judged).dump();
+}
+
+/// `run` without a filter runs every suite, each case on a device that speaks its protocol.
+TEST(EveryProtocol, is_run_by_default) {
+  const TestFolder folder;
+  const Finished finished = run_tool({"run", "--out", folder / "out"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  std::map<std::string, int> passed;
+  for (const json& one : read_results(folder / "out/results.ndjson").cases) {
+    EXPECT_NE(one.at("verdict"), "SKIP") << one.at("id");
+    if (one.at("verdict") == "PASS") ++passed[one.at("protocol")];
+  }
+  for (const char* protocol : {"xgt-cnet", "modbus-rtu", "modbus-ascii", "ls-bus", "user-frames"}) EXPECT_GT(passed[protocol], 100) << protocol;
 }
 
 }  // namespace

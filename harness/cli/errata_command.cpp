@@ -1,29 +1,17 @@
-#include <algorithm>
-#include <cstdio>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include "harness/cli/commands.hpp"
-#include "harness/cli/paths.hpp"
-#include "harness/vectors/loader.hpp"
+#include "harness/cli/run_report.hpp"
+#include "harness/cli/tool_vectors.hpp"
+#include "reports/errata.hpp"
 
 namespace fieldproof {
 
 int errata_command(const ErrataOptions& options) {
-  const DataPaths data = find_data();
-  VectorSet set = load_vectors(options.vectors.empty() ? data.vectors : std::filesystem::path(options.vectors), data.vectors / "schema.json");
-  for (const std::string& problem : set.problems) complain(problem, 0);
-  if (!set.problems.empty()) return exit_code::usage;
-  std::ranges::stable_sort(set.errata, {}, [](const Erratum& e) { return std::pair(e.manual, e.section); });
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const Erratum& e : set.errata) {
-    if (options.json)
-      all.push_back({{"manual", e.manual}, {"section", e.section}, {"printed", e.printed}, {"correct", e.correct}, {"why", e.why}, {"vector", e.vector_id}});
-    else
-      fmt::print("{} {}\n  printed: {}\n  correct: {}\n  why:     {}\n  vector:  {}\n\n", e.manual, e.section, e.printed, e.correct, e.why, e.vector_id);
-  }
-  if (options.json) fmt::print("{}\n", all.dump(2));
-  else fmt::print("{} errata\n", set.errata.size());
+  const Result<VectorSet> set = load_sound_vectors(options.vectors);
+  if (!set) return complain(set.error().message, exit_code::usage);
+  std::vector<ErratumInfo> errata;
+  for (const Erratum& one : set->errata) errata.push_back(erratum_info(one));
+  sort_errata(errata);
+  print(options.json ? errata_json(errata) : options.markdown ? errata_markdown(errata) : errata_text(errata));
   return exit_code::ok;
 }
 

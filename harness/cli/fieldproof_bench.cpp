@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "harness/bench/bench.hpp"
-#include "harness/cli/paths.hpp"
+#include "harness/paths.hpp"
 #include "harness/endpoints/pty_pair.hpp"
 #include "harness/vectors/loader.hpp"
 

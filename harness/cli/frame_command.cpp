@@ -48,24 +48,50 @@ Result<Bytes> read_frame_text(const std::string& text, const Stations& stations)
   return render(templates->front(), {});
 }
 
+struct Reading {
+  const Protocol* protocol = nullptr;
+  Bytes bytes;
+  std::vector<Field> fields;
+
+  auto problems() const { return std::ranges::count_if(fields, [](const Field& field) { return !field.problem.empty(); }); }
+};
+
+Result<Reading> read_as(const Protocol& protocol, const FrameOptions& options) {
+  const Stations stations{protocol.station_bytes(options.station), protocol.station_bytes((options.station + 1) % 256)};
+  Result<Bytes> bytes = read_frame_text(options.frame, stations);
+  if (!bytes) return bytes.error();
+  std::vector<Field> fields = protocol.explain(*bytes);
+  return Reading{&protocol, std::move(*bytes), std::move(fields)};
+}
+
+/// As the protocol that was named, else as the one with the fewest problems.
+Result<Reading> best_reading(const FrameOptions& options) {
+  if (!options.protocol.empty()) {
+    const Result<const Protocol*> protocol = choose_protocol(options.protocol, "");
+    if (!protocol) return protocol.error();
+    return read_as(**protocol, options);
+  }
+  Result<Reading> best = read_as(*protocols().front(), options);
+  for (const Protocol* protocol : protocols().subspan(1)) {
+    Result<Reading> other = read_as(*protocol, options);
+    if (best && other && other->problems() < best->problems()) best = std::move(other);
+  }
+  return best;
+}
+
 }  // namespace
 
 int frame_command(const FrameOptions& options) {
-  const Protocol* protocol = find_protocol(options.protocol);
-  if (!protocol) return complain(fmt::format("no protocol '{}'", options.protocol), exit_code::usage);
-  const Stations stations{protocol->station_bytes(options.station), protocol->station_bytes((options.station + 1) % 256)};
-  const Result<Bytes> bytes = read_frame_text(options.frame, stations);
-  if (!bytes) return complain(bytes.error().message, exit_code::usage);
-  fmt::print("{}\n{}\n{} bytes\n\n", print_bytes(*bytes), to_hex(*bytes), bytes->size());
-  int problems = 0;
-  for (const Field& field : protocol->explain(*bytes)) {
-    const std::string hex = to_hex(ByteView(*bytes).subspan(field.offset, field.size));
+  const Result<Reading> reading = best_reading(options);
+  if (!reading) return complain(reading.error().message, exit_code::usage);
+  const ByteView bytes = reading->bytes;
+  fmt::print("{}\n{}\n{}, {} bytes\n\n", print_bytes(bytes), to_hex(bytes), reading->protocol->name(), bytes.size());
+  for (const Field& field : reading->fields) {
+    const std::string hex = to_hex(bytes.subspan(field.offset, field.size));
     fmt::print("{:>4}  {:<22} {:<30} {}\n", field.offset, field.name, field.text, hex.size() > 47 ? hex.substr(0, 44) + "..." : hex);
-    if (field.problem.empty()) continue;
-    ++problems;
-    fmt::print("      {:<22} ! {}\n", "", field.problem);
+    if (!field.problem.empty()) fmt::print("      {:<22} ! {}\n", "", field.problem);
   }
-  return problems == 0 ? exit_code::ok : exit_code::failed;
+  return reading->problems() == 0 ? exit_code::ok : exit_code::failed;
 }
 
 }  // namespace fieldproof

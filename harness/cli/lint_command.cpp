@@ -6,7 +6,8 @@
 
 #include "harness/bench/profile.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/paths.hpp"
+#include "harness/cli/tool_vectors.hpp"
+#include "harness/paths.hpp"
 #include "harness/vectors/lint.hpp"
 #include "harness/vectors/loader.hpp"
 
@@ -39,7 +40,7 @@ std::string read_lock(const fs::path& folder) {
 
 int lint_command(const LintOptions& options) {
   const DataPaths data = find_data();
-  const fs::path folder = options.vectors.empty() ? data.vectors : fs::path(options.vectors);
+  const fs::path folder = vectors_path(options.vectors);
   VectorSet set = load_vectors(folder, data.vectors / "schema.json");
   load_wires(folder, set);
   std::vector<std::string> problems = set.problems;

@@ -4,9 +4,10 @@
 
 #include "harness/bench/prepared_case.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/paths.hpp"
-#include "harness/vectors/lint.hpp"
-#include "harness/vectors/loader.hpp"
+#include "harness/cli/coverage.hpp"
+#include "harness/cli/run_report.hpp"
+#include "harness/cli/tool_vectors.hpp"
+#include "reports/coverage_html.hpp"
 
 namespace fieldproof {
 
@@ -57,31 +58,34 @@ ordered_json case_json(const Case& one) {
   return result;
 }
 
-int list_coverage(const VectorSet& set) {
-  int statements = 0, covered = 0, reasoned = 0;
-  std::string manual;
-  for (const SectionCoverage& section : coverage(set)) {
-    if (section.manual != manual) fmt::print("{}{}\n{:<28} {:>10} {:>8} {:>8} {:>5}\n", manual.empty() ? "" : "\n", section.manual, "  section", "statements", "vectors", "reasons", "open");
-    manual = section.manual;
-    fmt::print("  {:<26} {:>10} {:>8} {:>8} {:>5}\n", section.section, section.statements, section.covered, section.reasoned, section.uncovered.size());
-    for (const std::string& id : section.uncovered) fmt::print("    no vector and no reason: {}\n", id);
-    statements += section.statements;
-    covered += section.covered;
-    reasoned += section.reasoned;
+int list_coverage(const ListOptions& options, const VectorSet& set) {
+  std::optional<ResultFile> results;
+  if (!options.results.empty()) {
+    Result<ResultFile> read = read_result_file(options.results);
+    if (!read) return complain(read.error().message, exit_code::usage);
+    results = std::move(*read);
   }
-  const int open = statements - covered - reasoned;
-  fmt::print("\n{} statements: {} with vectors, {} with a reason, {} open\n", statements, covered, reasoned, open);
-  return open == 0 ? exit_code::ok : exit_code::failed;
+  const Coverage coverage = trace(set, results);
+  if (!options.html.empty())
+    if (const Status written = write_coverage_html(coverage, options.html); !written) return complain(written.error().message, exit_code::trouble);
+  print(options.json ? coverage_json(coverage) : options.markdown ? coverage_markdown(coverage) : coverage_text(coverage));
+  const CoverageCounts counts = count_statements(coverage);
+  const double percent = counts.percent(coverage.with_results());
+  if (percent < options.min_coverage)
+    return complain(fmt::format("coverage is {:.1f} %, below --min-coverage {:g}", percent, options.min_coverage), exit_code::failed);
+  return counts.count(Traced::open) == 0 ? exit_code::ok : exit_code::failed;
 }
 
 }  // namespace
 
 int list_command(const ListOptions& options) {
-  const DataPaths data = find_data();
-  const VectorSet set = load_vectors(options.vectors.empty() ? data.vectors : std::filesystem::path(options.vectors), data.vectors / "schema.json");
-  for (const std::string& problem : set.problems) complain(problem, 0);
-  if (!set.problems.empty()) return exit_code::usage;
-  if (options.coverage) return list_coverage(set);
+  if (!options.coverage && (options.markdown || !options.html.empty() || !options.results.empty() || options.min_coverage > 0))
+    return complain("--results, --markdown, --html and --min-coverage are about --coverage; add it", exit_code::usage);
+  if (options.coverage && !options.filter.empty()) return complain("--filter selects cases; --coverage is of all statements", exit_code::usage);
+  const Result<VectorSet> loaded = load_sound_vectors(options.vectors);
+  if (!loaded) return complain(loaded.error().message, exit_code::usage);
+  const VectorSet& set = *loaded;
+  if (options.coverage) return list_coverage(options, set);
   ordered_json all = ordered_json::array();
   std::size_t count = 0;
   for (const Case& one : set.cases) {

@@ -14,26 +14,51 @@ constexpr const char* exit_codes =
     "Exit codes: 0 gate met, 1 conformance failed, 2 usage or invalid input, 3 bench trouble, 4 nothing selected or executed,\n"
     "77 hardware absent (--skip-absent), 130 interrupted.";
 
+/// What fails the gate, for commands that judge.
+template <typename Options>
+void add_gate(CLI::App& app, Options& options) {
+  app.add_flag("--strict", options.strict, "NON-STRICT fails the gate");
+  app.add_option_function<std::string>("--fail-on", [&options](const std::string&) { options.fail_on_marginal = true; }, "marginal: MARGINAL fails the gate")
+      ->check(CLI::IsMember({"marginal"}));
+  app.add_flag("--qualify", options.qualify, "BLOCKED and INCONCLUSIVE fail the gate");
+}
+
+void add_judge(CLI::App& app, JudgeOptions& judge) {
+  app.add_option("results", judge.file, "OUT/results.ndjson or OUT/results.json")->required();
+  app.add_option("--profile", judge.profile, "Judge by another profile than it was recorded with");
+  app.add_option("--filter", judge.filter, "Cases by id: globs separated by ':', a leading '-' excludes");
+  app.add_option("--vectors", judge.vectors, "Another folder of vectors");
+  app.add_option("--waivers", judge.waivers, "JSON file of accepted failures");
+  app.add_option("--out", judge.out, "Folder of the reports")->capture_default_str();
+  app.add_option("--junit", judge.junit, "JUnit file, instead of OUT/junit.xml");
+  app.add_option("--json", judge.json, "JSON file, instead of OUT/results.json");
+  app.add_option("--html", judge.html, "HTML file, instead of OUT/report.html");
+  add_gate(app, judge);
+  app.add_flag("-v,--verbose", judge.verbose, "Show every case with its exchange");
+}
+
 void add_run(CLI::App& app, RunOptions& run) {
   app.add_option("--endpoint", run.endpoint,
                  "emulator:[MODEL][?option=value&...], pty:MODEL, serial:PATH?baud=38400&frame=8N1&station=1, exec:COMMAND ({tty} is the port), tcp:HOST:PORT")
-      ->capture_default_str();
+      ->default_str("emulator:");
+  app.add_option("--bench", run.bench, "JSON file of the devices on this bench; --dut names one, and other options override it");
+  app.add_option("--dut", run.dut, "Device of the bench file: gives endpoint, profile, --allow-write and identity");
   app.add_option("--profile", run.profile, "What the device declares: a name from the profiles folder, or a JSON file");
   app.add_option("--filter", run.filter, "Cases by id: globs separated by ':', a leading '-' excludes");
   app.add_option("--vectors", run.vectors, "Another folder of vectors");
   app.add_option("--out", run.out, "Folder of the reports")->capture_default_str();
   app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");
   app.add_option("--json", run.json, "JSON file, instead of OUT/results.json");
-  app.add_option("--waivers", run.waivers, "JSON file of accepted failures: id, reason, expires");
+  app.add_option("--html", run.html, "HTML file, instead of OUT/report.html; with --qualify it holds a sheet to sign");
+  app.add_option("--capture", run.capture, "The traffic as pcapng for Wireshark; Modbus RTU: tshark -d rtacser.data,mbrtu");
+  app.add_option("--waivers", run.waivers, "JSON file of accepted failures: id, reason, owner, text, expires, firmware");
+  app.add_option("--baseline", run.baseline, "Results of an earlier run: what got worse since then fails the gate");
   app.add_option("--allow-write", run.allow_write, "Real devices: what may be written: M, M100-M199, all (outputs P, Q, U only when named)");
   app.add_option("--power-cycle", run.power_cycle, "Command that switches a real device off and on");
   app.add_option("--floor", run.floor_ms, "The adapter's own uncertainty in ms: shorter limits are INCONCLUSIVE")->check(CLI::NonNegativeNumber);
   app.add_option("--seed", run.seed, "Shuffle the cases by this seed")->check(CLI::Range(0, 99'999));
   app.add_option("--repeat", run.repeat, "Run the selection so many times")->check(CLI::Range(1, 1'000'000));
-  app.add_flag("--strict", run.strict, "NON-STRICT fails the gate");
-  app.add_option_function<std::string>("--fail-on", [&run](const std::string&) { run.fail_on_marginal = true; }, "marginal: MARGINAL fails the gate")
-      ->check(CLI::IsMember({"marginal"}));
-  app.add_flag("--qualify", run.qualify, "BLOCKED and INCONCLUSIVE fail the gate");
+  add_gate(app, run);
   app.add_flag("--fail-fast", run.fail_fast, "Stop at the first verdict that fails the gate");
   app.add_flag("--dry-run", run.dry_run, "Print what would run");
   app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
@@ -77,8 +102,13 @@ int run_tool(int argc, char** argv) {
   CLI::App* list_app = app.add_subcommand("list", "List the cases");
   list_app->add_option("--filter,filter", list.filter, "Cases by id: globs separated by ':'");
   list_app->add_option("--vectors", list.vectors, "Another folder of vectors");
-  list_app->add_flag("--coverage", list.coverage, "Statements of the manuals by section, and those without a vector");
-  list_app->add_flag("--json", list.json, "Each expanded case with the bytes of its steps");
+  list_app->add_flag("--coverage", list.coverage, "Traceability: the statements of the manuals, their vectors, and what is not tested and why");
+  list_app->add_option("--results", list.results, "With --coverage: the verdicts of this run (NDJSON, JSON or JUnit)");
+  list_app->add_option("--html", list.html, "With --coverage: HTML file");
+  list_app->add_option("--min-coverage", list.min_coverage, "With --coverage: exit 1 below this share of statements that have a vector, or were judged in --results")
+      ->check(CLI::Range(0.0, 100.0));
+  CLI::Option* list_json = list_app->add_flag("--json", list.json, "Each expanded case with the bytes of its steps; with --coverage: each statement");
+  list_app->add_flag("--markdown", list.markdown, "With --coverage: tables")->excludes(list_json);
 
   LintOptions lint;
   CLI::App* lint_app = app.add_subcommand("lint", "Check vectors, statements and profiles");
@@ -88,29 +118,58 @@ int run_tool(int argc, char** argv) {
 
   EmulateOptions emulate;
   CLI::App* emulate_app = app.add_subcommand("emulate", "A stand-in device behind a pty or a socket");
-  emulate_app->add_option("model", emulate.model, "MODEL[?station=1&...]: xbm-s, xbc-h, xec-h")->required();
+  emulate_app->add_option("model", emulate.model, "MODEL[?station=1&protocol=...]: xbc-h, xbm-s, xec-h, inverter")->required();
   CLI::Option* tcp = emulate_app->add_option("--tcp", emulate.tcp, "Listen on HOST:PORT");
   emulate_app->add_option("--pty", emulate.pty, "A terminal to open, or the link to a new pty")->excludes(tcp);
   emulate_app->add_option("--control", emulate.control, "Back door of the harness")->group("");
   emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
   emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");
 
+  ProbeOptions probe;
+  CLI::App* probe_app = app.add_subcommand("probe", "Find the device on a port: speed, frame, station, protocol; or say what is wrong with the line");
+  probe_app->add_option("endpoint", probe.endpoint, "serial:PATH, rfc2217:HOST:PORT, tcp:HOST:PORT, exec:COMMAND; emulator:MODEL?line=38400-8E1 to try it out")->required();
+  probe_app->add_option("--station", probe.stations, "Only these: 5 or 0-31 (default 0-31)")->delimiter(',')->allow_extra_args(false);
+  probe_app->add_option("--speed", probe.speeds, "Only these: 9600 (default 1200 to 115200)")->delimiter(',')->allow_extra_args(false);
+  probe_app->add_option("--frame", probe.frames, "Only these: 8N1 (default 8 or 7 data bits, parity N, E or O)")->delimiter(',')->allow_extra_args(false);
+  probe_app->add_option("--protocol", probe.protocols, "Only these: xgt-cnet (default each that has a harmless read)")->delimiter(',')->allow_extra_args(false);
+  probe_app->add_option("--wait", probe.wait_ms, "How long an answer may take, in ms")->capture_default_str()->check(CLI::Range(1, 60'000));
+  probe_app->add_flag("--all", probe.all, "Go on after the first find");
+  probe_app->footer("Exit codes: 0 found, 1 something is wrong and named, 2 usage, 3 port trouble, 130 interrupted.");
+
   FrameOptions frame;
   CLI::App* frame_app = app.add_subcommand("frame", "Explain a frame field by field, with its checks computed");
   frame_app->add_option("frame", frame.frame, "Notation, hex or raw: \"[ENQ st 'rSS' '01' name(%MW100) EOT BCC]\"")->required();
-  frame_app->add_option("--protocol", frame.protocol)->capture_default_str();
+  frame_app->add_option("--protocol", frame.protocol, "the one that the frame fits best when absent");
   frame_app->add_option("--station", frame.station, "What `st` stands for")->capture_default_str()->check(CLI::Range(0, 255));
 
   ErrataOptions errata;
   CLI::App* errata_app = app.add_subcommand("errata", "List the mistakes of the manuals and their proofs");
   errata_app->add_option("--vectors", errata.vectors, "Another folder of vectors");
-  errata_app->add_flag("--json", errata.json);
+  CLI::Option* errata_json = errata_app->add_flag("--json", errata.json);
+  errata_app->add_flag("--markdown", errata.markdown)->excludes(errata_json);
 
   ReportOptions report;
-  CLI::App* report_app = app.add_subcommand("report", "Derive JUnit and JSON from the results of a run, finished or killed");
+  CLI::App* report_app = app.add_subcommand("report", "Derive JUnit, JSON, HTML and a capture from the results of a run, finished or killed");
   report_app->add_option("results", report.ndjson, "OUT/results.ndjson")->required();
   report_app->add_option("--junit", report.junit);
   report_app->add_option("--json", report.json);
+  report_app->add_option("--html", report.html);
+  report_app->add_option("--capture", report.capture, "pcapng for Wireshark");
+
+  CompareOptions compare;
+  CLI::App* compare_app = app.add_subcommand("compare", "What changed between runs: verdicts, reasons, reply times");
+  compare_app->add_option("results", compare.files, "Results of two or more runs (NDJSON, JSON or JUnit): each is compared with the first")
+      ->required()
+      ->expected(2, -1);
+  compare_app->add_option("--html", compare.html, "HTML file of the comparison");
+  compare_app->add_option("--junit", compare.junit, "JUnit file of the comparison: what got worse is a failure");
+  compare_app->footer("Exit codes: 0 nothing got worse, 1 something got worse, 2 a file cannot be read.");
+
+  JudgeOptions judge;
+  CLI::App* judge_app = app.add_subcommand("judge", "Judge a recorded run again by today's vectors, without the device");
+  add_judge(*judge_app, judge);
+  judge_app->footer(exit_codes);
+  judge.command = command_line(argc, argv);
 
   run_app->callback([&] {
     const std::string wrong = unknown_argument(run_app->remaining(), run.gtest_arguments);
@@ -119,8 +178,11 @@ int run_tool(int argc, char** argv) {
   list_app->callback([&] { chosen = [&] { return list_command(list); }; });
   lint_app->callback([&] { chosen = [&] { return lint_command(lint); }; });
   emulate_app->callback([&] { chosen = [&] { return emulate_command(emulate); }; });
+  probe_app->callback([&] { chosen = [&] { return probe_command(probe); }; });
   frame_app->callback([&] { chosen = [&] { return frame_command(frame); }; });
   errata_app->callback([&] { chosen = [&] { return errata_command(errata); }; });
+  compare_app->callback([&] { chosen = [&] { return compare_command(compare); }; });
+  judge_app->callback([&] { chosen = [&] { return judge_command(judge); }; });
   report_app->callback([&] { chosen = [&] { return report_command(report); }; });
 
   try {

@@ -1,286 +1,158 @@
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <optional>
-#include <sys/ioctl.h>
-#include <unistd.h>
+#include <set>
 
-#include "harness/bench/bench.hpp"
+#include "harness/bench/benches.hpp"
 #include "harness/bench/runner.hpp"
 #include "harness/bench/watchdog.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/paths.hpp"
+#include "harness/cli/compare_command.hpp"
+#include "harness/cli/run_plan.hpp"
+#include "harness/cli/run_report.hpp"
+#include "harness/cli/timestamp.hpp"
+#include "harness/cli/tool_vectors.hpp"
 #include "harness/endpoints/interrupt.hpp"
 #include "harness/results/ndjson.hpp"
-#include "harness/vectors/loader.hpp"
-#include "reports/case_text.hpp"
-#include "reports/console.hpp"
-#include "reports/json_report.hpp"
-#include "reports/junit.hpp"
 
 namespace fieldproof {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string timestamp() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S%z", std::localtime(&now));
-  std::string stamp(text);
-  return stamp.insert(stamp.size() - 2, ":");  // ISO 8601 writes +01:00
-}
-
 Gate gate_of(const RunOptions& options) { return {options.strict, options.fail_on_marginal, options.qualify}; }
 
-ConsoleOptions console_options(const RunOptions& options) {
-  ConsoleOptions console;
-  console.gate = gate_of(options);
-  console.verbose = options.verbose;
-  console.terminal = isatty(STDOUT_FILENO) != 0;
-  console.colour = std::getenv("NO_COLOR") == nullptr;
-  winsize size{};
-  if (console.terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20) console.width = size.ws_col;
-  return console;
-}
-
-/// The model that an endpoint emulates is its profile; a real device has one of its own.
-std::string profile_name(const RunOptions& options, const EndpointName& endpoint) {
-  if (!options.profile.empty()) return options.profile;
-  const bool emulated = endpoint.kind == "emulator" || endpoint.kind == "pty";
-  if (emulated) return endpoint.target.empty() ? "emulator" : endpoint.target;
-  complain("no --profile given: judged as xbc-h, whose every decision binds; a real module wants a profile of its own, such as xbc-dxxxh", 0);
-  return "xbc-h";
-}
-
-/// Everything that is settled before a byte is sent.
-struct Plan {
-  EndpointName endpoint;
-  const Protocol* protocol = nullptr;
-  BenchOptions bench;
-  VectorSet vectors;
-  std::vector<const Case*> selected;
-};
-
-std::string replay_command(const RunOptions& options) {
-  std::string command = "fieldproof run --endpoint " + shell_word(options.endpoint);
-  if (!options.profile.empty()) command += " --profile " + shell_word(options.profile);
-  if (!options.vectors.empty()) command += " --vectors " + shell_word(options.vectors);
-  for (const std::string& range : options.allow_write) command += " --allow-write " + shell_word(range);
-  return command + " --filter ";
-}
-
-Result<BenchOptions> bench_options(const RunOptions& options, const EndpointName& endpoint, const DataPaths& data) {
-  BenchOptions bench;
-  Result<Profile> profile = load_profile(profile_name(options, endpoint), data.profiles);
-  if (!profile) return profile.error();
-  bench.profile = std::move(*profile);
-  if (options.floor_ms > 0) bench.profile.floor = Duration(static_cast<Duration::rep>(options.floor_ms * 1e6));
-  for (const std::string& range : options.allow_write)
-    if (Status allowed = bench.fence.allow(range); !allowed) return allowed.error();
-  if (!options.waivers.empty()) {
-    Result<std::vector<Waiver>> waivers = load_waivers(options.waivers);
-    if (!waivers) return waivers.error();
-    bench.waivers = std::move(*waivers);
-  }
-  nlohmann::json station{{"station", endpoint.option("station", "1")}};
-  const std::optional<int> number = config_station(station, 1);
-  if (!number) return fail(fmt::format("station '{}' is not a number from 0 to 255", endpoint.option("station", "1")));
-  bench.station = *number;
-  bench.today = timestamp().substr(0, 10);
-  bench.power_cycle_command = options.power_cycle;
-  bench.replay = replay_command(options);
-  return bench;
-}
-
-Result<Plan> make_plan(const RunOptions& options) {
-  Plan plan;
-  const DataPaths data = find_data();
-  Result<EndpointName> endpoint = parse_endpoint(options.endpoint);
-  if (!endpoint) return endpoint.error();
-  plan.endpoint = std::move(*endpoint);
-  const std::string protocol = plan.endpoint.option("protocol", "xgt-cnet");
-  plan.protocol = find_protocol(protocol);
-  if (!plan.protocol) return fail(fmt::format("no protocol '{}' in the endpoint; there is {}", protocol, protocols().front()->name()));
-  Result<BenchOptions> bench = bench_options(options, plan.endpoint, data);
-  if (!bench) return bench.error();
-  plan.bench = std::move(*bench);
-  plan.vectors = load_vectors(options.vectors.empty() ? data.vectors : fs::path(options.vectors), data.vectors / "schema.json");
-  if (!plan.vectors.problems.empty())
-    return fail(fmt::format("{}\n{} in the vectors; nothing was sent. `fieldproof lint` shows them all", fmt::join(plan.vectors.problems, "\n"),
-                            plan.vectors.problems.size() == 1 ? "1 problem" : fmt::format("{} problems", plan.vectors.problems.size())));
-  std::vector<std::string> ids;
-  for (const Case& one : plan.vectors.cases) {
-    ids.push_back(one.id);
-    if (matches_filter(one.id, options.filter)) plan.selected.push_back(&one);
-  }
-  if (const std::vector<std::string> lost = unmatched(plan.bench.waivers, ids); !lost.empty())
-    return fail(fmt::format("waivers for unknown cases: {}; remove or correct them", fmt::join(lost, ", ")));
-  return plan;
-}
-
-/// The run itself: cases to results, results to the NDJSON file and the console.
+/// The run itself: cases to results.
 class Run {
  public:
-  Run(const RunOptions& options, Plan& plan, Bench& bench, NdjsonWriter& writer)
-      : options_(options), plan_(plan), bench_(bench), writer_(writer), console_(console_options(options)) {}
+  Run(const RunOptions& options, RunPlan& plan, Benches& benches, RunReport& report)
+      : options_(options), plan_(plan), benches_(benches), report_(report) {}
 
-  RunInfo info(const Endpoint& endpoint) const {
+  RunInfo info() const {
     RunInfo info;
     info.tool_version = FIELDPROOF_VERSION;
     info.started = timestamp();
-    info.endpoint = endpoint.describe();
+    info.endpoint = benches_.describe();
     info.profile = plan_.bench.profile.name;
     info.command = options_.command;
     info.vectors_hash = plan_.vectors.hash;
     info.properties["gate"] = to_string(gate_of(options_));
     info.properties["station"] = std::to_string(plan_.bench.station);
-    info.properties["protocol"] = plan_.protocol->name();
+    info.properties["protocol"] = benches_.protocol_names();
     if (!plan_.bench.profile.title.empty()) info.properties["device"] = plan_.bench.profile.title;
     if (options_.seed >= 0) info.properties["seed"] = std::to_string(options_.seed);
     if (options_.repeat > 1) info.properties["repeat"] = std::to_string(options_.repeat);
+    if (!plan_.line.empty()) info.properties["line"] = plan_.line;
+    info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan_.bench.profile.response_max));
+    info.identity = plan_.identity;
+    info.hashes = plan_.hashes;
+    info.errata = errata();
     return info;
   }
 
+  /// Sanity exchange, cases, sanity exchange; how it ended.
+  RunReport::End execute() {
+    if (const Status alive = benches_.start(); alive) {
+      RunnerOptions runner{options_.repeat, options_.seed >= 0, std::max(0, options_.seed), options_.gtest_arguments};
+      run_with_gtest(plan_.selected, runner, [this](const Case& source, int repeat) { return run_case(source, repeat); });
+      // The last sanity exchange: whatever the cases left behind, the device still answers.
+      if (!interrupted())
+        if (const Status still = benches_.start(); !still && !still.error().interrupted) end_.trouble = "after the last case: " + still.error().message;
+      // Waivers that the whole run has shown to be needless turn the gate red.
+      for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors))) report_.add(result);
+    } else if (alive.error().interrupted) {
+      end_.interrupted = true;
+    } else {
+      end_.trouble = alive.error().message;
+    }
+    return end_;
+  }
+
+ private:
   /// False: stop here.
   bool run_case(const Case& source, int repeat) {
     if (interrupted()) {
-      interrupted_ = true;
+      end_.interrupted = true;
       return false;
     }
-    show(progress_line(tally_.total(), plan_.selected.size() * static_cast<std::size_t>(options_.repeat), tally_, source.id, console_));
+    report_.show_progress(plan_.selected.size() * static_cast<std::size_t>(options_.repeat), source.id);
     const auto started = std::chrono::steady_clock::now();
     watchdog_.watch(source.id);
-    CaseResult result = bench_.run(source);
+    CaseResult result = benches_.run(source);
     const bool hung = watchdog_.done();
-    if (bench_.interrupted() && !hung) {
-      interrupted_ = true;  // the case was not finished: it has no result
+    if (benches_.interrupted() && !hung) {
+      end_.interrupted = true;  // the case was not finished: it has no result
       return false;
     }
     if (hung) result.message = "the bench hung in this case for more than a minute; " + result.message;
+    waivers_.apply(result);
     result.repeat = repeat;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    return report(result) && !hung;
+    const bool stop_here = hung || (options_.fail_fast && gates(result.verdict, report_.gate()));
+    return report_.add(result) && !stop_here;
   }
 
-  int finish(const std::string& trouble, std::chrono::steady_clock::time_point started, const std::vector<std::pair<std::string, std::string>>& reports) {
-    Summary summary;
-    summary.tally = tally_;
-    summary.end.finished = timestamp();
-    summary.end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    summary.end.interrupted = interrupted_;
-    summary.end.trouble = !trouble.empty() ? trouble : write_trouble_;
-    summary.end.exit_code = code(!summary.end.trouble.empty());
-    summary.red = red_;
-    summary.reports = reports;
-    show(erase_progress(console_));
-    if (const Status written = writer_.write(summary.end); !written) complain(written.error().message, 0);
-    summary_ = summary;
-    return summary.end.exit_code;
-  }
-
-  void interrupt() { interrupted_ = true; }
-  void print_summary() { show(run_summary(*summary_, console_)); }
-  const ConsoleOptions& console() const { return console_; }
-
- private:
-  bool report(const CaseResult& result) {
-    tally_.add(result.verdict);
-    const bool is_red = gates(result.verdict, console_.gate);
-    if (is_red && red_.size() < 1000) red_.push_back(case_label(result));
-    if (const std::string text = case_report(result, console_); !text.empty()) show(erase_progress(console_) + text);
-    if (const Status written = writer_.write(result); !written) {
-      write_trouble_ = written.error().message;
-      return false;
-    }
-    return !(options_.fail_fast && is_red);
-  }
-
-  int code(bool in_trouble) const {
-    if (interrupted_) return exit_code::interrupted;
-    if (in_trouble) return exit_code::trouble;
-    // GoogleTest deals the cases out to shards; one of them may get none.
-    if (tally_.total() == 0 && std::getenv("GTEST_TOTAL_SHARDS")) return exit_code::ok;
-    return gate_exit_code(tally_, console_.gate, false);
-  }
-
-  static void show(const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    if (!text.empty()) std::fflush(stdout);
+  /// The mistakes of the manuals that the selected cases met.
+  std::vector<ErratumInfo> errata() const {
+    std::set<std::string> selected;
+    for (const Case* one : plan_.selected) selected.insert(one->vector_id);
+    std::vector<ErratumInfo> met;
+    for (const Erratum& one : plan_.vectors.errata)
+      if (selected.contains(one.vector_id)) met.push_back(erratum_info(one));
+    return met;
   }
 
   const RunOptions& options_;
-  Plan& plan_;
-  Bench& bench_;
-  NdjsonWriter& writer_;
-  ConsoleOptions console_;
+  RunPlan& plan_;
+  Benches& benches_;
+  RunReport& report_;
   Watchdog watchdog_;
-  Tally tally_;
-  std::vector<std::string> red_;
-  std::optional<Summary> summary_;
-  std::string write_trouble_;
-  bool interrupted_ = false;
+  Waivers waivers_{plan_.waivers, timestamp().substr(0, 10), plan_.identity.firmware};
+  RunReport::End end_;
 };
 
-int derive_reports(const std::string& ndjson, const std::vector<std::pair<std::string, std::string>>& reports, const Gate& gate) {
-  int code = exit_code::ok;
-  for (const auto& [kind, path] : reports) {
-    if (kind == "results") continue;
-    const Result<Tally> written = kind == "junit" ? write_junit(ndjson, path, gate) : write_json(ndjson, path);
-    if (!written) code = complain(written.error().message, exit_code::trouble);
-  }
-  return code;
-}
-
-int dry_run(const Plan& plan) {
+int dry_run(const RunPlan& plan) {
   for (const Case* one : plan.selected) fmt::print("{:<58} {}\n", one->id, one->title);
   fmt::print("{} cases would run on {}:{}\n", plan.selected.size(), plan.endpoint.kind, plan.endpoint.target);
   return exit_code::ok;
 }
 
-std::string out_path(const RunOptions& options, const std::string& given, const char* name) {
-  return given.empty() ? (fs::path(options.out) / name).string() : given;
+/// The results of this run against those of an earlier one, as far as it has the selected cases; was anything better then?
+bool worse_than(const RunSummary& baseline, const RunOptions& options, RunReport& report) {
+  const Result<ResultFile> now = read_result_file(report.paths().front().second);
+  if (!now) return complain(now.error().message, 0), false;
+  const ComparisonSet set({baseline, summarize(*now)});
+  const std::filesystem::path out = options.out;
+  const std::string html = (out / "compare.html").string(), junit = (out / "compare.xml").string();
+  if (const Status reported = report_comparison(set, html, junit); !reported) complain(reported.error().message, 0);
+  report.add_path("compare", html);
+  report.add_path("compare", junit);
+  return set.worse();
 }
 
-int execute(const RunOptions& options, Plan& plan, Endpoint& endpoint) {
-  std::error_code failed;
-  fs::create_directories(options.out, failed);
-  if (failed) return complain(fmt::format("cannot make the folder {}: {}; name another with --out", options.out, failed.message()), exit_code::trouble);
-  const std::string ndjson = out_path(options, "", "results.ndjson");
-  Result<NdjsonWriter> writer = NdjsonWriter::create(ndjson);
-  if (!writer) return complain(writer.error().message, exit_code::trouble);
+/// The baseline's results of the selected cases.
+Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const RunPlan& plan) {
+  if (options.baseline.empty()) return std::optional<RunSummary>();
+  Result<ResultFile> file = read_result_file(options.baseline);
+  if (!file) return file.error();
+  std::set<std::string> selected;
+  for (const Case* one : plan.selected) selected.insert(one->id);
+  std::erase_if(file->results, [&](const CaseResult& one) { return !selected.contains(one.id); });
+  return std::optional(summarize(*file));
+}
 
-  const std::vector<std::pair<std::string, std::string>> reports{
-      {"results", ndjson}, {"json", out_path(options, options.json, "results.json")}, {"junit", out_path(options, options.junit, "junit.xml")}};
-  const auto started = std::chrono::steady_clock::now();
-  Bench bench(endpoint, *plan.protocol, plan.bench);
-  Run run(options, plan, bench, *writer);
-  const RunInfo info = run.info(endpoint);
-  if (const Status written = writer->write(info); !written) return complain(written.error().message, exit_code::trouble);
-  fmt::print("{}", run_head(info));
-
-  std::string trouble;
-  if (const Status alive = bench.start(); alive) {
-    RunnerOptions runner{options.repeat, options.seed >= 0, std::max(0, options.seed), options.gtest_arguments};
-    run_with_gtest(plan.selected, runner, [&run](const Case& source, int repeat) { return run.run_case(source, repeat); });
-    // The last sanity exchange: whatever the cases left behind, the device still answers.
-    if (bench.stopped().empty() && !interrupted())
-      if (const Status still = bench.start(); !still && !still.error().interrupted) trouble = "after the last case: " + still.error().message;
-  } else if (alive.error().interrupted) {
-    run.interrupt();
-  } else {
-    trouble = alive.error().message;
-  }
-  int code = run.finish(trouble, started, reports);
-  const int report_code = derive_reports(ndjson, reports, run.console().gate);
-  if (!trouble.empty()) complain(trouble, 0);
-  run.print_summary();
-  return code == exit_code::ok || code == exit_code::nothing ? std::max(code, report_code) : code;
+int execute(const RunOptions& options, RunPlan& plan, Benches& benches, const std::optional<RunSummary>& baseline) {
+  Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
+  if (!paths) return complain(paths.error().message, exit_code::trouble);
+  if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
+  Result<RunReport> report = RunReport::create(std::move(*paths), console_options(gate_of(options), options.verbose));
+  if (!report) return complain(report.error().message, exit_code::trouble);
+  Run run(options, plan, benches, *report);
+  if (const Status begun = report->begin(run.info()); !begun) return complain(begun.error().message, exit_code::trouble);
+  RunReport::End end = run.execute();
+  if (baseline) end.worse = worse_than(*baseline, options, *report);
+  return report->finish(end);
 }
 
 }  // namespace
@@ -299,24 +171,25 @@ int complain(const std::string& message, int code) {
 }
 
 int run_command(const RunOptions& options) {
-  Result<Plan> plan = make_plan(options);
+  Result<RunPlan> plan = make_run_plan(options);
   if (!plan) return complain(plan.error().message, exit_code::usage);
   if (plan->selected.empty())
     return complain(fmt::format("no case matches --filter '{}'; `fieldproof list` shows them all", options.filter), exit_code::nothing);
   if (options.dry_run) return dry_run(*plan);
+  const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
+  if (!baseline) return complain(baseline.error().message, exit_code::usage);
   catch_interrupts();
-  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(plan->endpoint);
-  if (!endpoint) return complain(endpoint.error().message, options.skip_absent && endpoint.error().absent ? exit_code::absent : exit_code::trouble);
-  return execute(options, *plan, **endpoint);
+  Result<Benches> benches = Benches::open(plan->endpoint, plan->protocols, plan->bench);
+  if (!benches) return complain(benches.error().message, options.skip_absent && benches.error().absent ? exit_code::absent : exit_code::trouble);
+  return execute(options, *plan, *benches, *baseline);
 }
 
 int report_command(const ReportOptions& options) {
-  if (options.junit.empty() && options.json.empty()) return complain("nothing to write; give --junit FILE, --json FILE or both", exit_code::usage);
+  ReportPaths reports{{"junit", options.junit}, {"json", options.json}, {"html", options.html}, {"capture", options.capture}};
+  std::erase_if(reports, [](const auto& one) { return one.second.empty(); });
+  if (reports.empty()) return complain("nothing to write; give --junit FILE, --json FILE, --html FILE, --capture FILE or several", exit_code::usage);
   const Result<RunLog> log = read_ndjson(options.ndjson, [](const CaseResult&) {});
   if (!log) return complain(log.error().message, exit_code::usage);
-  std::vector<std::pair<std::string, std::string>> reports;
-  if (!options.junit.empty()) reports.emplace_back("junit", options.junit);
-  if (!options.json.empty()) reports.emplace_back("json", options.json);
   const auto gate = log->run.properties.find("gate");
   return derive_reports(options.ndjson, reports, gate == log->run.properties.end() ? Gate{} : parse_gate(gate->second));
 }

@@ -1,7 +1,10 @@
 // Each verdict and each exit code of DESIGN's tables, made once by a real run of the built tool.
 #include <gmock/gmock.h>
 
+#include <regex>
+
 #include "harness/cli/tool_files.hpp"
+#include "reports/testdata/parsed_html.hpp"
 
 namespace fieldproof {
 namespace {
@@ -81,8 +84,8 @@ class Verdicts : public testing::Test {
     for (const Expectation& one : expectations()) vectors.push_back(one.vector);
     vectors_ = write_vectors(folder_, vectors);
     waivers_ = folder_.write("waivers.json", R"([
-      {"id": "xgt_cnet/v/waived", "reason": "known fault of this firmware", "owner": "bench", "expires": "2999-01-01"},
-      {"id": "xgt_cnet/v/waived_in_vain", "reason": "was a fault once", "owner": "bench", "expires": "2999-01-01"}])");
+      {"id": "xgt_cnet/v/waived", "reason": "known fault of this firmware", "owner": "bench", "text": "data:", "expires": "2999-01-01"},
+      {"id": "xgt_cnet/v/waived_in_vain", "reason": "was a fault once", "owner": "bench", "text": "data:", "expires": "2999-01-01"}])");
   }
 
   Finished run(const std::string& filter, std::vector<std::string> more = {}) {
@@ -123,6 +126,37 @@ TEST_F(Verdicts, junit_shows_each_as_the_design_says) {
   }
 }
 
+/// Console, JSON, JUnit, HTML and exit code tell of the same run.
+TEST_F(Verdicts, every_report_counts_alike) {
+  for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--strict", "--qualify", "--fail-on", "marginal"}}) {
+    const Finished finished = run("*", options);
+    const std::map<std::string, std::size_t> counts = results().counts();
+    const std::string html = read_text(folder_ / "out/report.html");
+    const samples::ParsedHtml page(html);
+    EXPECT_TRUE(samples::xmllint_accepts(folder_ / "out/report.html"));
+    const auto json = nlohmann::json::parse(read_text(folder_ / "out/results.json"))["counts"];
+    Junit junit;
+    read_junit(folder_ / "out/junit.xml", junit);
+    ASSERT_EQ(counts.size(), 11u);
+    std::size_t red = 0;
+    for (const auto& [verdict, count] : counts) {
+      EXPECT_EQ(page.tile(verdict), count) << verdict;
+      EXPECT_EQ(json[verdict], count) << verdict;
+      EXPECT_TRUE(std::regex_search(finished.out, std::regex(" +" + std::to_string(count) + "  " + verdict + " "))) << verdict << '\n' << finished.out;
+      const std::string cell = "//details[@class='section']/summary/span[@data-verdict='" + verdict + "']";
+      EXPECT_EQ(page.text(cell), std::to_string(count)) << verdict << ": all vectors of these tests are of one section";
+      const bool always = verdict == "FAIL" || verdict == "XPASS" || verdict == "ERROR";
+      const bool judged = verdict == "NON-STRICT" || verdict == "MARGINAL", unjudged = verdict == "BLOCKED" || verdict == "INCONCLUSIVE";
+      if (always || (!options.empty() && (judged || unjudged))) red += count;
+    }
+    EXPECT_EQ(page.text("//h2[@id='red']"), std::to_string(red) + " cases turn the gate red");
+    const std::size_t not_judged = options.empty() ? 0 : counts.at("BLOCKED") + counts.at("INCONCLUSIVE");
+    EXPECT_EQ(junit.failures + junit.errors + not_judged, red);
+    EXPECT_THAT(page.text("//p[@class='detail']"), HasSubstr("(exit " + std::to_string(finished.code) + ")"));
+    EXPECT_EQ(page.count("//section[@class='sheet']"), options.empty() ? 0u : 1u);
+  }
+}
+
 TEST_F(Verdicts, exit_code_of_each_alone) {
   for (const Expectation& one : expectations()) {
     const Finished finished = run(id_of(one));
@@ -149,7 +183,7 @@ TEST_F(Verdicts, strict_shows_non_strict_as_failure) {
 }
 
 TEST_F(Verdicts, expired_waiver_is_red) {
-  const std::string expired = folder_.write("expired.json", R"([{"id": "xgt_cnet/v/fail", "reason": "known fault", "expires": "2020-01-01"}])");
+  const std::string expired = folder_.write("expired.json", R"([{"id": "xgt_cnet/v/fail", "reason": "known fault", "owner": "bench", "text": "data:", "expires": "2020-01-01"}])");
   const Finished finished = run_tool({"run", "--vectors", vectors_, "--filter", "xgt_cnet/v/fail", "--waivers", expired, "--out", folder_ / "out"});
   EXPECT_EQ(finished.code, 1);
   EXPECT_EQ(results().verdict("xgt_cnet/v/fail"), "FAIL");
@@ -158,7 +192,7 @@ TEST_F(Verdicts, expired_waiver_is_red) {
 
 TEST_F(Verdicts, waiver_for_another_failure_is_red) {
   const std::string other =
-      folder_.write("other.json", R"([{"id": "xgt_cnet/v/fail", "reason": "known fault", "expires": "2999-01-01", "text": "no answer"}])");
+      folder_.write("other.json", R"([{"id": "xgt_cnet/v/fail", "reason": "known fault", "owner": "bench", "text": "no answer", "expires": "2999-01-01"}])");
   const Finished finished = run_tool({"run", "--vectors", vectors_, "--filter", "xgt_cnet/v/fail", "--waivers", other, "--out", folder_ / "out"});
   EXPECT_EQ(finished.code, 1);
   EXPECT_EQ(results().verdict("xgt_cnet/v/fail"), "FAIL");

@@ -68,7 +68,6 @@ Status DeviceHost::begin(const json& config) {
   json merged = options_.config;
   merged.update(config);
   if (!options_.model.empty()) merged["model"] = options_.model;
-  merged.emplace("model", "xbc-h");
   merged.emplace("station", 1);  // as the in-process emulator, and as a bench asks by default
   merged.emplace("inter_character_floor_ms", options_.inter_character_floor_ms);
   Result<std::unique_ptr<EmulatedDevice>> device = options_.make_device(merged);

@@ -31,7 +31,7 @@ std::string monitor_line(const Traffic& traffic);
 
 struct HostOptions {
   DeviceFactory make_device;
-  std::string model;                                     // empty: "model" of the configuration, else xbc-h
+  std::string model;                                     // empty: "model" of the configuration
   nlohmann::json config = nlohmann::json::object();      // of the first device, and defaults for those of `begin`
   std::string tty;                                       // --tty PATH, see host_on_tty
   std::string tcp;                                       // --tcp HOST:PORT; port 0: any

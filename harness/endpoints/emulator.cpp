@@ -13,9 +13,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* default_model = "xbc-h";
-constexpr const char* default_protocol = "xgt-cnet";
-
 Capabilities emulator_capabilities() {
   Capabilities capabilities;
   capabilities.simulated = capabilities.wire = capabilities.back_door = capabilities.can_power_cycle = true;
@@ -91,7 +88,7 @@ Status EmulatorEndpoint::begin(const json& given) {
   const json bench_line = take(config, "bench_line");
   const json neighbours = take(config, "neighbours");
   const json named = take(config, "model");
-  const std::string model = !model_.empty() ? model_ : named.is_string() ? named.get<std::string>() : default_model;
+  const std::string model = !model_.empty() ? model_ : named.is_string() ? named.get<std::string>() : std::string();
 
   const Result<LineSettings> bench = bench_line.is_null() ? line_of(config) : settings_of(bench_line, "bench_line");
   if (!bench) return bench.error();
@@ -166,16 +163,13 @@ std::string EmulatorEndpoint::line_errors() {
 }
 
 Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name) {
-  const std::string wanted = name.option("protocol", default_protocol);
-  const Protocol* protocol = find_protocol(wanted);
-  if (!protocol) {
-    std::vector<std::string_view> names;
-    for (const Protocol* one : protocols()) names.push_back(one->name());
-    return fail(fmt::format("cannot open emulator:{}: unknown protocol '{}'; the protocols are {}{}", name.target, wanted,
-                            fmt::join(names, ", "), suggestion(wanted, names)));
-  }
+  const Result<const Protocol*> chosen = choose_protocol(name.option("protocol", ""), name.target);
+  if (!chosen) return fail(fmt::format("cannot open emulator:{}: {}", name.target, chosen.error().message));
+  const Protocol* protocol = *chosen;
   auto endpoint = std::make_unique<EmulatorEndpoint>(
-      name, [protocol](std::string_view model, const json& config) { return protocol->make_device(model, config); });
+      name, [protocol](std::string_view model, const json& config) {
+        return protocol->make_device(model.empty() ? protocol->models().front() : model, config);
+      });
   if (const Status begun = endpoint->begin(json::object()); !begun) {
     return fail(fmt::format("cannot open emulator:{}: {}", name.target, begun.error().message));
   }

@@ -22,7 +22,7 @@ using Decorator = std::function<std::unique_ptr<Device>(Device& device, const Li
 
 class EmulatorEndpoint : public Endpoint {
  public:
-  /// The target of `name` is the model; without one it is the key "model" of each case, or xbc-h. Options are defaults
+  /// The target of `name` is the model; without one it is the key "model" of each case, or empty. Options are defaults
   /// for the keys of `given.config` and are overridden by it; "[...]" and "{...}" are read as JSON.
   EmulatorEndpoint(const EndpointName& name, DeviceFactory factory, Decorator decorate = {});
 
@@ -58,7 +58,7 @@ class EmulatorEndpoint : public Endpoint {
   std::unique_ptr<Device> decorated_;
 };
 
-/// The protocol of option `protocol` (default xgt-cnet) makes the devices. Opens with a device of the options alone, so
+/// The protocol of option `protocol`, else the first that has the model, makes the devices. Opens with a device of the options alone, so
 /// that a wrong model or option is reported at once.
 Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name);
 

@@ -59,7 +59,7 @@ std::vector<Asked> asked;
 
 Result<std::unique_ptr<EmulatedDevice>> make_tiny(std::string_view model, const json& config) {
   asked.push_back({std::string(model), config});
-  if (model != "tiny" && model != "xbc-h") return fail("unknown model '" + std::string(model) + "'");
+  if (model != "tiny" && !model.empty()) return fail("unknown model '" + std::string(model) + "'");
   for (const auto& [key, value] : config.items()) {
     if (key != "station" && key != "line" && key != "rs485") return fail("unknown key '" + key + "'");
   }
@@ -148,14 +148,14 @@ TEST_F(Emulator, SaysWhatItCan) {
   EXPECT_EQ(endpoint->describe(), "emulator tiny");
 }
 
-TEST_F(Emulator, TheTargetIsTheModelElseTheCaseElseXbcH) {
-  open("emulator:tiny", {{"model", "xbc-h"}});
+TEST_F(Emulator, TheTargetIsTheModelElseTheCaseElseTheDefaultOfTheProtocol) {
+  open("emulator:tiny", {{"model", "huge"}});
   open("emulator:", {{"model", "tiny"}});
   open("emulator:");
   ASSERT_EQ(asked.size(), 3u);
   EXPECT_EQ(asked[0].model, "tiny");
   EXPECT_EQ(asked[1].model, "tiny");
-  EXPECT_EQ(asked[2].model, "xbc-h");
+  EXPECT_EQ(asked[2].model, "");
 }
 
 TEST_F(Emulator, OptionsAreDefaultsThatTheCaseOverrides) {
@@ -275,7 +275,7 @@ TEST_F(Emulator, OpeningReportsAWrongProtocolModelOrOption) {
     return endpoint ? std::string("opened") : endpoint.error().message;
   };
   EXPECT_EQ(message("emulator:tiny?protocol=tinny"),
-            "cannot open emulator:tiny: unknown protocol 'tinny'; the protocols are tiny; did you mean 'tiny'?");
+            "cannot open emulator:tiny: there is no protocol 'tinny'; use one of tiny; did you mean 'tiny'?");
   EXPECT_EQ(message("emulator:huge?protocol=tiny"), "cannot open emulator:huge: unknown model 'huge'");
   EXPECT_EQ(message("emulator:tiny?protocol=tiny&colour=red"), "cannot open emulator:tiny: unknown key 'colour'");
 }
@@ -284,6 +284,5 @@ TEST_F(Emulator, OpeningReportsAWrongProtocolModelOrOption) {
 
 // The table of protocols stands in suites/; this test has its own.
 std::span<const Protocol* const> protocols() { return table; }
-const Protocol* find_protocol(std::string_view name) { return name == "tiny" ? &tiny_protocol : nullptr; }
 
 }  // namespace fieldproof

@@ -10,6 +10,7 @@
 #include "harness/endpoints/emulator.hpp"
 #include "harness/endpoints/exec.hpp"
 #include "harness/endpoints/pty.hpp"
+#include "harness/endpoints/rfc2217.hpp"
 #include "harness/endpoints/serial.hpp"
 #include "harness/endpoints/tcp.hpp"
 #include "src/base/spelling.hpp"
@@ -20,8 +21,8 @@ namespace {
 
 using Options = std::span<const std::string_view>;
 
-constexpr std::array<std::string_view, 3> link_options{"protocol", "station", "floor_ms"};
-constexpr std::array<std::string_view, 6> serial_options{"protocol", "station", "floor_ms", "baud", "frame", "rs485"};
+constexpr std::array<std::string_view, 3> link_keys{"protocol", "station", "floor_ms"};
+constexpr std::array<std::string_view, 6> serial_keys{"protocol", "station", "floor_ms", "baud", "frame", "rs485"};
 
 struct Kind {
   std::string_view name;
@@ -35,9 +36,11 @@ struct Kind {
 constexpr std::array kinds{
     Kind{"emulator", "", {}, false, open_emulator},
     Kind{"pty", "", {}, false, open_pty},
-    Kind{"serial", "/dev/ttyUSB0", serial_options, false, open_serial},
-    Kind{"exec", "COMMAND", link_options, true, open_exec},
-    Kind{"tcp", "HOST:PORT", link_options, false, open_tcp},
+    Kind{"serial", "/dev/ttyUSB0", serial_keys, false, open_serial},
+    Kind{"exec", "COMMAND", link_keys, true, open_exec},
+    Kind{"tcp", "HOST:PORT", link_keys, false, open_tcp},
+    Kind{"udp", "HOST:PORT", link_keys, false, open_udp},
+    Kind{"rfc2217", "HOST:PORT", serial_keys, false, open_rfc2217},
 };
 
 const Kind* find_kind(std::string_view name) {

@@ -70,7 +70,7 @@ TEST(EndpointName, ACommandMayBeFollowedByKnownOptions) {
 TEST(EndpointName, AnUnknownKindGetsASuggestion) {
   EXPECT_EQ(refusal("emulater:xbc-h"),
             "cannot read endpoint 'emulater:xbc-h': unknown kind 'emulater'; "
-            "the kinds are emulator, pty, serial, exec, tcp; did you mean 'emulator'?");
+            "the kinds are emulator, pty, serial, exec, tcp, udp, rfc2217; did you mean 'emulator'?");
   EXPECT_THAT(refusal("/dev/ttyUSB0"), HasSubstr("unknown kind '/dev/ttyUSB0'; the kinds are"));
   EXPECT_THAT(refusal(""), HasSubstr("unknown kind ''"));
 }
@@ -97,7 +97,7 @@ TEST(Endpoint, OpeningAnUnknownKindNamesTheKinds) {
   const auto endpoint = open_endpoint({.kind = "serail", .target = "/dev/ttyUSB0", .options = {}});
   ASSERT_FALSE(endpoint);
   EXPECT_THAT(endpoint.error().message, HasSubstr("cannot open an endpoint: unknown kind 'serail'; "
-                                                    "the kinds are emulator, pty, serial, exec, tcp; did you mean 'serial'?"));
+                                                    "the kinds are emulator, pty, serial, exec, tcp, udp, rfc2217; did you mean 'serial'?"));
 }
 
 class Plain : public Endpoint {

@@ -52,11 +52,14 @@ std::string port_user(const std::string& path) {
   if (::stat(path.c_str(), &port) != 0) return "";
   std::string process = lock_holder(port);
   if (process.empty()) process = opener(port);
-  if (process.empty()) return "";
+  return process.empty() ? "" : " by " + process_name(process);
+}
+
+std::string process_name(const std::string& process) {
   std::string name;
   std::ifstream comm("/proc/" + process + "/comm");
   std::getline(comm, name);
-  return " by process " + process + (name.empty() ? "" : " (" + name + ')');
+  return "process " + process + (name.empty() ? "" : " (" + name + ')');
 }
 
 }  // namespace fieldproof

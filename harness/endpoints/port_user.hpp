@@ -9,4 +9,7 @@ namespace fieldproof {
 /// /proc does not tell (another user's process).
 std::string port_user(const std::string& path);
 
+/// "process 1234 (minicom)"
+std::string process_name(const std::string& process);
+
 }  // namespace fieldproof

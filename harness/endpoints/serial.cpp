@@ -8,11 +8,13 @@
 #include <termios.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "harness/endpoints/fd_link.hpp"
 #include "harness/endpoints/options.hpp"
+#include "harness/endpoints/port_lock.hpp"
 #include "harness/endpoints/port_user.hpp"
 #include "harness/endpoints/serial_settings.hpp"
 
@@ -60,15 +62,16 @@ Error open_error(const std::string& path, int error) {
 
 class SerialEndpoint final : public Endpoint {
  public:
-  SerialEndpoint(const SystemCalls& calls, UniqueFd fd, std::string path, LineSettings settings, Direction direction, Duration floor)
+  SerialEndpoint(const SystemCalls& calls, UniqueFd fd, PortLock lock, std::string path, const SerialOptions& options)
       : calls_(calls),
+        lock_(std::move(lock)),
         path_(std::move(path)),
-        settings_(settings),
-        direction_(direction),
+        settings_(options.settings),
+        direction_(options.direction),
         link_(std::move(fd), "serial:" + path_) {
     capabilities_.real_device = true;
     capabilities_.wire = !is_pty(calls_, link_.fd());
-    capabilities_.timing_floor = floor;
+    capabilities_.timing_floor = options.floor;
     if (capabilities_.wire) link_.set_character_time(settings_.character_time());
     counting_ = read_line_errors(calls_, link_.fd(), counted_);
   }
@@ -104,6 +107,7 @@ class SerialEndpoint final : public Endpoint {
 
  private:
   SystemCalls calls_;
+  PortLock lock_;  // outlives link_: the port is free when its lock is
   Capabilities capabilities_;
   std::string path_;
   LineSettings settings_;
@@ -129,23 +133,21 @@ Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name) { return
 
 Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const SystemCalls& calls) {
   const std::string& path = name.target;
-  const Result<Duration> floor = timing_floor(name);
-  if (!floor) return floor.error();
-  const Result<LineSettings> settings = parse_line_settings(name.option("baud", "9600") + '-' + name.option("frame", "8N1"));
-  if (!settings) return fail("cannot open serial:" + path + ": " + settings.error().message);
-  const Result<Direction> direction = parse_direction(name.option("rs485", ""));
-  if (!direction) return fail("cannot open serial:" + path + ": " + direction.error().message);
+  const Result<SerialOptions> options = serial_options(name);
+  if (!options) return options.error();
   if (path.empty()) return fail("cannot open serial: there is no port; write serial:/dev/ttyUSB0; " + ports_there());
 
+  Result<PortLock> lock = PortLock::acquire(path);
+  if (!lock) return lock.error();
+  if (!lock->notice().empty()) std::fprintf(stderr, "fieldproof: %s\n", lock->notice().c_str());
   // O_NONBLOCK: a port without carrier must not block.
   UniqueFd fd(calls.open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd) return open_error(path, errno);
   if (const Status done = make_exclusive(calls, fd, path); !done) return done.error();
-  if (const Status done = apply_settings(calls, fd.get(), path, *settings); !done) return done.error();
-  if (const Status done = apply_direction(calls, fd.get(), path, *direction); !done) return done.error();
+  if (const Status done = apply_settings(calls, fd.get(), path, options->settings); !done) return done.error();
+  if (const Status done = apply_direction(calls, fd.get(), path, options->direction); !done) return done.error();
   calls.ioctl(fd.get(), TCFLSH, number(TCIOFLUSH));
-  return std::unique_ptr<Endpoint>(
-      std::make_unique<SerialEndpoint>(calls, std::move(fd), path, *settings, *direction, *floor));
+  return std::unique_ptr<Endpoint>(std::make_unique<SerialEndpoint>(calls, std::move(fd), std::move(*lock), path, *options));
 }
 
 }  // namespace fieldproof

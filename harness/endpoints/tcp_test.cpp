@@ -91,6 +91,67 @@ TEST_F(Tcp, AnInterruptEndsConnecting) {
   EXPECT_TRUE(endpoint.error().interrupted);
 }
 
+class Udp : public testing::Test {
+ protected:
+  void SetUp() override {
+    device.reset(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ASSERT_EQ(::bind(device.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
+    ASSERT_EQ(::getsockname(device.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
+    where = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  }
+  /// Waits for one datagram; answers go to its sender.
+  std::string hear() {
+    std::string text(4096, ' ');
+    socklen_t size = sizeof client;
+    const ssize_t n = ::recvfrom(device.get(), text.data(), text.size(), 0, reinterpret_cast<sockaddr*>(&client), &size);
+    return n < 0 ? "!" : text.substr(0, static_cast<std::size_t>(n));
+  }
+  void say(const std::string& text) {
+    ASSERT_EQ(::sendto(device.get(), text.data(), text.size(), 0, reinterpret_cast<sockaddr*>(&client), sizeof client), static_cast<ssize_t>(text.size()));
+  }
+  UniqueFd device;
+  sockaddr_in client{};
+  std::string where;
+};
+
+TEST_F(Udp, OneSendIsOneDatagramAndOneBurstIsOne) {
+  auto endpoint = open_udp(endpoint_name("udp", where));
+  ASSERT_TRUE(endpoint) << endpoint.error().message;
+  EXPECT_EQ((*endpoint)->describe(), "udp:" + where);
+  EXPECT_TRUE((*endpoint)->capabilities().datagrams);
+  ASSERT_TRUE((*endpoint)->send(to_bytes("one")));
+  ASSERT_TRUE((*endpoint)->send(to_bytes("two")));
+  EXPECT_EQ(hear(), "one");
+  EXPECT_EQ(hear(), "two");
+  say("first");
+  say("second");
+  for (const char* expected : {"first", "second"}) {
+    const Result<Burst> burst = (*endpoint)->receive((*endpoint)->now() + 5s);
+    ASSERT_TRUE(burst) << burst.error().message;
+    EXPECT_EQ(to_text(burst->bytes), expected);
+  }
+}
+
+TEST_F(Udp, ADeviceThatIsGoneIsSaidAndMayComeBack) {
+  auto endpoint = open_udp(endpoint_name("udp", where));
+  ASSERT_TRUE(endpoint);
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  ASSERT_EQ(::getsockname(device.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
+  device.reset();
+  ASSERT_TRUE((*endpoint)->send(to_bytes("anybody?")));
+  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message, HasSubstr("cannot receive from udp:" + where + ": the connection broke (connection refused)"));
+  device.reset(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  ASSERT_EQ(::bind(device.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_TRUE((*endpoint)->begin(nlohmann::json::object()));
+  ASSERT_TRUE((*endpoint)->send(to_bytes("again")));
+  EXPECT_EQ(hear(), "again");
+}
+
 TEST_F(Tcp, BracketsHoldAnAddressOfIpv6) {
   const Result<AddressInfo> list = resolve("[::1]:502", false);
   ASSERT_TRUE(list) << list.error().message;

@@ -80,7 +80,7 @@ class TinyDevice final : public EmulatedDevice {
 };
 
 inline Result<std::unique_ptr<EmulatedDevice>> make_tiny_device(const nlohmann::json& config) {
-  const std::string model = config.at("model").get<std::string>();
+  const std::string model = config.value("model", "xbc-h");
   if (model != "tiny" && model != "xbc-h") return fail("cannot make a device '" + model + "': the models are tiny and xbc-h");
   return std::unique_ptr<EmulatedDevice>(std::make_unique<TinyDevice>(config));
 }

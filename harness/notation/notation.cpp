@@ -1,5 +1,6 @@
 #include "harness/notation/notation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <fmt/format.h>
@@ -310,7 +311,17 @@ std::string print(const Notation& notation) {
   return text;
 }
 
+namespace {
+bool is_quotable(Byte b) { return b >= 0x20 && b < 0x7F && b != '\''; }
+
+/// More than a quarter of the bytes has neither a character nor a name: numbers, not text.
+bool is_binary(ByteView bytes) {
+  return 4 * std::ranges::count_if(bytes, [](Byte b) { return !is_quotable(b) && control_name(b).empty(); }) > std::ssize(bytes);
+}
+}  // namespace
+
 std::string print_bytes(ByteView bytes) {
+  if (is_binary(bytes)) return to_hex(bytes);
   std::string text;
   bool quoted = false;
   const auto separate = [&] {
@@ -319,7 +330,7 @@ std::string print_bytes(ByteView bytes) {
     if (!text.empty()) text += ' ';
   };
   for (Byte b : bytes) {
-    if (b >= 0x20 && b < 0x7F && b != '\'') {
+    if (is_quotable(b)) {
       if (!quoted) {
         separate();
         text += '\'';

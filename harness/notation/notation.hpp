@@ -61,7 +61,7 @@ Result<Notation> parse_notation(std::string_view text);
 /// The reverse: parse_notation(print(n)) prints the same again.
 std::string print(const Notation& notation);
 
-/// Plain bytes in notation: ENQ '01rSS' EOT 'A4' FF.
+/// Plain bytes in notation: ENQ '01rSS' EOT 'A4' FF; numbers that are hardly text as hex alone: 01 03 00 63.
 std::string print_bytes(ByteView bytes);
 
 }  // namespace fieldproof

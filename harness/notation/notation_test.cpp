@@ -57,6 +57,8 @@ TEST(Notation, AnyTextIsParsedOrRefusedButNeverCrashes) {
 TEST(PrintBytes, ShowsControlsTextAndTheRestInHex) {
   EXPECT_EQ(print_bytes(to_bytes("\x05" "01rSS'" "\x04" "A4\xFF")), "ENQ '01rSS' 27 EOT 'A4' FF");
   EXPECT_EQ(print_bytes(Bytes{}), "");
+  // Modbus RTU: names of control characters would mislead where most bytes are numbers.
+  EXPECT_EQ(print_bytes(*from_hex("01 03 00 63 00 01 74 14")), "01 03 00 63 00 01 74 14");
 }
 
 TEST(Pause, CharactersScaleWithTheLine) {

@@ -65,6 +65,8 @@ void to_json(json& object, const Event& event) {
   object = {{"kind", kind_word(event.kind)}, {"start_ms", to_ms(event.start)}, {"end_ms", to_ms(event.end)}};
   put_bytes(object, "hex", event.bytes);
   put(object, "text", event.text);
+  if (event.step >= 0) object["step"] = event.step;
+  if (event.surplus) object["surplus"] = true;
 }
 
 void from_json(const json& object, Event& event) {
@@ -74,6 +76,42 @@ void from_json(const json& object, Event& event) {
   get_time(object, "end_ms", event.end);
   get_bytes(object, "hex", event.bytes);
   get(object, "text", event.text);
+  get(object, "step", event.step);
+  get(object, "surplus", event.surplus);
+}
+
+void to_json(json& object, const StepOutcome& step) {
+  object = json::object();
+  if (step.stimulus != Time{}) object["stimulus_ms"] = to_ms(step.stimulus);
+  put(object, "memory", step.memory);
+  put(object, "refused", step.refused);
+  if (step.refused_by_device) object["refused_by_device"] = true;
+}
+
+void from_json(const json& object, StepOutcome& step) {
+  step = {};
+  get_time(object, "stimulus_ms", step.stimulus);
+  get(object, "memory", step.memory);
+  get(object, "refused", step.refused);
+  get(object, "refused_by_device", step.refused_by_device);
+}
+
+void to_json(json& object, const Recording& recording) {
+  object = {{"stimulus", recording.stimulus}, {"station", recording.station}, {"steps", recording.steps},
+            {"timing_floor_ms", to_ms(recording.timing_floor)}, {"max_gap_ms", to_ms(recording.max_gap)}};
+  if (recording.flooded) object["flooded"] = true;
+  put(object, "dead", recording.dead);
+}
+
+void from_json(const json& object, Recording& recording) {
+  recording = {};
+  object.at("stimulus").get_to(recording.stimulus);
+  get(object, "station", recording.station);
+  get(object, "steps", recording.steps);
+  get(object, "flooded", recording.flooded);
+  get(object, "dead", recording.dead);
+  get_time(object, "timing_floor_ms", recording.timing_floor);
+  get_time(object, "max_gap_ms", recording.max_gap);
 }
 
 void to_json(json& object, const Difference& difference) {
@@ -106,6 +144,7 @@ void to_json(json& object, const CaseResult& result) {
   put_bytes(object, "received_bytes", result.received_bytes);
   put(object, "differences", result.differences);
   put(object, "exchange", result.exchange);
+  if (!result.recording.stimulus.empty()) object["recording"] = result.recording;
   put(object, "readings", result.readings);
   put(object, "response_ms", result.response_ms);
   put(object, "replay", result.replay);
@@ -136,16 +175,61 @@ void from_json(const json& object, CaseResult& result) {
   get_bytes(object, "received_bytes", result.received_bytes);
   get(object, "differences", result.differences);
   get(object, "exchange", result.exchange);
+  get(object, "recording", result.recording);
   get(object, "readings", result.readings);
   get(object, "response_ms", result.response_ms);
   get(object, "seconds", result.seconds);
   get(object, "replay", result.replay);
 }
 
+void to_json(json& object, const Identity& identity) {
+  object = json::object();
+  put(object, "name", identity.name);
+  put(object, "maker", identity.maker);
+  put(object, "model", identity.model);
+  put(object, "serial", identity.serial);
+  put(object, "firmware", identity.firmware);
+  put(object, "operator", identity.operator_name);
+  put(object, "notes", identity.notes);
+  put(object, "fingerprint", identity.fingerprint);
+  put(object, "fingerprint_found", identity.fingerprint_found);
+}
+
+void from_json(const json& object, Identity& identity) {
+  identity = {};
+  get(object, "name", identity.name);
+  get(object, "maker", identity.maker);
+  get(object, "model", identity.model);
+  get(object, "serial", identity.serial);
+  get(object, "firmware", identity.firmware);
+  get(object, "operator", identity.operator_name);
+  get(object, "notes", identity.notes);
+  get(object, "fingerprint", identity.fingerprint);
+  get(object, "fingerprint_found", identity.fingerprint_found);
+}
+
+void to_json(json& object, const ErratumInfo& erratum) {
+  object = {{"vector", erratum.vector_id}, {"manual", erratum.manual},   {"section", erratum.section},
+            {"printed", erratum.printed},  {"correct", erratum.correct}, {"why", erratum.why}};
+}
+
+void from_json(const json& object, ErratumInfo& erratum) {
+  erratum = {};
+  object.at("vector").get_to(erratum.vector_id);
+  get(object, "manual", erratum.manual);
+  get(object, "section", erratum.section);
+  get(object, "printed", erratum.printed);
+  get(object, "correct", erratum.correct);
+  get(object, "why", erratum.why);
+}
+
 void to_json(json& object, const RunInfo& info) {
   object = {{"tool_version", info.tool_version}, {"started", info.started}, {"endpoint", info.endpoint},
             {"profile", info.profile},           {"command", info.command}, {"vectors_hash", info.vectors_hash},
             {"properties", info.properties}};
+  if (json identity = info.identity; !identity.empty()) object["identity"] = std::move(identity);
+  put(object, "hashes", info.hashes);
+  put(object, "errata", info.errata);
 }
 
 void from_json(const json& object, RunInfo& info) {
@@ -157,6 +241,9 @@ void from_json(const json& object, RunInfo& info) {
   get(object, "command", info.command);
   get(object, "vectors_hash", info.vectors_hash);
   get(object, "properties", info.properties);
+  get(object, "identity", info.identity);
+  get(object, "hashes", info.hashes);
+  get(object, "errata", info.errata);
 }
 
 void to_json(json& object, const RunEnd& end) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/results/verdict.hpp"
@@ -21,6 +22,27 @@ struct Event {
   Time end{};
   Bytes bytes;       // sent, received
   std::string text;  // frame notation of the bytes, or the note: "set %MW100 = 1234", "silence until 1000.0 ms"
+  int step = -1;     // the executed step whose bytes these are; -1: of none (a probe and its answer)
+  bool surplus = false;  // bytes that no step was waiting for
+};
+
+/// What an executed step came to, besides the frames in the exchange.
+struct StepOutcome {
+  Time stimulus{};               // expect: the end of what the reply answers
+  std::vector<std::pair<std::string, std::string>> memory;  // check: address, and what it held
+  std::string refused;           // set, check, do: why it could not be done
+  bool refused_by_device = false;
+};
+
+/// What makes an exchange fit to be judged again (`fieldproof judge`).
+struct Recording {
+  std::string stimulus;          // fingerprint of all that was done to the device; empty: nothing was
+  int station = 1;               // that the frames were made for
+  std::vector<StepOutcome> steps;
+  bool flooded = false;
+  std::string dead;              // why the link counts as dead after the case
+  Duration timing_floor{};       // what this link could show: JudgeRules
+  Duration max_gap{};
 };
 
 /// One field that differs: "block count", expected "01", received "00", hint "".
@@ -51,10 +73,26 @@ struct CaseResult {
   Bytes received_bytes;
   std::vector<Difference> differences;
   std::vector<Event> exchange;
+  Recording recording;
   std::map<std::string, std::string> readings;  // named alternatives taken: type_echo = upper
   std::vector<double> response_ms;           // request's last byte to reply's first, each expect
   double seconds = 0;                        // wall clock
   std::string replay;                        // command that runs just this case again
+};
+
+/// Which device it is, as the engineer entered it: no command of these protocols reads it from the device.
+struct Identity {
+  std::string name;       // in the bench file
+  std::string maker, model, serial, firmware;
+  std::string operator_name, notes;
+  std::map<std::string, std::string> fingerprint;        // declared: what harmless reads must find
+  std::map<std::string, std::string> fingerprint_found;  // by the bench; empty where it did not look
+};
+
+/// A mistake of a manual that the vectors of this run know of.
+struct ErratumInfo {
+  std::string vector_id, manual, section;
+  std::string printed, correct, why;
 };
 
 /// What a run is about: the first line of the NDJSON file and the head of each report.
@@ -64,6 +102,9 @@ struct RunInfo {
   std::string endpoint, profile, command;
   std::string vectors_hash;
   std::map<std::string, std::string> properties;  // station, line, seed, options
+  Identity identity = {};
+  std::map<std::string, std::string> hashes = {};  // SHA-256 of tool, vectors, profile
+  std::vector<ErratumInfo> errata = {};            // of the selected cases
 };
 
 /// How a run ended: the last line of the NDJSON file; absent when it was killed.

@@ -33,6 +33,7 @@ CaseResult full_result() {
   result.exchange = {{Event::Kind::sent, 0ns, 1234567ns, {0x05, 0xFF}, "ENQ FF"},
                      {Event::Kind::received, 2000001ns, 3600s + 1ns, {0x06, 0x31}, "ACK '1'"},
                      {Event::Kind::note, 5ms, 5ms, {}, "silence until 1000.0 ms"}};
+  result.recording.stimulus = "0123456789abcdef";
   result.readings = {{"type_echo", "upper"}};
   result.response_ms = {0.765434, 12};
   result.seconds = 0.125;
@@ -68,9 +69,9 @@ TEST(CaseResultJson, NoFieldIsForgotten) {
   // As many keys as fields, when none is empty. The binding does not compile once a field is added: then extend it,
   // full_result(), to_json and from_json.
   const auto& [id, repeat, rev, protocol, title, level, basis, manual, section, quote, verdict, message, notes, expected,
-               expected_bytes, expected_hex, received, received_bytes, differences, exchange, readings, response_ms, seconds,
-               replay] = full_result();
-  EXPECT_EQ(24u, json(full_result()).size());
+               expected_bytes, expected_hex, received, received_bytes, differences, exchange, recording, readings,
+               response_ms, seconds, replay] = full_result();
+  EXPECT_EQ(25u, json(full_result()).size());
 }
 
 TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
@@ -108,6 +109,7 @@ TEST(RunJson, HeadAndEndComeBack) {
   EXPECT_EQ(json(info), json(info_again));
   EXPECT_EQ("a1b2", info_again.vectors_hash);
   EXPECT_EQ(info.properties, info_again.properties);
+  EXPECT_EQ(7u, json(info).size()) << "what was not entered is left out";
 
   const RunEnd end{"2026-11-21T12:39:04+00:00", 1.5, 130, true, "interrupted"};
   const auto end_again = json(end).get<RunEnd>();
@@ -115,6 +117,25 @@ TEST(RunJson, HeadAndEndComeBack) {
   EXPECT_EQ(130, end_again.exit_code);
   EXPECT_TRUE(end_again.interrupted);
   EXPECT_EQ("interrupted", end_again.trouble);
+}
+
+TEST(RunJson, IdentityHashesAndErrataComeBack) {
+  RunInfo info;
+  info.identity = {"bench-1", "LS", "XBC-DN32H", "S/N 7", "V1.8", "Kim", "port 2", {{"areas", "PMLK"}}, {{"areas", "PML"}}};
+  info.hashes = {{"tool", "00ff"}};
+  info.errata = {{"xgt_cnet/rss/two_words", "xgb-cnet-en-1.6", "7.1.5", "H2550", "H255057", "six characters"}};
+  const auto again = json(info).get<RunInfo>();
+  // As in NoFieldIsForgotten.
+  const auto& [name, maker, model, serial, firmware, operator_name, notes, fingerprint, fingerprint_found] = again.identity;
+  EXPECT_EQ(9u, json(again)["identity"].size());
+  EXPECT_EQ("V1.8", firmware);
+  EXPECT_EQ("Kim", operator_name);
+  EXPECT_EQ(info.identity.fingerprint, fingerprint);
+  EXPECT_EQ(info.identity.fingerprint_found, fingerprint_found);
+  EXPECT_EQ(info.hashes, again.hashes);
+  ASSERT_EQ(1u, again.errata.size());
+  EXPECT_EQ("six characters", again.errata[0].why);
+  EXPECT_EQ(json(info), json(again));
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ std::optional<Verdict> parse_verdict(std::string_view text) {
   return std::nullopt;
 }
 
+bool is_judged(Verdict verdict) {
+  return verdict != Verdict::skip && verdict != Verdict::blocked && verdict != Verdict::inconclusive && verdict != Verdict::error;
+}
+
 bool gates(Verdict verdict, const Gate& gate) {
   switch (verdict) {
     case Verdict::fail:

@@ -25,6 +25,9 @@ std::string_view to_string(Verdict verdict);
 /// The reverse; nothing for an unknown word.
 std::optional<Verdict> parse_verdict(std::string_view text);
 
+/// A verdict on the device: not SKIP, BLOCKED, INCONCLUSIVE or ERROR.
+bool is_judged(Verdict verdict);
+
 /// Which verdicts turn the gate red, by the options of the run.
 struct Gate {
   bool strict = false;            // --strict: NON-STRICT fails

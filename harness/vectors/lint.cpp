@@ -109,6 +109,8 @@ std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& 
       problems.push_back(fmt::format("{}: {}: no protocol '{}'; an id begins with the folder of its protocol", one.file, one.id, one.protocol));
       continue;
     }
+    for (const std::string& model : one.models)
+      if (!protocol->has_model(model)) problems.push_back(fmt::format("{}: {}: {} has no model '{}'", one.file, one.id, one.protocol, model));
     const int station = config_station(one.config, 1).value_or(1);
     const Stations stations{protocol->station_bytes(station), protocol->station_bytes((station + 1) % 256)};
     for (std::size_t i = 0; i < one.steps.size(); ++i) lint_step(one, i, stations, problems);

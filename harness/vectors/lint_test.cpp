@@ -51,6 +51,12 @@ TEST(LintWires, OpenPlacesStayOpenInBoth) {
   EXPECT_THAT(wires(R"j({"expect": "[ACK x:2 ETX]", "wire": "06 31 ?? 03"})j"), ElementsAre(HasSubstr("byte 1")));
 }
 
+TEST(LintWires, TheModelsAreTheProtocols) {
+  VectorSet set = with_step(R"j({"send": "[ENQ EOT]", "wire": "05 04"})j");
+  set.cases.front().models = {"test", "tast"};
+  EXPECT_THAT(lint_wires(set, lookup), ElementsAre(HasSubstr("xgt_cnet/a/b: xgt-cnet has no model 'tast'")));
+}
+
 TEST(LintWires, EveryFrameHasLiteralBytes) { EXPECT_THAT(wires(R"j({"send": "[ENQ EOT]"})j"), ElementsAre(HasSubstr("no wire"))); }
 
 TEST(LintWires, EveryNamedAlternativeHasItsOwn) {

@@ -4,13 +4,13 @@
 #include <array>
 
 #include "src/base/bytes.hpp"
+#include "src/base/letters.hpp"
 
 namespace fieldproof {
 
 namespace {
 constexpr std::uint32_t beyond = 1'000'000;  // more than any area holds
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 
 struct Number {

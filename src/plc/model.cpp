@@ -39,8 +39,8 @@ constexpr std::array xec_h{
 };
 
 constexpr std::array models{
-    PlcModel{"xbm-s", false, xbm_s},
     PlcModel{"xbc-h", false, xbc_h},
+    PlcModel{"xbm-s", false, xbm_s},
     PlcModel{"xec-h", true, xec_h},
 };
 }  // namespace

@@ -37,11 +37,11 @@ struct PlcModel {
   const DeviceArea* area(char letter) const;
 };
 
-/// xbm-s (XBM-DxxxS), xbc-h (XBC-DxxxH), xec-h (XEC-DxxxH).
+/// xbc-h (XBC-DxxxH), xbm-s (XBM-DxxxS), xec-h (XEC-DxxxH): the default first.
 std::span<const PlcModel> plc_models();
 /// nullptr when unknown.
 const PlcModel* find_plc_model(std::string_view name);
-/// "xbm-s, xbc-h, xec-h", for messages.
+/// "xbc-h, xbm-s, xec-h", for messages.
 std::string plc_model_names();
 
 }  // namespace fieldproof

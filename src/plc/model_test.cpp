@@ -67,7 +67,7 @@ TEST(PlcModel, UnknownNames) {
   EXPECT_EQ(find_plc_model("xbc"), nullptr);
   EXPECT_EQ(find_plc_model("XBC-H"), nullptr);
   EXPECT_EQ(find_plc_model("xbc-h")->area('I'), nullptr);
-  EXPECT_EQ(plc_model_names(), "xbm-s, xbc-h, xec-h");
+  EXPECT_EQ(plc_model_names(), "xbc-h, xbm-s, xec-h");
 }
 
 }  // namespace

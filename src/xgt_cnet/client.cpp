@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "src/base/letters.hpp"
+
 namespace fieldproof {
 
 namespace {
 constexpr std::uint32_t first_result_word = 512, words_per_block = 6;  // of P2P parameter 1 in L
 constexpr unsigned ndr_bit = 0, err_bit = 1;
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 DeviceAddress l_address(const PlcModel& model, char type, std::uint32_t index) {
   return {static_cast<std::uint8_t>(model.area('L') - model.areas.data()), type, false, index};

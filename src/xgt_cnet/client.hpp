@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "src/plc/counters.hpp"
 #include "src/plc/memory.hpp"
 #include "src/xgt_cnet/codec.hpp"
-#include "src/xgt_cnet/counters.hpp"
 #include "src/xgt_cnet/receiver.hpp"
 
 namespace fieldproof {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src/base/letters.hpp"
 #include "src/plc/address.hpp"
 
 namespace fieldproof {
@@ -9,7 +10,6 @@ namespace fieldproof {
 namespace {
 constexpr std::size_t first_of_content = 6;  // header, station, command, type or number
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 std::string_view as_text(ByteView bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 

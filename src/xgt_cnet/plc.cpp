@@ -2,16 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
-#include "src/base/spelling.hpp"
-#include "src/plc/model.hpp"
+#include "src/plc/device_action.hpp"
 
 namespace fieldproof {
 
 namespace {
-constexpr Duration delay_step = 10ms, longest_delay = 2550ms;
 constexpr unsigned longest_time_out = 50;  // 000 4.3.1 dialog: 0-50
 
 Result<DeviceAddress> own_address(const PlcModel& model, std::size_t block, std::string_view what, const std::string& name) {
@@ -44,13 +39,6 @@ Result<P2pBlock> make_block(const PlcModel& model, std::size_t number, const P2p
 
 Status check(const PlcConfig& config) {
   const auto wrong = [](const std::string& what) { return fail("cannot make a PLC: " + what); };
-  if (config.station > 255) return wrong("station is not 0 to 255");
-  if (config.inter_character < Duration::zero() || config.inter_character_floor < Duration::zero()) {
-    return wrong("the inter-character time is negative; 0 means 3.5 characters");
-  }
-  if (config.delay < Duration::zero() || config.delay > longest_delay || config.delay % delay_step != Duration::zero()) {
-    return wrong("the delay is not 0 to 2550 ms in steps of 10 ms");
-  }
   if (config.time_out > longest_time_out) return wrong("time_out is not 0 to 50");
   const bool client = config.role == PlcConfig::Role::client;
   if (client && config.p2p.empty()) return wrong("a client has no p2p blocks; give some, or role server");
@@ -61,31 +49,26 @@ Status check(const PlcConfig& config) {
 }  // namespace
 
 Plc::Plc(const PlcModel& model, const PlcConfig& config, std::vector<P2pBlock> blocks) : memory_(model) {
-  const Duration gap = effective_gap(config.inter_character, config.inter_character_floor, config.line);
   if (config.role == PlcConfig::Role::server) {
-    server_.emplace(memory_, config.station, gap, config.rs485 ? config.delay : Duration::zero());
+    server_.emplace(memory_, config.station, config.gap(), config.reply_delay());
     return;
   }
-  const XgtClient::Timing timing{gap, 100ms * (config.time_out + 1), config.line.character_time()};
+  const XgtClient::Timing timing{config.gap(), 100ms * (config.time_out + 1), config.line.character_time()};
   client_.emplace(memory_, std::move(blocks), timing, config.run);
 }
 
 Result<std::unique_ptr<Plc>> make_plc(const PlcConfig& config) {
-  const PlcModel* model = find_plc_model(config.model);
-  if (!model) {
-    std::vector<std::string_view> names;
-    for (const PlcModel& m : plc_models()) names.push_back(m.name);
-    return fail(fmt::format("cannot make a PLC '{}': there is no such model; use one of {}{}", config.model, plc_model_names(),
-                            suggestion(config.model, names)));
-  }
+  const Result<const PlcModel*> known = check_port_config(config);
+  if (!known) return known.error();
+  const PlcModel& model = **known;
   if (const Status status = check(config); !status) return status.error();
   std::vector<P2pBlock> blocks;
   for (const P2pConfig& p2p : config.p2p) {
-    Result<P2pBlock> block = make_block(*model, blocks.size(), p2p);
+    Result<P2pBlock> block = make_block(model, blocks.size(), p2p);
     if (!block) return block.error();
     blocks.push_back(std::move(*block));
   }
-  return std::unique_ptr<Plc>(new Plc(*model, config, std::move(blocks)));
+  return std::unique_ptr<Plc>(new Plc(model, config, std::move(blocks)));
 }
 
 void Plc::receive(const Burst& burst) { server_ ? server_->receive(burst) : client_->receive(burst); }
@@ -102,32 +85,19 @@ Status Plc::set(std::string_view address, std::string_view hex) {
 
 Result<std::string> Plc::get(std::string_view address, std::size_t digits) const {
   if (!address.starts_with('@')) return get_by_name(memory_, address, digits);
-  const auto number = [digits](std::uint32_t value, std::size_t least) {
-    std::size_t size = digits == 0 ? least : digits;
-    while (size < 8 && value >> (4 * size) != 0) ++size;
-    return hex_number(value, static_cast<int>(size));
-  };
-  if (address == "@status") return number(counters().status, 2);
-  if (address == "@errors") return number(counters().errors, 4);
-  if (address == "@services") return number(counters().services, 4);
-  constexpr std::array<std::string_view, 3> names{"@status", "@errors", "@services"};
-  return fail(fmt::format("cannot get {}: there is no such counter; use @status, @errors or @services{}", address,
-                          suggestion(address, names)));
+  return get_counter(counters(), address, digits);
 }
 
 Status Plc::act(std::string_view action) {
-  if (action == "run" || action == "stop") {
-    if (client_) client_->set_running(action == "run");
-    return ok();
-  }
-  if (action == "power_cycle") {
+  const Result<DeviceAction> known = parse_device_action(action);
+  if (!known) return known.error();
+  if (*known == DeviceAction::power_cycle) {
     if (client_) client_->power_cycle();
     else server_->power_cycle();
-    return ok();
+  } else if (client_) {
+    client_->set_running(*known == DeviceAction::run);
   }
-  constexpr std::array<std::string_view, 3> names{"run", "stop", "power_cycle"};
-  return fail(fmt::format("cannot do '{}': there is no such action; use run, stop or power_cycle{}", action,
-                          suggestion(action, names)));
+  return ok();
 }
 
 }  // namespace fieldproof

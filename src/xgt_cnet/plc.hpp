@@ -25,7 +25,6 @@ class Plc : public EmulatedDevice {
   Bytes advance(Time now) override;
 
   Status set(std::string_view address, std::string_view hex) override;
-  /// Counters have at least `digits` digits (0: two of the status, four of the counts), and more where they need more.
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   /// power_cycle: registrations, counters and frames in progress are lost; memory and mode stay.
   Status act(std::string_view action) override;

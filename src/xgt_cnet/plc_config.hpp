@@ -1,4 +1,4 @@
-// Basic parameters of an emulated PLC, and their JSON.
+// Parameters of an emulated PLC that speaks XGT Cnet, and their JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "src/base/result.hpp"
-#include "src/base/time.hpp"
-#include "src/line/settings.hpp"
+#include "src/plc/port_config.hpp"
 
 namespace fieldproof {
 
@@ -23,26 +22,14 @@ struct P2pConfig {
   bool operator==(const P2pConfig&) const = default;
 };
 
-/// Basic parameters (000 and 003 4.3.1).
-struct PlcConfig {
-  enum class Role { server, client };
-
-  std::string model = "xbc-h";
-  unsigned station = 0;             // 0-255
-  Role role = Role::server;
-  bool run = true;                  // STOP: servers keep answering, the client is silent
-  LineSettings line{};
-  Duration inter_character{};       // 0: 3.5 characters of 11 bits
-  Duration inter_character_floor{}; // 20 ms behind a pty or socket
-  Duration delay{};                 // of a reply, 0-2550 ms in steps of 10 ms; only with rs485
-  bool rs485 = false;
-  unsigned time_out = 1;            // of the client: (time_out + 1) * 100 ms
+struct PlcConfig : PortConfig {
+  unsigned time_out = 1;  // of the client: (time_out + 1) * 100 ms
   std::vector<P2pConfig> p2p{};
 
   bool operator==(const PlcConfig&) const = default;
 };
 
-/// The configuration in `given.config` of a vector (vectors/README.md), and inter_character_floor_ms and time_out.
+/// The configuration in `given.config` of a vector (vectors/README.md), and inter_character_floor_ms and time_out (000 4.3.1).
 /// Values are numbers, booleans or their text. Keys for others (bench_line, model, neighbours, protocol) are passed over;
 /// the error for an unknown key lists those there are.
 Result<PlcConfig> parse_plc_config(std::string_view model, const nlohmann::json& config);

@@ -25,7 +25,7 @@ std::string error_of(const PlcConfig& config) {
 }
 
 PlcConfig client_config() {
-  return {.station = 0, .role = PlcConfig::Role::client, .p2p = {{"%MX00000", "%MW100", "%MW200", 2, 1}}};
+  return {{.station = 0, .role = PlcConfig::Role::client}, 1, {{"%MX00000", "%MW100", "%MW200", 2, 1}}};
 }
 
 /// A request at `start` and what is answered at the moment the PLC asks for.
@@ -36,7 +36,7 @@ std::string ask(Plc& plc, Time start, std::string_view body, Duration character 
 }
 
 TEST(Plc, ServesItsMemory) {
-  const auto plc = plc_of({.model = "xbc-h", .station = 1});
+  const auto plc = plc_of({{.model = "xbc-h", .station = 1}});
   ASSERT_TRUE(plc->set("%MW100", "123456789ABC"));
   EXPECT_EQ(ask(*plc, 0ms, "01rSB06%MW10003"), "ACK 01rSB0106123456789ABC");
   EXPECT_EQ(ask(*plc, 1s, "01wSS0108%MX0010A01"), "ACK 01wSS");
@@ -45,14 +45,14 @@ TEST(Plc, ServesItsMemory) {
 }
 
 TEST(Plc, ServesInStop) {
-  const auto plc = plc_of({.station = 1, .run = false});
+  const auto plc = plc_of({{.station = 1, .run = false}});
   EXPECT_EQ(ask(*plc, 0ms, "01RSS0104%MW0"), "ACK 01RSS01020000");
   ASSERT_TRUE(plc->act("stop"));
   EXPECT_EQ(ask(*plc, 1s, "01RSS0104%MW0"), "ACK 01RSS01020000");
 }
 
 TEST(Plc, Counters) {
-  const auto plc = plc_of({.station = 1});
+  const auto plc = plc_of({{.station = 1}});
   ask(*plc, 0ms, "01RSS0104%MW0");
   ask(*plc, 1s, "02RSS0104%MW0");
   EXPECT_EQ(*plc->get("@status", 0), "09");
@@ -63,14 +63,14 @@ TEST(Plc, Counters) {
 }
 
 TEST(Plc, CountersTakeTheDigitsTheyNeed) {
-  const auto plc = plc_of({.station = 1});
+  const auto plc = plc_of({{.station = 1}});
   for (int i = 0; i < 256; ++i) ask(*plc, i * 1s, "01RSS0104%MW0");
   EXPECT_EQ(*plc->get("@services", 2), "100");
   EXPECT_EQ(*plc->get("@services", 0), "0100");
 }
 
 TEST(Plc, PowerCycleKeepsMemoryAlone) {
-  const auto plc = plc_of({.station = 1});
+  const auto plc = plc_of({{.station = 1}});
   ASSERT_TRUE(plc->set("%MW0", "1234"));
   EXPECT_EQ(ask(*plc, 0ms, "01X00RSS0104%MW0"), "ACK 01X00");
   plc->receive({to_bytes("\x05" "01"), 1s, 1ms});
@@ -85,7 +85,7 @@ TEST(Plc, PowerCycleKeepsMemoryAlone) {
 TEST(Plc, DelayOnlyWithRs485) {
   const Bytes request = enq("01RSS0104%MW0");
   const auto due = [&request](bool rs485) {
-    const auto plc = plc_of({.station = 1, .delay = 50ms, .rs485 = rs485});
+    const auto plc = plc_of({{.station = 1, .delay = 50ms, .rs485 = rs485}});
     plc->receive({request, 0ms, 0ms});
     return plc->wake_at();
   };
@@ -101,12 +101,12 @@ TEST(Plc, InterCharacterTimeAndItsFloor) {
     const auto wake = plc->wake_at();
     return wake && !plc->advance(*wake).empty();
   };
-  EXPECT_TRUE(answers({.station = 1}, Duration(4'010'416)));  // 38.5 bits at 9600 bit/s
-  EXPECT_FALSE(answers({.station = 1}, Duration(4'010'417)));
-  EXPECT_TRUE(answers({.station = 1, .inter_character = 10ms}, 10ms));
-  EXPECT_FALSE(answers({.station = 1, .inter_character = 10ms}, 10ms + 1ns));
-  EXPECT_TRUE(answers({.station = 1, .inter_character = 10ms, .inter_character_floor = 20ms}, 20ms));
-  EXPECT_FALSE(answers({.station = 1, .inter_character = 10ms, .inter_character_floor = 20ms}, 20ms + 1ns));
+  EXPECT_TRUE(answers({{.station = 1}}, Duration(4'010'416)));  // 38.5 bits at 9600 bit/s
+  EXPECT_FALSE(answers({{.station = 1}}, Duration(4'010'417)));
+  EXPECT_TRUE(answers({{.station = 1, .inter_character = 10ms}}, 10ms));
+  EXPECT_FALSE(answers({{.station = 1, .inter_character = 10ms}}, 10ms + 1ns));
+  EXPECT_TRUE(answers({{.station = 1, .inter_character = 10ms, .inter_character_floor = 20ms}}, 20ms));
+  EXPECT_FALSE(answers({{.station = 1, .inter_character = 10ms, .inter_character_floor = 20ms}}, 20ms + 1ns));
 }
 
 TEST(Plc, ClientAsksWhenTheBackDoorRaisesItsFlag) {
@@ -149,7 +149,7 @@ TEST(Plc, ClientObeysRunAndStop) {
 
 TEST(PlcOnALine, OnlyTheAddressedStationAnswersAndAtOnce) {
   const LineSettings line;
-  const auto one = plc_of({.station = 1}), two = plc_of({.station = 2});
+  const auto one = plc_of({{.station = 1}}), two = plc_of({{.station = 2}});
   SimulatedLine wire(line);
   wire.attach(*one, line);
   wire.attach(*two, line);
@@ -167,7 +167,7 @@ TEST(PlcOnALine, GapsAreJudgedToTheNanosecond) {
   const Bytes request = enq("01RSS0104%MW0");
   for (const Duration longer : {Duration(0), Duration(1)}) {
     for (std::size_t cut = 1; cut < request.size(); ++cut) {
-      const auto plc = plc_of({.station = 1, .line = line, .inter_character = 10ms});
+      const auto plc = plc_of({{.station = 1, .line = line, .inter_character = 10ms}});
       SimulatedLine wire(line);
       wire.attach(*plc, line);
       const auto at = request.begin() + static_cast<std::ptrdiff_t>(cut);
@@ -182,7 +182,7 @@ TEST(PlcOnALine, GapsAreJudgedToTheNanosecond) {
 
 TEST(PlcOnALine, MissingTailIsCountedBySilenceAlone) {
   const LineSettings line;
-  const auto plc = plc_of({.station = 1});
+  const auto plc = plc_of({{.station = 1}});
   SimulatedLine wire(line);
   wire.attach(*plc, line);
   wire.transmit(to_bytes("\x05" "01RSS0104%MW0"));
@@ -194,7 +194,7 @@ TEST(PlcOnALine, ServerAndClientTalkToEachOther) {
   const LineSettings line{.baud = 38400, .data_bits = 7, .parity = 'E'};
   PlcConfig asking = client_config();
   asking.line = line;
-  const auto client = plc_of(asking), server = plc_of({.model = "xbm-s", .station = 2, .line = line});
+  const auto client = plc_of(asking), server = plc_of({{.model = "xbm-s", .station = 2, .line = line}});
   SimulatedLine wire(line);
   wire.attach(*client, line);
   wire.attach(*server, line);
@@ -208,15 +208,15 @@ TEST(PlcOnALine, ServerAndClientTalkToEachOther) {
 // --- Configurations that make no PLC ---
 
 TEST(MakePlc, ErrorsNameTheParameter) {
-  EXPECT_EQ(error_of({.model = "xbc_h"}),
-            "cannot make a PLC 'xbc_h': there is no such model; use one of xbm-s, xbc-h, xec-h; did you mean 'xbc-h'?");
-  EXPECT_THAT(error_of({.station = 256}), HasSubstr("station is not 0 to 255"));
-  EXPECT_THAT(error_of({.delay = 15ms}), HasSubstr("steps of 10 ms"));
-  EXPECT_THAT(error_of({.delay = 2560ms}), HasSubstr("0 to 2550 ms"));
-  EXPECT_THAT(error_of({.inter_character = -1ms}), HasSubstr("inter-character time"));
-  EXPECT_THAT(error_of({.time_out = 51}), HasSubstr("time_out"));
-  EXPECT_THAT(error_of({.role = PlcConfig::Role::client}), HasSubstr("no p2p blocks"));
-  EXPECT_THAT(error_of({.p2p = {{"%MX0", "%MW0", "%MW1", 2, 1}}}), HasSubstr("give role client"));
+  EXPECT_EQ(error_of({{.model = "xbc_h"}}),
+            "cannot make a PLC 'xbc_h': there is no such model; use one of xbc-h, xbm-s, xec-h; did you mean 'xbc-h'?");
+  EXPECT_THAT(error_of({{.station = 256}}), HasSubstr("station is not 0 to 255"));
+  EXPECT_THAT(error_of({{.delay = 15ms}}), HasSubstr("steps of 10 ms"));
+  EXPECT_THAT(error_of({{.delay = 2560ms}}), HasSubstr("0 to 2550 ms"));
+  EXPECT_THAT(error_of({{.inter_character = -1ms}}), HasSubstr("inter-character time"));
+  EXPECT_THAT(error_of({{}, 51}), HasSubstr("time_out"));
+  EXPECT_THAT(error_of({{.role = PlcConfig::Role::client}}), HasSubstr("no p2p blocks"));
+  EXPECT_THAT(error_of({{}, 1, {{"%MX0", "%MW0", "%MW1", 2, 1}}}), HasSubstr("give role client"));
 }
 
 TEST(MakePlc, ErrorsNameTheP2pBlock) {

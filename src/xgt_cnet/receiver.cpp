@@ -1,9 +1,7 @@
 #include "src/xgt_cnet/receiver.hpp"
 
-#include <algorithm>
-
+#include "src/plc/counters.hpp"
 #include "src/xgt_cnet/codec.hpp"
-#include "src/xgt_cnet/counters.hpp"
 
 namespace fieldproof {
 
@@ -83,10 +81,5 @@ void FrameReceiver::advance(Time now, FrameSink& sink) {
 }
 
 void FrameReceiver::reset() { state_ = State::idle; }
-
-Duration effective_gap(Duration parameter, Duration floor, const LineSettings& line) {
-  const Duration default_gap(Duration::rep{77} * 1'000'000'000 / 2 / line.baud);  // 3.5 * 11 = 38.5 bits
-  return std::max(parameter > Duration::zero() ? parameter : default_gap, floor);
-}
 
 }  // namespace fieldproof

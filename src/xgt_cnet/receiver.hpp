@@ -1,27 +1,16 @@
 // Finds frames in what arrives: header, tail, BCC, and the inter-character time (003 4.3.1).
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "src/base/bytes.hpp"
 #include "src/line/device.hpp"
-#include "src/line/settings.hpp"
+#include "src/plc/frame_sink.hpp"
 
 namespace fieldproof {
 
-/// Who takes what a receiver finds.
-class FrameSink {
- public:
-  /// Header to tail, and BCC after a lower-case command. `end` is the end of its last stop bit.
-  virtual void on_frame(ByteView frame, Time end) = 0;
-  /// No frame: service_status::head (bytes outside a frame, once a run of them), tail, or bcc (the BCC never came).
-  virtual void on_broken_frame(std::uint16_t why) = 0;
-
- protected:
-  ~FrameSink() = default;
-};
-
+/// A frame: header to tail, and BCC after a lower-case command; it ends with its last stop bit.
+/// No frame: service_status::head (bytes outside a frame, once a run of them), tail, or bcc (the BCC never came).
 class FrameReceiver {
  public:
   /// From the header on; more without a tail is dropped (PROTOCOLS.md).
@@ -56,9 +45,5 @@ class FrameReceiver {
   Time last_end_{};
   Duration character_time_{};
 };
-
-/// The inter-character time: `parameter`, or 3.5 characters of 11 bits where it is zero, but at least `floor` (a pty or
-/// socket has no wire time).
-Duration effective_gap(Duration parameter, Duration floor, const LineSettings& line);
 
 }  // namespace fieldproof

@@ -181,16 +181,5 @@ TEST(FrameReceiverFuzz, HowBytesAreCutIntoBurstsDoesNotMatter) {
   }
 }
 
-TEST(EffectiveGap, DefaultFloorAndParameter) {
-  const LineSettings line;  // 9600 bit/s
-  EXPECT_EQ(effective_gap(0ms, 0ms, line), Duration(4'010'416));  // 38.5 bits
-  EXPECT_EQ(effective_gap(0ms, 0ms, {.baud = 115200}), Duration(334'201));
-  EXPECT_EQ(effective_gap(0ms, 0ms, {.baud = 9600, .data_bits = 7, .parity = 'E'}), Duration(4'010'416));  // always 11 bits
-  EXPECT_EQ(effective_gap(1ms, 0ms, line), 1ms);
-  EXPECT_EQ(effective_gap(1ms, 20ms, line), 20ms);
-  EXPECT_EQ(effective_gap(50ms, 20ms, line), 50ms);
-  EXPECT_EQ(effective_gap(0ms, 20ms, {.baud = 1200}), Duration(32'083'333));
-}
-
 }  // namespace
 }  // namespace fieldproof

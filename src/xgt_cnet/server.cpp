@@ -44,18 +44,9 @@ std::string_view replied_number(std::string_view sent, std::array<char, 2>& numb
 XgtServer::XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay)
     : memory_(memory), station_(station), delay_(delay), receiver_(FrameReceiver::Side::server, gap) {}
 
-std::optional<Time> XgtServer::wake_at() const {
-  const auto gap = receiver_.wake_at();
-  if (replies_.empty()) return gap;
-  return gap ? std::min(*gap, replies_.front().due) : replies_.front().due;
-}
-
 Bytes XgtServer::advance(Time now) {
   receiver_.advance(now, *this);
-  if (replies_.empty() || replies_.front().due > now) return {};
-  Bytes bytes = std::move(replies_.front().bytes);
-  replies_.pop_front();
-  return bytes;
+  return replies_.take(now);
 }
 
 void XgtServer::power_cycle() {
@@ -87,7 +78,7 @@ void XgtServer::on_frame(ByteView frame, Time end) {
   Bytes bytes;
   bytes.reserve(frame.size() + 2 * data_size_ + 16);
   encode_reply(reply, bytes);
-  replies_.push_back({end + delay_, std::move(bytes)});
+  replies_.put(end + delay_, std::move(bytes));
   counters_.count_service();
 }
 

@@ -8,13 +8,13 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <optional>
 #include <vector>
 
+#include "src/plc/counters.hpp"
 #include "src/plc/memory.hpp"
+#include "src/plc/reply_queue.hpp"
 #include "src/xgt_cnet/codec.hpp"
-#include "src/xgt_cnet/counters.hpp"
 #include "src/xgt_cnet/receiver.hpp"
 
 namespace fieldproof {
@@ -25,7 +25,7 @@ class XgtServer : private FrameSink {
   XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay);
 
   void receive(const Burst& burst) { receiver_.receive(burst, *this); }
-  std::optional<Time> wake_at() const;
+  std::optional<Time> wake_at() const { return replies_.wake_at(receiver_.wake_at()); }
   Bytes advance(Time now);
 
   const ServiceCounters& counters() const { return counters_; }
@@ -38,10 +38,6 @@ class XgtServer : private FrameSink {
     XgtService content = XgtService::unknown;  // read_blocks or read_run; unknown: free
     std::vector<DeviceAddress> addresses;
     unsigned count = 0;
-  };
-  struct Pending {
-    Time due{};
-    Bytes bytes;
   };
 
   void on_frame(ByteView frame, Time end) override;
@@ -60,7 +56,7 @@ class XgtServer : private FrameSink {
   FrameReceiver receiver_;
   ServiceCounters counters_;
   std::array<Registration, xgt_registrations> registrations_;
-  std::deque<Pending> replies_;                   // in the order of their requests
+  ReplyQueue replies_;
   std::array<char, 2 * xgt_max_run + 16> data_;   // digits of the reply in progress; 16 LWords have 256
   std::size_t data_size_ = 0;
 };

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "src/base/letters.hpp"
+
 namespace fieldproof::xgt_cnet {
 
 namespace {
@@ -65,6 +67,7 @@ class Reader {
     field("header", 1, std::string(header_name(frame_[0])), is_header(frame_[0]) ? "" : "a frame begins with ENQ, ACK or NAK");
     if (!is_header(frame_[0])) {
       take("foreign bytes", frame_.size() - 1);
+      fields_.back().problem = "no part of a frame";
       return std::move(fields_);
     }
     hex("station", 2);
@@ -72,7 +75,7 @@ class Reader {
     take("command", 1);
     const char main = is_lower(static_cast<Byte>(command)) ? static_cast<char>(command - 'a' + 'A') : command;
     if (main == 'X' || main == 'Y') hex("registration number", 2);
-    else take("command type", 2);
+    else command_type();
     body(main);
     if (pos_ < tail_) take("surplus", tail_ - pos_);
     tail_and_check(is_lower(static_cast<Byte>(command)));
@@ -111,16 +114,16 @@ class Reader {
     return has < size ? std::nullopt : std::optional(value);
   }
 
+  void command_type() {
+    take("command type", 2);
+    if (const std::string type = upper(fields_.back().text); type != "SS" && type != "SB") fields_.back().problem = "not SS or SB";
+  }
+
   void body(char main) {
     if (frame_[0] == nak) return error_code();
     const std::string type = fields_.back().name == "command type" ? upper(fields_.back().text) : "";
     if (frame_[0] == enq) request(main, type);
     else reply(main, type);
-  }
-
-  static std::string upper(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return text;
   }
 
   void error_code() {

@@ -31,46 +31,24 @@ void BrokenPlc::remember(ByteView bytes) {
   since_head_.insert(since_head_.end(), bytes.begin(), bytes.end());
 }
 
-std::optional<Time> BrokenPlc::wake_at() const {
-  const std::optional<Time> gap = receiver_.wake_at();
-  if (pending_.empty()) return gap;
-  return gap ? std::min(*gap, pending_.front().due) : pending_.front().due;
-}
+std::optional<Time> BrokenPlc::wake_at() const { return pending_.wake_at(receiver_.wake_at()); }
 
 Bytes BrokenPlc::advance(Time now) {
   now_ = now;
   in_silence_ = true;
   receiver_.advance(now, *this);
   in_silence_ = false;
-  if (pending_.empty() || pending_.front().due > now) return {};
-  Pending next = std::move(pending_.front());
-  pending_.pop_front();
-  const Bytes bytes = next.sending.bytes;
-  if (next.sending.every > Duration::zero()) {
-    next.sending.after = next.sending.every;
-    put({std::move(next.sending)}, now);
-  }
-  return bytes;
+  return pending_.take(now);
 }
 
 void BrokenPlc::on_frame(ByteView frame, Time end) {
   const Bytes request(frame.begin(), frame.end());
   const bool together = frames_in_burst_++ > 0;
-  put(behaviour_.answer ? behaviour_.answer(request, together, plc_) : Sendings{{plc_.answer(request)}}, end);
+  pending_.put(behaviour_.answer ? behaviour_.answer(request, together, plc_) : Sendings{{plc_.answer(request)}}, end);
 }
 
 void BrokenPlc::on_broken_frame(std::uint16_t) {
-  if (behaviour_.cut_off && in_silence_) put(behaviour_.cut_off(since_head_, plc_), now_);
-}
-
-void BrokenPlc::put(Sendings sendings, Time from) {
-  for (Sending& sending : sendings) {
-    if (sending.bytes.empty()) continue;
-    const Time due = from + sending.after;
-    const auto behind =
-        std::upper_bound(pending_.begin(), pending_.end(), due, [](Time time, const Pending& other) { return time < other.due; });
-    pending_.insert(behind, {due, std::move(sending)});
-  }
+  if (behaviour_.cut_off && in_silence_) pending_.put(behaviour_.cut_off(since_head_, plc_), now_);
 }
 
 Result<std::string> BrokenPlc::get(std::string_view address, std::size_t digits) const {

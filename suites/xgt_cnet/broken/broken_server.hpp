@@ -1,7 +1,6 @@
 // A PLC with one known fault, so that the suite can be shown to find it.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <string_view>
 
@@ -28,21 +27,15 @@ class BrokenPlc : public EmulatedDevice, private FrameSink {
   void on_frame(ByteView frame, Time end) override;
   void on_broken_frame(std::uint16_t why) override;
   void remember(ByteView bytes);
-  void put(Sendings sendings, Time from);
-
-  struct Pending {
-    Time due{};
-    Sending sending;
-  };
 
   Behaviour behaviour_;
-  mutable GoodPlc plc_;
+  GoodPlc plc_;
   FrameReceiver receiver_;
   Bytes since_head_;  // of the frame that is arriving
   Time now_{};
   bool in_silence_ = false;
   unsigned frames_in_burst_ = 0;
-  std::deque<Pending> pending_;  // in the order of time
+  SendQueue pending_;
 };
 
 /// A server with the fault of that name, or without ("none"). `storage` outlives it. Errors name the fault or the parameter.

@@ -4,24 +4,12 @@
 
 namespace fieldproof::xgt_cnet {
 
-namespace {
-std::vector<Fault> all_faults() {
-  std::vector<Fault> all;
-  for (auto part : {check_faults, reply_faults, data_faults, limit_faults, monitor_faults, line_faults})
-    std::ranges::move(part(), std::back_inserter(all));
-  return all;
-}
-}  // namespace
-
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table = all_faults();
+  static const std::vector<Fault> table = gather<Fault>({check_faults, reply_faults, data_faults, limit_faults, monitor_faults, line_faults});
   return table;
 }
 
-const Fault* find_fault(std::string_view name) {
-  const auto found = std::ranges::find(faults(), name, &Fault::name);
-  return found == faults().end() ? nullptr : &*found;
-}
+const Fault* find_fault(std::string_view name) { return find_by_name(faults(), name); }
 
 MakeBehaviour answer_with(std::function<Bytes(const Bytes& request, GoodPlc& plc)> answer) {
   return [answer = std::move(answer)](Storage&) {

@@ -7,17 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "suites/broken/fault.hpp"
+#include "suites/broken/sendings.hpp"
 #include "suites/xgt_cnet/broken/good_plc.hpp"
 
 namespace fieldproof::xgt_cnet {
-
-/// Bytes that go out `after` the request. With `every`, again and again.
-struct Sending {
-  Bytes bytes;
-  Duration after{};
-  Duration every{};
-};
-using Sendings = std::vector<Sending>;
 
 /// What survives the loss of power, where a fault keeps something that should be lost.
 struct Storage {
@@ -37,17 +31,9 @@ struct Behaviour {
   std::function<void(GoodPlc& plc)> power_on;
 };
 
-constexpr std::string_view alone = "-";
-
-struct Fault {
-  std::string_view name;
-  std::string_view what;
-  std::function<Behaviour(Storage&)> make;
-  std::string_view caught_by;     // the case that must turn red, without "xgt_cnet/"
-  std::string_view message;       // part of its message
-  std::string_view neighbours{};  // filter of what runs with it; empty: the cases of the same vector; or `alone`
-  unsigned station = 1;           // the fault shows at this station
-};
+using MakeBehaviour = std::function<Behaviour(Storage&)>;
+/// `caught_by` stands without "xgt_cnet/".
+using Fault = FaultOf<MakeBehaviour>;
 
 /// All of them, in the order of the chapters. "none" is no fault and not among them.
 const std::vector<Fault>& faults();
@@ -61,8 +47,6 @@ std::vector<Fault> data_faults();
 std::vector<Fault> limit_faults();
 std::vector<Fault> monitor_faults();
 std::vector<Fault> line_faults();
-
-using MakeBehaviour = std::function<Behaviour(Storage&)>;
 
 /// Spoils the reply of the good PLC. The BCC is made right again (`edit_reply`), or left as it is (`spoil_frame`).
 MakeBehaviour edit_reply(std::function<void(FrameText& reply, const FrameText& request)> edit);

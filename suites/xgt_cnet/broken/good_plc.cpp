@@ -4,24 +4,12 @@
 #include <cctype>
 #include <charconv>
 
+#include "src/base/letters.hpp"
+
 namespace fieldproof::xgt_cnet {
 
-Bytes GoodPlc::answer(ByteView request) {
-  now_ += 10s;  // far from the request before: no gap is judged here
-  plc_->receive(Burst{Bytes(request.begin(), request.end()), now_, {}});
-  Bytes reply;
-  while (const std::optional<Time> wake = plc_->wake_at()) {
-    now_ = std::max(now_, *wake);
-    const Bytes part = plc_->advance(now_);
-    reply.insert(reply.end(), part.begin(), part.end());
-  }
-  return reply;
-}
-
 std::string FrameText::service() const {
-  std::string text = body.substr(std::min<std::size_t>(2, body.size()), 3);
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
+  return upper(body.substr(std::min<std::size_t>(2, body.size()), 3));
 }
 
 std::string sum_of(std::string_view text) {

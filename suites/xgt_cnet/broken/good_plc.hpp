@@ -1,4 +1,4 @@
-// The good PLC behind a fault: asked one frame at a time, on a clock of its own; and frames as text that faults edit.
+// The good PLC behind a fault, and frames as text that faults edit.
 #pragma once
 
 #include <memory>
@@ -10,27 +10,23 @@
 #include "src/plc/address.hpp"
 #include "src/xgt_cnet/codec.hpp"
 #include "src/xgt_cnet/plc.hpp"
+#include "suites/broken/good_device.hpp"
 
 namespace fieldproof::xgt_cnet {
 
-class GoodPlc {
+class GoodPlc : public GoodDevice {
  public:
   GoodPlc(std::unique_ptr<Plc> plc, const PlcModel& model, unsigned station)
-      : plc_(std::move(plc)), model_(&model), station_(station) {}
+      : GoodDevice(std::move(plc)), model_(&model), station_(station) {}
 
-  /// What the good PLC answers to a request; empty: silence.
-  Bytes answer(ByteView request);
-  /// The back door, and what the name means on this model.
-  Plc& memory() { return *plc_; }
+  /// What the name means on this model.
   ParsedAddress address(std::string_view name) const { return parse_address(*model_, name); }
   const PlcModel& model() const { return *model_; }
   unsigned station() const { return station_; }
 
  private:
-  std::unique_ptr<Plc> plc_;
   const PlcModel* model_;
   unsigned station_;
-  Time now_{};
 };
 
 /// A frame taken apart: what a fault edits as text.

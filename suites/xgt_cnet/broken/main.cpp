@@ -53,6 +53,7 @@ int main(int count, char** arguments) {
   if (given.size() < 2 || given.size() > 4) return usage();
   xgt_cnet::Storage storage = storage_in(given.size() > 3 ? given[3] : "");
   HostOptions host;
+  host.model = "xbc-h";
   host.tty = given[1];
   host.config["station"] = given.size() > 2 ? given[2] : "1";
   host.make_device = [&](const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {

@@ -1,0 +1,185 @@
+#include "harness/bench/bench_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+
+#include "harness/bench/fence.hpp"
+#include "harness/bench/profile.hpp"
+#include "harness/endpoints/endpoint.hpp"
+#include "src/base/spelling.hpp"
+#include "src/line/settings.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 9> device_keys{"endpoint", "profile",     "station",  "line", "identity",
+                                                      "fingerprint", "allow_write", "operator", "notes"};
+constexpr std::array<std::string_view, 4> identity_keys{"maker", "model", "serial", "firmware"};
+
+[[noreturn]] void refuse(const std::string& where, const std::string& why) { throw std::runtime_error(where + ": " + why); }
+
+/// `where`.`key`, with `value` an object of no other keys.
+void check_object(const json& value, const std::string& where, std::span<const std::string_view> keys) {
+  if (!value.is_object()) refuse(where, "must be an object: {...}");
+  for (const auto& [key, ignored] : value.items()) {
+    if (std::ranges::find(keys, key) == keys.end())
+      refuse(where, fmt::format("unknown key '{}'{}; the keys are {}", key, suggestion(key, keys), fmt::join(keys, ", ")));
+  }
+}
+
+std::string read_text(const json& object, std::string_view key, const std::string& where) {
+  const auto found = object.find(key);
+  if (found == object.end()) return {};
+  if (!found->is_string()) refuse(fmt::format("{}.{}", where, key), "must be a text in quotes");
+  return *found;
+}
+
+std::optional<int> read_station(const json& object, const std::string& where) {
+  const auto found = object.find("station");
+  if (found == object.end()) return std::nullopt;
+  if (!found->is_number_integer() || *found < 0 || *found > 255) refuse(where + ".station", "must be a number from 0 to 255, without quotes");
+  return found->get<int>();
+}
+
+std::vector<std::string> read_allow_write(const json& object, const std::string& where) {
+  std::vector<std::string> ranges;
+  const auto found = object.find("allow_write");
+  if (found == object.end()) return ranges;
+  if (!found->is_array()) refuse(where + ".allow_write", "must be a list: [\"M100-M199\"]");
+  for (const json& range : *found) {
+    if (!range.is_string()) refuse(where + ".allow_write", "must be a list of texts: [\"M100-M199\"]");
+    ranges.push_back(range);
+    if (const Status allowed = WriteFence().allow(ranges.back()); !allowed) refuse(where + ".allow_write", allowed.error().message);
+  }
+  return ranges;
+}
+
+std::map<std::string, std::string> read_fingerprint(const json& object, const std::string& where) {
+  std::map<std::string, std::string> fingerprint;
+  const auto found = object.find("fingerprint");
+  if (found == object.end()) return fingerprint;
+  if (!found->is_object()) refuse(where + ".fingerprint", "must be an object: {\"NAME\": \"what is found\"}");
+  for (const auto& [key, value] : found->items()) fingerprint[key] = read_text(*found, key, where + ".fingerprint");
+  return fingerprint;
+}
+
+Identity read_identity(const json& object, const std::string& where) {
+  Identity identity;
+  if (const auto found = object.find("identity"); found != object.end()) {
+    const std::string here = where + ".identity";
+    check_object(*found, here, identity_keys);
+    identity.maker = read_text(*found, "maker", here);
+    identity.model = read_text(*found, "model", here);
+    identity.serial = read_text(*found, "serial", here);
+    identity.firmware = read_text(*found, "firmware", here);
+  }
+  identity.operator_name = read_text(object, "operator", where);
+  identity.notes = read_text(object, "notes", where);
+  identity.fingerprint = read_fingerprint(object, where);
+  return identity;
+}
+
+/// A path starts at the bench file's folder; a name is one of the profiles folder.
+std::string resolve_profile(const std::string& profile, const fs::path& folder) {
+  const bool is_path = profile_path(profile, "") == profile;
+  return is_path && fs::path(profile).is_relative() ? (folder / profile).lexically_normal().string() : profile;
+}
+
+/// The endpoint may say station and line itself, but not otherwise than the keys.
+void check_endpoint(const BenchDevice& device, const std::string& where) {
+  if (device.endpoint.empty()) refuse(where, "has no \"endpoint\"; write how it is reached: \"serial:/dev/ttyUSB0?baud=38400\"");
+  const Result<EndpointName> name = parse_endpoint(device.endpoint);
+  if (!name) refuse(where + ".endpoint", name.error().message);
+  if (device.station && name->options.contains("station")) refuse(where + ".station", "the endpoint says a station, too; leave one of the two");
+  if (device.line.empty()) return;
+  if (const auto line = parse_line_settings(device.line); !line) refuse(where + ".line", line.error().message);
+  for (const char* option : {"line", "baud", "frame"})
+    if (name->options.contains(option)) refuse(where + ".line", fmt::format("the endpoint says '{}', too; leave one of the two", option));
+}
+
+BenchDevice read_device(const json& object, const std::string& name, const fs::path& folder) {
+  const std::string where = "devices." + name;
+  check_object(object, where, device_keys);
+  BenchDevice device;
+  device.endpoint = read_text(object, "endpoint", where);
+  device.profile = resolve_profile(read_text(object, "profile", where), folder);
+  device.station = read_station(object, where);
+  device.line = read_text(object, "line", where);
+  device.allow_write = read_allow_write(object, where);
+  device.identity = read_identity(object, where);
+  device.identity.name = name;
+  check_endpoint(device, where);
+  return device;
+}
+
+/// JSON keeps the last of two equal keys in silence: a copied device would hide the one it was copied from.
+json parse_without_twins(const std::string& text) {
+  std::vector<std::set<std::string>> keys;
+  return json::parse(text, [&](int, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key && !keys.back().insert(value).second)
+      throw std::runtime_error(fmt::format("key '{}' stands twice in the same object; rename or remove one", value.get<std::string>()));
+    return true;
+  });
+}
+
+}  // namespace
+
+Result<BenchFile> parse_bench_file(const std::string& text, const std::string& path) {
+  BenchFile file{path, {}};
+  try {
+    const json root = parse_without_twins(text);
+    constexpr std::array<std::string_view, 1> root_keys{"devices"};
+    check_object(root, "the file", root_keys);
+    if (!root.contains("devices") || !root["devices"].is_object()) refuse("the file", "has no \"devices\": {...}");
+    for (const auto& [name, object] : root["devices"].items()) file.devices[name] = read_device(object, name, fs::path(path).parent_path());
+  } catch (const std::exception& error) {
+    return fail(fmt::format("cannot read bench file {}: {}", path, error.what()));
+  }
+  return file;
+}
+
+Result<BenchFile> load_bench_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return fail(fmt::format("cannot read bench file {}; is it there and readable?", path));
+  return parse_bench_file(std::string(std::istreambuf_iterator<char>(in), {}), path);
+}
+
+Result<BenchDevice> find_device(const BenchFile& file, const std::string& name) {
+  if (const auto found = file.devices.find(name); found != file.devices.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& [known, ignored] : file.devices) names.push_back(known);
+  return fail(fmt::format("no device '{}' in bench file {}{}; there is {}", name, file.path, suggestion(name, names),
+                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+std::string endpoint_of(const BenchDevice& device) {
+  std::string options;
+  const auto add = [&](const std::string& option) { options += (options.empty() ? "" : "&") + option; };
+  const Result<EndpointName> name = parse_endpoint(device.endpoint);
+  if (!name) return device.endpoint;
+  if (device.station) add(fmt::format("station={}", *device.station));
+  if (const auto line = parse_line_settings(device.line); line && !device.line.empty()) {
+    const std::string text = to_string(*line);
+    const std::size_t dash = text.find('-');
+    if (name->kind == "serial") add(fmt::format("baud={}&frame={}", text.substr(0, dash), text.substr(dash + 1)));
+    if (name->kind == "emulator" || name->kind == "pty") add("line=" + text);
+  }
+  if (options.empty()) return device.endpoint;
+  return device.endpoint + (name->options.empty() ? "?" : "&") + options;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,43 @@
+#include "harness/bench/benches.hpp"
+
+#include <algorithm>
+
+namespace fieldproof {
+
+Result<Benches> Benches::open(const EndpointName& name, const std::vector<const Protocol*>& protocols, const BenchOptions& options) {
+  Benches benches;
+  for (const Protocol* protocol : protocols) {
+    EndpointName own = name;
+    own.options["protocol"] = protocol->name();
+    Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(own);
+    if (!endpoint) return endpoint.error();
+    auto bench = std::make_unique<Bench>(**endpoint, *protocol, options);
+    benches.members_.push_back({protocol, std::move(*endpoint), std::move(bench)});
+  }
+  return benches;
+}
+
+Status Benches::start() {
+  for (Member& member : members_) {
+    if (!member.bench->stopped().empty()) continue;
+    if (Status alive = member.bench->start(); !alive) return alive;
+  }
+  return ok();
+}
+
+CaseResult Benches::run(const Case& source) {
+  const auto own = std::ranges::find_if(members_, [&](const Member& member) { return member.protocol->name() == source.protocol; });
+  return (own == members_.end() ? members_.front() : *own).bench->run(source);
+}
+
+bool Benches::interrupted() const {
+  return std::ranges::any_of(members_, [](const Member& member) { return member.bench->interrupted(); });
+}
+
+std::string Benches::protocol_names() const {
+  std::string names;
+  for (const Member& member : members_) names += (names.empty() ? "" : ", ") + std::string(member.protocol->name());
+  return names;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,58 @@
+#include "harness/bench/rejudge.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "harness/bench/recording.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+bool is_frame(const Event& event) { return event.kind != Event::Kind::note; }
+
+/// A result that was waived is judged by what it was before.
+Verdict before_waiver(Verdict verdict) { return verdict == Verdict::xfail ? Verdict::fail : verdict; }
+
+Rejudge::Outcome not_judged(const CaseResult& recorded, const std::string& why) {
+  Rejudge::Outcome outcome{recorded, why};
+  const bool exchanged = std::ranges::any_of(recorded.exchange, is_frame) && recorded.verdict != Verdict::error;
+  outcome.result.verdict = exchanged ? Verdict::inconclusive : before_waiver(recorded.verdict);
+  if (exchanged) outcome.result.message = "cannot be judged again: " + why;
+  return outcome;
+}
+
+}  // namespace
+
+Rejudge::Rejudge(const VectorSet& vectors, Profile profile) : profile_(std::move(profile)) {
+  for (const Case& one : vectors.cases) cases_[one.id] = &one;
+}
+
+Rejudge::Outcome Rejudge::judge(const CaseResult& recorded) {
+  const auto source = cases_.find(recorded.id);
+  if (source == cases_.end()) return not_judged(recorded, "the vector is gone");
+  const Protocol* protocol = find_protocol(source->second->protocol);
+  if (!protocol) return not_judged(recorded, fmt::format("there is no protocol '{}'", source->second->protocol));
+  const Result<PreparedCase> prepared = prepare(*source->second, recorded.recording.station, *protocol);
+  if (!prepared) return not_judged(recorded, prepared.error().message);
+  const Result<Transcript> transcript = replay(recorded, *prepared, profile_.response_max);
+  if (!transcript) return not_judged(recorded, transcript.error().message);
+
+  Outcome outcome{result_of(*source->second), ""};
+  CaseResult& result = outcome.result;
+  note_transposition(*prepared, result);
+  JudgeRules rules;
+  rules.guard_band = profile_.guard_band;
+  rules.binding_decisions = rules.binding_timing = profile_.binding_decisions;
+  rules.timing_floor = std::max(profile_.floor, recorded.recording.timing_floor);
+  rules.max_gap = profile_.max_gap > 0ns ? profile_.max_gap : recorded.recording.max_gap;
+  take_judgement(fieldproof::judge(*prepared, *transcript, rules, *protocol), result);
+  result.repeat = recorded.repeat;
+  result.seconds = recorded.seconds;
+  result.exchange = recorded.exchange;
+  result.recording = recorded.recording;
+  readings_.note(result);
+  return outcome;
+}
+
+}  // namespace fieldproof

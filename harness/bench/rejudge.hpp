@@ -1,0 +1,33 @@
+// Judges recorded exchanges by today's vectors, without the device.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "harness/bench/profile.hpp"
+#include "harness/bench/readings.hpp"
+#include "harness/results/case_result.hpp"
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof {
+
+class Rejudge {
+ public:
+  /// Refers to `vectors`. The profile gives limits and how far decisions bind, as in a run.
+  Rejudge(const VectorSet& vectors, Profile profile);
+
+  struct Outcome {
+    CaseResult result;
+    std::string why_not;  // why the exchange was not judged again; empty: it was
+  };
+  /// What was recorded without an exchange (SKIP, BLOCKED, trouble) keeps its verdict. An exchange that cannot be judged
+  /// by today's vector is INCONCLUSIVE.
+  Outcome judge(const CaseResult& recorded);
+
+ private:
+  std::map<std::string, const Case*> cases_;
+  Profile profile_;
+  Readings readings_;
+};
+
+}  // namespace fieldproof

@@ -1,0 +1,15 @@
+// From vectors, and the results of a run, to traceability.
+#pragma once
+
+#include <optional>
+
+#include "harness/vectors/loader.hpp"
+#include "reports/coverage.hpp"
+#include "reports/result_file.hpp"
+
+namespace fieldproof {
+
+/// Every manual with its statements, and the vectors that cite them. With `results`: what their cases came to.
+Coverage trace(const VectorSet& set, const std::optional<ResultFile>& results);
+
+}  // namespace fieldproof

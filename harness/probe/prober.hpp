@@ -1,0 +1,78 @@
+// Asks the questions of a plan on a line whose settings can be changed.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/endpoints/endpoint.hpp"
+#include "harness/probe/diagnosis.hpp"
+
+namespace fieldproof {
+
+/// Opens the line with these settings; the one opened before is closed by then.
+using LineOpener = std::function<Result<std::unique_ptr<Endpoint>>(const LineSettings& settings)>;
+
+struct ProbeTiming {
+  Duration wait = 500ms;     // for the first byte of an answer (the profiles' response_max)
+  Duration late = 2600ms;    // instead, once an answer came later: the longest delay time is 2550 ms (000 table 4.3.1)
+  Duration quiet = 100ms;    // no further byte for so long: the answer is over
+  Duration listen = 1s;      // before the first question of all
+};
+
+/// One question and what came of it.
+struct Observation {
+  Trial trial;
+  Heard heard;
+  Diagnosis diagnosis;
+  bool late = false;  // a reply to a question of before
+};
+
+struct Search {
+  std::vector<Observation> observations;  // all but the silent ones, in order
+  std::size_t trials = 0;                 // done, the silent ones too
+  std::vector<LineSettings> lines;        // that were tried
+  std::vector<std::string> not_offered;   // settings that the port refused, and why
+  bool interrupted = false;               // Ctrl-C: not all was tried
+};
+
+/// The questions that an observation suggests next: the station, protocol or character format that showed itself.
+std::vector<Trial> suggestions(const Observation& observation);
+
+class Prober {
+ public:
+  /// `done` of `total` trials; called after each.
+  using Progress = std::function<void(std::size_t done, std::size_t total, const Observation& last)>;
+
+  Prober(LineOpener open, ProbeTiming timing, Progress progress)
+      : open_(std::move(open)), timing_(timing), progress_(std::move(progress)) {}
+
+  /// Until the first sure find, which is asked twice more; with `all` to the end of the plan. Errors are trouble of the port.
+  Result<Search> run(std::vector<Trial> plan, bool all);
+
+ private:
+  bool known_line(const LineSettings& line) const;
+  void insert_next(std::vector<Trial>& rest, const std::vector<Trial>& trials);
+  Result<bool> try_next(const Trial& trial, std::vector<Trial>& rest);
+  Result<Observation> observe(const Trial& trial);
+  Result<bool> confirm(const Trial& trial);
+  Result<bool> settle(const LineSettings& line);
+  Status listen(Time until, std::vector<Burst>& heard);
+  void keep(const Observation& observation);
+
+  LineOpener open_;
+  ProbeTiming timing_;
+  Progress progress_;
+  std::unique_ptr<Endpoint> endpoint_;
+  LineSettings line_;
+  std::vector<LineSettings> lines_;   // of the plan
+  std::vector<LineSettings> refused_;
+  std::vector<Trial> done_;
+  std::string first_refusal_;
+  std::size_t total_ = 0;
+  bool late_ = false;                 // a reply came after its wait
+  Search search_;
+};
+
+}  // namespace fieldproof

@@ -1,0 +1,88 @@
+// Lines for the tests of the search: an emulated device whose settings the search does not know, and what can be wrong
+// with the wiring between.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "harness/endpoints/emulator.hpp"
+#include "harness/probe/conclusion.hpp"
+#include "src/line/faults.hpp"
+
+namespace fieldproof::probe_tests {
+
+inline const Protocol& protocol_named(std::string_view name) { return *find_protocol(name); }
+
+/// The device that is searched.
+struct Hidden {
+  std::string protocol = "xgt-cnet", model = "xbc-h";
+  nlohmann::json config{{"station", 1}, {"line", "9600-8N1"}};
+  Decorator decorate{};
+};
+
+inline LineOpener opener(const Hidden& hidden) {
+  return [hidden](const LineSettings& bench) -> Result<std::unique_ptr<Endpoint>> {
+    const Protocol* protocol = find_protocol(hidden.protocol);
+    auto endpoint = std::make_unique<EmulatorEndpoint>(
+        EndpointName{"emulator", hidden.model, {}},
+        [protocol](std::string_view model, const nlohmann::json& config) { return protocol->make_device(model, config); }, hidden.decorate);
+    nlohmann::json config = hidden.config;
+    config["bench_line"] = to_string(bench);
+    if (const Status begun = endpoint->begin(config); !begun) return begun.error();
+    return std::unique_ptr<Endpoint>(std::move(endpoint));
+  };
+}
+
+/// Puts line faults between the line and the device.
+inline Decorator with_faults(const LineFaults& faults) {
+  return [faults](Device& device, const LineSettings& line) { return std::make_unique<FaultyDevice>(device, faults, line.character_time()); };
+}
+
+/// Between the bench and its endpoint: what happens on the way.
+class Wire : public Endpoint {
+ public:
+  explicit Wire(std::unique_ptr<Endpoint> inner) : inner_(std::move(inner)) {}
+
+  const Capabilities& capabilities() const override { return inner_->capabilities(); }
+  std::string describe() const override { return inner_->describe(); }
+  Time now() const override { return inner_->now(); }
+  Duration character_time() const override { return inner_->character_time(); }
+  Status begin(const nlohmann::json& config) override { return inner_->begin(config); }
+  Result<Sent> send(ByteView bytes) override { return inner_->send(bytes); }
+  Result<Burst> receive(Time deadline) override { return inner_->receive(deadline); }
+  std::string line_errors() override { return inner_->line_errors(); }
+
+ protected:
+  std::unique_ptr<Endpoint> inner_;
+};
+
+template <typename OneWire, typename... Arguments>
+LineOpener behind(LineOpener inner, Arguments... arguments) {
+  return [=](const LineSettings& line) -> Result<std::unique_ptr<Endpoint>> {
+    Result<std::unique_ptr<Endpoint>> opened = inner(line);
+    if (!opened) return opened;
+    return std::unique_ptr<Endpoint>(std::make_unique<OneWire>(std::move(*opened), line, arguments...));
+  };
+}
+
+inline Search run_search(const LineOpener& open, const SearchSpace& space = {}, bool all = false) {
+  Prober prober(open, {}, [](std::size_t, std::size_t, const Observation&) {});
+  Result<Search> search = prober.run(make_plan(space), all);
+  return search ? *search : Search{};
+}
+
+inline std::vector<Finding> find(const LineOpener& open, const SearchSpace& space = {}) { return conclude(run_search(open, space), {}); }
+
+inline std::vector<Finding::Kind> kinds(const std::vector<Finding>& findings) {
+  std::vector<Finding::Kind> result;
+  for (const Finding& one : findings) result.push_back(one.kind);
+  return result;
+}
+
+/// One speed, one frame, stations 0 to 3: enough where the search is not what is tested.
+inline SearchSpace small_space() { return {.speeds = {9600}, .frames = {LineSettings{}}, .stations = {1, 2, 3}, .protocols = {}}; }
+
+}  // namespace fieldproof::probe_tests

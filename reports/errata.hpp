@@ -1,0 +1,19 @@
+// The mistakes of the manuals, each with the sentence that proves it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/results/case_result.hpp"
+
+namespace fieldproof {
+
+/// By manual and section, in the order in which a person counts.
+void sort_errata(std::vector<ErratumInfo>& errata);
+
+std::string errata_text(const std::vector<ErratumInfo>& errata);
+std::string errata_json(const std::vector<ErratumInfo>& errata);
+/// A heading and a table for each manual.
+std::string errata_markdown(const std::vector<ErratumInfo>& errata);
+
+}  // namespace fieldproof

@@ -1,0 +1,58 @@
+#include "src/modbus/ascii_receiver.hpp"
+
+#include "src/modbus/frame.hpp"
+#include "src/plc/counters.hpp"
+
+namespace fieldproof {
+
+void AsciiReceiver::receive(const Burst& burst, FrameSink& sink) {
+  if (burst.bytes.empty()) return;
+  if (burst.start - last_end_ > max_gap) give_up(sink);
+  Time end = burst.start;
+  for (const Byte b : burst.bytes) {
+    end += burst.character_time;
+    take(b, end, sink);
+  }
+  last_end_ = end;
+  character_time_ = burst.character_time;
+}
+
+void AsciiReceiver::take(Byte b, Time end, FrameSink& sink) {
+  if (b == ':') {
+    if (state_ == State::frame) give_up(sink);
+    frame_.assign(1, b);
+    state_ = State::frame;
+    return;
+  }
+  if (state_ == State::garbage) return;
+  if (state_ == State::idle) {
+    state_ = State::garbage;
+    return sink.on_broken_frame(service_status::not_modbus);
+  }
+  if (frame_.size() == ascii_max_frame) {
+    state_ = State::garbage;  // already counted
+    return sink.on_broken_frame(service_status::too_long);
+  }
+  const bool ends = b == '\n' && frame_.back() == '\r';
+  frame_.push_back(b);
+  if (!ends) return;
+  state_ = State::idle;
+  sink.on_frame(frame_, end);
+}
+
+void AsciiReceiver::give_up(FrameSink& sink) {
+  if (state_ == State::frame) sink.on_broken_frame(service_status::not_modbus);
+  state_ = State::idle;
+}
+
+std::optional<Time> AsciiReceiver::wake_at() const {
+  if (state_ != State::frame) return std::nullopt;
+  // A character that begins at the last moment is complete, and heard, one character time later.
+  return last_end_ + max_gap + character_time_ + Duration(1);
+}
+
+void AsciiReceiver::advance(Time now, FrameSink& sink) {
+  if (const auto wake = wake_at(); wake && now >= *wake) give_up(sink);
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,35 @@
+// ASCII frames: ':' to CR LF, at most one second between two characters (000 and 003 9.3.1 (1)).
+//
+// ':' inside a frame begins a new one. What stands between is not looked at here. The inter-character parameter of 003
+// 4.3.1 does not apply: its default of 3.5 characters would contradict the second.
+#pragma once
+
+#include "src/modbus/receiver.hpp"
+
+namespace fieldproof {
+
+class AsciiReceiver : public ModbusReceiver {
+ public:
+  /// Longest silence between two characters.
+  static constexpr Duration max_gap = 1s;
+
+  /// Frames have at most ascii_max_frame characters; a longer one is dropped (service_status::too_long). Characters outside
+  /// a frame (once a run of them), and a frame without its end, are service_status::not_modbus.
+  void receive(const Burst& burst, FrameSink& sink) override;
+  std::optional<Time> wake_at() const override;
+  void advance(Time now, FrameSink& sink) override;
+  void reset() override { state_ = State::idle; }
+
+ private:
+  enum class State { idle, garbage, frame };
+
+  void take(Byte b, Time end, FrameSink& sink);
+  void give_up(FrameSink& sink);
+
+  State state_ = State::idle;
+  Bytes frame_;
+  Time last_end_{};
+  Duration character_time_{};
+};
+
+}  // namespace fieldproof

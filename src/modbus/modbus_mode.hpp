@@ -1,0 +1,8 @@
+// The two transmission modes of Modbus (000 and 003 9.2.1).
+#pragma once
+
+namespace fieldproof {
+
+enum class ModbusMode { rtu, ascii };
+
+}  // namespace fieldproof

@@ -1,0 +1,38 @@
+#include "src/modbus/rtu_receiver.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/modbus/frame.hpp"
+#include "src/plc/counters.hpp"
+
+namespace fieldproof {
+
+void RtuReceiver::receive(const Burst& burst, FrameSink& sink) {
+  if (burst.bytes.empty()) return;
+  if (burst.start - last_end_ >= gap_) finish(sink);
+  const std::size_t room = rtu_max_frame + 1 - frame_.size();
+  const auto taken = static_cast<std::ptrdiff_t>(std::min(room, burst.bytes.size()));
+  frame_.insert(frame_.end(), burst.bytes.begin(), burst.bytes.begin() + taken);
+  last_end_ = burst.end();
+  character_time_ = burst.character_time;
+}
+
+std::optional<Time> RtuReceiver::wake_at() const {
+  if (frame_.empty()) return std::nullopt;
+  return last_end_ + gap_ + character_time_;
+}
+
+void RtuReceiver::advance(Time now, FrameSink& sink) {
+  if (const auto wake = wake_at(); wake && now >= *wake) finish(sink);
+}
+
+void RtuReceiver::finish(FrameSink& sink) {
+  if (frame_.empty()) return;
+  const Time end = *wake_at();
+  const Bytes frame = std::exchange(frame_, {});
+  if (frame.size() > rtu_max_frame) sink.on_broken_frame(service_status::too_long);
+  else sink.on_frame(frame, end);
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,33 @@
+// RTU frames: silence alone tells one from the next (000 and 003 9.3.2 (1)(d); 003 4.3.1).
+//
+// A gap shorter than the inter-character time (0: 3.5 characters of 11 bits) keeps a frame together, also between 1.5
+// characters and that time: there 003 4.3.1 is followed ('characters that come within the time are one frame'), not
+// 9.3.2 ('exceeding 1.5 character time'). A gap equal to the time, or longer, ends it.
+// That is known one character later than the time alone: a character that began within it has arrived by then.
+#pragma once
+
+#include "src/modbus/receiver.hpp"
+
+namespace fieldproof {
+
+class RtuReceiver : public ModbusReceiver {
+ public:
+  explicit RtuReceiver(Duration gap) : gap_(gap) {}
+
+  /// Frames have at most rtu_max_frame bytes; a longer one is dropped (service_status::too_long).
+  /// The `end` of a frame is the moment at which its end is known.
+  void receive(const Burst& burst, FrameSink& sink) override;
+  std::optional<Time> wake_at() const override;
+  void advance(Time now, FrameSink& sink) override;
+  void reset() override { frame_.clear(); }
+
+ private:
+  void finish(FrameSink& sink);
+
+  Duration gap_;
+  Bytes frame_;  // one byte more than the longest at most
+  Time last_end_{};
+  Duration character_time_{};
+};
+
+}  // namespace fieldproof

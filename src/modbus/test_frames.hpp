@@ -1,0 +1,54 @@
+// For tests: bytes as hex, and frames around them.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/modbus/frame.hpp"
+#include "src/plc/frame_sink.hpp"
+
+namespace fieldproof::test {
+
+inline Bytes hex(std::string_view text) {
+  const auto bytes = from_hex(text);
+  if (!bytes) throw std::invalid_argument("a test has wrong hex: " + std::string(text));
+  return *bytes;
+}
+
+/// Station and PDU in hex, as a frame.
+inline Bytes framed(ModbusMode mode, std::string_view text) {
+  const Bytes content = hex(text);
+  return encode_modbus_frame(mode, content.at(0), ByteView(content).subspan(1));
+}
+inline Bytes rtu(std::string_view text) { return framed(ModbusMode::rtu, text); }
+inline Bytes ascii(std::string_view text) { return framed(ModbusMode::ascii, text); }
+
+inline Bytes operator+(Bytes a, const Bytes& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+inline Bytes part(const Bytes& bytes, std::size_t from, std::size_t until) {
+  return Bytes(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.begin() + static_cast<std::ptrdiff_t>(until));
+}
+
+/// Writes down what it is given.
+class Log : public FrameSink {
+ public:
+  void on_frame(ByteView frame, Time end) override {
+    frames.emplace_back(frame.begin(), frame.end());
+    ends.push_back(end);
+  }
+  void on_broken_frame(std::uint16_t why) override { broken.push_back(why); }
+
+  std::vector<Bytes> frames;
+  std::vector<Time> ends;
+  std::vector<std::uint16_t> broken;
+};
+
+using Broken = std::vector<std::uint16_t>;
+using Frames = std::vector<Bytes>;
+
+}  // namespace fieldproof::test

@@ -1,0 +1,62 @@
+// An emulated XGB port that works with user-defined frames (000 6.2.5, 003 6.5).
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+
+#include "src/plc/counters.hpp"
+#include "src/plc/emulated_device.hpp"
+#include "src/plc/memory.hpp"
+#include "src/plc/port_config.hpp"
+#include "src/plc/reply_queue.hpp"
+#include "src/user_frames/codec.hpp"
+#include "src/user_frames/frame.hpp"
+
+namespace fieldproof {
+
+class UserFramePort : public EmulatedDevice {
+ public:
+  void receive(const Burst& burst) override;
+  std::optional<Time> wake_at() const override;
+  Bytes advance(Time now) override;
+
+  /// Memory of the definition's PLC.
+  Status set(std::string_view address, std::string_view hex) override;
+  Result<std::string> get(std::string_view address, std::size_t digits) const override;
+  /// Also "send GROUP.FRAME". power_cycle: what was half received and the counters are lost; memory and mode stay.
+  Status act(std::string_view action) override;
+
+ private:
+  friend Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(const user_frames::FrameDefinition&,
+                                                                        const nlohmann::json&);
+  UserFramePort(const user_frames::FrameDefinition& definition, const PortConfig& config);
+
+  struct Found {
+    user_frames::FrameMatch match;
+    const user_frames::UserFrame* frame = nullptr;  // of a complete match; nullptr: its check is wrong
+  };
+  /// What the bytes heard begin with.
+  Found find(bool ended) const;
+  void take_frames(Time now, bool ended);
+  void take(const Found& found, Time now);
+  void pass_over();
+  void drop_heard();
+  Status send(std::string_view name);
+
+  user_frames::FrameDefinition definition_;
+  PlcMemory memory_;
+  Duration gap_, delay_;
+  bool run_;
+  Bytes heard_;                // since the last frame
+  bool passing_over_ = false;  // bytes of no frame, already counted
+  Time last_end_{}, now_{};
+  Duration character_time_{};
+  ReplyQueue queue_;
+  ServiceCounters counters_;
+};
+
+/// In its power-on state. `config`: port_config.hpp; station and role change nothing. Errors name the key.
+Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(const user_frames::FrameDefinition& definition,
+                                                               const nlohmann::json& config);
+
+}  // namespace fieldproof

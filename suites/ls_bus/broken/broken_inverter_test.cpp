@@ -1,0 +1,121 @@
+// The suite against broken inverters: each fault must turn its case red, with a message that names it, and the healthy
+// inverter must pass. As a user would, with the built tool; what takes a back door, in process.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/bench.hpp"
+#include "harness/endpoints/emulator.hpp"
+#include "harness/vectors/loader.hpp"
+#include "suites/broken/suite_runs.hpp"
+#include "suites/ls_bus/broken/broken_inverter.hpp"
+#include "suites/ls_bus/broken/faults.hpp"
+#include "suites/ls_bus/protocol.hpp"
+
+namespace fieldproof::ls_bus {
+
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* healthy = "none";
+const std::string sources = FIELDPROOF_SOURCE_DIR;
+
+std::string case_id(const Fault& fault) { return fmt::format("ls_bus/{}", fault.caught_by); }
+
+/// One file a topic, which loads faster than all.
+std::string vectors_of(const Fault& fault) {
+  return fmt::format("{}/vectors/ls_bus/{}.json", sources, fault.caught_by.substr(0, fault.caught_by.find('/')));
+}
+
+std::string device(std::string_view fault, unsigned station) {
+  return fmt::format("{} {} {{tty}} {}?station={}&protocol=ls-bus", quoted(BROKEN_SERVER), fault, station, station);
+}
+
+std::optional<Trial> trial_of(const std::string& test) {
+  if (test == "PassesTheWholeSuite") return Trial{healthy, device(healthy, 1), "inverter", {}, "ls_bus/*"};
+  const Fault* fault = test.starts_with("CatchesOnThePort/") ? find_fault(parameter_of(test)) : nullptr;
+  if (!fault) return std::nullopt;
+  const std::string id = case_id(*fault);
+  return Trial{std::string(fault->name), device(fault->name, fault->station), "inverter", vectors_of(*fault),
+               fault->neighbours == alone ? id : neighbours_of(id)};
+}
+
+SuiteRuns& runs() {
+  static auto* const environment = static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+  return *environment;
+}
+[[maybe_unused]] const SuiteRuns& registered_before_main = runs();
+
+class TheSuite : public testing::TestWithParam<Fault> {};
+
+TEST_P(TheSuite, CatchesOnThePort) {
+  const Fault& fault = GetParam();
+  const SuiteRun run = runs().take(std::string(fault.name));
+  expect_caught(run, case_id(fault), fault.message);
+  runs().report(fmt::format("{:<32} {:<50} {:>4.1f} s", fault.name, fault.caught_by, run.seconds));
+}
+
+/// The case that must catch `fault`, against the inverter of the name `device`.
+CaseResult run_in_process(const Fault& fault, std::string_view device) {
+  const VectorSet set = load_vectors(vectors_of(fault), sources + "/vectors/schema.json");
+  const auto source = std::ranges::find(set.cases, case_id(fault), &Case::id);
+  if (source == set.cases.end()) {
+    ADD_FAILURE() << "there is no case " << case_id(fault);
+    return {};
+  }
+  EmulatorEndpoint endpoint({"emulator", "inverter", {}},
+                            [device](std::string_view, const nlohmann::json& config) { return make_broken_inverter(device, config); });
+  BenchOptions options;
+  options.profile = *load_profile("inverter", sources + "/suites/profiles");
+  return Bench(endpoint, protocol(), options).run(*source);
+}
+
+class BehindTheBackDoor : public testing::TestWithParam<Fault> {};
+
+TEST_P(BehindTheBackDoor, IsCaughtInProcess) {
+  const CaseResult result = run_in_process(GetParam(), GetParam().name);
+  EXPECT_EQ(result.verdict, Verdict::fail) << result.message;
+  EXPECT_TRUE(names(result, GetParam().message)) << "the message does not name '" << GetParam().message << "': " << result.message;
+}
+
+TEST_P(BehindTheBackDoor, IsNotSeenInTheHealthyInverter) {
+  const CaseResult result = run_in_process(GetParam(), healthy);
+  EXPECT_EQ(result.verdict, Verdict::pass) << result.message;
+}
+
+constexpr auto name_of = [](const auto& test) { return std::string(test.param.name); };
+INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()), name_of);
+INSTANTIATE_TEST_SUITE_P(Broken, BehindTheBackDoor, testing::ValuesIn(back_door_faults()), name_of);
+
+TEST(HealthyInverter, PassesTheWholeSuite) {
+  const SuiteRun run = runs().take(healthy);
+  const std::size_t passed = expect_healthy(run, 200);
+  runs().report(fmt::format("{:<32} {} of {} cases pass, {:.1f} s", healthy, passed, run.results.size(), run.seconds));
+}
+
+TEST(InverterFaults, NamesAreUnique) {
+  std::map<std::string_view, int> names;
+  for (const auto* table : {&faults(), &back_door_faults()})
+    for (const Fault& fault : *table) EXPECT_EQ(++names[fault.name], 1) << fault.name;
+  EXPECT_GE(names.size(), 100u);
+}
+
+TEST(BrokenInverter, ListsItsFaults) {
+  const Finished list = run_program({BROKEN_SERVER, "--list"});
+  EXPECT_EQ(list.code, 0) << list.err;
+  for (const Fault& fault : faults()) EXPECT_THAT(list.out, HasSubstr(fault.name));
+}
+
+TEST(BrokenInverter, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
+  const TestFolder folder;
+  const Finished ended = run_program({BROKEN_SERVER, "sum_off_by_on", folder / "tty"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("sum_off_by_one"));
+}
+
+}  // namespace
+}  // namespace fieldproof::ls_bus

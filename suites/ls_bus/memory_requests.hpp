@@ -1,0 +1,28 @@
+// An inverter's parameters through the LS Bus itself, where there is no back door. Addresses are four hex digits, "1230"
+// or "h1230". Writes go out address first.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/protocol.hpp"
+
+namespace fieldproof::ls_bus {
+
+/// The area of all parameters in the write fence, by the value of their address: H4656 is 1230.
+constexpr std::string_view parameter_area = "H";
+
+/// ENQ, the body and its sum, EOT.
+Bytes request(std::string_view body);
+
+/// At most eight words each. `station`: two hex digits. What inverters tell of themselves is read only.
+Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_view address, std::string_view hex);
+Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_view address, std::size_t digits);
+Status write_reply(ByteView reply);
+Result<std::string> read_reply(ByteView reply);
+
+/// What a request frame would write: address first, and count first too unless it adds up address first alone.
+std::vector<Protocol::Written> written_by(ByteView request);
+
+}  // namespace fieldproof::ls_bus

@@ -1,0 +1,75 @@
+#include "suites/ls_bus/protocol.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "src/ls_bus/inverter.hpp"
+#include "suites/ls_bus/facts.hpp"
+#include "suites/ls_bus/frame_parts.hpp"
+#include "suites/ls_bus/memory_requests.hpp"
+
+namespace fieldproof::ls_bus {
+
+namespace {
+
+constexpr std::size_t command_at = 3, count_at = 8;
+
+std::string station_text(int station) { return hex_number(static_cast<unsigned>(station), 2); }
+
+/// Would a reply to this request have one word of data?
+bool reads_one_word(ByteView request) {
+  const auto behind_header = std::find(request.rbegin(), request.rend(), enq).base();
+  const ByteView frame = behind_header == request.begin() ? request : ByteView(behind_header - 1, request.end());
+  return frame.size() > count_at && frame[command_at] == 'R' && frame[count_at] == '1';
+}
+
+class LsBus : public Protocol {
+ public:
+  std::string_view name() const override { return "ls-bus"; }
+  std::vector<std::string> models() const override { return {"inverter"}; }
+
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
+    if (!has_model(model)) return fail(fmt::format("cannot make a device '{}': the LS Bus has one model, inverter", model));
+    return make_inverter(config);
+  }
+
+  Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
+  std::optional<std::size_t> frame_length(ByteView bytes) const override { return ls_bus::frame_length(bytes); }
+  std::vector<Field> explain(ByteView frame) const override { return ls_bus::explain(frame); }
+
+  /// Parameter 0000, which inverters have for their model: one word, or two where the tested request reads one. So no reply
+  /// to the tested request has its length and its command.
+  Bytes probe(int station, ByteView tested) const override {
+    return request(fmt::format("{}R0000{}", station_text(station), reads_one_word(tested) ? 2 : 1));
+  }
+
+  bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
+    const std::size_t words = probe[count_at] == '2' ? 2 : 1;
+    return reply.size() == command_at + 1 + 4 * words + 3 && reply[0] == ack && reply[command_at] == 'R';
+  }
+
+  Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
+    return ls_bus::write_requests(station_text(station), address, hex);
+  }
+  Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
+    return ls_bus::read_requests(station_text(station), address, digits);
+  }
+  Status write_reply(ByteView reply) const override { return ls_bus::write_reply(reply); }
+  Result<std::string> read_reply(ByteView reply) const override { return ls_bus::read_reply(reply); }
+  std::vector<Written> written_by(ByteView request) const override { return ls_bus::written_by(request); }
+  /// A parameter may be the run command: a motor turns.
+  nlohmann::json write_config() const override { return {{"write_order", "address_first"}}; }
+  std::string_view output_areas() const override { return parameter_area; }
+
+  Status check_fact(const nlohmann::json& facts) const override { return ls_bus::check_fact(facts); }
+};
+
+}  // namespace
+
+const Protocol& protocol() {
+  static const LsBus ls_bus;
+  return ls_bus;
+}
+
+}  // namespace fieldproof::ls_bus

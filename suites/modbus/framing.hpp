@@ -1,0 +1,35 @@
+// How a message travels: RTU (000 9.3.2) and ASCII (000 9.3.1).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "harness/protocol.hpp"
+
+namespace fieldproof::modbus {
+
+class Framing {
+ public:
+  virtual ~Framing() = default;
+
+  virtual std::string_view protocol_name() const = 0;
+  virtual Bytes station_bytes(int station) const = 0;
+
+  /// A message with start, check and end around it.
+  virtual Bytes wrap(ByteView message) const = 0;
+  /// The message of a frame; its check is not judged. Empty where it holds none.
+  virtual Bytes unwrap(ByteView frame) const = 0;
+
+  /// Length of the first complete frame, request or reply. Bytes that begin no frame count as a piece of their own.
+  virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
+  virtual std::vector<Field> explain(ByteView frame) const = 0;
+  virtual Duration frame_gap(Duration character_time) const = 0;
+
+  /// Every message that a device could read in these bytes, whole or damaged: several frames, a frame after noise.
+  virtual std::vector<Bytes> messages(ByteView bytes) const = 0;
+};
+
+const Framing& rtu_framing();
+const Framing& ascii_framing();
+
+}  // namespace fieldproof::modbus

@@ -1,0 +1,96 @@
+// Masters that nobody here has written, against the emulator: what they write one way they read another.
+#include <gmock/gmock.h>
+
+#include <map>
+#include <sstream>
+
+#include "harness/cli/tool.hpp"
+
+namespace fieldproof {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string peers = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/";
+
+/// The emulator on a pty, ready when it has said where.
+class EmulatedPlc {
+ public:
+  explicit EmulatedPlc(const std::string& mode)
+      : tty(folder_ / "plc"), emulator_(tool_arguments({"emulate", "xbc-h?protocol=modbus-" + mode, "--pty", tty})) {
+    EXPECT_TRUE(emulator_.wait_for(tty));
+  }
+
+ private:
+  TestFolder folder_;
+
+ public:
+  const std::string tty;
+
+ private:
+  Process emulator_;
+};
+
+void expect_no_complaint(const Finished& master) { EXPECT_EQ(master.code, 0) << master.out << master.err; }
+
+/// mbpoll's "[100]:   0x1234" lines by data address.
+std::map<std::string, std::string> values(const std::string& output) {
+  std::map<std::string, std::string> result;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = line.find("]:");
+    if (line.empty() || line[0] != '[' || end == std::string::npos) continue;
+    std::istringstream(line.substr(end + 2)) >> result[line.substr(1, end - 1)];
+  }
+  return result;
+}
+
+/// `what` says type and reference; `written` are the values to write, none to read.
+Finished mbpoll(const std::string& tty, std::vector<std::string> what, std::vector<std::string> written = {}) {
+  std::vector<std::string> arguments{"mbpoll", "-m", "rtu", "-a", "1", "-b", "9600", "-P", "none", "-0", "-1"};
+  arguments.insert(arguments.end(), what.begin(), what.end());
+  arguments.push_back(tty);
+  arguments.insert(arguments.end(), written.begin(), written.end());
+  return run_program(arguments);
+}
+
+TEST(Mbpoll, ReadsBitsOfTheWordsThatItWrote) {
+  const EmulatedPlc plc("rtu");
+  expect_no_complaint(mbpoll(plc.tty, {"-t", "4:hex", "-r", "100"}, {"0x9ABC", "0x1234"}));
+  const Finished coils = mbpoll(plc.tty, {"-t", "0", "-r", "1600", "-c", "16"});
+  expect_no_complaint(coils);
+  const std::map<std::string, std::string> bits = values(coils.out);
+  ASSERT_EQ(bits.size(), 16u) << coils.out;
+  for (unsigned i = 0; i < 16; ++i) EXPECT_EQ(bits.at(std::to_string(1600 + i)), 0x9ABCu >> i & 1 ? "1" : "0") << i;
+}
+
+TEST(Mbpoll, ReadsTheWordOfTheBitsThatItWrote) {
+  const EmulatedPlc plc("rtu");
+  expect_no_complaint(mbpoll(plc.tty, {"-t", "0", "-r", "3200"}, {"1", "0", "1", "1", "0", "0", "1", "1", "1", "0"}));
+  const Finished word = mbpoll(plc.tty, {"-t", "4:hex", "-r", "200", "-c", "1"});
+  expect_no_complaint(word);
+  EXPECT_EQ(values(word.out)["200"], "0x01CD") << word.out;
+}
+
+TEST(Mbpoll, IsToldOfAnAddressPastTheEnd) {
+  const EmulatedPlc plc("rtu");
+  const Finished refused = mbpoll(plc.tty, {"-t", "4:hex", "-r", "1024", "-c", "1"});
+  EXPECT_THAT(refused.out + refused.err, HasSubstr("Illegal data address"));
+}
+
+TEST(Libmodbus, WritesOneWayAndReadsAnother) {
+  const EmulatedPlc plc("rtu");
+  expect_no_complaint(run_program({LIBMODBUS_CLIENT, plc.tty}));
+}
+
+class Pymodbus : public testing::TestWithParam<std::string> {};
+
+TEST_P(Pymodbus, WritesOneWayAndReadsAnother) {
+  const EmulatedPlc plc(GetParam());
+  expect_no_complaint(run_program({"/usr/bin/python3", peers + "pymodbus_client.py", GetParam(), plc.tty}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, Pymodbus, testing::Values("rtu", "ascii"), [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace fieldproof

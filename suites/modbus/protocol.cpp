@@ -1,0 +1,89 @@
+#include "suites/modbus/protocol.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "src/modbus/modbus_plc.hpp"
+#include "src/plc/model.hpp"
+#include "suites/modbus/facts.hpp"
+#include "suites/modbus/functions.hpp"
+#include "suites/modbus/framing.hpp"
+#include "suites/modbus/memory_requests.hpp"
+
+namespace fieldproof::modbus {
+
+namespace {
+
+class Modbus : public Protocol {
+ public:
+  Modbus(ModbusMode mode, const Framing& framing) : mode_(mode), framing_(framing) {}
+
+  std::string_view name() const override { return framing_.protocol_name(); }
+
+  std::vector<std::string> models() const override {
+    std::vector<std::string> names;
+    for (const PlcModel& model : plc_models()) names.emplace_back(model.name);
+    return names;
+  }
+
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
+    return make_modbus_plc(mode_, model, config);
+  }
+
+  Bytes station_bytes(int station) const override { return framing_.station_bytes(station); }
+  std::optional<std::size_t> frame_length(ByteView bytes) const override { return framing_.frame_length(bytes); }
+  std::vector<Field> explain(ByteView frame) const override { return framing_.explain(frame); }
+  Duration frame_gap(Duration character_time) const override { return framing_.frame_gap(character_time); }
+
+  /// One element at data address 0, which every model has, by a function code that was not tested: a reply or an
+  /// exception to the tested frame carries another one.
+  Bytes probe(int station, ByteView tested) const override {
+    constexpr std::array<Byte, 4> reads{0x03, 0x01, 0x04, 0x02};
+    const std::vector<Bytes> messages = framing_.messages(tested);
+    const auto was_tested = [&](Byte function) {
+      return std::ranges::any_of(messages, [function](const Bytes& message) {
+        return message.size() > 1 && (message[1] & ~exception_bit) == function;
+      });
+    };
+    const auto free = std::ranges::find_if_not(reads, was_tested);
+    return framing_.wrap(Bytes{static_cast<Byte>(station), free == reads.end() ? reads.front() : *free, 0, 0, 0, 1});
+  }
+
+  bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
+    const Bytes asked = framing_.unwrap(probe), answer = framing_.unwrap(reply);
+    return answer.size() > 1 && asked.size() > 1 && (answer[1] & ~exception_bit) == asked[1];
+  }
+
+  Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
+    return modbus::write_requests(framing_, station, address, hex);
+  }
+  Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
+    return modbus::read_requests(framing_, station, address, digits);
+  }
+  Status write_reply(ByteView reply) const override { return modbus::write_reply(framing_, reply); }
+  Result<std::string> read_reply(ByteView reply) const override { return modbus::read_reply(framing_, reply); }
+  std::vector<Written> written_by(ByteView request) const override { return modbus::written_by(framing_, request); }
+  nlohmann::json write_config() const override { return {{"bit_write_base", "M0"}, {"word_write_base", "M0"}}; }
+  std::string_view output_areas() const override { return "PQU"; }
+
+  Status check_fact(const nlohmann::json& facts) const override { return modbus::check_fact(facts); }
+
+ private:
+  ModbusMode mode_;
+  const Framing& framing_;
+};
+
+}  // namespace
+
+const Protocol& rtu() {
+  static const Modbus protocol(ModbusMode::rtu, rtu_framing());
+  return protocol;
+}
+
+const Protocol& ascii() {
+  static const Modbus protocol(ModbusMode::ascii, ascii_framing());
+  return protocol;
+}
+
+}  // namespace fieldproof::modbus

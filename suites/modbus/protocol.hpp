@@ -1,0 +1,11 @@
+// Modbus RTU and ASCII servers of the XGB Cnet interface (000 6.1.3 and chapter 9) for the harness.
+#pragma once
+
+#include "harness/protocol.hpp"
+
+namespace fieldproof::modbus {
+
+const Protocol& rtu();
+const Protocol& ascii();
+
+}  // namespace fieldproof::modbus

@@ -1,0 +1,80 @@
+#include "suites/modbus/protocol.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace fieldproof {
+
+// The table of protocols lives in suites/; these tests need none.
+std::span<const Protocol* const> protocols() { return {}; }
+
+namespace modbus {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+Bytes bytes(std::string_view hex) { return *from_hex(hex); }
+
+TEST(Protocol, NamesItselfAndItsModels) {
+  EXPECT_EQ(rtu().name(), "modbus-rtu");
+  EXPECT_EQ(ascii().name(), "modbus-ascii");
+  EXPECT_THAT(rtu().models(), testing::ElementsAre("xbc-h", "xbm-s", "xec-h"));
+  EXPECT_EQ(rtu().station_bytes(17), Bytes{0x11});
+  EXPECT_EQ(ascii().station_bytes(17), to_bytes("11"));
+}
+
+TEST(Protocol, OnlyRtuNeedsSilenceBetweenFrames) {
+  EXPECT_GE(rtu().frame_gap(1ms), 3850us) << "3.5 characters of 11 bits, where a character has 10";
+  EXPECT_EQ(ascii().frame_gap(1ms), 0ns);
+}
+
+TEST(Protocol, MakesTheDevicesOfBothModes) {
+  for (const fieldproof::Protocol* protocol : {&rtu(), &ascii()})
+    for (const std::string& model : protocol->models()) {
+      const auto device = protocol->make_device(model, json{{"station", 3}});
+      ASSERT_TRUE(device) << device.error().message;
+      EXPECT_EQ(*(*device)->get("%MW0", 4), "0000");
+    }
+  EXPECT_FALSE(rtu().make_device("xbc-h", json{{"word_read_base", "nowhere"}}));
+}
+
+TEST(Probe, ReadsOneElementByAnotherFunctionCodeThanTheTestedOne) {
+  EXPECT_EQ(rtu().probe(1, {}), bytes("01 03 00 00 00 01 84 0A"));
+  EXPECT_EQ(ascii().probe(1, {}), to_bytes(":010300000001FB\r\n"));
+  EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 74 17"))[1], 0x01);
+  EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 00 00"))[1], 0x01) << "a wrong CRC";
+  EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 74 17 01 01 03 12 31 05 49 D8"))[1], 0x04) << "two frames";
+  EXPECT_EQ(to_text(ascii().probe(1, to_bytes(":0183"))).substr(3, 2), "01");
+}
+
+TEST(Probe, KnowsItsReply) {
+  const Bytes probe = rtu().probe(1, {});
+  EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 03 02 00 00 B8 44")));
+  EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 03 02 00 00 44 B8"))) << "its check is not judged";
+  EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 83 02 C0 F1")));
+  EXPECT_FALSE(rtu().is_reply_to_probe(probe, bytes("01 01 01 00 51 88")));
+  EXPECT_FALSE(rtu().is_reply_to_probe(probe, Bytes{}));
+  EXPECT_TRUE(ascii().is_reply_to_probe(ascii().probe(1, {}), to_bytes(":0103020000FA\r\n")));
+  EXPECT_FALSE(ascii().is_reply_to_probe(ascii().probe(1, {}), to_bytes("0103020000FA\r\n")));
+}
+
+TEST(Facts, AreComparedWithTheTables) {
+  const json right{{"table", "function_code"}, {"code", "0F"}, {"name", "Force Multiple Coils"}, {"limit", 1968}, {"base", "bit_write"}};
+  EXPECT_TRUE(rtu().check_fact(right)) << rtu().check_fact(right).error().message;
+  json wrong = right;
+  wrong["limit"] = 2000;
+  EXPECT_THAT(rtu().check_fact(wrong).error().message, HasSubstr("limit = 1968, the manual 2000"));
+  EXPECT_THAT(rtu().check_fact({{"table", "function_code"}, {"code", "07"}}).error().message, HasSubstr("no function code '07'"));
+  EXPECT_TRUE(rtu().check_fact({{"table", "exception_code"}, {"code", "02"}, {"name", "Illegal Address"}}));
+  EXPECT_FALSE(rtu().check_fact({{"table", "exception_code"}, {"code", "07"}}));
+  EXPECT_TRUE(rtu().check_fact({{"table", "default_bases"}, {"model", "xec-h"}, {"bit_read", "I0"}, {"word_write", "M0"}}));
+  EXPECT_FALSE(rtu().check_fact({{"table", "default_bases"}, {"model", "xbc-h"}, {"bit_read", "I0"}}));
+  EXPECT_TRUE(rtu().check_fact({{"table", "data_address"}, {"first", "0000"}, {"last", "270E"}}));
+  EXPECT_FALSE(rtu().check_fact({{"table", "data_address"}, {"last", "270F"}}));
+  EXPECT_FALSE(rtu().check_fact({{"table", "colour"}}));
+}
+
+}  // namespace
+}  // namespace modbus
+}  // namespace fieldproof

@@ -1,0 +1,51 @@
+// What can be wrong with a port that works with user-defined frames. Most faults are a definition that differs from what
+// was asked for: a check that is not compared is a variable there, a swap that is forgotten is no swap.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/plc/emulated_device.hpp"
+#include "src/user_frames/frame.hpp"
+#include "suites/broken/fault.hpp"
+
+namespace fieldproof::user_frames {
+
+/// One fault at work. What is empty is done right.
+struct Behaviour {
+  std::function<void(FrameDefinition& definition)> works_with;
+  std::function<void(nlohmann::json& config)> set_to;
+  std::function<Bytes(const Bytes& frame)> says;  // instead of `frame`
+  std::string deaf_to;                            // an action that changes nothing: "stop"
+};
+
+/// `caught_by` is the id of a case.
+using Fault = FaultOf<Behaviour>;
+
+/// All of them. "none" is no fault and not among them.
+const std::vector<Fault>& faults();
+
+std::vector<Fault> check_faults();
+std::vector<Fault> frame_faults();
+std::vector<Fault> variable_faults();
+
+// How their rows are made.
+Behaviour each_frame(std::function<void(UserFrame& frame)> edit);
+Behaviour each_received(std::function<void(UserFrame& frame)> edit);
+Behaviour each_sent(std::function<void(UserFrame& frame)> edit);
+Behaviour each_segment(std::function<void(Segment& segment)> edit);
+Behaviour each_check(std::function<void(Segment& check)> edit);
+
+/// The segment takes any bytes from now on.
+void accept_anything(Segment& segment);
+/// Takes a segment out, or puts one in behind `position`; the check covers the same segments as before.
+void remove_segment(UserFrame& frame, std::size_t position);
+void insert_behind(UserFrame& frame, std::size_t position, Segment segment);
+
+/// The device of a model's definition with a fault.
+Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour, std::string_view model,
+                                                         nlohmann::json config);
+
+}  // namespace fieldproof::user_frames

@@ -1,0 +1,116 @@
+#include "suites/user_frames/protocol.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "src/base/spelling.hpp"
+#include "src/user_frames/codec.hpp"
+#include "src/user_frames/port.hpp"
+#include "suites/user_frames/definition_files.hpp"
+#include "suites/user_frames/facts.hpp"
+#include "suites/user_frames/frame_parts.hpp"
+
+namespace fieldproof::user_frames {
+
+namespace {
+
+Error no_memory_requests(std::string_view address) {
+  return fail(fmt::format(
+      "user-defined frames have no request that reads or writes {}; use an emulator, whose memory the bench sees", address));
+}
+
+class UserFrames : public Protocol {
+ public:
+  explicit UserFrames(std::vector<NamedDefinition> all) : definitions_(std::move(all)) {}
+  explicit UserFrames(NamedDefinition one) : definitions_{std::move(one)}, own_(true) {}
+
+  std::string_view name() const override { return "user-frames"; }
+  std::vector<std::string> models() const override { return definition_names(definitions_folder()); }
+  bool has_model(std::string_view model) const override { return is_definition_path(model) || Protocol::has_model(model); }
+  const Protocol& of_model(std::string_view model) const override { return model.empty() ? *this : protocol_of(model); }
+
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override;
+
+  /// Stations are constants of the frames; this is how XGT writes them.
+  Bytes station_bytes(int station) const override { return to_bytes(hex_number(static_cast<unsigned>(station), 2)); }
+  std::optional<std::size_t> frame_length(ByteView bytes) const override {
+    return user_frames::frame_length(definitions_, bytes);
+  }
+  std::vector<Field> explain(ByteView frame) const override { return user_frames::explain(definitions_, frame); }
+
+  /// None after a frame that has the probe's own reply.
+  Bytes probe(int, ByteView tested) const override {
+    const FrameDefinition* one = own();
+    if (!one || one->probe.empty()) return {};
+    for (const UserFrame& frame : one->frames)
+      if (!frame.sent && frame.answer == one->probe_reply &&
+          match_frame(frame, tested, true).state == FrameMatch::State::complete)
+        return {};
+    const Result<Bytes> bytes = build_frame(*one->find(one->probe), PlcMemory(*one->plc));
+    return bytes ? *bytes : Bytes{};
+  }
+
+  bool is_reply_to_probe(ByteView, ByteView reply) const override {
+    const FrameDefinition* one = own();
+    if (!one || one->probe.empty()) return false;
+    const FrameMatch match = match_frame(*one->find(one->probe_reply), reply, true);
+    return match.state == FrameMatch::State::complete && match.length() == reply.size();
+  }
+
+  Result<std::vector<Bytes>> write_requests(int, std::string_view address, std::string_view) const override {
+    return no_memory_requests(address);
+  }
+  Result<std::vector<Bytes>> read_requests(int, std::string_view address, std::size_t) const override {
+    return no_memory_requests(address);
+  }
+  Status write_reply(ByteView) const override { return fail("user-defined frames have no request that writes memory"); }
+  Result<std::string> read_reply(ByteView) const override {
+    return fail("user-defined frames have no request that reads memory");
+  }
+
+  /// Without the device's definition nobody can tell what a frame does there.
+  std::vector<Written> written_by(ByteView request) const override {
+    if (!own()) return {{"?", 0, 0, "what its definition says"}};
+    return user_frames::written_by(definitions_.front(), request);
+  }
+  std::string_view output_areas() const override { return "PQU"; }
+  Status check_fact(const nlohmann::json& facts) const override { return user_frames::check_fact(facts); }
+
+ private:
+  /// Where this is the protocol of one model.
+  const FrameDefinition* own() const { return own_ ? &definitions_.front().definition : nullptr; }
+
+  std::vector<NamedDefinition> definitions_;
+  bool own_ = false;
+};
+
+/// The protocol of one model. A definition is read when it is first asked for: each case makes a device of it.
+Result<const UserFrames*> read_once(std::string_view model) {
+  static std::map<std::string, UserFrames, std::less<>> known;
+  if (const auto found = known.find(model); found != known.end()) return &found->second;
+  Result<NamedDefinition> loaded = load_definition(model, definitions_folder());
+  if (!loaded) return loaded.error();
+  return &known.try_emplace(std::string(model), std::move(*loaded)).first->second;
+}
+
+Result<std::unique_ptr<EmulatedDevice>> UserFrames::make_device(std::string_view model, const nlohmann::json& config) const {
+  const Result<const UserFrames*> one = read_once(model);
+  if (!one) return one.error();
+  return make_user_frame_device(*(*one)->own(), config);
+}
+
+}  // namespace
+
+const Protocol& protocol() {
+  static const UserFrames all(load_definitions(definitions_folder()));
+  return all;
+}
+
+const Protocol& protocol_of(std::string_view model) {
+  const Result<const UserFrames*> one = read_once(model);
+  return one ? **one : protocol();
+}
+
+}  // namespace fieldproof::user_frames
