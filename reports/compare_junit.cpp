@@ -74,11 +74,11 @@ void add_property(pugi::xml_node properties, const std::string& name, const std:
   set_text(property, "value", value);
 }
 
-struct Counts {
+struct SuiteCounts {
   std::size_t tests = 0, failures = 0;
 };
 
-Counts add_suite(pugi::xml_node root, const Comparison& comparison, const std::string& name) {
+SuiteCounts add_suite(pugi::xml_node root, const Comparison& comparison, const std::string& name) {
   pugi::xml_node suite = root.append_child("testsuite");
   std::size_t failures = comparison.slower(), skipped = 0;
   for (const CaseChange& change : comparison.changes) {
@@ -86,7 +86,7 @@ Counts add_suite(pugi::xml_node root, const Comparison& comparison, const std::s
     skipped += is_incomparable(change.change);
   }
   set_text(suite, "name", name);
-  const Counts counts{comparison.unchanged + comparison.changes.size() + comparison.shifts.size(), failures};
+  const SuiteCounts counts{comparison.unchanged + comparison.changes.size() + comparison.shifts.size(), failures};
   set_count(suite, "tests", counts.tests);
   set_count(suite, "failures", counts.failures);
   set_count(suite, "errors", 0);
@@ -113,9 +113,9 @@ Status write_compare_junit(const ComparisonSet& set, const std::string& path) {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("testsuites");
   set_text(root, "name", "fieldproof compare");
-  Counts all;
+  SuiteCounts all;
   for (std::size_t i = 0; i < set.comparisons.size(); ++i) {
-    const Counts counts = add_suite(root, set.comparisons[i], fmt::format("compare_{}_{}", ComparisonSet::letter(0), ComparisonSet::letter(i + 1)));
+    const SuiteCounts counts = add_suite(root, set.comparisons[i], fmt::format("compare_{}_{}", ComparisonSet::letter(0), ComparisonSet::letter(i + 1)));
     all.tests += counts.tests;
     all.failures += counts.failures;
   }

@@ -9,7 +9,7 @@ namespace {
 constexpr std::string_view open_byte = "??";
 
 /// "06 30 ??"; nothing when it is something else (alternatives in words, say).
-std::optional<FrameCells> cells_of(std::string_view hex) {
+std::optional<FrameCells> cells_of_hex(std::string_view hex) {
   FrameCells cells;
   for (std::size_t at = 0; at < hex.size(); at += 3) {
     const std::string_view pair = hex.substr(at, 2);
@@ -43,7 +43,7 @@ FrameCells cells_of(ByteView bytes) {
 }
 
 JudgedFrames judged_frames(const CaseResult& result) {
-  JudgedFrames frames{cells_of(std::string_view(result.expected_hex)), cells_of(result.received_bytes)};
+  JudgedFrames frames{cells_of_hex(result.expected_hex), cells_of(result.received_bytes)};
   if (frames.expected && frames.expected->empty()) frames.expected = cells_of(result.expected_bytes);
   if (frames.expected && !frames.expected->empty()) mark_differences(*frames.expected, frames.received);
   return frames;

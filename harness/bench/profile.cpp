@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> keys{"name", "title", "extends", "model", "protocols", "decisions", "config", "timing", "exclude"};
+constexpr std::array<std::string_view, 9> profile_keys{"name", "title", "extends", "model", "protocols", "decisions", "config", "timing", "exclude"};
 constexpr std::array<std::string_view, 4> timing_keys{"response_max_ms", "guard_band", "floor_ms", "max_gap_ms"};
 
 Duration from_ms(double ms) { return Duration(static_cast<Duration::rep>(ms * 1e6)); }
@@ -49,7 +49,7 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
     if (value != "binding" && value != "advisory") throw std::runtime_error("decisions is 'binding' or 'advisory'");
     profile.binding_decisions = value == "binding";
   } else if (key != "extends") {
-    throw std::runtime_error(fmt::format("unknown key '{}'{}", key, suggestion(key, keys)));
+    throw std::runtime_error(fmt::format("unknown key '{}'{}", key, suggestion(key, profile_keys)));
   }
 }
 

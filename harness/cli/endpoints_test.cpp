@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-using Verdicts = std::map<std::string, std::string>;  // by id of the case
+using VerdictsById = std::map<std::string, std::string>;  // by id of the case
 
 /// Real time is mostly waiting: shards run side by side, each with a device of its own.
 const std::map<std::string, int> shards{{"pty", 4}, {"serial", 1}, {"exec", 2}};
@@ -36,10 +36,10 @@ std::vector<Difference> allowed_differences() {
 
 bool matches(const Difference& one, const std::string& id) { return ::fnmatch(one.pattern.c_str(), id.c_str(), 0) == 0; }
 
-Verdicts run(const std::string& endpoint, const std::string& filter, const ProcessOptions& options) {
+VerdictsById run(const std::string& endpoint, const std::string& filter, const ProcessOptions& options) {
   const TestFolder folder;
   run_tool({"run", "--endpoint", endpoint, "--profile", "xbc-h", "--allow-write", "all,P,Q,U", "--filter", filter, "--out", folder / "out"}, options);
-  Verdicts verdicts;
+  VerdictsById verdicts;
   for (const json& one : read_results(folder / "out/results.ndjson").cases) verdicts[one.at("id")] = one.at("verdict");
   return verdicts;
 }
@@ -98,21 +98,21 @@ std::unique_ptr<Link> make_link(const std::string& kind) {
 }
 
 /// All cases over one kind of link.
-Verdicts run_over(const std::string& kind) {
-  std::vector<std::future<Verdicts>> parts;
+VerdictsById run_over(const std::string& kind) {
+  std::vector<std::future<VerdictsById>> parts;
   const int total = shards.at(kind);
   for (int shard = 0; shard < total; ++shard)
     parts.push_back(std::async(std::launch::async, [kind, shard, total] {
       const std::unique_ptr<Link> link = make_link(kind);
       return run(link->endpoint(), all_cases, {.environment = {{"GTEST_TOTAL_SHARDS", std::to_string(total)}, {"GTEST_SHARD_INDEX", std::to_string(shard)}}, .folder = ""});
     }));
-  Verdicts verdicts;
-  for (std::future<Verdicts>& part : parts) verdicts.merge(part.get());
+  VerdictsById verdicts;
+  for (std::future<VerdictsById>& part : parts) verdicts.merge(part.get());
   return verdicts;
 }
 
 /// Runs these cases again, alone: what was only late on a busy machine is not late again; what the link cannot do, it cannot do now.
-void run_again(const std::string& kind, const std::vector<std::string>& ids, Verdicts& verdicts) {
+void run_again(const std::string& kind, const std::vector<std::string>& ids, VerdictsById& verdicts) {
   if (ids.empty()) return;
   std::string filter;
   for (const std::string& id : ids) filter += (filter.empty() ? "" : ":") + id;
@@ -126,7 +126,7 @@ class Links : public testing::Test {
   static void SetUpTestSuite() {
     emulator_ = run("emulator:xbc-h", all_cases, {});
     differences_ = allowed_differences();
-    std::map<std::string, std::future<Verdicts>> running;
+    std::map<std::string, std::future<VerdictsById>> running;
     for (const char* kind : {"pty", "serial", "exec"}) running[kind] = std::async(std::launch::async, run_over, std::string(kind));
     for (auto& [kind, future] : running) over_[kind] = future.get();
     for (auto& [kind, verdicts] : over_) run_again(kind, surprises(kind), verdicts);
@@ -154,8 +154,8 @@ class Links : public testing::Test {
       ADD_FAILURE() << id << " is " << over_.at(kind).at(id) << " over " << kind << ", " << due(kind, id) << " is due (" << emulator_.at(id) << " in process)";
   }
 
-  static inline Verdicts emulator_;
-  static inline std::map<std::string, Verdicts> over_;
+  static inline VerdictsById emulator_;
+  static inline std::map<std::string, VerdictsById> over_;
   static inline std::vector<Difference> differences_;
 };
 

@@ -48,7 +48,7 @@ Result<Bytes> read_frame_text(const std::string& text, const Stations& stations)
   return render(templates->front(), {});
 }
 
-struct Reading {
+struct FrameReading {
   const Protocol* protocol = nullptr;
   Bytes bytes;
   std::vector<Field> fields;
@@ -56,24 +56,24 @@ struct Reading {
   auto problems() const { return std::ranges::count_if(fields, [](const Field& field) { return !field.problem.empty(); }); }
 };
 
-Result<Reading> read_as(const Protocol& protocol, const FrameOptions& options) {
+Result<FrameReading> read_as(const Protocol& protocol, const FrameOptions& options) {
   const Stations stations{protocol.station_bytes(options.station), protocol.station_bytes((options.station + 1) % 256)};
   Result<Bytes> bytes = read_frame_text(options.frame, stations);
   if (!bytes) return bytes.error();
   std::vector<Field> fields = protocol.explain(*bytes);
-  return Reading{&protocol, std::move(*bytes), std::move(fields)};
+  return FrameReading{&protocol, std::move(*bytes), std::move(fields)};
 }
 
 /// As the protocol that was named, else as the one with the fewest problems.
-Result<Reading> best_reading(const FrameOptions& options) {
+Result<FrameReading> best_reading(const FrameOptions& options) {
   if (!options.protocol.empty()) {
     const Result<const Protocol*> protocol = choose_protocol(options.protocol, "");
     if (!protocol) return protocol.error();
     return read_as(**protocol, options);
   }
-  Result<Reading> best = read_as(*protocols().front(), options);
+  Result<FrameReading> best = read_as(*protocols().front(), options);
   for (const Protocol* protocol : protocols().subspan(1)) {
-    Result<Reading> other = read_as(*protocol, options);
+    Result<FrameReading> other = read_as(*protocol, options);
     if (best && other && other->problems() < best->problems()) best = std::move(other);
   }
   return best;
@@ -82,7 +82,7 @@ Result<Reading> best_reading(const FrameOptions& options) {
 }  // namespace
 
 int frame_command(const FrameOptions& options) {
-  const Result<Reading> reading = best_reading(options);
+  const Result<FrameReading> reading = best_reading(options);
   if (!reading) return complain(reading.error().message, exit_code::usage);
   const ByteView bytes = reading->bytes;
   fmt::print("{}\n{}\n{}, {} bytes\n\n", print_bytes(bytes), to_hex(bytes), reading->protocol->name(), bytes.size());

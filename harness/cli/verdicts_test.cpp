@@ -134,14 +134,14 @@ TEST_F(Verdicts, every_report_counts_alike) {
     const std::string html = read_text(folder_ / "out/report.html");
     const samples::ParsedHtml page(html);
     EXPECT_TRUE(samples::xmllint_accepts(folder_ / "out/report.html"));
-    const auto json = nlohmann::json::parse(read_text(folder_ / "out/results.json"))["counts"];
+    const auto written = nlohmann::json::parse(read_text(folder_ / "out/results.json"))["counts"];
     Junit junit;
     read_junit(folder_ / "out/junit.xml", junit);
     ASSERT_EQ(counts.size(), 11u);
     std::size_t red = 0;
     for (const auto& [verdict, count] : counts) {
       EXPECT_EQ(page.tile(verdict), count) << verdict;
-      EXPECT_EQ(json[verdict], count) << verdict;
+      EXPECT_EQ(written[verdict], count) << verdict;
       EXPECT_TRUE(std::regex_search(finished.out, std::regex(" +" + std::to_string(count) + "  " + verdict + " "))) << verdict << '\n' << finished.out;
       const std::string cell = "//details[@class='section']/summary/span[@data-verdict='" + verdict + "']";
       EXPECT_EQ(page.text(cell), std::to_string(count)) << verdict << ": all vectors of these tests are of one section";

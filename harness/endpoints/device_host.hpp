@@ -17,7 +17,7 @@ namespace fieldproof {
 /// Makes a device from a merged configuration (vectors/README.md, `given.config`). It always has "model" (a string),
 /// "station" (1 unless given) and "inter_character_floor_ms" (a number): behind a pty or a socket, parts of one write
 /// arrive milliseconds apart.
-using DeviceFactory = std::function<Result<std::unique_ptr<EmulatedDevice>>(const nlohmann::json& config)>;
+using HostedFactory = std::function<Result<std::unique_ptr<EmulatedDevice>>(const nlohmann::json& config)>;
 
 /// Bytes that crossed the line at once, as a frame monitor shows them.
 struct Traffic {
@@ -30,7 +30,7 @@ struct Traffic {
 std::string monitor_line(const Traffic& traffic);
 
 struct HostOptions {
-  DeviceFactory make_device;
+  HostedFactory make_device;
   std::string model;                                     // empty: "model" of the configuration
   nlohmann::json config = nlohmann::json::object();      // of the first device, and defaults for those of `begin`
   std::string tty;                                       // --tty PATH, see host_on_tty

@@ -10,7 +10,6 @@ namespace fieldproof {
 namespace {
 constexpr std::size_t first_of_content = 6;  // header, station, command, type or number
 
-
 std::string_view as_text(ByteView bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 bool all_hex(std::string_view digits) {

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string peers = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/";
+const std::string folder_of_peers = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/";
 
 /// The emulator on a pty, ready when it has said where.
 class EmulatedPlc {
@@ -87,7 +87,7 @@ class Pymodbus : public testing::TestWithParam<std::string> {};
 
 TEST_P(Pymodbus, WritesOneWayAndReadsAnother) {
   const EmulatedPlc plc(GetParam());
-  expect_no_complaint(run_program({"/usr/bin/python3", peers + "pymodbus_client.py", GetParam(), plc.tty}));
+  expect_no_complaint(run_program({"/usr/bin/python3", folder_of_peers + "pymodbus_client.py", GetParam(), plc.tty}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, Pymodbus, testing::Values("rtu", "ascii"), [](const auto& test) { return test.param; });
