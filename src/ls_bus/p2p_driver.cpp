@@ -13,7 +13,6 @@ namespace {
 constexpr std::uint32_t addresses = 0x10000;
 
 bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function::write; }
-unsigned words_of(const P2pBlock& block) { return block.continuous ? block.size : 1; }
 
 class LsBusP2pDriver : public P2pDriver {
  public:
@@ -52,7 +51,7 @@ Status LsBusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
   if (block.type != 'W') return fail("type is not word; the LS Bus has no other (8.2)");
   if (block.variables.size() != 1)
     return fail(fmt::format("there are {} variables; an LS Bus block has one, and a run of up to {} words", block.variables.size(), ls_max_words));
-  const unsigned count = words_of(block);
+  const unsigned count = block.elements();
   if (count == 0 || count > ls_max_words) return fail(fmt::format("size is {}; an LS Bus block has 1 to {} words (8.2)", count, ls_max_words));
   const char *own = writes(block) ? "read" : "save", *partner = writes(block) ? "save" : "read";
   const std::string& text = block.variables.front().partner;
@@ -68,7 +67,7 @@ Result<Bytes> LsBusP2pDriver::request(const P2pBlock& block, const PlcMemory& me
   sent_ = {.station = block.station,
            .command = writes(block) ? 'W' : 'R',
            .address = *parse_ls_address(variable.partner),
-           .count = words_of(block)};
+           .count = block.elements()};
   for (unsigned i = 0; writes(block) && i < sent_.count; ++i) sent_.data.at(i) = static_cast<std::uint16_t>(memory.read(variable.own + i));
   return encode_ls_request(sent_, write_order_);
 }

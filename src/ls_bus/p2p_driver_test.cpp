@@ -18,8 +18,7 @@ P2pBlock block(P2pBlock::Function function, std::string partner, std::string_vie
           .type = own[2],
           .size = size == 0 ? 1 : size,
           .station = 1,
-          .variables = {{std::move(partner), parsed.address}},
-          .frame = {}};
+          .variables = {{std::move(partner), parsed.address}}};
 }
 P2pBlock read(std::string partner, std::string_view own, unsigned size = 0) {
   return block(P2pBlock::Function::read, std::move(partner), own, size);

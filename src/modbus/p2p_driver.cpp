@@ -25,7 +25,6 @@ unsigned most_elements(ModbusMode mode, bool write, bool bits) {
 }
 
 bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function::write; }
-unsigned elements(const P2pBlock& block) { return block.continuous ? block.size : 1; }
 
 void put_word(Bytes& to, std::uint64_t value) {
   to.push_back(static_cast<Byte>(value >> 8));
@@ -59,7 +58,7 @@ Bytes request_pdu(const P2pBlock& block, const PlcMemory& memory) {
   Bytes pdu{modbus_p2p_function(block, partner)};
   put_word(pdu, partner.address);
   if (!writes(block)) {
-    put_word(pdu, elements(block));
+    put_word(pdu, block.elements());
   } else if (!block.continuous) {
     const std::uint64_t value = memory.read(own);
     put_word(pdu, !partner.bits() ? value : value != 0 ? coil_on : coil_off);
@@ -127,7 +126,7 @@ Status ModbusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
     return fail(fmt::format("there are {} variables; a Modbus block has one (000 table 6.2.4)", block.variables.size()));
   const bool bits = block.type == 'X';
   const unsigned most = most_elements(mode_, writes(block), bits);
-  if (elements(block) == 0 || elements(block) > most)
+  if (block.elements() == 0 || block.elements() > most)
     return fail(fmt::format("size is {}; a {} block {}s 1 to {} {}s (003 6.4.2)", block.size, name(), writes(block) ? "write" : "read",
                             most, bits ? "bit" : "word"));
   const char* key = writes(block) ? "save" : "read";
@@ -141,8 +140,8 @@ Status ModbusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
     return wrong(fmt::format("holds {}s, and type is {}; {}", bits ? "word" : "bit", bits ? "bit" : "word",
                              bits ? "bits are in the tables 0 and 1" : "words are in the tables 3 and 4"));
   if (writes(block) && !partner->writable()) return wrong("can only be read; write to the tables 0 and 4");
-  if (partner->address + elements(block) > data_addresses)
-    return wrong(fmt::format("and the {} elements from there on go past data address FFFF", elements(block)));
+  if (partner->address + block.elements() > data_addresses)
+    return wrong(fmt::format("and the {} elements from there on go past data address FFFF", block.elements()));
   if (block.variables.front().own.type != block.type)
     return fail(fmt::format("{} is not a {} of this PLC; type is {}", writes(block) ? "read" : "save", bits ? "bit" : "word",
                             bits ? "bit: name one such as %MX00010" : "word: name one such as %MW100"));
@@ -172,7 +171,7 @@ std::uint16_t ModbusP2pDriver::take_pdu(const P2pBlock& block, ByteView pdu, Plc
     if (pdu.size() != echo_size) return p2p_error::length;
     return std::ranges::equal(pdu, ByteView(sent_).first(echo_size)) ? p2p_error::none : p2p_error::driver;
   }
-  const unsigned count = elements(block);
+  const unsigned count = block.elements();
   const std::size_t expected = block.type == 'X' ? (count + 7) / 8 : std::size_t{2} * count;
   if (pdu.size() != 2 + expected || pdu[1] != expected) return p2p_error::length;
   write_values(block.variables.front().own, count, pdu.subspan(2), memory);
