@@ -88,4 +88,11 @@ Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view model, const nlohm
   return plc;
 }
 
+Result<std::unique_ptr<EmulatedDevice>> make_p2p_device(std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
+                                                        std::initializer_list<std::string_view> own_keys) {
+  Result<std::unique_ptr<P2pPlc>> plc = make_p2p_plc(model, config, driver, own_keys);
+  if (!plc) return plc.error();
+  return std::unique_ptr<EmulatedDevice>(std::move(*plc));
+}
+
 }  // namespace fieldproof

@@ -64,6 +64,10 @@ class P2pPlc : public EmulatedDevice {
 Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
                                              std::initializer_list<std::string_view> own_keys = {});
 
+/// The same as a device.
+Result<std::unique_ptr<EmulatedDevice>> make_p2p_device(std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
+                                                        std::initializer_list<std::string_view> own_keys = {});
+
 /// Is role client asked for?
 bool is_p2p_client(const nlohmann::json& config);
 
