@@ -24,12 +24,15 @@ class BackDoor {
     ::setsockopt(ends_[0], SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
   }
   ~BackDoor() {
-    for (const int end : ends_) ::close(end);
+    for (const int end : ends_)
+      if (end >= 0) ::close(end);
   }
   BackDoor(const BackDoor&) = delete;
   BackDoor& operator=(const BackDoor&) = delete;
 
   std::string far_end() const { return std::to_string(ends_[1]); }
+  /// The emulator has it; its end is heard from now on.
+  void given_away() { ::close(std::exchange(ends_[1], -1)); }
 
   json ask(const json& request) {
     const std::string line = request.dump() + '\n';
@@ -99,7 +102,8 @@ INSTANTIATE_TEST_SUITE_P(Servers, P2pMaster, testing::ValuesIn(servers), [](cons
 TEST_P(P2pMaster, IsAnsweredByAServerOfOthers) {
   const std::string tty = folder / "plc", file = folder.write("p2p.json", parameters().dump());
   Process master(tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--p2p", file, "--pty", tty, "--control", plc.far_end(), "-v"}));
-  ASSERT_TRUE(master.wait_for(tty));
+  plc.given_away();
+  ASSERT_NE(plc.get("%MW0"), "") << master.wait().err;  // an answer: the terminal is there
   plc.set("%MW100", "9ABC");
   plc.set("%DW0", "123400FF8001A55A");
   plc.set("%MX0001F", "01");
