@@ -47,6 +47,8 @@ JudgeRules Bench::rules() const {
   rules.guard_band = options_.profile.guard_band;
   rules.timing_floor = std::max(options_.profile.floor, can.timing_floor);
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
+  // Simulated time is exact, but for the moment at which a character counts as come.
+  if (can.simulated) rules.period_tolerance = endpoint_.character_time();
   // 003 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
   rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, rules.timing_floor) : shortest_judged;

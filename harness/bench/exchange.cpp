@@ -23,6 +23,8 @@ Transcript Exchange::run(const PreparedCase& prepared) {
   captures_.clear();
   pending_ = {};
   last_bytes_.clear();
+  partner_.emplace(protocol_);
+  request_ = {};
   neighbours_ = prepared.source->config.contains("neighbours");
   // Memory that was given through the protocol may just have been answered.
   last_heard_ = stimulus_ = endpoint_.now();
@@ -40,7 +42,11 @@ void Exchange::step(const PreparedCase& prepared, const PreparedStep& step, Tran
   StepRecord& record = transcript.steps.emplace_back();
   switch (step.step->kind) {
     case Step::Kind::send: return send(step, record, transcript);
-    case Step::Kind::expect: return expect(step, record, transcript);
+    case Step::Kind::expect:
+      await_frame(step, record, transcript);
+      if (step.step->partner && !request_.bytes.empty()) answer(prepared, *step.step->partner, record, transcript);
+      return;
+    case Step::Kind::partner: return partner(prepared, step, record, transcript);
     case Step::Kind::silence: return silence(prepared, record, transcript);
     case Step::Kind::wait: return wait_until(endpoint_.now() + step.step->duration, record, transcript);
     case Step::Kind::set:
@@ -71,6 +77,7 @@ void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& tr
     transcript.surplus_after = transcript.steps.size() - 1;
   }
   if (transcript.trouble || transcript.flooded) return;
+  request_ = {};
   const FrameTemplate& frame = step.frames.front().frame;
   const Result<Bytes> bytes = render(frame, captures_);
   if (!bytes) {
@@ -91,9 +98,9 @@ void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& tr
   last_bytes_ = *bytes;
 }
 
-void Exchange::expect(const PreparedStep& step, StepRecord& record, Transcript& transcript) {
+void Exchange::await_frame(const PreparedStep& step, StepRecord& record, Transcript& transcript) {
   record.stimulus = stimulus_;
-  record.deadline = stimulus_ + step.step->within.value_or(timing_.response_max);
+  record.deadline = stimulus_ + reply_limit(*step.step, timing_.response_max);
   const Time give_up = record.deadline + timing_.late_watch;
   const Time cut_off = give_up + longest_reply;
   std::size_t length = 0;
@@ -103,7 +110,38 @@ void Exchange::expect(const PreparedStep& step, StepRecord& record, Transcript& 
   }
   record.received = pending_.take(length ? length : pending_.bytes.size());
   record.listened_until = endpoint_.now();
-  if (!record.received.arrivals.empty()) stimulus_ = record.received.arrivals.back().end;
+  request_ = {};
+  if (record.received.arrivals.empty()) return;
+  stimulus_ = record.received.arrivals.back().end;
+  const Duration each = endpoint_.character_time();
+  request_ = {record.received.bytes, stimulus_ - each * static_cast<Duration::rep>(record.received.bytes.size()), each};
+}
+
+void Exchange::partner(const PreparedCase& prepared, const PreparedStep& step, StepRecord& record, Transcript& transcript) {
+  if (request_.bytes.empty()) await_frame(step, record, transcript);
+  if (transcript.trouble || transcript.flooded) return;
+  if (!request_.bytes.empty()) return answer(prepared, *step.step->partner, record, transcript);
+  record.refused = fmt::format("no request within {:.0f} ms", to_ms(record.deadline - record.stimulus));
+  record.refused_by_device = true;
+}
+
+void Exchange::answer(const PreparedCase& prepared, const PartnerSpec& spec, StepRecord& record, Transcript& transcript) {
+  const Burst request = std::exchange(request_, {});
+  // Past the client's time-out, and past what the link can tell apart.
+  const Duration more = endpoint_.character_time() + endpoint_.capabilities().timing_floor;
+  const Result<Partner::Answer> reply = partner_->answer(spec, request, request.end() + prepared.client_time_out() + more);
+  if (!reply) {
+    record.refused = reply.error().message;
+    return;
+  }
+  const std::string fault = spec.fault.empty() ? "" : fmt::format(" ({})", spec.fault);
+  note(fmt::format("partner: {}{}", reply->bytes.empty() ? "no answer" : "answers", fault), transcript);
+  if (reply->bytes.empty()) return;
+  await_frame_gap(transcript);
+  while (listen(reply->moment, transcript)) {}
+  if (transcript.trouble || transcript.flooded || !transmit(reply->bytes, transcript)) return;
+  record.sent = last_sent_;
+  record.sent_bytes = reply->bytes;
 }
 
 /// How many of the pending bytes are a reply: what an alternative matches, else a complete frame of the protocol.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/bench/memory_access.hpp"
+#include "harness/bench/partner.hpp"
 #include "harness/bench/prepared_case.hpp"
 #include "harness/bench/transcript.hpp"
 #include "harness/endpoints/endpoint.hpp"
@@ -35,7 +36,10 @@ class Exchange {
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);
   void await_return(const PreparedCase& prepared, Transcript& transcript);
   void send(const PreparedStep& step, StepRecord& record, Transcript& transcript);
-  void expect(const PreparedStep& step, StepRecord& record, Transcript& transcript);
+  void await_frame(const PreparedStep& step, StepRecord& record, Transcript& transcript);
+  /// Answers the request that an `expect` has just taken, else the next one, whatever it asks.
+  void partner(const PreparedCase& prepared, const PreparedStep& step, StepRecord& record, Transcript& transcript);
+  void answer(const PreparedCase& prepared, const PartnerSpec& spec, StepRecord& record, Transcript& transcript);
   void silence(const PreparedCase& prepared, StepRecord& record, Transcript& transcript);
   void wait_until(Time moment, StepRecord& record, Transcript& transcript);
   void access_memory(const PreparedCase& prepared, const Step& step, StepRecord& record, Transcript& transcript);
@@ -62,6 +66,8 @@ class Exchange {
   Time stimulus_{};   // what the next reply answers: a transmission, the reply before it, a set or do
   Bytes last_bytes_;
   Captures captures_;
+  std::optional<Partner> partner_;  // of this case
+  Burst request_;     // of the client, taken by `expect` and not answered yet
 };
 
 }  // namespace fieldproof

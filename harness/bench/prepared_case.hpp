@@ -31,6 +31,8 @@ struct PreparedCase {
   bool is_client() const;                       // the module asks, the bench answers
   /// A device that asks, or one whose line settings differ from the bench's, answers no probe.
   bool answers_probes() const;
+  /// What the client under test waits for an answer: (time_out + 1) x 100 ms (000 and 003 4.3.1).
+  Duration client_time_out() const;
   /// The configured delay of every reply (delay_ms).
   Duration reply_delay() const;
   bool listens_for_silence() const;
@@ -38,6 +40,9 @@ struct PreparedCase {
   /// The shortest pause or wait, or 0 when there is none.
   Duration shortest_pause(Duration character_time) const;
 };
+
+/// How long after its stimulus the first byte of an expected frame may come.
+Duration reply_limit(const Step& step, Duration response_max);
 
 /// Errors name the step.
 Result<PreparedCase> prepare(const Case& source, int station, const Protocol& protocol);

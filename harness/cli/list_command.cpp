@@ -21,7 +21,15 @@ ordered_json memory_json(const std::vector<std::pair<std::string, std::string>>&
   return result;
 }
 
-ordered_json step_json(const PreparedStep& step) {
+ordered_json partner_json(const PartnerSpec& partner) {
+  ordered_json result = partner.config;
+  if (!partner.model.empty()) result["model"] = partner.model;
+  if (!partner.memory.empty()) result["memory"] = memory_json(partner.memory);
+  if (!partner.fault.empty()) result["fault"] = partner.fault;
+  return result;
+}
+
+ordered_json kind_json(const PreparedStep& step) {
   const Step& source = *step.step;
   switch (source.kind) {
     case Step::Kind::send: return {{"send", to_hex_with_holes(step.frames.front().frame)}, {"notation", source.frames.front().text}};
@@ -41,8 +49,18 @@ ordered_json step_json(const PreparedStep& step) {
     case Step::Kind::open: return {{"open", true}};
     case Step::Kind::close: return {{"close", true}};
     case Step::Kind::expect_close: return {{"expect_close", true}};
+    case Step::Kind::partner: return ordered_json::object();
   }
   return {};
+}
+
+ordered_json step_json(const PreparedStep& step) {
+  const Step& source = *step.step;
+  ordered_json result = kind_json(step);
+  if (source.partner) result["partner"] = partner_json(*source.partner);
+  if (source.every) result["every"] = fmt::format("{}ms", to_ms(*source.every));
+  if (source.times > 1) result["times"] = source.times;
+  return result;
 }
 
 ordered_json case_json(const Case& one) {
