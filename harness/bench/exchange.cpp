@@ -29,6 +29,8 @@ Transcript Exchange::run(const PreparedCase& prepared) {
   // Memory that was given through the protocol may just have been answered.
   last_heard_ = stimulus_ = endpoint_.now();
   last_sent_ = {last_heard_, last_heard_};
+  // Requests from between the cases are no part of this one.
+  if (prepared.runs_by_clock() && endpoint_.capabilities().real_device) drain(transcript);
   for (const PreparedStep& one : prepared.steps) {
     for (int i = 0; i < one.step->times; ++i) {
       step(prepared, one, transcript);
@@ -60,6 +62,11 @@ void Exchange::step(const PreparedCase& prepared, const PreparedStep& step, Tran
     case Step::Kind::close:
     case Step::Kind::expect_close: record.refused = "this endpoint has no link that opens and closes"; return;
   }
+}
+
+void Exchange::drain(Transcript& transcript) {
+  while (listen(endpoint_.now() + timing_.quiet / 2, transcript)) pending_ = {};
+  transcript.events.clear();
 }
 
 /// A real device needs time to start again.
@@ -195,10 +202,10 @@ void Exchange::access_memory(const PreparedCase& prepared, const Step& step, Ste
   for (const auto& [address, hex] : step.memory) {
     Status done = ok();
     if (setting) {
-      done = memory_.set(prepared.station, address, hex);
+      done = memory_.set(prepared, address, hex);
       note(fmt::format("set {} = {}", address, hex), transcript);
-    } else {
-      const Result<std::string> value = memory_.get(prepared.station, address, hex.size());
+    } else if (memory_.can_read(prepared, address)) {
+      const Result<std::string> value = memory_.get(prepared, address, hex.size());
       if (value) record.memory.emplace_back(address, *value);
       if (value) note(fmt::format("check {}: {}", address, *value), transcript);
       else done = value.error();
@@ -212,6 +219,7 @@ void Exchange::access_memory(const PreparedCase& prepared, const Step& step, Ste
 
 void Exchange::close(const PreparedCase& prepared, Transcript& transcript) {
   if (transcript.trouble) return;
+  if (prepared.runs_by_clock()) return;  // it goes on asking
   StepRecord rest;
   const bool simulated = endpoint_.capabilities().simulated;
   if (simulated || !prepared.answers_probes()) {
@@ -253,6 +261,24 @@ Result<bool> Exchange::anything_answers(int station, Duration patience, Duration
     if (answers > 0 || !heard.empty()) return true;
   }
   return false;
+}
+
+Result<bool> Exchange::anything_is_asked(const PreparedCase& prepared, Duration patience) {
+  Transcript transcript;
+  pending_ = {};
+  for (const PreparedStep& one : prepared.steps) {
+    const Step::Kind kind = one.step->kind;
+    if (kind == Step::Kind::expect || kind == Step::Kind::partner) break;
+    if (kind == Step::Kind::set || kind == Step::Kind::act || kind == Step::Kind::wait) step(prepared, one, transcript);
+    if (!transcript.steps.empty() && !transcript.steps.back().refused.empty()) return fail(transcript.steps.back().refused);
+  }
+  bool asked = listen(endpoint_.now() + patience, transcript);
+  // A clock goes on asking: there the next case drains the line.
+  const Duration given_up = prepared.runs_by_clock() ? timing_.quiet / 2 : prepared.client_time_out() + timing_.quiet;
+  if (asked) while (listen(endpoint_.now() + given_up, transcript)) {}
+  pending_ = {};
+  if (transcript.trouble) return *transcript.trouble;
+  return asked;
 }
 
 /// Takes complete frames off the front; how many.

@@ -18,8 +18,8 @@ struct ExchangeTiming {
 
 class Exchange {
  public:
-  Exchange(Endpoint& endpoint, const Protocol& protocol, ExchangeTiming timing)
-      : endpoint_(endpoint), protocol_(protocol), timing_(timing), memory_(endpoint, protocol, timing.response_max) {}
+  Exchange(Endpoint& endpoint, const Protocol& protocol, ExchangeTiming timing, AuxLink aux = {}, Arming* arming = nullptr)
+      : endpoint_(endpoint), protocol_(protocol), timing_(timing), memory_(endpoint, protocol, timing.response_max, aux, arming) {}
 
   /// Executes the steps. Stops early at trouble of the port, a flood, or when a set or check is refused.
   Transcript run(const PreparedCase& prepared);
@@ -32,10 +32,15 @@ class Exchange {
   /// What answers is not judged.
   Result<bool> anything_answers(int station, Duration patience, Duration reply_delay = {});
 
+  /// Client role: does the device ask? Does what the case does before it expects the first request, and listens until
+  /// `patience` is over; then until the device has given up, so that the next case begins in silence.
+  Result<bool> anything_is_asked(const PreparedCase& prepared, Duration patience);
+
  private:
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);
   void await_return(const PreparedCase& prepared, Transcript& transcript);
   void send(const PreparedStep& step, StepRecord& record, Transcript& transcript);
+  void drain(Transcript& transcript);
   void await_frame(const PreparedStep& step, StepRecord& record, Transcript& transcript);
   /// Answers the request that an `expect` has just taken, else the next one, whatever it asks.
   void partner(const PreparedCase& prepared, const PreparedStep& step, StepRecord& record, Transcript& transcript);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
 
 namespace fieldproof {
 
@@ -32,6 +34,7 @@ class Judge {
     if (!transcript_.surplus.bytes.empty()) judge_surplus();
     if (!transcript_.dead.empty()) miss("link dead after this frame: " + transcript_.dead);
     by_level();
+    if (!unread_.empty()) result_.notes.push_back(fmt::format("judged on the wire alone: {} cannot be read", fmt::join(unread_, ", ")));
     return std::move(result_);
   }
 
@@ -230,9 +233,13 @@ class Judge {
   }
 
   void judge_memory(const Step& step, const StepRecord& record) {
-    for (std::size_t i = 0; i < record.memory.size() && i < step.memory.size(); ++i) {
-      const auto& [address, value] = record.memory[i];
-      const std::string& due = step.memory[i].second;
+    for (const auto& [address, due] : step.memory) {
+      const auto held = std::ranges::find(record.memory, address, &std::pair<std::string, std::string>::first);
+      if (held == record.memory.end()) {
+        unread_.insert(address);
+        continue;
+      }
+      const std::string& value = held->second;
       if (std::ranges::equal(value, due, [](char a, char b) { return hex_digit(a) == hex_digit(b); })) continue;
       if (!missed_) result_.differences.push_back({address, due, value, ""});
       miss(fmt::format("{} holds {}, {} is due", address, value, due));
@@ -252,6 +259,7 @@ class Judge {
   const Protocol& protocol_;
   Judgement result_;
   Captures captures_;
+  std::set<std::string> unread_;   // memory that was to be checked
   std::vector<Duration> periods_;  // of the present step
   std::size_t record_ = 0;
   bool missed_ = false;
@@ -278,6 +286,7 @@ CaseResult result_of(const Case& source) {
 }
 
 void note_transposition(const PreparedCase& prepared, CaseResult& result) {
+  if (prepared.is_client()) return;  // a client's own station is nowhere on the line
   const int named = config_station(prepared.source->config, prepared.station).value_or(prepared.station);
   if (named != prepared.station) result.notes.push_back(fmt::format("transposed: station {} to {}", named, prepared.station));
 }

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
+#include "harness/bench/p2p_blocks.hpp"
+
 namespace fieldproof {
 
 namespace {
@@ -17,13 +19,19 @@ int number_of(const nlohmann::json& config, const char* key, int fallback) {
 
 }  // namespace
 
-bool PreparedCase::is_client() const { return source->config.value("role", "server") == "client"; }
+bool PreparedCase::is_client() const { return is_client_case(*source); }
+
+bool PreparedCase::runs_by_clock() const { return is_client() && std::ranges::any_of(p2p_blocks(source->config), fieldproof::runs_by_clock); }
 
 bool PreparedCase::answers_probes() const { return has_probe && !is_client() && !source->config.contains("bench_line"); }
 
 Duration PreparedCase::client_time_out() const { return Duration((number_of(source->config, "time_out", 1) + 1) * 100ms); }
 
 Duration PreparedCase::reply_delay() const { return Duration(number_of(source->config, "delay_ms", 0) * 1ms); }
+
+bool PreparedCase::expects_requests() const {
+  return is_client() && std::ranges::any_of(steps, [](const PreparedStep& step) { return step.step->kind == Step::Kind::expect || step.step->kind == Step::Kind::partner; });
+}
 
 bool PreparedCase::listens_for_silence() const {
   return std::ranges::any_of(steps, [](const PreparedStep& step) { return step.step->kind == Step::Kind::silence; });

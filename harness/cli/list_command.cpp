@@ -99,7 +99,7 @@ int list_coverage(const ListOptions& options, const VectorSet& set) {
 int list_command(const ListOptions& options) {
   if (!options.coverage && (options.markdown || !options.html.empty() || !options.results.empty() || options.min_coverage > 0))
     return complain("--results, --markdown, --html and --min-coverage are about --coverage; add it", exit_code::usage);
-  if (options.coverage && !options.filter.empty()) return complain("--filter selects cases; --coverage is of all statements", exit_code::usage);
+  if (options.coverage && !(options.filter + options.role).empty()) return complain("--filter and --role select cases; --coverage is of all statements", exit_code::usage);
   const Result<VectorSet> loaded = load_sound_vectors(options.vectors);
   if (!loaded) return complain(loaded.error().message, exit_code::usage);
   const VectorSet& set = *loaded;
@@ -107,13 +107,13 @@ int list_command(const ListOptions& options) {
   ordered_json all = ordered_json::array();
   std::size_t count = 0;
   for (const Case& one : set.cases) {
-    if (!matches_filter(one.id, options.filter)) continue;
+    if (!matches_filter(one.id, options.filter) || !has_role(one, options.role)) continue;
     ++count;
     if (options.json) all.push_back(case_json(one));
     else fmt::print("{:<58} {:<6} {:<8} {}\n", one.id, one.level, one.basis, one.title);
   }
   if (options.json) fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
-  if (count == 0) return complain(fmt::format("no case matches '{}'; `fieldproof list` shows them all", options.filter), exit_code::nothing);
+  if (count == 0) return complain(fmt::format("no case{} matches '{}'; `fieldproof list` shows them all", options.role.empty() ? "" : " of role " + options.role, options.filter), exit_code::nothing);
   if (!options.json) fmt::print("{} cases\n", count);
   return exit_code::ok;
 }

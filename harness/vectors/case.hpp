@@ -74,6 +74,10 @@ struct Case {
 /// given.config.station as a number; `fallback` when absent, nothing when it is not 0-255.
 std::optional<int> config_station(const nlohmann::json& config, int fallback);
 
+bool is_client_case(const Case& one);
+/// `role`: "client", "server", or empty for both.
+bool has_role(const Case& one, const std::string& role);
+
 /// "1234*3" and "seq(3)" written out as hex digits; nothing when not hex.
 std::optional<std::string> expand_hex(const std::string& text);
 
