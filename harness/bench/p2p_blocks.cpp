@@ -61,7 +61,7 @@ std::string flag_of(const json& block) { return block.value("flag", ""); }
 
 bool runs_by_clock(const json& block) {
   const std::string flag = flag_of(block);
-  return !flag.empty() && flag.front() != '%';
+  return !flag.empty() && (flag.front() != '%' || flag.starts_with("%F"));
 }
 
 std::vector<std::string> sent_addresses(const json& block) {

@@ -15,7 +15,7 @@ std::vector<nlohmann::json> complete_blocks(const nlohmann::json& blocks, const 
 
 /// "%MX00000"; empty: a RECEIVE has none.
 std::string flag_of(const nlohmann::json& block);
-/// A block that asks at the pace of F90, F92, F93 (XEC: _T20MS, ...): its flag is no device that anyone sets.
+/// A block that asks at the pace of F90, F92, F93 (%FX.., XEC: _T20MS, ...): its flag is no device that anyone sets.
 bool runs_by_clock(const nlohmann::json& block);
 /// Addresses of its own memory that a write sends.
 std::vector<std::string> sent_addresses(const nlohmann::json& block);
