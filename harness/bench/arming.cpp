@@ -145,9 +145,10 @@ Status Arming::set(const std::string& address, const std::string& hex) {
   return ok();
 }
 
-Status Arming::end() {
-  if (!ways_.stimulus || std::ranges::none_of(blocks_, runs_by_clock)) return ok();
-  return ways_.stimulus(json{{"case", case_}, {"over", true}}.dump());
+Result<bool> Arming::end() {
+  if (!ways_.stimulus) return false;
+  const Status told = ways_.stimulus(json{{"case", case_}, {"over", true}}.dump());
+  return told ? Result<bool>(true) : told.error();
 }
 
 }  // namespace fieldproof

@@ -30,8 +30,8 @@ class Arming {
   Status begin(const Case& source, const nlohmann::json& config);
   /// The case sets memory. The rising edge of a condition flag asks for its block, once.
   Status set(const std::string& address, const std::string& hex);
-  /// Ends a case: clocks stop.
-  Status end();
+  /// Ends a case whose blocks run by a clock: true where they stop, since a stimulus was told.
+  Result<bool> end();
 
   /// The flags of the case's blocks that someone sets.
   std::vector<std::string> flags() const;

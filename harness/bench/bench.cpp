@@ -80,6 +80,14 @@ Status Bench::start() {
                           endpoint_.describe(), station, station));
 }
 
+/// Clocks of a stimulus stop with their case; what they asked last is given up before the next one begins.
+Status Bench::end_asking(const PreparedCase& prepared) {
+  if (!endpoint_.capabilities().real_device || !prepared.runs_by_clock()) return ok();
+  const Result<bool> stopped = arming_.end();
+  if (!stopped) return stopped.error();
+  return *stopped ? exchange_.settle(prepared.client_time_out() + 100ms) : ok();
+}
+
 /// The first case that can run shows whether the device asks at all. True as well where none can: each says why.
 Result<bool> Bench::wait_for_request() {
   for (const Case* one : options_.client_cases) {
@@ -89,7 +97,7 @@ Result<bool> Bench::wait_for_request() {
     CaseResult given;
     if (!begin_case(*prepared, given)) return fail(given.message);
     const Result<bool> asked = exchange_.anything_is_asked(*prepared, start_patience);
-    if (const Status over = arming_.end(); !over) return over.error();
+    if (const Status over = end_asking(*prepared); !over) return over.error();
     return asked;
   }
   return true;
@@ -240,8 +248,8 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   if (!prepare_device(prepared, result)) return;
   Transcript transcript = exchange_.run(prepared);
   exchange_.close(prepared, transcript);
-  if (prepared.is_client() && endpoint_.capabilities().real_device && !transcript.trouble)
-    if (const Status over = arming_.end(); !over) transcript.trouble = over.error();
+  if (!transcript.trouble)
+    if (const Status over = end_asking(prepared); !over) transcript.trouble = over.error();
   judge_exchange(prepared, transcript, result);
   after(prepared, transcript, result);
   readings_.note(result);
@@ -257,6 +265,9 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun) return give_up(Verdict::error, begun.error());
   if (prepared.source->fresh && endpoint_.capabilities().real_device && !power_cycle(result))
     return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
+  // What a clock asked between the cases is no part of this one. It waits for its answer before it asks again.
+  if (endpoint_.capabilities().real_device && prepared.runs_by_clock())
+    if (Status quiet = exchange_.settle(50ms); !quiet) return give_up(Verdict::error, quiet.error());
   return begin_case(prepared, result);
 }
 

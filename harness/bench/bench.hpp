@@ -62,6 +62,7 @@ class Bench {
   ExchangeTiming timing() const;
 
   Result<bool> wait_for_request();
+  Status end_asking(const PreparedCase& prepared);
   bool begin_case(const PreparedCase& prepared, CaseResult& result);
   void execute(const PreparedCase& prepared, CaseResult& result);
   bool prepare_device(const PreparedCase& prepared, CaseResult& result);

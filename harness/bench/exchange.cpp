@@ -14,6 +14,7 @@ constexpr std::size_t flood_limit = 16'384;
 constexpr Duration longest_reply = 10s;
 
 constexpr Duration restart_patience = 10s;
+constexpr Duration settle_patience = 10s;
 
 }  // namespace
 
@@ -29,8 +30,6 @@ Transcript Exchange::run(const PreparedCase& prepared) {
   // Memory that was given through the protocol may just have been answered.
   last_heard_ = stimulus_ = endpoint_.now();
   last_sent_ = {last_heard_, last_heard_};
-  // Requests from between the cases are no part of this one.
-  if (prepared.runs_by_clock() && endpoint_.capabilities().real_device) drain(transcript);
   for (const PreparedStep& one : prepared.steps) {
     for (int i = 0; i < one.step->times; ++i) {
       step(prepared, one, transcript);
@@ -62,11 +61,6 @@ void Exchange::step(const PreparedCase& prepared, const PreparedStep& step, Tran
     case Step::Kind::close:
     case Step::Kind::expect_close: record.refused = "this endpoint has no link that opens and closes"; return;
   }
-}
-
-void Exchange::drain(Transcript& transcript) {
-  while (listen(endpoint_.now() + timing_.quiet / 2, transcript)) pending_ = {};
-  transcript.events.clear();
 }
 
 /// A real device needs time to start again.
@@ -272,13 +266,21 @@ Result<bool> Exchange::anything_is_asked(const PreparedCase& prepared, Duration 
     if (kind == Step::Kind::set || kind == Step::Kind::act || kind == Step::Kind::wait) step(prepared, one, transcript);
     if (!transcript.steps.empty() && !transcript.steps.back().refused.empty()) return fail(transcript.steps.back().refused);
   }
-  bool asked = listen(endpoint_.now() + patience, transcript);
-  // A clock goes on asking: there the next case drains the line.
-  const Duration given_up = prepared.runs_by_clock() ? timing_.quiet / 2 : prepared.client_time_out() + timing_.quiet;
-  if (asked) while (listen(endpoint_.now() + given_up, transcript)) {}
+  const bool asked = listen(endpoint_.now() + patience, transcript);
   pending_ = {};
   if (transcript.trouble) return *transcript.trouble;
-  return asked;
+  // A clock goes on asking: there the next case drains the line.
+  if (!asked || prepared.runs_by_clock()) return asked;
+  const Status settled = settle(prepared.client_time_out() + timing_.quiet);
+  return settled ? Result<bool>(true) : settled.error();
+}
+
+Status Exchange::settle(Duration silence) {
+  Transcript transcript;
+  const Time give_up = endpoint_.now() + settle_patience;
+  while (endpoint_.now() < give_up && listen(endpoint_.now() + silence, transcript)) {}
+  pending_ = {};
+  return transcript.trouble ? Status(*transcript.trouble) : ok();
 }
 
 /// Takes complete frames off the front; how many.

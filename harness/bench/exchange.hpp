@@ -35,12 +35,13 @@ class Exchange {
   /// Client role: does the device ask? Does what the case does before it expects the first request, and listens until
   /// `patience` is over; then until the device has given up, so that the next case begins in silence.
   Result<bool> anything_is_asked(const PreparedCase& prepared, Duration patience);
+  /// Client role: listens until the line is silent for so long; at most ten seconds. Nothing of it is judged.
+  Status settle(Duration silence);
 
  private:
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);
   void await_return(const PreparedCase& prepared, Transcript& transcript);
   void send(const PreparedStep& step, StepRecord& record, Transcript& transcript);
-  void drain(Transcript& transcript);
   void await_frame(const PreparedStep& step, StepRecord& record, Transcript& transcript);
   /// Answers the request that an `expect` has just taken, else the next one, whatever it asks.
   void partner(const PreparedCase& prepared, const PreparedStep& step, StepRecord& record, Transcript& transcript);
