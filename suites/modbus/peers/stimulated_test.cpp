@@ -86,5 +86,15 @@ TEST_P(StimulatedMaster, AsksAtThePaceOfAClockUntilItIsOver) {
   EXPECT_EQ(master.wait().code, 0);
 }
 
+/// As a device under test in the client role: the bench is the partner, and tells it on its standard input what to ask.
+TEST_P(StimulatedMaster, IsJudgedByTheBench) {
+  const std::string vectors = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/stimulated_vectors.json";
+  const Finished run = run_tool({"run", "--role", "client", "--vectors", vectors, "--filter", "modbus_" + GetParam().mode + "/*", "--stimulus", "-",
+                                 "--endpoint", "exec:" + GetParam().command + " {tty}?station=0&protocol=modbus-" + GetParam().mode,
+                                 "--profile", "xbc-h", "--out", folder / "out"});
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  EXPECT_THAT(run.out, HasSubstr("  4  PASS"));
+}
+
 }  // namespace
 }  // namespace fieldproof
