@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "src/base/letters.hpp"
 #include "src/base/spelling.hpp"
+#include "src/p2p/condition.hpp"
 #include "src/p2p/driver.hpp"
 #include "src/plc/config_reader.hpp"
 
@@ -29,22 +29,8 @@ constexpr std::array functions{Word{"read", int(Function::read)}, Word{"write", 
 constexpr std::array commands{Word{"single", 0}, Word{"continuous", 1}};
 constexpr std::array types{Word{"bit", 'X'}, Word{"byte", 'B'}, Word{"word", 'W'}, Word{"dword", 'D'}, Word{"lword", 'L'}};
 
-struct Clock {
-  std::string_view mk, iec;  // device, keyword
-  unsigned bit;              // of F word 9
-  Duration period;
-};
-constexpr std::array clocks{Clock{"F90", "_T20MS", 0, 20ms}, Clock{"F92", "_T200MS", 2, 200ms}, Clock{"F93", "_T1S", 3, 1s}};
-constexpr std::uint32_t clock_word = 9;
-
 std::string_view type_name(char type) {
   return std::ranges::find(types, int(type), &Word::meaning)->text;
-}
-
-/// "F0092" and "F092" are F92.
-std::string without_zeros(std::string text) {
-  if (text.size() > 1) text.erase(1, text.find_first_not_of('0', 1) - 1);
-  return text;
 }
 
 /// Reads one block; the first error stays.
@@ -96,34 +82,10 @@ class BlockReader {
     if (reader_.error()) return *reader_.error();
     if (block_.function == Function::receive)
       return flag.empty() ? ok() : Status(wrong("a receive block has no flag: it is always armed; remove 'flag'"));
-    if (flag.empty()) return wrong(fmt::format("there is no flag; give a bit such as %MX00000, or a clock: {}", clock_names()));
-    for (const Clock& clock : clocks) {
-      if (model_.iec ? upper(flag) != clock.iec : without_zeros(upper(flag)) != clock.mk) continue;
-      block_.condition.period = clock.period;
-      return ok();
-    }
-    const ParsedAddress parsed = parse_address(model_, flag);
-    if (!parsed || parsed.address.type != 'X')
-      return wrong(fmt::format("flag '{}' is no bit of {} ({}); give a bit such as %MX00000, or a clock: {}", flag, model_.name,
-                               parsed ? "it is a " + std::string(type_name(parsed.address.type)) : std::string(describe(parsed.fault)),
-                               clock_names()));
-    if (const Clock* clock = clock_at(parsed.address)) block_.condition.period = clock->period;
-    else block_.condition.flag = parsed.address;
+    Result<P2pCondition> condition = parse_p2p_condition(flag, model_);
+    if (!condition) return wrong(condition.error().message);
+    block_.condition = *condition;
     return ok();
-  }
-
-  std::string clock_names() const {
-    std::vector<std::string> names;
-    for (const Clock& clock : clocks)
-      names.push_back(fmt::format("{} ({} ms)", model_.iec ? clock.iec : clock.mk, clock.period / 1ms));
-    return fmt::format("{}", fmt::join(names, ", "));
-  }
-
-  const Clock* clock_at(const DeviceAddress& bit) const {
-    if (model_.iec || model_.areas[bit.area].letter != 'F') return nullptr;
-    for (const Clock& clock : clocks)
-      if (bit.index == clock_word * 16 + clock.bit) return &clock;
-    return nullptr;
   }
 
   /// One text, or a list of up to four.

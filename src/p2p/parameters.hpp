@@ -4,8 +4,7 @@
 //    "blocks": [{"block": 0, "channel": 1, "function": "read", "flag": "%MX00000", "command": "single", "type": "word",
 //                "read": "%MW100", "save": "%MW200", "station": 2}, ...]}
 //
-// `flag`: a bit, or a clock: F90 (20 ms), F92 (200 ms), F93 (1 s), on XEC _T20MS, _T200MS, _T1S. Other forms of the
-// same clock bits (F0092, %FX0092) mean the clock too. Stations are 0-255 (000 11.1.4 'Available range: 0~255'; the
+// `flag` is a bit or a clock (condition.hpp). Stations are 0-255 (000 11.1.4 'Available range: 0~255'; the
 // 0-31 of 003 6.3.2 is what one line carries). Parameter 1 has channels 1 and 2; 2 and 3 are modules of one channel
 // (6.2.3), which may be called 1 or 2 (003 11.2.2 sets channel 2 of an XBL-C21A).
 #pragma once

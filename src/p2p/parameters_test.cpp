@@ -134,9 +134,9 @@ TEST(P2pParameters, ErrorsNameBlockAndKey) {
 
 TEST(P2pParameters, ErrorsOfTheCondition) {
   EXPECT_EQ(error_of_block(with(read, {{"flag", "%MW0"}})),
-            "cannot read P2P block 0: flag '%MW0' is no bit of xbc-h (it is a word); give a bit such as %MX00000, or a clock: "
+            "cannot read P2P block 0: flag '%MW0' is no bit: its type is W; give a bit such as %MX00000, or a clock: "
             "F90 (20 ms), F92 (200 ms), F93 (1000 ms)");
-  EXPECT_THAT(error_of_block(with(read, {{"flag", "F91"}})), HasSubstr("flag 'F91' is no bit of xbc-h (it does not begin with %)"));
+  EXPECT_THAT(error_of_block(with(read, {{"flag", "F91"}})), HasSubstr("flag 'F91' is no bit of xbc-h: it does not begin with %"));
   EXPECT_THAT(error_of_block(without(read, "flag")), HasSubstr("there is no flag"));
   EXPECT_THAT(error_of_block(with(receive, {{"flag", "F92"}})), HasSubstr("a receive block has no flag"));
   EXPECT_THAT(error_of_block(without(send, "flag")), HasSubstr("there is no flag"));
