@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
+#include "harness/bench/p2p_blocks.hpp"
 #include "harness/bench/recording.hpp"
 #include "harness/vectors/loader.hpp"
 
@@ -32,7 +33,12 @@ std::string plain(const json& value) { return value.is_string() ? value.get<std:
 }  // namespace
 
 Bench::Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
-    : endpoint_(endpoint), protocol_(protocol), options_(std::move(options)), exchange_(endpoint, protocol, timing()) {}
+    : endpoint_(endpoint),
+      protocol_(protocol),
+      options_(std::move(options)),
+      arming_(protocol, {options_.endpoint_is_stimulus ? [&endpoint](const std::string& line) { return endpoint.tell(line); } : options_.stimulus, complete_blocks(options_.profile.prepared_blocks, {}), options_.aux.endpoint != nullptr}),
+      memory_(endpoint, protocol, options_.profile.response_max, options_.aux, &arming_),
+      exchange_(endpoint, protocol, timing(), options_.aux, &arming_) {}
 
 ExchangeTiming Bench::timing() const {
   ExchangeTiming timing;
@@ -47,6 +53,8 @@ JudgeRules Bench::rules() const {
   rules.guard_band = options_.profile.guard_band;
   rules.timing_floor = std::max(options_.profile.floor, can.timing_floor);
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
+  // Simulated time is exact, but for the moment at which a character counts as come.
+  if (can.simulated) rules.period_tolerance = endpoint_.character_time();
   // 003 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
   rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, rules.timing_floor) : shortest_judged;
@@ -59,12 +67,40 @@ Status Bench::start() {
   config["station"] = station;
   if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
   if (Status begun = endpoint_.begin(config); !begun) return begun;
-  const Result<bool> alive = exchange_.anything_answers(station, start_patience);
+  const bool listens = endpoint_.capabilities().real_device && !options_.client_cases.empty();
+  const Result<bool> alive = listens ? wait_for_request() : exchange_.anything_answers(station, start_patience);
   if (!alive) return alive.error();
   if (*alive) return ok();
+  if (listens)
+    return fail(fmt::format("nothing is asked on {}: check that the PLC is in RUN, that P2P has its link enable (000 11.2.2), that the block's condition "
+                            "flag rises, that speed, data bits, parity and stop bits are the same on both sides and that A and B are not swapped",
+                            endpoint_.describe()));
   return fail(fmt::format("nothing answers on {} at station {}: check that the device has power, that speed, data bits, parity and stop bits are "
                           "its own, that its station number is {} and that A and B are not swapped",
                           endpoint_.describe(), station, station));
+}
+
+/// Clocks of a stimulus stop with their case; what they asked last is given up before the next one begins.
+Status Bench::end_asking(const PreparedCase& prepared) {
+  if (!endpoint_.capabilities().real_device || !prepared.runs_by_clock()) return ok();
+  const Result<bool> stopped = arming_.end();
+  if (!stopped) return stopped.error();
+  return *stopped ? exchange_.settle(prepared.client_time_out() + 100ms) : ok();
+}
+
+/// The first case that can run shows whether the device asks at all. True as well where none can: each says why.
+Result<bool> Bench::wait_for_request() {
+  for (const Case* one : options_.client_cases) {
+    if (outside_profile(*one).verdict != Verdict::pass) continue;
+    const Result<PreparedCase> prepared = prepare(*one, options_.station, protocol_);
+    if (!prepared || !prepared->expects_requests() || blocked(*one, *prepared).verdict != Verdict::pass || below_floor(*prepared).verdict != Verdict::pass) continue;
+    CaseResult given;
+    if (!begin_case(*prepared, given)) return fail(given.message);
+    const Result<bool> asked = exchange_.anything_is_asked(*prepared, start_patience);
+    if (const Status over = end_asking(*prepared); !over) return over.error();
+    return asked;
+  }
+  return true;
 }
 
 int Bench::station_for(const Case& source) const {
@@ -93,8 +129,9 @@ Bench::Eligibility Bench::outside_profile(const Case& source) const {
 
 /// On hardware the configuration of a case must be what is declared.
 std::string Bench::undeclared(const json& config) const {
+  const bool asks = config.value("role", "server") == "client";
   for (const auto& [key, value] : config.items()) {
-    if (key == "station") continue;
+    if (key == "station" || key == "p2p" || (key == "role" && asks)) continue;  // Arming tells
     const json& declared = options_.profile.config;
     const json fallback = default_config().value(key, json());
     const json has = declared.value(key, fallback);
@@ -115,7 +152,26 @@ std::string Bench::other_write_config(const json& config) const {
   return {};
 }
 
+/// What the bench sends to a client are answers; what it sets goes over the second channel.
+std::string Bench::client_fence_objection(const PreparedCase& prepared) const {
+  const AuxLink& aux = options_.aux;
+  if (!aux.endpoint) return {};
+  std::vector<std::pair<std::string, std::string>> memory = prepared.source->memory;
+  for (const nlohmann::json& block : p2p_blocks(prepared.source->config))
+    if (!flag_of(block).empty() && !runs_by_clock(block)) memory.emplace_back(flag_of(block), "00");
+  for (const PreparedStep& step : prepared.steps)
+    if (step.step->kind == Step::Kind::set) memory.insert(memory.end(), step.step->memory.begin(), step.step->memory.end());
+  for (const auto& [address, hex] : memory) {
+    const Result<std::vector<Bytes>> requests = aux.protocol->write_requests(aux.station, address, hex);
+    if (!requests) return fmt::format("cannot set {} over --aux: {}", address, requests.error().message);
+    for (const Bytes& request : *requests)
+      if (std::string why = options_.fence.objection(aux.protocol->written_by(request), aux.protocol->output_areas()); !why.empty()) return why;
+  }
+  return {};
+}
+
 std::string Bench::fence_objection(const PreparedCase& prepared) const {
+  if (prepared.is_client()) return client_fence_objection(prepared);
   const std::string other = other_write_config(prepared.source->config);
   const auto objection = [&](ByteView bytes) {
     const std::vector<Protocol::Written> written = protocol_.written_by(bytes);
@@ -143,10 +199,12 @@ std::string Bench::fence_objection(const PreparedCase& prepared) const {
 Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepared) const {
   const Capabilities& can = endpoint_.capabilities();
   if (!can.real_device) return {};
-  if (!source.transpose && config_station(source.config, options_.station) != options_.station)
+  if (prepared.is_client()) {
+    if (std::string why = arming_.objection(source, device_config(source)); !why.empty()) return {Verdict::blocked, why};
+  } else if (!source.transpose && config_station(source.config, options_.station) != options_.station)
     return {Verdict::blocked, fmt::format("is about station {}; the device is station {}", *config_station(source.config, 1), options_.station)};
   if (std::string why = undeclared(source.config); !why.empty()) return {Verdict::blocked, why};
-  if (prepared.looks_at_counters()) return {Verdict::blocked, "looks at the status counters, which no command reads; see XG5000, status by service"};
+  if (prepared.looks_at_counters() && !prepared.is_client()) return {Verdict::blocked, "looks at the status counters, which no command reads; see XG5000, status by service"};
   if (source.fresh && !can.can_power_cycle && options_.power_cycle_command.empty())
     return {Verdict::blocked, "needs a device fresh from power-on; give --power-cycle COMMAND"};
   if (std::string why = fence_objection(prepared); !why.empty()) return {Verdict::blocked, why};
@@ -190,6 +248,8 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   if (!prepare_device(prepared, result)) return;
   Transcript transcript = exchange_.run(prepared);
   exchange_.close(prepared, transcript);
+  if (!transcript.trouble)
+    if (const Status over = end_asking(prepared); !over) transcript.trouble = over.error();
   judge_exchange(prepared, transcript, result);
   after(prepared, transcript, result);
   readings_.note(result);
@@ -205,12 +265,35 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun) return give_up(Verdict::error, begun.error());
   if (prepared.source->fresh && endpoint_.capabilities().real_device && !power_cycle(result))
     return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
-  MemoryAccess memory(endpoint_, protocol_, options_.profile.response_max);
-  for (const auto& [address, hex] : prepared.source->memory) {
-    if (const Status set = memory.set(prepared.station, address, hex); !set)
-      return give_up(memory.refused() ? Verdict::fail : Verdict::error, set.error());
-    result.exchange.push_back({Event::Kind::note, endpoint_.now(), endpoint_.now(), {}, fmt::format("given {} = {}", address, hex)});
+  // What a clock asked between the cases is no part of this one. It waits for its answer before it asks again.
+  if (endpoint_.capabilities().real_device && prepared.runs_by_clock())
+    if (Status quiet = exchange_.settle(50ms); !quiet) return give_up(Verdict::error, quiet.error());
+  return begin_case(prepared, result);
+}
+
+/// Sets the given memory; whatever makes a real client ask is told of the case.
+bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
+  const auto give_up = [&](Verdict verdict, const Error& error) {
+    result.verdict = verdict;
+    result.message = error.message;
+    if (error.interrupted) stop("interrupted", &error);
+    return false;
+  };
+  const auto set = [&](const std::string& address, const std::string& hex) {
+    const Status done = memory_.set(prepared, address, hex);
+    if (done) result.exchange.push_back({Event::Kind::note, endpoint_.now(), endpoint_.now(), {}, fmt::format("given {} = {}", address, hex)});
+    return done;
+  };
+  const bool asks = prepared.is_client() && endpoint_.capabilities().real_device;
+  if (asks) {
+    if (const Status begun = arming_.begin(*prepared.source, device_config(*prepared.source)); !begun) return give_up(Verdict::error, begun.error());
+    // A flag that an earlier case left on would have no rising edge.
+    if (arming_.aux())
+      for (const std::string& flag : arming_.flags())
+        if (const Status reset = set(flag, "00"); !reset) return give_up(Verdict::error, reset.error());
   }
+  for (const auto& [address, hex] : prepared.source->memory)
+    if (const Status done = set(address, hex); !done) return give_up(memory_.refused() ? Verdict::fail : Verdict::error, done.error());
   return true;
 }
 

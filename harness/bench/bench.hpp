@@ -22,6 +22,10 @@ struct BenchOptions {
   int station = 1;                 // the device's, where the endpoint cannot become another station
   std::string power_cycle_command; // --power-cycle: what switches a real device off and on
   std::string replay;              // command line that the id of the case completes
+  AuxLink aux;                     // --aux: a second channel of the PLC under test
+  TellStimulus stimulus;           // --stimulus: what makes the device ask; empty: none
+  bool endpoint_is_stimulus = false;  // --stimulus -: the endpoint's own program is told
+  std::vector<const Case*> client_cases;  // all that are selected, where every one of them is of a device that asks
 };
 
 class Bench {
@@ -49,6 +53,7 @@ class Bench {
   Eligibility below_floor(const PreparedCase& prepared) const;
   std::string undeclared(const nlohmann::json& config) const;
   std::string other_write_config(const nlohmann::json& config) const;
+  std::string client_fence_objection(const PreparedCase& prepared) const;
   std::string fence_objection(const PreparedCase& prepared) const;
 
   int station_for(const Case& source) const;
@@ -56,6 +61,9 @@ class Bench {
   JudgeRules rules() const;
   ExchangeTiming timing() const;
 
+  Result<bool> wait_for_request();
+  Status end_asking(const PreparedCase& prepared);
+  bool begin_case(const PreparedCase& prepared, CaseResult& result);
   void execute(const PreparedCase& prepared, CaseResult& result);
   bool prepare_device(const PreparedCase& prepared, CaseResult& result);
   void judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
@@ -66,6 +74,8 @@ class Bench {
   Endpoint& endpoint_;
   const Protocol& protocol_;
   BenchOptions options_;
+  Arming arming_;
+  MemoryAccess memory_;
   Exchange exchange_;
   Readings readings_;
   std::string stopped_;

@@ -24,8 +24,8 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> device_keys{"endpoint", "profile",     "station",  "line", "identity",
-                                                      "fingerprint", "allow_write", "operator", "notes"};
+constexpr std::array<std::string_view, 11> device_keys{"endpoint", "profile",     "station",  "line", "identity",
+                                                      "fingerprint", "allow_write", "operator", "notes", "stimulus", "aux"};
 constexpr std::array<std::string_view, 4> identity_keys{"maker", "model", "serial", "firmware"};
 
 [[noreturn]] void refuse(const std::string& where, const std::string& why) { throw std::runtime_error(where + ": " + why); }
@@ -117,6 +117,9 @@ BenchDevice read_device(const json& object, const std::string& name, const fs::p
   device.profile = resolve_profile(read_text(object, "profile", where), folder);
   device.station = read_station(object, where);
   device.line = read_text(object, "line", where);
+  device.stimulus = read_text(object, "stimulus", where);
+  device.aux = read_text(object, "aux", where);
+  if (const auto aux = parse_endpoint(device.aux); !aux && !device.aux.empty()) refuse(where + ".aux", aux.error().message);
   device.allow_write = read_allow_write(object, where);
   device.identity = read_identity(object, where);
   device.identity.name = name;

@@ -21,6 +21,7 @@ struct BenchDevice {
   std::string profile;                   // a name, or a path (relative ones start at the bench file's folder); empty: none named
   std::optional<int> station;            // 0 to 255
   std::string line;                      // "38400-8N1"; empty: what the endpoint says
+  std::string stimulus, aux;             // as --stimulus and --aux take them
   std::vector<std::string> allow_write;  // as --allow-write takes them
   Identity identity;                     // with the device's name, operator and notes
 };

@@ -14,6 +14,7 @@ constexpr std::size_t flood_limit = 16'384;
 constexpr Duration longest_reply = 10s;
 
 constexpr Duration restart_patience = 10s;
+constexpr Duration settle_patience = 10s;
 
 }  // namespace
 
@@ -23,6 +24,8 @@ Transcript Exchange::run(const PreparedCase& prepared) {
   captures_.clear();
   pending_ = {};
   last_bytes_.clear();
+  partner_.emplace(protocol_);
+  request_ = {};
   neighbours_ = prepared.source->config.contains("neighbours");
   // Memory that was given through the protocol may just have been answered.
   last_heard_ = stimulus_ = endpoint_.now();
@@ -40,7 +43,11 @@ void Exchange::step(const PreparedCase& prepared, const PreparedStep& step, Tran
   StepRecord& record = transcript.steps.emplace_back();
   switch (step.step->kind) {
     case Step::Kind::send: return send(step, record, transcript);
-    case Step::Kind::expect: return expect(step, record, transcript);
+    case Step::Kind::expect:
+      await_frame(step, record, transcript);
+      if (step.step->partner && !request_.bytes.empty()) answer(prepared, *step.step->partner, record, transcript);
+      return;
+    case Step::Kind::partner: return partner(prepared, step, record, transcript);
     case Step::Kind::silence: return silence(prepared, record, transcript);
     case Step::Kind::wait: return wait_until(endpoint_.now() + step.step->duration, record, transcript);
     case Step::Kind::set:
@@ -71,6 +78,7 @@ void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& tr
     transcript.surplus_after = transcript.steps.size() - 1;
   }
   if (transcript.trouble || transcript.flooded) return;
+  request_ = {};
   const FrameTemplate& frame = step.frames.front().frame;
   const Result<Bytes> bytes = render(frame, captures_);
   if (!bytes) {
@@ -91,9 +99,9 @@ void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& tr
   last_bytes_ = *bytes;
 }
 
-void Exchange::expect(const PreparedStep& step, StepRecord& record, Transcript& transcript) {
+void Exchange::await_frame(const PreparedStep& step, StepRecord& record, Transcript& transcript) {
   record.stimulus = stimulus_;
-  record.deadline = stimulus_ + step.step->within.value_or(timing_.response_max);
+  record.deadline = stimulus_ + reply_limit(*step.step, timing_.response_max);
   const Time give_up = record.deadline + timing_.late_watch;
   const Time cut_off = give_up + longest_reply;
   std::size_t length = 0;
@@ -103,7 +111,38 @@ void Exchange::expect(const PreparedStep& step, StepRecord& record, Transcript& 
   }
   record.received = pending_.take(length ? length : pending_.bytes.size());
   record.listened_until = endpoint_.now();
-  if (!record.received.arrivals.empty()) stimulus_ = record.received.arrivals.back().end;
+  request_ = {};
+  if (record.received.arrivals.empty()) return;
+  stimulus_ = record.received.arrivals.back().end;
+  const Duration each = endpoint_.character_time();
+  request_ = {record.received.bytes, stimulus_ - each * static_cast<Duration::rep>(record.received.bytes.size()), each};
+}
+
+void Exchange::partner(const PreparedCase& prepared, const PreparedStep& step, StepRecord& record, Transcript& transcript) {
+  if (request_.bytes.empty()) await_frame(step, record, transcript);
+  if (transcript.trouble || transcript.flooded) return;
+  if (!request_.bytes.empty()) return answer(prepared, *step.step->partner, record, transcript);
+  record.refused = fmt::format("no request within {:.0f} ms", to_ms(record.deadline - record.stimulus));
+  record.refused_by_device = true;
+}
+
+void Exchange::answer(const PreparedCase& prepared, const PartnerSpec& spec, StepRecord& record, Transcript& transcript) {
+  const Burst request = std::exchange(request_, {});
+  // Past the client's time-out, and past what the link can tell apart.
+  const Duration more = endpoint_.character_time() + endpoint_.capabilities().timing_floor;
+  const Result<Partner::Answer> reply = partner_->answer(spec, request, request.end() + prepared.client_time_out() + more);
+  if (!reply) {
+    record.refused = reply.error().message;
+    return;
+  }
+  const std::string fault = spec.fault.empty() ? "" : fmt::format(" ({})", spec.fault);
+  note(fmt::format("partner: {}{}", reply->bytes.empty() ? "no answer" : "answers", fault), transcript);
+  if (reply->bytes.empty()) return;
+  await_frame_gap(transcript);
+  while (listen(reply->moment, transcript)) {}
+  if (transcript.trouble || transcript.flooded || !transmit(reply->bytes, transcript)) return;
+  record.sent = last_sent_;
+  record.sent_bytes = reply->bytes;
 }
 
 /// How many of the pending bytes are a reply: what an alternative matches, else a complete frame of the protocol.
@@ -157,10 +196,10 @@ void Exchange::access_memory(const PreparedCase& prepared, const Step& step, Ste
   for (const auto& [address, hex] : step.memory) {
     Status done = ok();
     if (setting) {
-      done = memory_.set(prepared.station, address, hex);
+      done = memory_.set(prepared, address, hex);
       note(fmt::format("set {} = {}", address, hex), transcript);
-    } else {
-      const Result<std::string> value = memory_.get(prepared.station, address, hex.size());
+    } else if (memory_.can_read(prepared, address)) {
+      const Result<std::string> value = memory_.get(prepared, address, hex.size());
       if (value) record.memory.emplace_back(address, *value);
       if (value) note(fmt::format("check {}: {}", address, *value), transcript);
       else done = value.error();
@@ -174,6 +213,7 @@ void Exchange::access_memory(const PreparedCase& prepared, const Step& step, Ste
 
 void Exchange::close(const PreparedCase& prepared, Transcript& transcript) {
   if (transcript.trouble) return;
+  if (prepared.runs_by_clock()) return;  // it goes on asking
   StepRecord rest;
   const bool simulated = endpoint_.capabilities().simulated;
   if (simulated || !prepared.answers_probes()) {
@@ -215,6 +255,32 @@ Result<bool> Exchange::anything_answers(int station, Duration patience, Duration
     if (answers > 0 || !heard.empty()) return true;
   }
   return false;
+}
+
+Result<bool> Exchange::anything_is_asked(const PreparedCase& prepared, Duration patience) {
+  Transcript transcript;
+  pending_ = {};
+  for (const PreparedStep& one : prepared.steps) {
+    const Step::Kind kind = one.step->kind;
+    if (kind == Step::Kind::expect || kind == Step::Kind::partner) break;
+    if (kind == Step::Kind::set || kind == Step::Kind::act || kind == Step::Kind::wait) step(prepared, one, transcript);
+    if (!transcript.steps.empty() && !transcript.steps.back().refused.empty()) return fail(transcript.steps.back().refused);
+  }
+  const bool asked = listen(endpoint_.now() + patience, transcript);
+  pending_ = {};
+  if (transcript.trouble) return *transcript.trouble;
+  // A clock goes on asking: there the next case drains the line.
+  if (!asked || prepared.runs_by_clock()) return asked;
+  const Status settled = settle(prepared.client_time_out() + timing_.quiet);
+  return settled ? Result<bool>(true) : settled.error();
+}
+
+Status Exchange::settle(Duration silence) {
+  Transcript transcript;
+  const Time give_up = endpoint_.now() + settle_patience;
+  while (endpoint_.now() < give_up && listen(endpoint_.now() + silence, transcript)) {}
+  pending_ = {};
+  return transcript.trouble ? Status(*transcript.trouble) : ok();
 }
 
 /// Takes complete frames off the front; how many.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "harness/bench/memory_access.hpp"
+#include "harness/bench/partner.hpp"
 #include "harness/bench/prepared_case.hpp"
 #include "harness/bench/transcript.hpp"
 #include "harness/endpoints/endpoint.hpp"
@@ -17,8 +18,8 @@ struct ExchangeTiming {
 
 class Exchange {
  public:
-  Exchange(Endpoint& endpoint, const Protocol& protocol, ExchangeTiming timing)
-      : endpoint_(endpoint), protocol_(protocol), timing_(timing), memory_(endpoint, protocol, timing.response_max) {}
+  Exchange(Endpoint& endpoint, const Protocol& protocol, ExchangeTiming timing, AuxLink aux = {}, Arming* arming = nullptr)
+      : endpoint_(endpoint), protocol_(protocol), timing_(timing), memory_(endpoint, protocol, timing.response_max, aux, arming) {}
 
   /// Executes the steps. Stops early at trouble of the port, a flood, or when a set or check is refused.
   Transcript run(const PreparedCase& prepared);
@@ -31,11 +32,20 @@ class Exchange {
   /// What answers is not judged.
   Result<bool> anything_answers(int station, Duration patience, Duration reply_delay = {});
 
+  /// Client role: does the device ask? Does what the case does before it expects the first request, and listens until
+  /// `patience` is over; then until the device has given up, so that the next case begins in silence.
+  Result<bool> anything_is_asked(const PreparedCase& prepared, Duration patience);
+  /// Client role: listens until the line is silent for so long; at most ten seconds. Nothing of it is judged.
+  Status settle(Duration silence);
+
  private:
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);
   void await_return(const PreparedCase& prepared, Transcript& transcript);
   void send(const PreparedStep& step, StepRecord& record, Transcript& transcript);
-  void expect(const PreparedStep& step, StepRecord& record, Transcript& transcript);
+  void await_frame(const PreparedStep& step, StepRecord& record, Transcript& transcript);
+  /// Answers the request that an `expect` has just taken, else the next one, whatever it asks.
+  void partner(const PreparedCase& prepared, const PreparedStep& step, StepRecord& record, Transcript& transcript);
+  void answer(const PreparedCase& prepared, const PartnerSpec& spec, StepRecord& record, Transcript& transcript);
   void silence(const PreparedCase& prepared, StepRecord& record, Transcript& transcript);
   void wait_until(Time moment, StepRecord& record, Transcript& transcript);
   void access_memory(const PreparedCase& prepared, const Step& step, StepRecord& record, Transcript& transcript);
@@ -62,6 +72,8 @@ class Exchange {
   Time stimulus_{};   // what the next reply answers: a transmission, the reply before it, a set or do
   Bytes last_bytes_;
   Captures captures_;
+  std::optional<Partner> partner_;  // of this case
+  Burst request_;     // of the client, taken by `expect` and not answered yet
 };
 
 }  // namespace fieldproof

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
 
 namespace fieldproof {
 
@@ -21,15 +23,18 @@ class Judge {
     if (transcript_.flooded) miss("the device floods the line: it sends without end");
     for (const PreparedStep& step : prepared_.steps) {
       const StepRecord* previous = nullptr;
+      periods_.clear();
       for (int i = 0; i < step.step->times && record_ < transcript_.steps.size(); ++i, ++record_) {
         judge_step(step, transcript_.steps[record_], previous);
         previous = &transcript_.steps[record_];
       }
+      note_periods(step);
     }
     if (result_.verdict == Verdict::pass && record_ == 0) return error("no step was executed");
     if (!transcript_.surplus.bytes.empty()) judge_surplus();
     if (!transcript_.dead.empty()) miss("link dead after this frame: " + transcript_.dead);
     by_level();
+    if (!unread_.empty()) result_.notes.push_back(fmt::format("judged on the wire alone: {} cannot be read", fmt::join(unread_, ", ")));
     return std::move(result_);
   }
 
@@ -76,6 +81,9 @@ class Judge {
       case Step::Kind::silence:
       case Step::Kind::wait: return judge_silence(record);
       case Step::Kind::check: return judge_memory(*step.step, record);
+      case Step::Kind::partner:
+        if (step.step->every && previous) judge_period(*step.step->every, *previous, record);
+        return;
       default: return;
     }
   }
@@ -92,7 +100,7 @@ class Judge {
     const Received& received = record.received;
     if (received.bytes.empty()) {
       expected(step, received);
-      return miss(fmt::format("no answer within {:.0f} ms", to_ms(record.deadline - record.stimulus)));
+      return miss(fmt::format("no {} within {:.0f} ms", prepared_.is_client() ? "request" : "answer", to_ms(record.deadline - record.stimulus)));
     }
     result_.response_ms.push_back(to_ms(received.arrivals.front().start - record.stimulus));
     const PreparedFrame* match = matching(step, received.bytes);
@@ -120,9 +128,10 @@ class Judge {
     if (received.bytes == last_sent())
       return miss("our own request came back (echo) instead of a reply; check the wiring: RS-485 with two wires, or RS-422 set for RS-485");
     result_.differences = compare_frames(fill_holes(nearest.frame, received.bytes), received.bytes, protocol_);
-    std::string what = "the reply is not the one expected";
+    const std::string_view frame = prepared_.is_client() ? "request" : "reply";
+    std::string what = fmt::format("the {} is not the one expected", frame);
     if (const std::size_t count = received.bytes.size(), size = nearest.frame.bytes.size(); result_.differences.empty() && count != size)
-      what = fmt::format("the reply has {} bytes instead of {}", count, size);
+      what = fmt::format("the {} has {} bytes instead of {}", frame, count, size);
     if (!result_.differences.empty()) {
       const Difference& first = result_.differences.front();
       what = fmt::format("{}: expected {}, got {}{}", first.field, first.expected, first.received, first.hint.empty() ? "" : " (" + first.hint + ")");
@@ -180,7 +189,8 @@ class Judge {
     if (step.step->within && limit < rules_.timing_floor)
       return lower_to(Verdict::inconclusive, fmt::format("the limit of {:.1f} ms is below the floor of this link, {:.1f} ms", to_ms(limit), to_ms(rules_.timing_floor)));
     if (took > limit) {
-      const std::string message = fmt::format("late answer: {:.1f} ms after the request, the limit is {:.0f} ms", to_ms(took), to_ms(limit));
+      const std::string message = fmt::format("late {}: {:.1f} ms after {}, the limit is {:.0f} ms", prepared_.is_client() ? "request" : "answer",
+                                              to_ms(took), prepared_.is_client() ? "what it follows" : "the request", to_ms(limit));
       return rules_.binding_timing || step.step->within ? miss(message) : lower_to(Verdict::non_strict, message);
     }
     if (static_cast<double>(took.count()) > static_cast<double>(limit.count()) * (1 - rules_.guard_band))
@@ -198,11 +208,22 @@ class Judge {
   }
 
   void judge_period(Duration every, const StepRecord& previous, const StepRecord& record) {
-    if (previous.received.arrivals.empty()) return;
+    if (previous.received.arrivals.empty() || record.received.arrivals.empty()) return;
     const Duration period = record.received.arrivals.front().start - previous.received.arrivals.front().start;
-    const Duration tolerance = std::max<Duration>(every / 20, rules_.timing_floor);
-    if (period > every + tolerance || period < every - tolerance)
-      miss(fmt::format("came after {:.1f} ms instead of every {:.1f} ms", to_ms(period), to_ms(every)));
+    const Duration tolerance = rules_.period_tolerance > 0ns ? rules_.period_tolerance : std::max<Duration>(every / 20, rules_.timing_floor);
+    const Duration off = period > every ? period - every : every - period;
+    periods_.push_back(period);
+    if (off > tolerance) return miss(fmt::format("came after {:.1f} ms instead of every {:.1f} ms", to_ms(period), to_ms(every)));
+    if (static_cast<double>(off.count()) > static_cast<double>(tolerance.count()) * (1 - rules_.guard_band))
+      lower_to(Verdict::marginal, fmt::format("came after {:.1f} ms instead of every {:.1f} ms: inside the guard band of the tolerance, {:.1f} ms", to_ms(period),
+                                              to_ms(every), to_ms(tolerance)));
+  }
+
+  void note_periods(const PreparedStep& step) {
+    if (periods_.empty()) return;
+    std::ranges::sort(periods_);
+    result_.notes.push_back(fmt::format("every {:g} ms: measured min {:.3f}, median {:.3f}, max {:.3f} ms of {} periods", to_ms(*step.step->every),
+                                        to_ms(periods_.front()), to_ms(periods_[periods_.size() / 2]), to_ms(periods_.back()), periods_.size()));
   }
 
   void judge_silence(const StepRecord& record) {
@@ -212,9 +233,13 @@ class Judge {
   }
 
   void judge_memory(const Step& step, const StepRecord& record) {
-    for (std::size_t i = 0; i < record.memory.size() && i < step.memory.size(); ++i) {
-      const auto& [address, value] = record.memory[i];
-      const std::string& due = step.memory[i].second;
+    for (const auto& [address, due] : step.memory) {
+      const auto held = std::ranges::find(record.memory, address, &std::pair<std::string, std::string>::first);
+      if (held == record.memory.end()) {
+        unread_.insert(address);
+        continue;
+      }
+      const std::string& value = held->second;
       if (std::ranges::equal(value, due, [](char a, char b) { return hex_digit(a) == hex_digit(b); })) continue;
       if (!missed_) result_.differences.push_back({address, due, value, ""});
       miss(fmt::format("{} holds {}, {} is due", address, value, due));
@@ -234,6 +259,8 @@ class Judge {
   const Protocol& protocol_;
   Judgement result_;
   Captures captures_;
+  std::set<std::string> unread_;   // memory that was to be checked
+  std::vector<Duration> periods_;  // of the present step
   std::size_t record_ = 0;
   bool missed_ = false;
 };
@@ -259,6 +286,7 @@ CaseResult result_of(const Case& source) {
 }
 
 void note_transposition(const PreparedCase& prepared, CaseResult& result) {
+  if (prepared.is_client()) return;  // a client's own station is nowhere on the line
   const int named = config_station(prepared.source->config, prepared.station).value_or(prepared.station);
   if (named != prepared.station) result.notes.push_back(fmt::format("transposed: station {} to {}", named, prepared.station));
 }

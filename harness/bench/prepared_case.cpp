@@ -4,16 +4,33 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
+#include "harness/bench/p2p_blocks.hpp"
+
 namespace fieldproof {
 
-bool PreparedCase::is_client() const { return source->config.value("role", "server") == "client"; }
+namespace {
+
+/// Values of a configuration may be numbers or text.
+int number_of(const nlohmann::json& config, const char* key, int fallback) {
+  const nlohmann::json value = config.value(key, nlohmann::json(fallback));
+  if (value.is_string()) return std::atoi(value.get_ref<const std::string&>().c_str());
+  return value.is_number() ? value.get<int>() : fallback;
+}
+
+}  // namespace
+
+bool PreparedCase::is_client() const { return is_client_case(*source); }
+
+bool PreparedCase::runs_by_clock() const { return is_client() && std::ranges::any_of(p2p_blocks(source->config), fieldproof::runs_by_clock); }
 
 bool PreparedCase::answers_probes() const { return has_probe && !is_client() && !source->config.contains("bench_line"); }
 
-Duration PreparedCase::reply_delay() const {
-  const nlohmann::json value = source->config.value("delay_ms", nlohmann::json(0));
-  const double ms = value.is_number() ? value.get<double>() : value.is_string() ? std::strtod(value.get_ref<const std::string&>().c_str(), nullptr) : 0;
-  return Duration(static_cast<Duration::rep>(ms * 1e6));
+Duration PreparedCase::client_time_out() const { return Duration((number_of(source->config, "time_out", 1) + 1) * 100ms); }
+
+Duration PreparedCase::reply_delay() const { return Duration(number_of(source->config, "delay_ms", 0) * 1ms); }
+
+bool PreparedCase::expects_requests() const {
+  return is_client() && std::ranges::any_of(steps, [](const PreparedStep& step) { return step.step->kind == Step::Kind::expect || step.step->kind == Step::Kind::partner; });
 }
 
 bool PreparedCase::listens_for_silence() const {
@@ -38,6 +55,10 @@ Duration PreparedCase::shortest_pause(Duration character_time) const {
     for (const FrameTemplate::Gap& gap : step.frames.front().frame.gaps) consider(gap.pause.at(character_time));
   }
   return shortest;
+}
+
+Duration reply_limit(const Step& step, Duration response_max) {
+  return step.within.value_or(response_max + step.every.value_or(Duration{}));
 }
 
 Result<PreparedCase> prepare(const Case& source, int station, const Protocol& protocol) {

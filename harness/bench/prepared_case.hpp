@@ -29,15 +29,23 @@ struct PreparedCase {
   std::vector<PreparedStep> steps;
 
   bool is_client() const;                       // the module asks, the bench answers
+  /// A block asks at the pace of a clock: there is always one more request.
+  bool runs_by_clock() const;
   /// A device that asks, or one whose line settings differ from the bench's, answers no probe.
   bool answers_probes() const;
+  /// What the client under test waits for an answer: (time_out + 1) x 100 ms (000 and 003 4.3.1).
+  Duration client_time_out() const;
   /// The configured delay of every reply (delay_ms).
   Duration reply_delay() const;
+  bool expects_requests() const;                // in the partner's chair: an expect or partner step
   bool listens_for_silence() const;
   bool looks_at_counters() const;               // a check of @status, @errors or @services
   /// The shortest pause or wait, or 0 when there is none.
   Duration shortest_pause(Duration character_time) const;
 };
+
+/// How long after its stimulus the first byte of an expected frame may come.
+Duration reply_limit(const Step& step, Duration response_max);
 
 /// Errors name the step.
 Result<PreparedCase> prepare(const Case& source, int station, const Protocol& protocol);

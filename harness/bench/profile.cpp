@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> profile_keys{"name", "title", "extends", "model", "protocols", "decisions", "config", "timing", "exclude"};
+constexpr std::array<std::string_view, 10> profile_keys{"name", "title", "extends", "model", "protocols", "decisions", "config", "timing", "exclude", "prepared_blocks"};
 constexpr std::array<std::string_view, 4> timing_keys{"response_max_ms", "guard_band", "floor_ms", "max_gap_ms"};
 
 Duration from_ms(double ms) { return Duration(static_cast<Duration::rep>(ms * 1e6)); }
@@ -37,6 +37,12 @@ void read_exclude(const json& exclude, Profile& profile) {
   for (const json& entry : exclude) profile.exclude.emplace_back(entry.at("id"), entry.at("reason"));
 }
 
+json read_blocks(const json& value) {
+  if (!value.is_array() || !std::ranges::all_of(value, [](const json& one) { return one.is_object(); }))
+    throw std::runtime_error("prepared_blocks is a list of P2P blocks: [{\"flag\": \"%MX00000\", \"read\": \"%MW100\", ...}]");
+  return value;
+}
+
 void read_key(const std::string& key, const json& value, Profile& profile) {
   if (key == "name") profile.name = value;
   else if (key == "title") profile.title = value;
@@ -45,6 +51,7 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
   else if (key == "config") profile.config.update(value);
   else if (key == "timing") read_timing(value, profile);
   else if (key == "exclude") read_exclude(value, profile);
+  else if (key == "prepared_blocks") profile.prepared_blocks = read_blocks(value);
   else if (key == "decisions") {
     if (value != "binding" && value != "advisory") throw std::runtime_error("decisions is 'binding' or 'advisory'");
     profile.binding_decisions = value == "binding";

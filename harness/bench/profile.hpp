@@ -19,6 +19,8 @@ struct Profile {
   std::vector<std::string> protocols;  // "xgt-cnet"
   bool binding_decisions = true;       // "decisions": "binding" or "advisory"
   nlohmann::json config = nlohmann::json::object();  // the declared configuration, keys of given.config
+  /// P2P blocks that are set up in the real module, as in given.config.p2p.blocks (with "parameter" where it is not 1).
+  nlohmann::json prepared_blocks = nlohmann::json::array();
   std::vector<std::pair<std::string, std::string>> exclude;  // glob and reason: SKIP
 
   Duration response_max = 500ms;  // the manuals print none (PROTOCOLS: basis decision)

@@ -54,6 +54,10 @@ std::string stimulus_text(const PreparedCase& prepared) {
     if (step.step->kind == Step::Kind::set) add_memory(step.step->memory);
     if (step.step->kind == Step::Kind::check)
       for (const auto& [address, hex] : step.step->memory) text += fmt::format("{}:{} ", address, hex.size());
+    if (const std::optional<PartnerSpec>& partner = step.step->partner) {
+      text += fmt::format("{} {} {} ", partner->model, partner->config.dump(), partner->fault);
+      add_memory(partner->memory);
+    }
     if (step.step->kind != Step::Kind::send) continue;
     const FrameTemplate& frame = step.frames.front().frame;
     text += to_hex_with_holes(frame);
@@ -128,6 +132,7 @@ Recording make_recording(const PreparedCase& prepared, const Transcript& transcr
   recording.dead = transcript.dead;
   recording.timing_floor = rules.timing_floor;
   recording.max_gap = rules.max_gap;
+  recording.period_tolerance = rules.period_tolerance;
   return recording;
 }
 
@@ -146,7 +151,7 @@ Result<Transcript> replay(const CaseResult& recorded, const PreparedCase& prepar
     const StepOutcome& outcome = recording.steps[i];
     StepRecord& record = transcript.steps.emplace_back();
     record.stimulus = outcome.stimulus;
-    record.deadline = outcome.stimulus + steps[i]->within.value_or(response_max);
+    record.deadline = outcome.stimulus + reply_limit(*steps[i], response_max);
     record.memory = outcome.memory;
     record.refused = outcome.refused;
     record.refused_by_device = outcome.refused_by_device;

@@ -46,6 +46,7 @@ Rejudge::Outcome Rejudge::judge(const CaseResult& recorded) {
   rules.binding_decisions = rules.binding_timing = profile_.binding_decisions;
   rules.timing_floor = std::max(profile_.floor, recorded.recording.timing_floor);
   rules.max_gap = profile_.max_gap > 0ns ? profile_.max_gap : recorded.recording.max_gap;
+  rules.period_tolerance = recorded.recording.period_tolerance;
   take_judgement(fieldproof::judge(*prepared, *transcript, rules, *protocol), result);
   result.repeat = recorded.repeat;
   result.seconds = recorded.seconds;

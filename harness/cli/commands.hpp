@@ -23,6 +23,9 @@ struct RunOptions {
   std::string waivers;
   std::string baseline;          // results of an earlier run, to compare with
   std::string power_cycle;
+  std::string role;              // "client", "server"; empty: both
+  std::string stimulus;          // what makes a device ask: a command, or "-": the program of exec:
+  std::string aux;               // a second channel of the PLC under test
   std::vector<std::string> allow_write;
   std::vector<std::string> gtest_arguments;
   double floor_ms = 0;           // --floor: the adapter's own uncertainty
@@ -36,6 +39,7 @@ int run_command(const RunOptions& options);
 
 struct ListOptions {
   std::string filter, vectors;
+  std::string role;              // "client", "server"; empty: both
   bool coverage = false;         // statements instead of cases
   std::string results, html;     // with coverage: verdicts of a run; a report
   double min_coverage = 0;       // with coverage: percent of the statements
@@ -53,6 +57,7 @@ int lint_command(const LintOptions& options);
 struct EmulateOptions {
   std::string model;             // "xbc-h?station=1&protocol=xgt-cnet"
   std::string tcp, pty;          // 127.0.0.1:PORT, PATH
+  std::string p2p;               // JSON file of P2P parameters: the device is the client
   int control = -1;              // internal: the harness' back door
   std::string tty;               // internal: the slave that the harness made
   bool verbose = false;

@@ -16,6 +16,10 @@
 #include "harness/paths.hpp"
 #include "harness/endpoints/pty_pair.hpp"
 #include "harness/vectors/loader.hpp"
+#include "src/line/line.hpp"
+#include "src/p2p/p2p_plc.hpp"
+#include "src/xgt_cnet/p2p_driver.hpp"
+#include "src/xgt_cnet/plc.hpp"
 
 namespace fieldproof {
 namespace {
@@ -151,6 +155,49 @@ void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
   state.counters["ratio"] = median(ours) / median(bare);
 }
 BENCHMARK(pty_exchange_against_bare_ping_pong)->Unit(benchmark::kMicrosecond)->Iterations(20'000);
+
+/// 16 blocks on each of two channels, all on the 20 ms clock: more than a line carries, so that both are always busy.
+nlohmann::json saturating_p2p() {
+  nlohmann::json blocks = nlohmann::json::array();
+  for (unsigned channel : {1u, 2u})
+    for (unsigned i = 0; i < p2p_blocks / 2; ++i) {
+      const std::string here = "%MW" + std::to_string(100 * channel + 4 * i), there = "%DW" + std::to_string(4 * i);
+      const bool run = i % 4 >= 2, write = i % 2 == 1;
+      blocks.push_back({{"channel", channel}, {"flag", "F90"}, {"station", 2}, {"function", write ? "write" : "read"},
+                        {"command", run ? "continuous" : "single"}, {"read", write ? here : there}, {"save", write ? there : here}});
+      if (run) blocks.back()["size"] = 4;
+    }
+  return {{"line", "115200-8N1"}, {"p2p", {{"blocks", blocks}}}};
+}
+
+/// One hour of P2P traffic: two channels of a PLC, each on a line of its own with an XGT server.
+void p2p_hour_on_two_channels(benchmark::State& state) {
+  constexpr Time hour = 3600s, slice = 1s;
+  const LineSettings settings{.baud = 115200};
+  const PortConfig partner{.station = 2, .line = settings};
+  std::uint64_t services = 0, errors = 0;
+  for (auto _ : state) {
+    (void)_;
+    const auto client = make_p2p_plc("xbc-h", saturating_p2p(), [](const PortConfig& port) { return std::make_unique<XgtP2pDriver>(port.gap()); });
+    if (!client) throw std::runtime_error(client.error().message);
+    const auto first = make_plc(partner), second = make_plc(partner);
+    SimulatedLine lines[] = {SimulatedLine(settings), SimulatedLine(settings)};
+    lines[0].attach((*client)->channel(1), settings);
+    lines[0].attach(**first, settings);
+    lines[1].attach((*client)->channel(2), settings);
+    lines[1].attach(**second, settings);
+    for (Time until = slice; until <= hour; until += slice)
+      for (SimulatedLine& line : lines)
+        while (line.now() < until) line.receive(until);
+    for (unsigned channel : {1u, 2u}) {
+      services += (*client)->channel(channel).counters().services;
+      errors += (*client)->channel(channel).counters().errors;
+    }
+  }
+  if (errors > 0) throw std::runtime_error("a P2P service failed");
+  state.counters["services"] = static_cast<double>(services) / static_cast<double>(state.iterations());
+}
+BENCHMARK(p2p_hour_on_two_channels)->Unit(benchmark::kSecond)->Iterations(1);
 
 /// The whole tool for one case: start, load, one exchange, reports. `repeat` shows what does not grow with the run.
 void tool_run(benchmark::State& state) {

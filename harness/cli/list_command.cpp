@@ -21,7 +21,15 @@ ordered_json memory_json(const std::vector<std::pair<std::string, std::string>>&
   return result;
 }
 
-ordered_json step_json(const PreparedStep& step) {
+ordered_json partner_json(const PartnerSpec& partner) {
+  ordered_json result = partner.config;
+  if (!partner.model.empty()) result["model"] = partner.model;
+  if (!partner.memory.empty()) result["memory"] = memory_json(partner.memory);
+  if (!partner.fault.empty()) result["fault"] = partner.fault;
+  return result;
+}
+
+ordered_json kind_json(const PreparedStep& step) {
   const Step& source = *step.step;
   switch (source.kind) {
     case Step::Kind::send: return {{"send", to_hex_with_holes(step.frames.front().frame)}, {"notation", source.frames.front().text}};
@@ -41,8 +49,18 @@ ordered_json step_json(const PreparedStep& step) {
     case Step::Kind::open: return {{"open", true}};
     case Step::Kind::close: return {{"close", true}};
     case Step::Kind::expect_close: return {{"expect_close", true}};
+    case Step::Kind::partner: return ordered_json::object();
   }
   return {};
+}
+
+ordered_json step_json(const PreparedStep& step) {
+  const Step& source = *step.step;
+  ordered_json result = kind_json(step);
+  if (source.partner) result["partner"] = partner_json(*source.partner);
+  if (source.every) result["every"] = fmt::format("{}ms", to_ms(*source.every));
+  if (source.times > 1) result["times"] = source.times;
+  return result;
 }
 
 ordered_json case_json(const Case& one) {
@@ -81,7 +99,7 @@ int list_coverage(const ListOptions& options, const VectorSet& set) {
 int list_command(const ListOptions& options) {
   if (!options.coverage && (options.markdown || !options.html.empty() || !options.results.empty() || options.min_coverage > 0))
     return complain("--results, --markdown, --html and --min-coverage are about --coverage; add it", exit_code::usage);
-  if (options.coverage && !options.filter.empty()) return complain("--filter selects cases; --coverage is of all statements", exit_code::usage);
+  if (options.coverage && !(options.filter + options.role).empty()) return complain("--filter and --role select cases; --coverage is of all statements", exit_code::usage);
   const Result<VectorSet> loaded = load_sound_vectors(options.vectors);
   if (!loaded) return complain(loaded.error().message, exit_code::usage);
   const VectorSet& set = *loaded;
@@ -89,13 +107,13 @@ int list_command(const ListOptions& options) {
   ordered_json all = ordered_json::array();
   std::size_t count = 0;
   for (const Case& one : set.cases) {
-    if (!matches_filter(one.id, options.filter)) continue;
+    if (!matches_filter(one.id, options.filter) || !has_role(one, options.role)) continue;
     ++count;
     if (options.json) all.push_back(case_json(one));
     else fmt::print("{:<58} {:<6} {:<8} {}\n", one.id, one.level, one.basis, one.title);
   }
   if (options.json) fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
-  if (count == 0) return complain(fmt::format("no case matches '{}'; `fieldproof list` shows them all", options.filter), exit_code::nothing);
+  if (count == 0) return complain(fmt::format("no case{} matches '{}'; `fieldproof list` shows them all", options.role.empty() ? "" : " of role " + options.role, options.filter), exit_code::nothing);
   if (!options.json) fmt::print("{} cases\n", count);
   return exit_code::ok;
 }

@@ -23,6 +23,10 @@ void add_gate(CLI::App& app, Options& options) {
   app.add_flag("--qualify", options.qualify, "BLOCKED and INCONCLUSIVE fail the gate");
 }
 
+void add_role(CLI::App& app, std::string& role) {
+  app.add_option("--role", role, "Only cases of a device that asks (client), or answers (server)")->check(CLI::IsMember({"client", "server"}));
+}
+
 void add_judge(CLI::App& app, JudgeOptions& judge) {
   app.add_option("results", judge.file, "OUT/results.ndjson or OUT/results.json")->required();
   app.add_option("--profile", judge.profile, "Judge by another profile than it was recorded with");
@@ -45,6 +49,9 @@ void add_run(CLI::App& app, RunOptions& run) {
   app.add_option("--dut", run.dut, "Device of the bench file: gives endpoint, profile, --allow-write and identity");
   app.add_option("--profile", run.profile, "What the device declares: a name from the profiles folder, or a JSON file");
   app.add_option("--filter", run.filter, "Cases by id: globs separated by ':', a leading '-' excludes");
+  add_role(app, run.role);
+  app.add_option("--stimulus", run.stimulus, "Client role: command that makes the device ask, told by lines of JSON; -: the program of exec: itself");
+  app.add_option("--aux", run.aux, "A second port of the same PLC, as server: serial:PATH?station=3; for memory that --endpoint cannot reach");
   app.add_option("--vectors", run.vectors, "Another folder of vectors");
   app.add_option("--out", run.out, "Folder of the reports")->capture_default_str();
   app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");
@@ -101,6 +108,7 @@ int run_tool(int argc, char** argv) {
   ListOptions list;
   CLI::App* list_app = app.add_subcommand("list", "List the cases");
   list_app->add_option("--filter,filter", list.filter, "Cases by id: globs separated by ':'");
+  add_role(*list_app, list.role);
   list_app->add_option("--vectors", list.vectors, "Another folder of vectors");
   list_app->add_flag("--coverage", list.coverage, "Traceability: the statements of the manuals, their vectors, and what is not tested and why");
   list_app->add_option("--results", list.results, "With --coverage: the verdicts of this run (NDJSON, JSON or JUnit)");
@@ -121,6 +129,7 @@ int run_tool(int argc, char** argv) {
   emulate_app->add_option("model", emulate.model, "MODEL[?station=1&protocol=...]: xbc-h, xbm-s, xec-h, inverter")->required();
   CLI::Option* tcp = emulate_app->add_option("--tcp", emulate.tcp, "Listen on HOST:PORT");
   emulate_app->add_option("--pty", emulate.pty, "A terminal to open, or the link to a new pty")->excludes(tcp);
+  emulate_app->add_option("--p2p", emulate.p2p, "P2P parameters, a JSON file: the device is the client that asks");
   emulate_app->add_option("--control", emulate.control, "Back door of the harness")->group("");
   emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
   emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");

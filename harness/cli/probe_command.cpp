@@ -114,7 +114,8 @@ class ProgressLine {
 std::string run_line(const EndpointName& endpoint, const Finding& device, bool settable) {
   std::string line = "fieldproof run --endpoint " + shell_word(to_string(name_of_found(endpoint, device.trial, settable)));
   if (is_emulator(endpoint)) return line;
-  return line + " --profile " + (device.trial.protocol->has_model("xbc-h") ? "xbc-dxxxh" : device.trial.protocol->models().front());
+  const std::vector<std::string> models = device.trial.protocol->models();
+  return line + " --profile " + (std::ranges::count(models, "xbc-h") > 0 ? "xbc-dxxxh" : models.front());
 }
 
 void report(const std::vector<Finding>& findings, const EndpointName& endpoint, bool settable) {

@@ -7,6 +7,7 @@
 
 #include "harness/bench/benches.hpp"
 #include "harness/bench/runner.hpp"
+#include "harness/bench/stimulus.hpp"
 #include "harness/bench/watchdog.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/compare_command.hpp"
@@ -112,6 +113,48 @@ class Run {
   RunReport::End end_;
 };
 
+/// What a run has besides its endpoint. Outlives the benches.
+class Fixtures {
+ public:
+  static Result<Fixtures> open(const RunPlan& plan) {
+    Fixtures fixtures;
+    if (plan.aux)
+      if (const Status opened = fixtures.open_aux(*plan.aux); !opened) return opened.error();
+    if (plan.stimulus.empty() || plan.stimulus == "-") return fixtures;
+    Result<std::unique_ptr<Stimulus>> stimulus = Stimulus::start(plan.stimulus);
+    if (!stimulus) return stimulus.error();
+    fixtures.stimulus_ = std::move(*stimulus);
+    return fixtures;
+  }
+
+  void give(BenchOptions& bench, const std::string& stimulus) const {
+    if (aux_) bench.aux = {aux_.get(), aux_protocol_, aux_station_};
+    bench.endpoint_is_stimulus = stimulus == "-";
+    if (stimulus_) bench.stimulus = [program = stimulus_.get()](const std::string& line) { return program->tell(line); };
+  }
+
+ private:
+  Status open_aux(const EndpointName& name) {
+    const Result<const Protocol*> protocol = choose_protocol(name.option("protocol", "xgt-cnet"), "");
+    if (!protocol) return fail("--aux: " + protocol.error().message);
+    const std::optional<int> station = config_station({{"station", name.option("station", "1")}}, 1);
+    if (!station) return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255", name.option("station", "1")));
+    Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(name);
+    if (!endpoint) return fail("--aux: " + endpoint.error().message);
+    aux_ = std::move(*endpoint);
+    aux_protocol_ = *protocol;
+    aux_station_ = *station;
+    const Result<bool> alive = Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
+    if (!alive) return alive.error();
+    return *alive ? ok() : Status(fail(fmt::format("nothing answers on --aux {} at station {}", aux_->describe(), aux_station_)));
+  }
+
+  std::unique_ptr<Endpoint> aux_;
+  const Protocol* aux_protocol_ = nullptr;
+  int aux_station_ = 1;
+  std::unique_ptr<Stimulus> stimulus_;
+};
+
 int dry_run(const RunPlan& plan) {
   for (const Case* one : plan.selected) fmt::print("{:<58} {}\n", one->id, one->title);
   fmt::print("{} cases would run on {}:{}\n", plan.selected.size(), plan.endpoint.kind, plan.endpoint.target);
@@ -174,11 +217,14 @@ int run_command(const RunOptions& options) {
   Result<RunPlan> plan = make_run_plan(options);
   if (!plan) return complain(plan.error().message, exit_code::usage);
   if (plan->selected.empty())
-    return complain(fmt::format("no case matches --filter '{}'; `fieldproof list` shows them all", options.filter), exit_code::nothing);
+    return complain(fmt::format("no case{} matches --filter '{}'; `fieldproof list` shows them all", options.role.empty() ? "" : " of --role " + options.role, options.filter), exit_code::nothing);
   if (options.dry_run) return dry_run(*plan);
   const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
   if (!baseline) return complain(baseline.error().message, exit_code::usage);
   catch_interrupts();
+  const Result<Fixtures> fixtures = Fixtures::open(*plan);
+  if (!fixtures) return complain(fixtures.error().message, options.skip_absent && fixtures.error().absent ? exit_code::absent : exit_code::trouble);
+  fixtures->give(plan->bench, plan->stimulus);
   Result<Benches> benches = Benches::open(plan->endpoint, plan->protocols, plan->bench);
   if (!benches) return complain(benches.error().message, options.skip_absent && benches.error().absent ? exit_code::absent : exit_code::trouble);
   return execute(options, *plan, *benches, *baseline);

@@ -40,6 +40,8 @@ std::string replay_command(const RunOptions& options) {
   if (!options.vectors.empty()) command += " --vectors " + shell_word(options.vectors);
   for (const std::string& range : options.allow_write) command += " --allow-write " + shell_word(range);
   if (!options.power_cycle.empty()) command += " --power-cycle " + shell_word(options.power_cycle);
+  if (!options.stimulus.empty()) command += " --stimulus " + shell_word(options.stimulus);
+  if (!options.aux.empty()) command += " --aux " + shell_word(options.aux);
   if (options.floor_ms > 0) command += fmt::format(" --floor {:g}", options.floor_ms);
   if (options.strict) command += " --strict";
   if (options.fail_on_marginal) command += " --fail-on marginal";
@@ -78,6 +80,8 @@ Result<RunOptions> with_bench_device(RunOptions options, RunPlan& plan) {
     }
     if (options.profile.empty()) options.profile = device->profile;
     if (options.allow_write.empty()) options.allow_write = device->allow_write;
+    if (options.stimulus.empty()) options.stimulus = device->stimulus;
+    if (options.aux.empty()) options.aux = device->aux;
     plan.identity = device->identity;
   }
   if (options.endpoint.empty()) options.endpoint = "emulator:";
@@ -140,7 +144,14 @@ Result<RunPlan> make_run_plan(const RunOptions& given) {
   if (!loaded) return loaded.error();
   plan.vectors = std::move(*loaded);
   for (const Case& one : plan.vectors.cases)
-    if (matches_filter(one.id, options.filter)) plan.selected.push_back(&one);
+    if (matches_filter(one.id, options.filter) && has_role(one, options.role)) plan.selected.push_back(&one);
+  if (std::ranges::all_of(plan.selected, [](const Case* one) { return is_client_case(*one); })) plan.bench.client_cases = plan.selected;
+  plan.stimulus = options.stimulus;
+  if (!options.aux.empty()) {
+    Result<EndpointName> aux = parse_endpoint(options.aux);
+    if (!aux) return fail("--aux: " + aux.error().message);
+    plan.aux = std::move(*aux);
+  }
   Result<std::vector<const Protocol*>> spoken = protocols_of(plan);
   if (!spoken) return spoken.error();
   plan.protocols = std::move(*spoken);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct RunPlan {
   EndpointName endpoint;
   std::vector<const Protocol*> protocols;  // what the endpoint speaks, at least one
   BenchOptions bench;
+  std::string stimulus;                    // as --stimulus takes it
+  std::optional<EndpointName> aux;
   std::vector<Waiver> waivers;
   VectorSet vectors;
   std::vector<const Case*> selected;       // into `vectors`

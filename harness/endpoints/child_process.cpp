@@ -32,7 +32,7 @@ constexpr int term_limit_ms = 1000;
 void prepare_child(const ChildOptions& options, int null, int standard_error) {
   ::setsid();
   if (options.terminal >= 0) ::ioctl(options.terminal, TIOCSCTTY, 0);
-  ::dup2(options.terminal_is_stdio ? options.terminal : null, STDIN_FILENO);
+  ::dup2(options.terminal_is_stdio ? options.terminal : options.standard_input >= 0 ? options.standard_input : null, STDIN_FILENO);
   ::dup2(options.terminal_is_stdio ? options.terminal : standard_error, STDOUT_FILENO);
   ::dup2(standard_error, STDERR_FILENO);
   // Boost.Process leaks every descriptor, and its limit_handles closes the redirected stdout.

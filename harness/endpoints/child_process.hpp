@@ -20,6 +20,7 @@ struct ChildOptions {
   std::vector<std::string> arguments;  // the program and its arguments
   std::vector<int> keep;               // descriptors that the child inherits under their numbers; no others above 2
   int terminal = -1;                   // the slave of a pty: its hangup ends the child, even when the bench was killed
+  int standard_input = -1;             // becomes its stdin
   bool terminal_is_stdio = false;      // stdin and stdout; else /dev/null, and stdout goes where stderr goes
 };
 

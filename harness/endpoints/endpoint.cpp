@@ -95,6 +95,10 @@ Status Endpoint::act(std::string_view action) {
   return fail(fmt::format("cannot do {}: {} cannot be switched from here; do it by hand", action, describe()));
 }
 
+Status Endpoint::tell(std::string_view) {
+  return fail(fmt::format("cannot tell {} what to request: the bench has not started it; give --stimulus a command", describe()));
+}
+
 std::string Endpoint::line_errors() { return {}; }
 
 std::string EndpointName::option(const std::string& key, const std::string& fallback) const {

@@ -58,6 +58,9 @@ class Endpoint {
   virtual Result<std::string> get(std::string_view address, std::size_t digits);
   virtual Status act(std::string_view action);
 
+  /// A line to the standard input of the device under test, where the endpoint has started it (`--stimulus -`).
+  virtual Status tell(std::string_view line);
+
   /// Errors that the driver has counted since the last call ("3 parity errors, 1 break"), or empty.
   virtual std::string line_errors();
 };

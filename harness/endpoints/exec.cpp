@@ -6,6 +6,7 @@
 
 #include "harness/endpoints/child_process.hpp"
 #include "harness/endpoints/fd_link.hpp"
+#include "harness/endpoints/line_pipe.hpp"
 #include "harness/endpoints/options.hpp"
 #include "harness/endpoints/pty_pair.hpp"
 #include "src/line/settings.hpp"
@@ -14,10 +15,11 @@ namespace fieldproof {
 
 namespace {
 
+constexpr std::string_view tty_mark = "{tty}";
+
 std::string with_tty(std::string command, const std::string& path) {
-  constexpr std::string_view mark = "{tty}";
-  for (std::size_t at = 0; (at = command.find(mark, at)) != std::string::npos; at += path.size()) {
-    command.replace(at, mark.size(), path);
+  for (std::size_t at = 0; (at = command.find(tty_mark, at)) != std::string::npos; at += path.size()) {
+    command.replace(at, tty_mark.size(), path);
   }
   return command;
 }
@@ -42,6 +44,10 @@ class ExecEndpoint final : public Endpoint {
     options.arguments = shell(command);
     options.terminal = slave_.get();
     options.terminal_is_stdio = command == command_;
+    Result<LinePipe> pipe = open_line_pipe();
+    if (!pipe) return pipe.error();
+    options.standard_input = pipe->child.get();
+    input_ = std::move(pipe->bench);
     Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
     if (!child) return child.error();
     child_ = std::move(*child);
@@ -58,6 +64,13 @@ class ExecEndpoint final : public Endpoint {
   Result<Sent> send(ByteView bytes) override { return link_.send(bytes); }
   Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
+  Status tell(std::string_view line) override {
+    if (command_.find(tty_mark) == std::string::npos)
+      return fail(fmt::format("cannot tell {} what to request: its standard input is the port; write {{tty}} where the command takes its path", describe()));
+    if (write_line(input_.get(), std::string(line))) return ok();
+    return fail(fmt::format("cannot tell {} what to request: {}", describe(), child_->how()));
+  }
+
   Status act(std::string_view action) override {
     if (action == "power_cycle") return start();
     return fail(fmt::format("cannot do '{}' on {}: the bench can only power_cycle it", action, describe()));
@@ -69,6 +82,7 @@ class ExecEndpoint final : public Endpoint {
   UniqueFd slave_;  // kept open: no close of the device under test ends the line
   std::string path_;
   FdLink link_;
+  UniqueFd input_;  // the child's standard input
   std::unique_ptr<ChildProcess> child_;
 };
 

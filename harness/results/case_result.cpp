@@ -100,6 +100,7 @@ void to_json(json& object, const Recording& recording) {
   object = {{"stimulus", recording.stimulus}, {"station", recording.station}, {"steps", recording.steps},
             {"timing_floor_ms", to_ms(recording.timing_floor)}, {"max_gap_ms", to_ms(recording.max_gap)}};
   if (recording.flooded) object["flooded"] = true;
+  if (recording.period_tolerance > 0ns) object["period_tolerance_ms"] = to_ms(recording.period_tolerance);
   put(object, "dead", recording.dead);
 }
 
@@ -112,6 +113,7 @@ void from_json(const json& object, Recording& recording) {
   get(object, "dead", recording.dead);
   get_time(object, "timing_floor_ms", recording.timing_floor);
   get_time(object, "max_gap_ms", recording.max_gap);
+  get_time(object, "period_tolerance_ms", recording.period_tolerance);
 }
 
 void to_json(json& object, const Difference& difference) {

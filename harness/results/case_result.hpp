@@ -43,6 +43,7 @@ struct Recording {
   std::string dead;              // why the link counts as dead after the case
   Duration timing_floor{};       // what this link could show: JudgeRules
   Duration max_gap{};
+  Duration period_tolerance{};
 };
 
 /// One field that differs: "block count", expected "01", received "00", hint "".

@@ -23,6 +23,10 @@ std::optional<int> config_station(const json& config, int fallback) {
   return station;
 }
 
+bool is_client_case(const Case& one) { return one.config.value("role", "server") == "client"; }
+
+bool has_role(const Case& one, const std::string& role) { return role.empty() || is_client_case(one) == (role == "client"); }
+
 std::optional<std::string> expand_hex(const std::string& text) {
   std::string unit = text;
   int count = 1;

@@ -1,9 +1,11 @@
 // A vector, checked and expanded: what the bench executes. One vector may give many cases (`each`).
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,8 +27,20 @@ struct Frame {
   std::optional<std::string> wire;  // "05 30 ??"
 };
 
+/// One of our own devices in the partner's chair: it answers what a client asks, well or by a fault.
+struct PartnerSpec {
+  std::string model;                // empty: the first of the protocol
+  nlohmann::json config = nlohmann::json::object();  // keys of given.config
+  std::vector<std::pair<std::string, std::string>> memory;  // set before each answer
+  std::string fault;                // of partner_faults; empty: none
+};
+
+/// What may happen to the partner's answer (vectors/README.md).
+inline constexpr std::array<std::string_view, 14> partner_faults{"wrong_station", "wrong_check", "nak",   "wrong_head", "wrong_tail",  "short",   "long",
+                                                                 "not_hex",       "late",        "never", "echo",       "garbage", "other_block", "previous"};
+
 struct Step {
-  enum class Kind { send, expect, silence, wait, set, check, act, open, close, expect_close };
+  enum class Kind { send, expect, silence, wait, set, check, act, open, close, expect_close, partner };
   Kind kind = Kind::send;
   std::vector<Frame> frames;        // send: one; expect: the preferred first
   std::string reading;              // what the alternatives of `expect` are about: type_echo
@@ -36,6 +50,7 @@ struct Step {
   std::optional<Duration> within;   // expect: instead of the profile's response_max
   std::optional<Duration> every;    // expect: the period at which it comes
   std::optional<Duration> max_gap;  // expect: longest silence inside the frame
+  std::optional<PartnerSpec> partner;  // partner, expect: who answers the request
   int times = 1;
 };
 
@@ -58,6 +73,10 @@ struct Case {
 
 /// given.config.station as a number; `fallback` when absent, nothing when it is not 0-255.
 std::optional<int> config_station(const nlohmann::json& config, int fallback);
+
+bool is_client_case(const Case& one);
+/// `role`: "client", "server", or empty for both.
+bool has_role(const Case& one, const std::string& role);
 
 /// "1234*3" and "seq(3)" written out as hex digits; nothing when not hex.
 std::optional<std::string> expand_hex(const std::string& text);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -9,6 +10,7 @@
 
 #include "harness/vectors/fingerprint.hpp"
 #include "harness/vectors/schema.hpp"
+#include "src/base/spelling.hpp"
 
 namespace fieldproof {
 
@@ -138,6 +140,22 @@ void read_expect(const json& value, const json* wire, const Row& row, Step& step
     if (name != "reading") step.frames.push_back(read_frame(name, text, wire, row));
 }
 
+PartnerSpec read_partner(const json& value, const Row& row) {
+  PartnerSpec partner;
+  for (const auto& [key, entry] : value.items()) {
+    if (key == "model") partner.model = text_of(entry, row);
+    else if (key == "memory") partner.memory = read_memory(entry, row);
+    else if (key == "fault") partner.fault = text_of(entry, row);
+    else partner.config[key] = nlohmann::json(substitute(entry, row));
+  }
+  if (!config_station(partner.config, 1)) throw Broken("partner.station is not a number from 0 to 255");
+  if (!partner.fault.empty() && partner.fault != "none" && std::ranges::find(partner_faults, partner.fault) == partner_faults.end())
+    throw Broken(fmt::format("unknown fault '{}'{}; the faults of a partner are {}", partner.fault, suggestion(partner.fault, partner_faults),
+                             fmt::join(partner_faults, ", ")));
+  if (partner.fault == "none") partner.fault.clear();
+  return partner;
+}
+
 Step read_step(const json& value, const Row& row) {
   Step step;
   const json* wire = value.contains("wire") ? &value["wire"] : nullptr;
@@ -156,7 +174,12 @@ Step read_step(const json& value, const Row& row) {
   if (is("open")) step.kind = Step::Kind::open;
   if (is("close")) step.kind = Step::Kind::close;
   if (is("expect_close")) step.kind = Step::Kind::expect_close;
-  if (kinds != 1) throw Broken(fmt::format("a step is one of send, expect, silence, wait, set, check, do, open, close, expect_close; this one has {}", kinds));
+  if (value.contains("partner")) {
+    step.partner = read_partner(value["partner"], row);
+    if (!value.contains("expect") && is("partner")) step.kind = Step::Kind::partner;
+  }
+  if (kinds != 1)
+    throw Broken(fmt::format("a step is one of send, expect, partner, silence, wait, set, check, do, open, close, expect_close; this one has {}", kinds));
   if (value.contains("within")) step.within = read_duration(text_of(value["within"], row));
   if (value.contains("every")) step.every = read_duration(text_of(value["every"], row));
   if (value.contains("max_gap")) step.max_gap = read_duration(text_of(value["max_gap"], row));

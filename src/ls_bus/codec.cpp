@@ -5,6 +5,7 @@
 namespace fieldproof {
 
 namespace {
+constexpr std::size_t digits_of_a_word = 4;
 constexpr std::size_t shortest_frame = 1 + 2 + 1 + 2 + 1;  // header, station, command, sum, EOT
 
 std::optional<unsigned> hex_value(ByteView digits) {
@@ -124,12 +125,41 @@ Bytes encode_ls_nak(unsigned station, char command, std::string_view code) {
   return frame;
 }
 
+LsReply parse_ls_reply(ByteView frame) {
+  LsReply reply;
+  if (frame.size() < shortest_frame) return reply;
+  const ByteView summed = frame.subspan(1, frame.size() - 4);
+  reply.whole = true;
+  reply.sum_right = hex_value(frame.subspan(frame.size() - 3, 2)) == ls_sum(summed);
+  reply.ack = frame[0] == ls_ack;
+  reply.station = hex_value(summed.first(2));
+  reply.command = static_cast<char>(summed[2]);
+  reply.content = summed.subspan(3);
+  return reply;
+}
+
+std::optional<std::vector<std::uint16_t>> ls_words(ByteView content) {
+  std::vector<std::uint16_t> words;
+  for (Fields fields(content); !fields.empty();) {
+    const std::optional<unsigned> word = fields.hex(digits_of_a_word);
+    if (!word) return std::nullopt;
+    words.push_back(static_cast<std::uint16_t>(*word));
+  }
+  return words;
+}
+
+std::optional<unsigned> parse_ls_address(std::string_view text) {
+  if (text.starts_with('h') || text.starts_with('H')) text.remove_prefix(1);
+  if (text.size() != digits_of_a_word) return std::nullopt;
+  return hex_value(to_bytes(text));
+}
+
 Byte ls_sum(ByteView between_header_and_sum) {
   return static_cast<Byte>(std::accumulate(between_header_and_sum.begin(), between_header_and_sum.end(), 0u));
 }
 
 bool LsReceiver::take(Byte b) {
-  if (b == ls_enq) {
+  if (begins(b)) {
     frame_.assign(1, b);
     inside_ = true;
     return false;

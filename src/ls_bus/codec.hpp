@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "src/base/bytes.hpp"
 
@@ -63,13 +64,34 @@ Bytes encode_ls_request(const LsRequest& request, LsWriteOrder order);
 Bytes encode_ls_ack(unsigned station, char command, std::span<const std::uint16_t> data);
 Bytes encode_ls_nak(unsigned station, char command, std::string_view code);
 
+/// What an inverter answered.
+struct LsReply {
+  bool whole = false;               // station, command and sum are there
+  bool sum_right = false;
+  bool ack = false;                 // else NAK
+  std::optional<unsigned> station;  // nothing: no two hex digits
+  char command = 0;
+  ByteView content{};               // words of an ACK, code of a NAK; points into the frame
+};
+
+/// Never fails and never reads past the frame, which reaches from ACK or NAK to EOT.
+LsReply parse_ls_reply(ByteView frame);
+/// The words of an ACK; nothing where they are not hex.
+std::optional<std::vector<std::uint16_t>> ls_words(ByteView content);
+
+/// "1230" or "h1230": four hex digits.
+std::optional<unsigned> parse_ls_address(std::string_view text);
+
 /// The low byte of the sum.
 Byte ls_sum(ByteView between_header_and_sum);
 
-/// Finds frames in what arrives: ENQ begins one, wherever it comes, EOT ends it. The manuals have no time-out between
-/// characters, so there is none here.
+/// Finds frames in what arrives: ENQ begins one (ACK or NAK on the client's side), wherever it comes, EOT ends it. The
+/// manuals have no time-out between characters, so there is none here.
 class LsReceiver {
  public:
+  enum class Side : std::uint8_t { inverter, client };
+  explicit LsReceiver(Side side = Side::inverter) : side_(side) {}
+
   /// From ENQ on (000 8.1.1: 256 bytes); more without EOT is dropped.
   static constexpr std::size_t buffer_size = 256;
 
@@ -77,10 +99,15 @@ class LsReceiver {
   bool take(Byte b);
   /// The frame that was completed last, ENQ to EOT.
   ByteView frame() const { return frame_; }
+  /// Is a frame in progress?
+  bool inside() const { return inside_; }
   /// As after power on.
   void reset() { inside_ = false; }
 
  private:
+  bool begins(Byte b) const { return side_ == Side::inverter ? b == ls_enq : b == ls_ack || b == ls_nak; }
+
+  Side side_;
   bool inside_ = false;
   Bytes frame_;
 };

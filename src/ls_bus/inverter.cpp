@@ -12,20 +12,9 @@ namespace fieldproof {
 namespace {
 constexpr std::size_t digits_of_a_word = 4;
 
-std::optional<unsigned> word_of(std::string_view digits) {
-  if (digits.size() != digits_of_a_word) return std::nullopt;
-  unsigned value = 0;
-  for (const char c : digits) {
-    if (hex_digit(c) < 0) return std::nullopt;
-    value = value << 4 | static_cast<unsigned>(hex_digit(c));
-  }
-  return value;
-}
-
 /// The parameter at the back door's `address`, if `words` words exist from there on.
 Result<unsigned> find_parameter(const InverterParameters& parameters, std::string_view address, std::size_t words) {
-  const bool prefixed = address.starts_with('h') || address.starts_with('H');
-  const std::optional<unsigned> first = word_of(prefixed ? address.substr(1) : address);
+  const std::optional<unsigned> first = parse_ls_address(address);
   if (!first) return fail(fmt::format("cannot find parameter '{}': it is not four hex digits such as 1230", address));
   if (parameters.exist(*first, static_cast<unsigned>(words))) return *first;
   std::string known;
@@ -66,16 +55,13 @@ Bytes Inverter::answer(ByteView frame) {
 }
 
 Status Inverter::set(std::string_view address, std::string_view hex) {
-  std::vector<std::uint16_t> words;
-  for (std::size_t at = 0; at < hex.size(); at += digits_of_a_word) {
-    const std::optional<unsigned> word = word_of(hex.substr(at, digits_of_a_word));
-    if (!word) return fail(fmt::format("cannot set parameter {} to '{}': write four hex digits a word", address, hex));
-    words.push_back(static_cast<std::uint16_t>(*word));
-  }
-  if (words.empty()) return fail(fmt::format("cannot set parameter {}: there is no value; write four hex digits a word", address));
-  const Result<unsigned> first = find_parameter(parameters_, address, words.size());
+  const Bytes digits = to_bytes(hex);
+  const std::optional<std::vector<std::uint16_t>> words = ls_words(digits);
+  if (!words) return fail(fmt::format("cannot set parameter {} to '{}': write four hex digits a word", address, hex));
+  if (words->empty()) return fail(fmt::format("cannot set parameter {}: there is no value; write four hex digits a word", address));
+  const Result<unsigned> first = find_parameter(parameters_, address, words->size());
   if (!first) return first.error();
-  for (unsigned i = 0; i < words.size(); ++i) parameters_.write(*first + i, words[i]);
+  for (unsigned i = 0; i < words->size(); ++i) parameters_.write(*first + i, (*words)[i]);
   return ok();
 }
 

@@ -75,7 +75,7 @@ Result<std::unique_ptr<EmulatedDevice>> make_modbus_plc(ModbusMode mode, std::st
   constexpr std::string_view what = "the Modbus server's configuration";
   const auto keys = port_keys({"bit_read_base", "bit_write_base", "word_read_base", "word_write_base"});
   if (config.is_object() && config.contains("role") && config["role"] == "client") {
-    return fail("cannot make a Modbus client: there is none yet; leave role out, or give server");
+    return fail("cannot make a Modbus server of role client; leave role out, or give server");
   }
   if (const Status status = known_keys(config, what, keys); !status) return status.error();
   PortConfig port;

@@ -19,7 +19,7 @@ namespace fieldproof {
 
 /// In its power-on state. `config` is `given.config` of a vector (vectors/README.md) with the basic parameters of a port
 /// (src/plc/port_config.hpp) and bit_read_base, bit_write_base, word_read_base and word_write_base (bases.hpp).
-/// Errors name the model, the key or the base. Role client is refused: there is no Modbus client yet.
+/// Errors name the model, the key or the base. Role client is refused: that is p2p_driver.hpp.
 Result<std::unique_ptr<EmulatedDevice>> make_modbus_plc(ModbusMode mode, std::string_view model, const nlohmann::json& config);
 
 }  // namespace fieldproof

@@ -246,7 +246,7 @@ TEST(ModbusPlc, ErrorsSayWhatIsAllowed) {
   EXPECT_THAT(error_of({{"word_read_base", "Z5"}}), HasSubstr("cannot place word_read_base 'Z5' on xbc-h"));
   EXPECT_THAT(error_of({{"word_read_base", ""}}), HasSubstr("cannot place word_read_base"));
   EXPECT_EQ(error_of({{"role", "client"}, {"p2p", json::array()}}),
-            "cannot make a Modbus client: there is none yet; leave role out, or give server");
+            "cannot make a Modbus server of role client; leave role out, or give server");
   EXPECT_THAT(error_of({{"role", "master"}}), HasSubstr("client or server"));
   EXPECT_THAT(error_of(json::array()), HasSubstr("not a JSON object"));
   EXPECT_THAT(error_of(json::object(), "xbc"), HasSubstr("there is no such model"));

@@ -79,19 +79,19 @@ bool check_holds(const UserFrame& frame, const FrameMatch& match, ByteView bytes
   return position == frame.segments.size() || std::ranges::equal(match.part(bytes, position), due_check(frame, match, bytes));
 }
 
-bool store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, PlcMemory& memory) {
+Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, PlcMemory& memory) {
   std::vector<std::pair<const Segment*, Bytes>> values;
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& segment = frame.segments[i];
     if (segment.kind != Segment::Kind::data && segment.kind != Segment::Kind::rest) continue;
     const std::optional<Bytes> value = converted(segment.convert, match.part(bytes, i));
-    if (!value) return false;
+    if (!value) return Stored::not_hex;
     if (!segment.memory) continue;
-    if (!fits_bytes(memory.model(), *segment.memory, value->size())) return false;
+    if (!fits_bytes(memory.model(), *segment.memory, value->size())) return Stored::beyond_area;
     values.emplace_back(&segment, swapped(segment.swap, *value));
   }
   for (const auto& [segment, value] : values) write_bytes(memory, *segment->memory, value);
-  return true;
+  return Stored::yes;
 }
 
 Result<Bytes> build_frame(const UserFrame& frame, const PlcMemory& memory) {
@@ -99,6 +99,8 @@ Result<Bytes> build_frame(const UserFrame& frame, const PlcMemory& memory) {
   FrameMatch match;
   for (const Segment& segment : frame.segments) {
     Bytes part = segment.bytes;
+    if (segment.in_block && !segment.memory)
+      return fail(fmt::format("cannot send {}: the memory of {} is given by a P2P block, and there is none", frame.name, segment.name));
     if (segment.kind == Segment::Kind::data) {
       const Bytes held = read_bytes(memory, *segment.memory, bytes_in_memory(frame, segment, segment.size));
       const std::optional<Bytes> value = converted(segment.convert, swapped(segment.swap, held));

@@ -27,10 +27,11 @@ Bytes due_check(const UserFrame& frame, const FrameMatch& match, ByteView bytes)
 std::size_t check_position(const UserFrame& frame);
 bool check_holds(const UserFrame& frame, const FrameMatch& match, ByteView bytes);
 
-/// Stores the variables, all or none. False: digits that are not hex, or more than the area holds.
-bool store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, PlcMemory& memory);
+/// Stores the variables, all or none.
+enum class Stored { yes, not_hex, beyond_area };
+Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, PlcMemory& memory);
 
-/// The bytes of a sent frame. The error names the variable whose memory does not hold hex digits.
+/// The bytes of a sent frame. The error names the variable whose memory does not hold hex digits, or is a P2P block's.
 Result<Bytes> build_frame(const UserFrame& frame, const PlcMemory& memory);
 
 }  // namespace fieldproof::user_frames

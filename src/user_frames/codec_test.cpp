@@ -85,7 +85,7 @@ TEST_F(Frames, AFrameIsBuiltFromMemory) {
 
 TEST_F(Frames, AllVariablesAreStoredOrNone) {
   const Bytes bytes = *from_hex("02 46 12 34 7B 0D 0A");
-  EXPECT_TRUE(store(frame("R.FIX"), match_frame(frame("R.FIX"), bytes), bytes, memory));
+  EXPECT_EQ(store(frame("R.FIX"), match_frame(frame("R.FIX"), bytes), bytes, memory), Stored::yes);
   EXPECT_EQ(*get_by_name(memory, "%MW0", 0), "1234");
 }
 
@@ -96,7 +96,7 @@ TEST_F(Frames, MoreThanTheAreaHoldsIsNotStored) {
   ASSERT_TRUE(end) << end.error().message;
   const UserFrame& one = end->frames.front();
   const Bytes bytes = *from_hex("11 22 33 44 55 03");
-  EXPECT_FALSE(store(one, match_frame(one, bytes), bytes, memory));  // 3 bytes from the last word on
+  EXPECT_EQ(store(one, match_frame(one, bytes), bytes, memory), Stored::beyond_area);  // 3 bytes from the last word on
   EXPECT_EQ(*get_by_name(memory, "%MW0", 0), "0000");
 }
 

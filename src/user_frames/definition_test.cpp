@@ -130,6 +130,8 @@ INSTANTIATE_TEST_SUITE_P(Each, WrongDefinition, testing::Values(
     Wrong{"sent_without_size", send(R"({"variable": true, "memory": "%MW0"})"), "variable is true, which is not a number of bytes"},
     Wrong{"received_with_size", receive(R"({"variable": 2})"), "a received variable has no size"},
     Wrong{"size_zero", receive(R"({"fixed": 0})"), "fixed is 0, which is not a number of bytes from 1 to 1024"},
+    Wrong{"open_size_is_last", send(R"({"variable": true, "memory": true}, {"text": "A"})"), "a segment follows body[0]"},
+    Wrong{"memory_is_a_number", send(R"({"variable": 2, "memory": 1})"), "memory is 1, which is no text"},
     Wrong{"bad_address", receive(R"({"fixed": 2, "memory": "%QW0.0"})"), "memory '%QW0.0' is wrong on xbc-h"},
     Wrong{"bit_address", receive(R"({"fixed": 2, "memory": "%MX00"})"), "is a bit"},
     Wrong{"read_only", receive(R"({"fixed": 2, "memory": "%FW0"})"), "'%FW0' is read only"},

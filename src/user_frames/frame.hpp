@@ -28,7 +28,7 @@ struct Segment {
   enum class Kind {
     constant,  // `bytes`
     data,      // `size` bytes of the frame, from or to memory
-    rest,      // as many bytes as come before the tail; the last of the body of a receive frame
+    rest,      // as many bytes as come before the tail; the last of the body. Sent: as many as the P2P block says
     check      // `size` bytes: `method` over segments `first` to `last`
   };
 
@@ -42,6 +42,7 @@ struct Segment {
 
   std::optional<DeviceAddress> memory;  // data, rest; none: any bytes, which are forgotten
   std::string address;                  // the same as written: "%MW200"
+  bool in_block = false;                // a P2P block gives the memory
   Convert convert = Convert::none;
   std::size_t swap = 1;                 // bytes that are turned round: 2, 4, 8; 1: none
 
@@ -70,6 +71,9 @@ struct FrameDefinition {
   /// nullptr when unknown.
   const UserFrame* find(std::string_view name) const;
 };
+
+/// The frames that the device receives, in the order of the file; they are those of `definition`.
+std::vector<const UserFrame*> received_frames(const FrameDefinition& definition);
 
 /// Bytes that a variable of `in_frame` bytes takes in memory.
 std::size_t bytes_in_memory(const UserFrame& frame, const Segment& variable, std::size_t in_frame);

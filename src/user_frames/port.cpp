@@ -19,7 +19,11 @@ constexpr std::string_view send_verb = "send ";
 }  // namespace
 
 UserFramePort::UserFramePort(const user_frames::FrameDefinition& definition, const PortConfig& config)
-    : definition_(definition), memory_(*definition.plc), gap_(config.gap()), delay_(config.reply_delay()), run_(config.run) {}
+    : definition_(definition),
+      memory_(*definition.plc),
+      delay_(config.reply_delay()),
+      run_(config.run),
+      finder_(user_frames::received_frames(definition_), config.gap()) {}
 
 Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(const user_frames::FrameDefinition& definition,
                                                                const nlohmann::json& config) {
@@ -35,83 +39,25 @@ Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(const user_frames
 }
 
 void UserFramePort::receive(const Burst& burst) {
-  if (burst.bytes.empty()) return;
-  now_ = std::max(now_, burst.start);
-  if (burst.start - last_end_ > gap_) {
-    take_frames(now_, true);
-    passing_over_ = false;
-  }
-  Time end = burst.start;
-  for (const Byte b : burst.bytes) {
-    end += burst.character_time;
-    if (run_) heard_.push_back(b);
-    take_frames(end, false);
-  }
-  last_end_ = end;
-  now_ = std::max(now_, end);
-  character_time_ = burst.character_time;
+  if (run_) finder_.receive(burst, *this);
+  now_ = std::max(now_, burst.end());
 }
 
-UserFramePort::Found UserFramePort::find(bool ended) const {
-  Found best;
-  for (const UserFrame& frame : definition_.frames) {
-    if (frame.sent) continue;
-    FrameMatch match = match_frame(frame, heard_, ended);
-    if (match.state == FrameMatch::State::complete && check_holds(frame, match, heard_)) return {std::move(match), &frame};
-    if (match.state > best.match.state) best.match = std::move(match);
-  }
-  return best;
-}
-
-void UserFramePort::take_frames(Time now, bool ended) {
-  while (!heard_.empty()) {
-    if (heard_.size() > user_frames::max_frame) return drop_heard();
-    const Found found = find(ended);
-    switch (found.match.state) {
-      case FrameMatch::State::no: pass_over(); break;
-      case FrameMatch::State::complete: take(found, now); break;
-      case FrameMatch::State::partial: return ended ? drop_heard() : void();
-    }
-  }
-}
-
-/// Cut off, or too long.
-void UserFramePort::drop_heard() {
-  counters_.count_error(service_status::tail);
-  heard_.clear();
-}
-
-/// A run of bytes that belong to no frame is one error.
-void UserFramePort::pass_over() {
-  if (!passing_over_) counters_.count_error(service_status::head);
-  passing_over_ = true;
-  heard_.erase(heard_.begin());
-}
-
-void UserFramePort::take(const Found& found, Time now) {
-  Bytes frame(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(found.match.length()));
-  heard_.erase(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(frame.size()));
-  passing_over_ = false;
-  if (!found.frame) return counters_.count_error(service_status::bcc);
-  if (!store(*found.frame, found.match, frame, memory_)) return counters_.count_error(service_status::not_hex);
+void UserFramePort::on_user_frame(const UserFrame& frame, const FrameMatch& match, ByteView bytes, Time end) {
+  if (store(frame, match, bytes, memory_) != user_frames::Stored::yes) return counters_.count_error(service_status::not_hex);
   counters_.count_service();
-  if (found.frame->answer.empty()) return;
-  Result<Bytes> answer = build_frame(*definition_.find(found.frame->answer), memory_);
+  if (frame.answer.empty()) return;
+  Result<Bytes> answer = build_frame(*definition_.find(frame.answer), memory_);
   if (!answer) return counters_.count_error(service_status::not_hex);
   counters_.count_service();
-  queue_.put(now + delay_, std::move(*answer));
+  queue_.put(end + delay_, std::move(*answer));
 }
 
-std::optional<Time> UserFramePort::wake_at() const {
-  std::optional<Time> silence;
-  // A character that begins at the last moment is complete, and heard, one character time later.
-  if (!heard_.empty()) silence = last_end_ + gap_ + character_time_ + Duration(1);
-  return queue_.wake_at(silence);
-}
+std::optional<Time> UserFramePort::wake_at() const { return queue_.wake_at(finder_.wake_at()); }
 
 Bytes UserFramePort::advance(Time now) {
   now_ = std::max(now_, now);
-  if (!heard_.empty() && now > last_end_ + gap_ + character_time_) take_frames(now, true);
+  finder_.advance(now, *this);
   return queue_.take(now);
 }
 
@@ -149,9 +95,8 @@ Status UserFramePort::act(std::string_view action) {
     case DeviceAction::stop: run_ = false; break;
     case DeviceAction::power_cycle: counters_ = {}; break;
   }
-  heard_.clear();
+  finder_.reset();
   queue_.clear();
-  passing_over_ = false;
   return ok();
 }
 

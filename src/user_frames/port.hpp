@@ -9,12 +9,12 @@
 #include "src/plc/memory.hpp"
 #include "src/plc/port_config.hpp"
 #include "src/plc/reply_queue.hpp"
-#include "src/user_frames/codec.hpp"
+#include "src/user_frames/finder.hpp"
 #include "src/user_frames/frame.hpp"
 
 namespace fieldproof {
 
-class UserFramePort : public EmulatedDevice {
+class UserFramePort : public EmulatedDevice, private user_frames::FrameFinder::Sink {
  public:
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
@@ -31,26 +31,16 @@ class UserFramePort : public EmulatedDevice {
                                                                         const nlohmann::json&);
   UserFramePort(const user_frames::FrameDefinition& definition, const PortConfig& config);
 
-  struct Found {
-    user_frames::FrameMatch match;
-    const user_frames::UserFrame* frame = nullptr;  // of a complete match; nullptr: its check is wrong
-  };
-  /// What the bytes heard begin with.
-  Found find(bool ended) const;
-  void take_frames(Time now, bool ended);
-  void take(const Found& found, Time now);
-  void pass_over();
-  void drop_heard();
+  void on_user_frame(const user_frames::UserFrame& frame, const user_frames::FrameMatch& match, ByteView bytes, Time end) override;
+  void on_no_frame(std::uint16_t why) override { counters_.count_error(why); }
   Status send(std::string_view name);
 
-  user_frames::FrameDefinition definition_;
+  const user_frames::FrameDefinition definition_;
   PlcMemory memory_;
-  Duration gap_, delay_;
+  Duration delay_;
   bool run_;
-  Bytes heard_;                // since the last frame
-  bool passing_over_ = false;  // bytes of no frame, already counted
-  Time last_end_{}, now_{};
-  Duration character_time_{};
+  user_frames::FrameFinder finder_;
+  Time now_{};
   ReplyQueue queue_;
   ServiceCounters counters_;
 };

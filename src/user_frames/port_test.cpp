@@ -90,6 +90,17 @@ TEST(UserFramePort, AMemoryWithoutHexDigitsIsNotSent) {
               HasSubstr("cannot send OUT.TEXT: body 0 at %MW300 holds 31 32 47 58, which are not ASCII hex digits"));
 }
 
+TEST(UserFramePort, WithoutABlockOpenMemoryIsNotSentAndNotStored) {
+  Port port(R"j({"title": "open", "groups": {
+    "OUT": {"type": "send", "tail": [{"hex": "0D"}], "frames": {"A": {"body": [{"variable": 2, "memory": true}]},
+                                                               "B": {"body": [{"variable": true, "memory": true}]}}},
+    "IN": {"type": "receive", "head": [{"text": "I"}], "frames": {"C": {"body": [{"fixed": 2, "memory": true}]}}}}})j");
+  for (const char* action : {"send OUT.A", "send OUT.B"})
+    EXPECT_THAT(port.act(action), HasSubstr("the memory of body 0 is given by a P2P block, and there is none"));
+  port.say("49 41 42");
+  EXPECT_EQ(port.get("@services"), "0001");
+}
+
 TEST(UserFramePort, AnUnknownFrameIsAnErrorThatNamesTheNearest) {
   Port port;
   EXPECT_THAT(port.act("send OUT.DATE"),

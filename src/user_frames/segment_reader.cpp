@@ -37,10 +37,15 @@ Status read_constant(const Json& value, const Place& place, bool hex, Segment& t
 }
 
 Status read_memory(const Json& value, const Place& place, Segment& to) {
+  if (value.value("memory", Json()) == true) {
+    to.in_block = true;
+    return ok();
+  }
   const Result<std::string> address = text_of(value, place.text, "memory");
   if (!address) return address.error();
   if (!value.contains("memory"))
-    return place.sent ? wrong(place.text, "there is no memory; name where the bytes come from, such as %MW100") : ok();
+    return place.sent ? wrong(place.text, "there is no memory; name where the bytes come from, such as %MW100, or true: as a P2P block says")
+                      : ok();
   const ParsedAddress parsed = parse_address(place.plc, *address);
   if (!parsed)
     return wrong(place.text, fmt::format("memory '{}' is wrong on {}: {}", *address, place.plc.name, describe(parsed.fault)));
@@ -93,6 +98,10 @@ Status read_variable(const Json& value, const Place& place, const char* form, Se
   const bool fixed = std::string_view(form) == "fixed";
   if (fixed && place.sent) return wrong(place.text, "fixed is for receive groups; write {\"variable\": SIZE, \"memory\": ...}");
   to.kind = Segment::Kind::data;
+  if (!fixed && place.sent && to.in_block && value["variable"] == true) {
+    to.kind = Segment::Kind::rest;
+    return ok();
+  }
   if (!fixed && !place.sent) {
     if (value["variable"] != true)
       return wrong(place.text, "a received variable has no size; write {\"variable\": true}, or {\"fixed\": SIZE}");

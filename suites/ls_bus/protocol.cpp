@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/ls_bus/inverter.hpp"
+#include "src/ls_bus/p2p_driver.hpp"
+#include "src/p2p/p2p_plc.hpp"
 #include "suites/ls_bus/facts.hpp"
 #include "suites/ls_bus/frame_parts.hpp"
 #include "suites/ls_bus/memory_requests.hpp"
@@ -24,13 +26,29 @@ bool reads_one_word(ByteView request) {
   return frame.size() > count_at && frame[command_at] == 'R' && frame[count_at] == '1';
 }
 
+Result<std::unique_ptr<EmulatedDevice>> make_client(std::string_view model, const nlohmann::json& config) {
+  bool address_first = true;
+  ConfigReader reader(config, "the LS Bus client's configuration");
+  reader.either("write_order", "address_first", "count_first", address_first);
+  if (reader.error()) return *reader.error();
+  const LsWriteOrder order = address_first ? LsWriteOrder::address_first : LsWriteOrder::count_first;
+  return make_p2p_device(
+      model, config, [order](const PortConfig& port) { return make_ls_bus_p2p_driver(order, port.gap()); }, {"write_order"});
+}
+
 class LsBus : public Protocol {
  public:
   std::string_view name() const override { return "ls-bus"; }
   std::vector<std::string> models() const override { return {"inverter"}; }
 
+  /// In role client the device is the PLC that asks the inverter.
+  bool has_model(std::string_view model) const override { return Protocol::has_model(model) || find_plc_model(model); }
+
   Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
-    if (!has_model(model)) return fail(fmt::format("cannot make a device '{}': the LS Bus has one model, inverter", model));
+    if (!has_model(model))
+      return fail(fmt::format("cannot make a device '{}': the LS Bus has the inverter, and in role client {}", model, plc_model_names()));
+    if (is_p2p_client(config)) return make_client(find_plc_model(model) ? model : plc_models().front().name, config);
+    if (find_plc_model(model)) return fail(fmt::format("cannot make {} an LS Bus server: a PLC is its client; set role client, or use the inverter", model));
     return make_inverter(config);
   }
 

@@ -32,7 +32,7 @@ TEST(LsBusProtocol, MakesAnInverter) {
   ASSERT_TRUE(device) << device.error().message;
   ASSERT_TRUE((*device)->set("1230", "1234"));
   EXPECT_EQ(*protocol().read_reply(answer_of(**device, protocol().read_requests(10, "1230", 4)->front())), "1234");
-  EXPECT_THAT(protocol().make_device("xbc-h", json::object()).error().message, HasSubstr("'xbc-h'"));
+  EXPECT_THAT(protocol().make_device("s100", json::object()).error().message, HasSubstr("'s100'"));
   EXPECT_THAT(protocol().make_device("inverter", {{"station", 256}}).error().message, HasSubstr("station"));
   EXPECT_EQ(protocol().station_bytes(10), to_bytes("0A"));
 }

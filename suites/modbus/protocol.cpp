@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/modbus/modbus_plc.hpp"
+#include "src/modbus/p2p_driver.hpp"
+#include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
 #include "suites/modbus/facts.hpp"
 #include "suites/modbus/functions.hpp"
@@ -28,7 +30,8 @@ class Modbus : public Protocol {
   }
 
   Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
-    return make_modbus_plc(mode_, model, config);
+    if (!is_p2p_client(config)) return make_modbus_plc(mode_, model, config);
+    return make_p2p_device(model, config, [mode = mode_](const PortConfig& port) { return make_modbus_p2p_driver(mode, port.gap()); });
   }
 
   Bytes station_bytes(int station) const override { return framing_.station_bytes(station); }

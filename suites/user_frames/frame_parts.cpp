@@ -91,6 +91,7 @@ std::vector<Protocol::Written> written_by(const NamedDefinition& definition, Byt
     std::vector<Protocol::Written> written;
     for (std::size_t i = 0; i < frame.segments.size(); ++i) {
       const Segment& segment = frame.segments[i];
+      if (segment.in_block) return {{"?", 0, 0, "what a P2P block says"}};
       if (!segment.memory) continue;
       const auto count = static_cast<std::uint32_t>(bytes_in_memory(frame, segment, match.part(request, i).size()));
       if (count == 0) continue;

@@ -6,7 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/spelling.hpp"
+#include "src/p2p/p2p_plc.hpp"
+#include "src/p2p/parameters.hpp"
+#include "src/plc/config_reader.hpp"
 #include "src/user_frames/codec.hpp"
+#include "src/user_frames/p2p_driver.hpp"
 #include "src/user_frames/port.hpp"
 #include "suites/user_frames/definition_files.hpp"
 #include "suites/user_frames/facts.hpp"
@@ -28,7 +32,10 @@ class UserFrames : public Protocol {
 
   std::string_view name() const override { return "user-frames"; }
   std::vector<std::string> models() const override { return definition_names(definitions_folder()); }
-  bool has_model(std::string_view model) const override { return is_definition_path(model) || Protocol::has_model(model); }
+  /// A PLC, where the key `definition` of its configuration names its frames.
+  bool has_model(std::string_view model) const override {
+    return is_definition_path(model) || Protocol::has_model(model) || find_plc_model(model);
+  }
   const Protocol& of_model(std::string_view model) const override { return model.empty() ? *this : protocol_of(model); }
 
   Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override;
@@ -95,10 +102,32 @@ Result<const UserFrames*> read_once(std::string_view model) {
   return &known.try_emplace(std::string(model), std::move(*loaded)).first->second;
 }
 
+/// The blocks of role client, where they can be read; what is wrong with them make_p2p_device says.
+std::vector<P2pBlock> blocks_of(const nlohmann::json& config, const PlcModel& plc) {
+  if (!config.contains("p2p")) return {};
+  const Result<P2pParameters> parameters = parse_p2p_parameters(config["p2p"], plc);
+  return parameters ? parameters->blocks : std::vector<P2pBlock>{};
+}
+
 Result<std::unique_ptr<EmulatedDevice>> UserFrames::make_device(std::string_view model, const nlohmann::json& config) const {
-  const Result<const UserFrames*> one = read_once(model);
+  std::string name(model);
+  ConfigReader reader(config, "the port's configuration");
+  reader.text("definition", name);
+  if (reader.error()) return *reader.error();
+  if (find_plc_model(name)) return fail(fmt::format("cannot make {} send or receive user frames: name them with definition, such as px7", name));
+  const Result<const UserFrames*> one = read_once(name);
   if (!one) return one.error();
-  return make_user_frame_device(*(*one)->own(), config);
+  const FrameDefinition& definition = *(*one)->own();
+  if (!is_p2p_client(config)) {
+    nlohmann::json of_port = config;
+    of_port.erase("definition");
+    return make_user_frame_device(definition, of_port);
+  }
+  const PlcModel* plc = find_plc_model(model);
+  if (!plc) plc = definition.plc;
+  return make_p2p_device(
+      plc->name, config,
+      [&](const PortConfig& port) { return make_user_frame_p2p_driver(definition, blocks_of(config, *plc), port.gap()); }, {"definition"});
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ TEST(UserFramesProtocol, ModelsAreTheShippedDefinitionsAndPaths) {
   EXPECT_THAT(protocol().models(), testing::IsSupersetOf({"px7", "px7_controller", "xgt_write"}));
   EXPECT_TRUE(protocol().has_model("px7"));
   EXPECT_TRUE(protocol().has_model("my/own.json"));
-  EXPECT_FALSE(protocol().has_model("xbc-h"));
+  EXPECT_TRUE(protocol().has_model("xbc-h")) << "with a definition in its configuration";
+  EXPECT_FALSE(protocol().has_model("xbc-x"));
 }
 
 TEST(UserFramesProtocol, EveryShippedDefinitionMakesADevice) {
