@@ -36,7 +36,7 @@ Bench::Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
     : endpoint_(endpoint),
       protocol_(protocol),
       options_(std::move(options)),
-      arming_(protocol, {options_.endpoint_is_stimulus ? [&endpoint](const std::string& line) { return endpoint.tell(line); } : options_.stimulus, complete_blocks(options_.profile.prepared_blocks, {}), options_.aux.endpoint != nullptr}),
+      arming_(protocol, {options_.endpoint_is_stimulus ? [&endpoint](const std::string& line) { return endpoint.tell(line); } : options_.stimulus, complete_blocks(options_.profile.prepared_blocks), options_.aux.endpoint != nullptr}),
       memory_(endpoint, protocol, options_.profile.response_max, options_.aux, &arming_),
       exchange_(endpoint, protocol, timing(), options_.aux, &arming_) {}
 

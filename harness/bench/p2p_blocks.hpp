@@ -11,7 +11,7 @@ namespace fieldproof {
 std::vector<nlohmann::json> p2p_blocks(const nlohmann::json& config);
 
 /// The blocks of a list as it stands in `p2p.blocks` and in a profile's `prepared_blocks`.
-std::vector<nlohmann::json> complete_blocks(const nlohmann::json& blocks, const nlohmann::json& p2p);
+std::vector<nlohmann::json> complete_blocks(const nlohmann::json& blocks, const nlohmann::json& p2p = nlohmann::json::object());
 
 /// "%MX00000"; empty: a RECEIVE has none.
 std::string flag_of(const nlohmann::json& block);

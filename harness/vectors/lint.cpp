@@ -57,6 +57,19 @@ void lint_step(const Case& one, std::size_t index, const Stations& stations, std
   }
 }
 
+/// A partner that cannot be made would only be noticed in a run.
+void lint_partner(const Case& one, std::size_t index, const Protocol& protocol, std::vector<std::string>& problems) {
+  const std::optional<PartnerSpec>& partner = one.steps[index].partner;
+  if (!partner) return;
+  const auto problem = [&](const Error& error) {
+    problems.push_back(fmt::format("{}: {}: steps[{}] partner: {}", one.file, one.id, index, error.message));
+  };
+  const Result<std::unique_ptr<EmulatedDevice>> device = protocol.make_device(partner->model.empty() ? protocol.models().front() : partner->model, partner->config);
+  if (!device) return problem(device.error());
+  for (const auto& [address, hex] : partner->memory)
+    if (const Status set = (*device)->set(address, hex); !set) problem(set.error());
+}
+
 std::string read_all(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return std::string(std::istreambuf_iterator<char>(in), {});
@@ -113,7 +126,10 @@ std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& 
       if (!protocol->has_model(model)) problems.push_back(fmt::format("{}: {}: {} has no model '{}'", one.file, one.id, one.protocol, model));
     const int station = config_station(one.config, 1).value_or(1);
     const Stations stations{protocol->station_bytes(station), protocol->station_bytes((station + 1) % 256)};
-    for (std::size_t i = 0; i < one.steps.size(); ++i) lint_step(one, i, stations, problems);
+    for (std::size_t i = 0; i < one.steps.size(); ++i) {
+      lint_step(one, i, stations, problems);
+      lint_partner(one, i, *protocol, problems);
+    }
   }
   return problems;
 }

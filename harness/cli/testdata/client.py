@@ -1,10 +1,9 @@
-"""A small XGT client for the tests of the built tool: client.py TTY [AUX_LINK].
+"""A small XGT client for the tests of the built tool: single words, XGT, with BCC.
 
-It reads the lines of --stimulus from its standard input and asks for the blocks that they name: single words, XGT, with
-BCC. With AUX_LINK it serves its memory on a pty of its own, linked from there, as the second port of the same PLC, and
-keeps the flags of P2P 1 (L word 512 + 6 b); there a condition flag that is written over the second port fires as well.
-  FIELDPROOF_CLIENT=twice   asks twice
-  FIELDPROOF_CLIENT=mute    asks nothing
+  client.py TTY                  asks for the blocks that lines of --stimulus on its standard input name
+  client.py LINK AUX BLOCKS      a PLC with two ports, ptys linked from LINK and AUX: P2P blocks (JSON) set up, on LINK as
+                                 client, and its memory served on AUX, flags of P2P 1 (L word 512 + 6 b) included
+  FIELDPROOF_CLIENT=twice|mute   asks twice, asks nothing
 """
 import json
 import os
@@ -84,42 +83,93 @@ def serve(frame):
     return checked(answer) if frame[3:4].islower() else answer
 
 
-def main():
-    port = os.open(sys.argv[1], os.O_RDWR | os.O_NOCTTY)
-    tty.setraw(port, 0)
-    aux = None
-    if len(sys.argv) > 2:
-        aux, slave = os.openpty()
-        tty.setraw(slave)
-        os.symlink(os.ttyname(slave), sys.argv[2])
-    lines, clock = b"", None  # the block that runs by a clock, its values, when it asks next
+def terminal(link):
+    port, slave = os.openpty()
+    tty.setraw(slave)
+    os.symlink(os.ttyname(slave), link)
+    return port
+
+
+def serve_one(aux):
+    """One request of the second port; the address where it wrote."""
+    frame = b""
+    while not frame.endswith(EOT):
+        frame += os.read(aux, 1)
+    if frame[3:4].islower():
+        frame += os.read(aux, 1) + os.read(aux, 1)
+    os.write(aux, serve(frame))
+    size = int(frame[8:10], 16)
+    return frame[10:10 + size].decode() if frame[3:4].upper() == b"W" else None
+
+
+class Clock:
+    """What asks every 200 ms."""
+
+    def __init__(self):
+        self.asks = {}  # by block: what, with which values
+        self.due = time.monotonic()
+
+    def start(self, block, values):
+        self.asks[block["block"]] = (block, values)
+        self.due = time.monotonic()
+
+    def wait(self):
+        return max(0.0, self.due - time.monotonic()) if self.asks else None
+
+    def tick(self, port):
+        if not self.asks or time.monotonic() < self.due:
+            return
+        for block, values in self.asks.values():
+            ask(port, block, values)
+        self.due += 0.2
+
+
+def stimulated(port):
+    lines, clock = b"", Clock()
     while True:
-        wait = None if clock is None else max(0.0, clock[2] - time.monotonic())
-        ready = select.select([0] + ([aux] if aux else []), [], [], wait)[0]
-        if aux in ready:
-            frame = b""
-            while not frame.endswith(EOT) or frame[3:4].islower():
-                frame += os.read(aux, 1)
-                if len(frame) > 3 and frame[-3:-2] == EOT:
-                    break
-            os.write(aux, serve(frame))
-        if clock and time.monotonic() >= clock[2]:
-            ask(port, clock[0], clock[1])
-            clock[2] += 0.2
-        if 0 not in ready:
+        told = select.select([0], [], [], clock.wait())[0]
+        clock.tick(port)
+        if not told:
             continue
         more = os.read(0, 4096)
         if not more:
-            break
+            return
         *complete, lines = (lines + more).split(b"\n")
-        for line in complete:
-            told = json.loads(line)
-            if told.get("over"):
-                clock = None
-            elif told["block"]["flag"] == "F92":
-                clock = [told["block"], told["values"], time.monotonic()]
+        for line in map(json.loads, complete):
+            if line.get("over"):
+                clock = Clock()
+            elif line["block"]["flag"] == "F92":
+                clock.start(line["block"], line["values"])
             else:
-                ask(port, told["block"], told["values"])
+                ask(port, line["block"], line["values"])
+
+
+def plc(port, aux, blocks):
+    clock, on = Clock(), set()
+    for block in blocks:
+        if block["flag"] == "F92":
+            clock.start(block, {})
+    while True:
+        if select.select([aux], [], [], clock.wait())[0]:
+            written = serve_one(aux)
+            for block in blocks:
+                if block["flag"] != written:
+                    continue
+                rises = int(memory[written], 16) and written not in on
+                (on.add if int(memory[written], 16) else on.discard)(written)
+                if rises:
+                    ask(port, block, {one: memory.get(one, "0000") for one in block["read"]})
+        clock.tick(port)
+
+
+def main():
+    if len(sys.argv) == 2:
+        port = os.open(sys.argv[1], os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(port, 0)
+        return stimulated(port)
+    port, aux = terminal(sys.argv[1]), terminal(sys.argv[2])
+    print("ready", flush=True)
+    plc(port, aux, json.loads(sys.argv[3]))
 
 
 main()
