@@ -53,6 +53,7 @@ int lint_command(const LintOptions& options);
 struct EmulateOptions {
   std::string model;             // "xbc-h?station=1&protocol=xgt-cnet"
   std::string tcp, pty;          // 127.0.0.1:PORT, PATH
+  std::string monitor;           // CSV file of the frames that cross the line
   int control = -1;              // internal: the harness' back door
   std::string tty;               // internal: the slave that the harness made
   bool verbose = false;

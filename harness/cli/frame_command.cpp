@@ -64,7 +64,7 @@ Result<Reading> read_as(const Protocol& protocol, const FrameOptions& options) {
   return Reading{&protocol, std::move(*bytes), std::move(fields)};
 }
 
-/// As the protocol that was named, else as the one with the fewest problems.
+/// As the protocol that was named, else as the one with the fewest problems. One part alone explains nothing.
 Result<Reading> best_reading(const FrameOptions& options) {
   if (!options.protocol.empty()) {
     const Result<const Protocol*> protocol = choose_protocol(options.protocol, "");
@@ -74,7 +74,7 @@ Result<Reading> best_reading(const FrameOptions& options) {
   Result<Reading> best = read_as(*protocols().front(), options);
   for (const Protocol* protocol : protocols().subspan(1)) {
     Result<Reading> other = read_as(*protocol, options);
-    if (best && other && other->problems() < best->problems()) best = std::move(other);
+    if (best && other && other->fields.size() > 1 && other->problems() < best->problems()) best = std::move(other);
   }
   return best;
 }
