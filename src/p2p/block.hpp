@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "src/base/time.hpp"
 #include "src/plc/address.hpp"
 
 namespace fieldproof {
@@ -22,8 +24,14 @@ constexpr std::uint16_t none = 0, head = 0x01, tail = 0x02, bcc = 0x03, station 
 
 /// One value, or one run of values: where it is in the partner and where in this PLC.
 struct P2pVariable {
-  std::string partner;  // as the driver spells it: "%MW100", "0x40001", "1230"
-  DeviceAddress own;    // the save area of a read, the read area of a write
+  std::string partner{};  // as the driver spells it: "%MW100", "0x40001", "1230"; empty: of a user frame
+  DeviceAddress own{};    // the save area of a read or receive, the read area of a write or send
+};
+
+/// When a block fires: at the rising edge of a bit, or of a clock. Neither: a RECEIVE block, which is always armed.
+struct P2pCondition {
+  std::optional<DeviceAddress> flag{};
+  Duration period{};  // of a clock: 20 ms, 200 ms or 1 s
 };
 
 struct P2pBlock {
@@ -34,10 +42,15 @@ struct P2pBlock {
   Function function = Function::read;
   bool continuous = false;     // a run of `size` elements from one variable on, else up to four single values
   char type = 'W';             // of the data: X B W D L
-  unsigned size = 1;           // elements of a run
+  unsigned size = 1;           // elements of a run; bytes of a user frame's variable
   unsigned station = 0;        // of the partner
-  std::vector<P2pVariable> variables;
-  std::string frame;           // send and receive: "GROUP.FRAME" of the user frames
+  std::vector<P2pVariable> variables{};
+  std::string frame{};         // send and receive: "GROUP.FRAME" of the user frames
+  P2pCondition condition{};
+
+  bool is_user_frame() const { return function == Function::send || function == Function::receive; }
+  /// Elements that the block carries from or to one variable.
+  unsigned elements() const { return continuous ? size : 1; }
 };
 
 }  // namespace fieldproof

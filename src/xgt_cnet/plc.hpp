@@ -1,16 +1,14 @@
-// An emulated XGB PLC: one model's memory behind one Cnet channel, as server or P2P client.
+// An emulated XGB PLC as XGT Cnet server: one model's memory behind one Cnet channel.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "src/plc/emulated_device.hpp"
 #include "src/plc/memory.hpp"
-#include "src/xgt_cnet/client.hpp"
-#include "src/xgt_cnet/plc_config.hpp"
+#include "src/plc/port_config.hpp"
 #include "src/xgt_cnet/server.hpp"
 
 namespace fieldproof {
@@ -20,27 +18,25 @@ class Plc : public EmulatedDevice {
   Plc(const Plc&) = delete;
   Plc& operator=(const Plc&) = delete;
 
-  void receive(const Burst& burst) override;
-  std::optional<Time> wake_at() const override;
-  Bytes advance(Time now) override;
+  void receive(const Burst& burst) override { server_.receive(burst); }
+  std::optional<Time> wake_at() const override { return server_.wake_at(); }
+  Bytes advance(Time now) override { return server_.advance(now); }
 
-  Status set(std::string_view address, std::string_view hex) override;
+  Status set(std::string_view address, std::string_view hex) override { return set_by_name(memory_, address, hex); }
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
-  /// power_cycle: registrations, counters and frames in progress are lost; memory and mode stay.
+  /// power_cycle: registrations, counters and frames in progress are lost; memory stays. A server answers in RUN and STOP.
   Status act(std::string_view action) override;
 
  private:
-  friend Result<std::unique_ptr<Plc>> make_plc(const PlcConfig& config);
-  Plc(const PlcModel& model, const PlcConfig& config, std::vector<P2pBlock> blocks);
-
-  const ServiceCounters& counters() const { return client_ ? client_->counters() : server_->counters(); }
+  friend Result<std::unique_ptr<Plc>> make_plc(const PortConfig& config);
+  Plc(const PlcModel& model, const PortConfig& config)
+      : memory_(model), server_(memory_, config.station, config.gap(), config.reply_delay()) {}
 
   PlcMemory memory_;
-  std::optional<XgtServer> server_;  // one of the two
-  std::optional<XgtClient> client_;
+  XgtServer server_;
 };
 
 /// In its power-on state. Errors name the model, or the parameter that is out of its range.
-Result<std::unique_ptr<Plc>> make_plc(const PlcConfig& config);
+Result<std::unique_ptr<Plc>> make_plc(const PortConfig& config);
 
 }  // namespace fieldproof

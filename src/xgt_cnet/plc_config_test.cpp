@@ -10,44 +10,40 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-PlcConfig parsed(const json& config) {
-  const Result<PlcConfig> plc = parse_plc_config("xbc-h", config);
+PortConfig parsed(const json& config) {
+  const Result<PortConfig> plc = parse_plc_config("xbc-h", config);
   EXPECT_TRUE(plc) << (plc ? "" : plc.error().message);
-  return plc ? *plc : PlcConfig{};
+  return plc ? *plc : PortConfig{};
 }
 
 std::string error_of(const json& config) {
-  const Result<PlcConfig> plc = parse_plc_config("xbc-h", config);
+  const Result<PortConfig> plc = parse_plc_config("xbc-h", config);
   return plc ? "" : plc.error().message;
 }
 
 TEST(PlcConfig, Defaults) {
-  EXPECT_EQ(parsed(json::object()), PlcConfig{});
+  EXPECT_EQ(parsed(json::object()), PortConfig{});
   EXPECT_EQ(parse_plc_config("xec-h", json::object())->model, "xec-h");
 }
 
 TEST(PlcConfig, EveryKey) {
-  const PlcConfig plc = parsed(json::parse(R"({
+  const PortConfig plc = parsed(json::parse(R"({
     "station": 32, "role": "client", "mode": "stop", "line": "19200-7E2", "inter_character_ms": 2.5,
-    "inter_character_floor_ms": 20, "delay_ms": 50, "rs485": true, "time_out": 4,
-    "p2p": [{"flag": "%MX00000", "read": "%MW100", "save": "%MW200", "station": 2, "count": 1},
-            {"flag": "%MX00001", "read": "%MW101", "save": "%MW201", "station": 3}]})"));
-  PlcConfig expected;
+    "inter_character_floor_ms": 20, "delay_ms": 50, "rs485": true})"));
+  PortConfig expected;
   expected.station = 32;
-  expected.role = PlcConfig::Role::client;
+  expected.role = PortConfig::Role::client;
   expected.run = false;
   expected.line = {19200, 7, 'E', 2};
   expected.inter_character = 2500us;
   expected.inter_character_floor = 20ms;
   expected.delay = 50ms;
   expected.rs485 = true;
-  expected.time_out = 4;
-  expected.p2p = {{"%MX00000", "%MW100", "%MW200", 2, 1}, {"%MX00001", "%MW101", "%MW201", 3, 1}};
   EXPECT_EQ(plc, expected);
 }
 
 TEST(PlcConfig, TextOfEndpointOptions) {
-  const PlcConfig plc = parsed({{"station", "7"}, {"rs485", "1"}, {"delay_ms", "10"}, {"inter_character_ms", "1.5"}});
+  const PortConfig plc = parsed({{"station", "7"}, {"rs485", "1"}, {"delay_ms", "10"}, {"inter_character_ms", "1.5"}});
   EXPECT_EQ(plc.station, 7u);
   EXPECT_TRUE(plc.rs485);
   EXPECT_EQ(plc.delay, 10ms);
@@ -57,13 +53,13 @@ TEST(PlcConfig, TextOfEndpointOptions) {
 }
 
 TEST(PlcConfig, KeysOfOthersArePassedOver) {
-  EXPECT_EQ(parsed({{"neighbours", {2, 3}}, {"bench_line", "1200"}, {"protocol", "xgt-cnet"}, {"model", "xbc-h"}}), PlcConfig{});
+  EXPECT_EQ(parsed({{"neighbours", {2, 3}}, {"bench_line", "1200"}, {"protocol", "xgt-cnet"}, {"model", "xbc-h"}}), PortConfig{});
 }
 
 TEST(PlcConfig, ErrorsSayWhatIsAllowed) {
   EXPECT_EQ(error_of({{"stations", 1}}),
             "cannot read the PLC's configuration: there is no key 'stations'; the keys are bench_line, delay_ms, inter_character_floor_ms, "
-            "inter_character_ms, line, mode, model, neighbours, p2p, protocol, role, rs485, station, time_out; did you mean 'station'?");
+            "inter_character_ms, line, mode, model, neighbours, protocol, role, rs485, station; did you mean 'station'?");
   EXPECT_EQ(error_of({{"station", 256}}), "cannot read the PLC's configuration: station is 256, which is not a number from 0 to 255");
   for (const json& wrong : {json(-1), json("x"), json(""), json("1x"), json("nan"), json(true), json(nullptr), json::array()}) {
     EXPECT_THAT(error_of({{"station", wrong}}), HasSubstr("a number from 0 to 255")) << wrong;
@@ -75,20 +71,11 @@ TEST(PlcConfig, ErrorsSayWhatIsAllowed) {
   EXPECT_THAT(error_of({{"line", "9601"}}), HasSubstr("cannot read line settings '9601'"));
   EXPECT_THAT(error_of({{"rs485", "maybe"}}), HasSubstr("true or false"));
   EXPECT_THAT(error_of({{"inter_character_ms", -1}}), HasSubstr("inter_character_ms is -1"));
-  EXPECT_THAT(error_of({{"time_out", 51}}), HasSubstr("0 to 50"));
   EXPECT_THAT(error_of(json::array()), HasSubstr("not a JSON object"));
 }
 
-TEST(PlcConfig, ErrorsOfP2pBlocks) {
-  EXPECT_THAT(error_of({{"p2p", "x"}}), HasSubstr("p2p is not an array"));
-  EXPECT_THAT(error_of({{"p2p", {{{"flag", "%MX0"}}}}}), HasSubstr("p2p block 0: there is no read"));
-  const json block{{"flag", "%MX0"}, {"read", "%MW0"}, {"save", "%MW1"}, {"station", 2}};
-  json odd = block;
-  odd["colour"] = 1;
-  EXPECT_THAT(error_of({{"p2p", json::array({block, odd})}}), HasSubstr("p2p block 1: there is no key 'colour'"));
-  odd = block;
-  odd["station"] = 300;
-  EXPECT_THAT(error_of({{"p2p", json::array({odd})}}), HasSubstr("station is 300"));
+TEST(PlcConfig, AServerHasNoP2p) {
+  EXPECT_EQ(error_of({{"p2p", json::object()}}), "cannot make a PLC: a server has no p2p; remove it, or give role client");
 }
 
 }  // namespace

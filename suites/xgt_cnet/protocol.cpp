@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
+#include "src/xgt_cnet/p2p_driver.hpp"
 #include "src/xgt_cnet/plc.hpp"
+#include "src/xgt_cnet/plc_config.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
 #include "suites/xgt_cnet/memory_requests.hpp"
 
@@ -25,7 +28,13 @@ class XgtCnet : public Protocol {
   }
 
   Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
-    Result<PlcConfig> parsed = parse_plc_config(model, config);
+    if (is_p2p_client(config)) {
+      Result<std::unique_ptr<P2pPlc>> client =
+          make_p2p_plc(model, config, [](const PortConfig& port) { return std::make_unique<XgtP2pDriver>(port.gap()); });
+      if (!client) return client.error();
+      return std::unique_ptr<EmulatedDevice>(std::move(*client));
+    }
+    Result<PortConfig> parsed = parse_plc_config(model, config);
     if (!parsed) return parsed.error();
     Result<std::unique_ptr<Plc>> plc = make_plc(*parsed);
     if (!plc) return plc.error();

@@ -64,7 +64,7 @@ Status BrokenPlc::act(std::string_view action) {
   return done;
 }
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault, const PlcConfig& config, Storage& storage) {
+Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault, const PortConfig& config, Storage& storage) {
   const Fault* known = find_fault(fault);
   if (!known && fault != "none") {
     std::vector<std::string_view> names{"none"};

@@ -21,7 +21,7 @@ class BrokenPlc : public EmulatedDevice, private FrameSink {
   Status act(std::string_view action) override;
 
  private:
-  friend Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view, const PlcConfig&, Storage&);
+  friend Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view, const PortConfig&, Storage&);
   BrokenPlc(Behaviour behaviour, GoodPlc plc, Duration gap);
 
   void on_frame(ByteView frame, Time end) override;
@@ -39,6 +39,6 @@ class BrokenPlc : public EmulatedDevice, private FrameSink {
 };
 
 /// A server with the fault of that name, or without ("none"). `storage` outlives it. Errors name the fault or the parameter.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault, const PlcConfig& config, Storage& storage);
+Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault, const PortConfig& config, Storage& storage);
 
 }  // namespace fieldproof::xgt_cnet

@@ -57,7 +57,7 @@ int main(int count, char** arguments) {
   host.tty = given[1];
   host.config["station"] = given.size() > 2 ? given[2] : "1";
   host.make_device = [&](const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
-    const Result<PlcConfig> parsed = parse_plc_config(config.at("model").get<std::string>(), config);
+    const Result<PortConfig> parsed = parse_plc_config(config.at("model").get<std::string>(), config);
     if (!parsed) return parsed.error();
     return xgt_cnet::make_broken_plc(given[0], *parsed, storage);
   };

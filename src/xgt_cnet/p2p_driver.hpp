@@ -1,0 +1,40 @@
+// The P2P driver 'XGT client' (000 6.2.3, 003 6.3): single variables go as one RSS or WSS of up to four blocks, a run as RSB
+// or WSB, in lower case with BCC and unpadded names (PROTOCOLS.md 'P2P client').
+//
+// Error codes of Appendix 3.3: a reply that repeats another command or type is of another driver, 05; one with more
+// values than asked for, or fewer, is 0B, and 0E where the surplus would run over the end of the save area.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "src/p2p/driver.hpp"
+#include "src/xgt_cnet/codec.hpp"
+#include "src/xgt_cnet/receiver.hpp"
+
+namespace fieldproof {
+
+class XgtP2pDriver : public P2pDriver {
+ public:
+  /// `gap`: the inter-character time.
+  explicit XgtP2pDriver(Duration gap) : receiver_(FrameReceiver::Side::client, gap) {}
+
+  std::string_view name() const override { return "xgt-client"; }
+  Status check(const P2pBlock& block, const PlcModel& model) const override;
+  Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override;
+  bool awaits_reply(const P2pBlock&) const override { return true; }
+  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const override;
+
+  void receive(const Burst& burst, FrameSink& sink) override { receiver_.receive(burst, sink); }
+  std::optional<Time> wake_at() const override { return receiver_.wake_at(); }
+  void advance(Time now, FrameSink& sink) override { receiver_.advance(now, sink); }
+  void reset() override { receiver_.reset(); }
+
+ private:
+  FrameReceiver receiver_;
+};
+
+/// "%MW00100" as it is sent: "%MW100". Dotted names stay as they are.
+std::string unpadded_name(std::string_view name);
+
+}  // namespace fieldproof
