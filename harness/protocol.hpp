@@ -14,6 +14,7 @@
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
 #include "src/plc/emulated_device.hpp"
+#include "src/plc/frame_monitor.hpp"
 
 namespace fieldproof {
 
@@ -25,6 +26,8 @@ struct Field {
   std::string text;          // printable form: "02", "%MW020"
   std::string problem;       // empty when the field is right: "not hex", "expected D6 (sum of header to tail)"
 };
+/// Are there fields, all of them right?
+bool faultless(const std::vector<Field>& fields);
 
 class Protocol {
  public:
@@ -50,6 +53,10 @@ class Protocol {
 
   /// The parts of a frame, as far as it can be read; never fails.
   virtual std::vector<Field> explain(ByteView frame) const = 0;
+
+  /// What a frame monitor says of a frame that a client (else a server) sends or receives: `unknown` where it is damaged,
+  /// or none that this side deals with.
+  virtual FrameResult monitor_result(ByteView frame, bool client, bool sent) const;
 
   /// The silence that must lie between anything on the line and the next request. Modbus RTU ends a frame by it.
   /// Zero where a frame has an end of its own.

@@ -58,6 +58,7 @@ struct EmulateOptions {
   std::string model;             // "xbc-h?station=1&protocol=xgt-cnet"
   std::string tcp, pty;          // 127.0.0.1:PORT, PATH
   std::string p2p;               // JSON file of P2P parameters: the device is the client
+  std::string monitor;           // CSV file of the frames that cross the line
   int control = -1;              // internal: the harness' back door
   std::string tty;               // internal: the slave that the harness made
   bool verbose = false;

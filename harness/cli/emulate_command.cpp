@@ -3,11 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/commands.hpp"
+#include "harness/cli/monitor_file.hpp"
 #include "harness/cli/p2p_file.hpp"
 #include "harness/endpoints/device_host.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/endpoints/interrupt.hpp"
 #include "harness/notation/notation.hpp"
+#include "harness/monitored_device.hpp"
 #include "harness/protocol.hpp"
 #include "src/plc/multi_drop.hpp"
 
@@ -20,13 +22,13 @@ void print_traffic(const Traffic& traffic) {
   std::fflush(stdout);
 }
 
-/// The device, and its `neighbours` on the same line: stations, or objects of config keys.
-Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol, nlohmann::json config) {
+/// The device, whose frames are recorded, and its `neighbours` on the same line: stations, or objects of config keys.
+Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol, nlohmann::json config, const FrameMonitor::Record& record) {
   const std::string model = config.value("model", protocol.models().front());
   const nlohmann::json neighbours = config.value("neighbours", nlohmann::json::array());
   config.erase("model");
   config.erase("neighbours");
-  Result<std::unique_ptr<EmulatedDevice>> first = protocol.make_device(model, config);
+  Result<std::unique_ptr<EmulatedDevice>> first = make_monitored_device(protocol, model, config, record);
   if (!first || neighbours.empty()) return first;
   std::vector<std::unique_ptr<EmulatedDevice>> devices;
   devices.push_back(std::move(*first));
@@ -58,7 +60,13 @@ int emulate_command(const EmulateOptions& options) {
   }
   for (const auto& [key, value] : name->options)
     if (key != "protocol") host.config[key] = value;
-  host.make_device = [protocol = *protocol](const nlohmann::json& config) { return make_stations(*protocol, config); };
+  FrameMonitor::Record record;
+  if (!options.monitor.empty()) {
+    Result<FrameMonitor::Record> opened = open_monitor_file(options.monitor, name->target);
+    if (!opened) return complain(opened.error().message, exit_code::usage);
+    record = std::move(*opened);
+  }
+  host.make_device = [protocol = *protocol, record](const nlohmann::json& config) { return make_stations(*protocol, config, record); };
   if (!options.p2p.empty()) host.make_device = naming_file(std::move(host.make_device), options.p2p);
   host.tcp = options.tcp;
   host.tty = options.tty.empty() ? options.pty : options.tty;

@@ -64,7 +64,7 @@ Result<FrameReading> read_as(const Protocol& protocol, const FrameOptions& optio
   return FrameReading{&protocol, std::move(*bytes), std::move(fields)};
 }
 
-/// As the protocol that was named, else as the one with the fewest problems.
+/// As the protocol that was named, else as the one with the fewest problems. One part alone explains nothing.
 Result<FrameReading> best_reading(const FrameOptions& options) {
   if (!options.protocol.empty()) {
     const Result<const Protocol*> protocol = choose_protocol(options.protocol, "");
@@ -74,7 +74,7 @@ Result<FrameReading> best_reading(const FrameOptions& options) {
   Result<FrameReading> best = read_as(*protocols().front(), options);
   for (const Protocol* protocol : protocols().subspan(1)) {
     Result<FrameReading> other = read_as(*protocol, options);
-    if (best && other && other->problems() < best->problems()) best = std::move(other);
+    if (best && other && other->fields.size() > 1 && other->problems() < best->problems()) best = std::move(other);
   }
   return best;
 }

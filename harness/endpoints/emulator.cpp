@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <utility>
 
+#include "harness/monitored_device.hpp"
 #include "harness/protocol.hpp"
 #include "src/base/spelling.hpp"
 
@@ -168,7 +169,7 @@ Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name) {
   const Protocol* protocol = *chosen;
   auto endpoint = std::make_unique<EmulatorEndpoint>(
       name, [protocol](std::string_view model, const json& config) {
-        return protocol->make_device(model.empty() ? protocol->models().front() : model, config);
+        return make_monitored_device(*protocol, model.empty() ? protocol->models().front() : model, config);
       });
   if (const Status begun = endpoint->begin(json::object()); !begun) {
     return fail(fmt::format("cannot open emulator:{}: {}", name.target, begun.error().message));

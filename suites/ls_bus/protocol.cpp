@@ -55,6 +55,10 @@ class LsBus : public Protocol {
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override { return ls_bus::frame_length(bytes); }
   std::vector<Field> explain(ByteView frame) const override { return ls_bus::explain(frame); }
+  FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
+    const bool request = !frame.empty() && frame[0] == enq;
+    return request == (client == sent) && faultless(explain(frame)) ? FrameResult::ls_bus : FrameResult::unknown;
+  }
 
   /// Parameter 0000, which inverters have for their model: one word, or two where the tested request reads one. So no reply
   /// to the tested request has its length and its command.

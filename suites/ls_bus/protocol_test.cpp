@@ -100,6 +100,14 @@ TEST(LsBusFacts, AreCheckedAgainstTheTables) {
   EXPECT_THAT(error_of(R"({"model": "inverter"})"), HasSubstr("besides its model"));
 }
 
+TEST(Monitor, KnowsRequestsAndReplies) {
+  const Bytes request = protocol().probe(1, {});
+  EXPECT_EQ(protocol().monitor_result(request, true, true), FrameResult::ls_bus);
+  EXPECT_EQ(protocol().monitor_result(request, false, false), FrameResult::ls_bus);
+  EXPECT_EQ(protocol().monitor_result(request, true, false), FrameResult::unknown) << "its own echo";
+  EXPECT_EQ(protocol().monitor_result(to_bytes("01R"), false, false), FrameResult::unknown);
+}
+
 }  // namespace
 }  // namespace ls_bus
 }  // namespace fieldproof

@@ -151,4 +151,15 @@ std::vector<std::size_t> message_lengths(ByteView bytes) {
   return {3u + bytes[2], reading_request};
 }
 
+bool can_be(ByteView message, bool request) {
+  const std::vector<std::size_t> lengths = message_lengths(message);
+  if (lengths.empty()) return false;
+  if (message[1] & exception_bit) return !request;
+  const FunctionCode& function = *find_function(message[1]);
+  if (function.write && !function.many) return true;
+  const bool both = lengths.size() > 1;  // one length alone: of the acknowledgement of a write, or the request of a read
+  if (request) return (both || !function.write) && message.size() == lengths.back();
+  return (both || function.write) && message.size() == lengths.front();
+}
+
 }  // namespace fieldproof::modbus

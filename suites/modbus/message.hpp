@@ -26,4 +26,7 @@ std::vector<Part> message_parts(ByteView message);
 /// code tells none.
 std::vector<std::size_t> message_lengths(ByteView bytes);
 
+/// Can a whole message be a request, or else a reply? A single write is both.
+bool can_be(ByteView message, bool request);
+
 }  // namespace fieldproof::modbus

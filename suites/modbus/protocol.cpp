@@ -12,6 +12,7 @@
 #include "suites/modbus/functions.hpp"
 #include "suites/modbus/framing.hpp"
 #include "suites/modbus/memory_requests.hpp"
+#include "suites/modbus/message.hpp"
 
 namespace fieldproof::modbus {
 
@@ -37,6 +38,11 @@ class Modbus : public Protocol {
   Bytes station_bytes(int station) const override { return framing_.station_bytes(station); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override { return framing_.frame_length(bytes); }
   std::vector<Field> explain(ByteView frame) const override { return framing_.explain(frame); }
+  FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
+    const bool request = client == sent;
+    if (!faultless(explain(frame)) || !can_be(framing_.unwrap(frame), request)) return FrameResult::unknown;
+    return client ? FrameResult::modbus_client : FrameResult::modbus_server;
+  }
   Duration frame_gap(Duration character_time) const override { return framing_.frame_gap(character_time); }
 
   /// One element at data address 0, which every model has, by a function code that was not tested: a reply or an

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "suites/modbus/framing.hpp"
+
 namespace fieldproof {
 
 // The table of protocols lives in suites/; these tests need none.
@@ -57,6 +59,25 @@ TEST(Probe, KnowsItsReply) {
   EXPECT_FALSE(rtu().is_reply_to_probe(probe, Bytes{}));
   EXPECT_TRUE(ascii().is_reply_to_probe(ascii().probe(1, {}), to_bytes(":0103020000FA\r\n")));
   EXPECT_FALSE(ascii().is_reply_to_probe(ascii().probe(1, {}), to_bytes("0103020000FA\r\n")));
+}
+
+TEST(Monitor, TellsTheSidesApart) {
+  const auto seen = [](std::string_view message, bool client, bool sent) { return rtu().monitor_result(rtu_framing().wrap(bytes(message)), client, sent); };
+  struct Example {
+    std::string_view message;
+    bool request, reply;
+  };
+  for (const Example& one : {Example{"01 03 00 01 00 01", true, false}, Example{"01 03 02 12 34", false, true}, Example{"01 83 02", false, true},
+                             Example{"01 05 00 01 FF 00", true, true}, Example{"01 10 00 01 00 01 02 12 34", true, false},
+                             Example{"01 10 00 01 00 01", false, true}, Example{"01 01 00 00 00 08", true, false}}) {
+    using enum FrameResult;
+    EXPECT_EQ(seen(one.message, true, true), one.request ? modbus_client : unknown) << one.message;
+    EXPECT_EQ(seen(one.message, false, false), one.request ? modbus_server : unknown) << one.message;
+    EXPECT_EQ(seen(one.message, true, false), one.reply ? modbus_client : unknown) << one.message;
+    EXPECT_EQ(seen(one.message, false, true), one.reply ? modbus_server : unknown) << one.message;
+  }
+  EXPECT_EQ(rtu().monitor_result(bytes("01 03 00 01 00 01 00 00"), true, true), FrameResult::unknown) << "its CRC is wrong";
+  EXPECT_EQ(ascii().monitor_result(to_bytes(":010300010001FA\r\n"), true, true), FrameResult::modbus_client);
 }
 
 TEST(Facts, AreComparedWithTheTables) {

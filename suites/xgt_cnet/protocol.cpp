@@ -46,6 +46,14 @@ class XgtCnet : public Protocol {
   std::optional<std::size_t> frame_length(ByteView bytes) const override { return xgt_cnet::frame_length(bytes); }
   std::vector<Field> explain(ByteView frame) const override { return xgt_cnet::explain(frame); }
 
+  /// Requests go from the client to the server.
+  FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
+    constexpr Byte enq = 0x05;
+    const bool request = !frame.empty() && frame[0] == enq;
+    if (request != (client == sent) || !faultless(explain(frame))) return FrameResult::unknown;
+    return client ? FrameResult::xgt_client : FrameResult::xgt_server;
+  }
+
   /// The first word of M, which every model has, in the other case than the tested command: the reply repeats the
   /// case of the request, so that no reply to the tested frame looks like the probe's.
   Bytes probe(int station, ByteView tested) const override {

@@ -1,0 +1,15 @@
+// The frame monitor's CSV file (003 10.1.3).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "src/plc/frame_monitor.hpp"
+
+namespace fieldproof {
+
+/// Begins the file anew; each frame is in it as soon as it is recorded. The time is the clock's, and for XBM-DxxxS (model
+/// xbm-s) that since the first frame. Errors name the file.
+Result<FrameMonitor::Record> open_monitor_file(const std::string& path, std::string_view model);
+
+}  // namespace fieldproof

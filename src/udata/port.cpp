@@ -1,0 +1,110 @@
+#include "src/udata/port.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "src/plc/device_action.hpp"
+
+namespace fieldproof {
+
+namespace {
+constexpr std::size_t most_held = 16;  // the manual does not say how many; PROTOCOLS
+}  // namespace
+
+Result<std::unique_ptr<EmulatedDevice>> make_udata_port(std::string_view model, const nlohmann::json& config) {
+  const Result<UdataConfig> parsed = parse_udata_config(model, config);
+  if (!parsed) return parsed.error();
+  return std::unique_ptr<EmulatedDevice>(std::make_unique<UdataPort>(*parsed));
+}
+
+UdataPort::UdataPort(const UdataConfig& config)
+    : memory_(*config.plc), module_(config.module), program_(config.instructions, config.module), gap_(config.port.gap()), run_(config.port.run) {}
+
+void UdataPort::receive(const Burst& burst) {
+  if (burst.bytes.empty()) return;
+  if (burst.start - last_end_ > gap_) end_datum();
+  last_end_ = burst.end();
+  now_ = std::max(now_, last_end_);
+  character_time_ = burst.character_time;
+  if (!hears()) return;
+  for (const Byte b : burst.bytes) {
+    heard_.push_back(b);
+    if (heard_.size() == udata_max) end_datum();
+  }
+}
+
+void UdataPort::end_datum() {
+  if (heard_.empty()) return;
+  if (received_.size() < most_held) {
+    received_.push_back(std::move(heard_));
+    counters_.count_service();
+  } else {
+    counters_.count_error(service_status::too_long);
+  }
+  heard_.clear();
+}
+
+std::optional<Time> UdataPort::wake_at() const {
+  std::optional<Time> first = program_.wake_at();
+  // A character that begins at the last moment is complete, and heard, one character time later.
+  if (!heard_.empty()) first = std::min(first.value_or(Time::max()), last_end_ + gap_ + character_time_ + Duration(1));
+  return queue_.wake_at(first);
+}
+
+Bytes UdataPort::advance(Time now) {
+  now_ = std::max(now_, now);
+  if (!heard_.empty() && now > last_end_ + gap_ + character_time_) end_datum();
+  if (program_.advance(now_, memory_)) scan();
+  return queue_.take(now);
+}
+
+void UdataPort::scan() {
+  if (run_) program_.scan(memory_, *this);
+  else program_.look(memory_);
+}
+
+void UdataPort::send(Bytes data) {
+  counters_.count_service();
+  queue_.put(now_, std::move(data));
+}
+
+std::optional<Bytes> UdataPort::take_received() {
+  if (received_.empty()) return std::nullopt;
+  Bytes oldest = std::move(received_.front());
+  received_.pop_front();
+  return oldest;
+}
+
+Status UdataPort::set(std::string_view address, std::string_view hex) {
+  if (Status done = set_by_name(memory_, address, hex); !done) return done;
+  scan();
+  return ok();
+}
+
+Result<std::string> UdataPort::get(std::string_view address, std::size_t digits) const {
+  const auto level = [digits](bool on) { return hex_number(on, static_cast<int>(digits == 0 ? 2 : digits)); };
+  if (address == "@dtr") return level(dtr_);
+  if (address == "@rts") return level(rts_);
+  return address.starts_with('@') ? get_counter(counters_, address, digits) : get_by_name(memory_, address, digits);
+}
+
+Status UdataPort::act(std::string_view action) {
+  const Result<DeviceAction> known = parse_device_action(action);
+  if (!known) return known.error();
+  switch (*known) {
+    case DeviceAction::run: run_ = true; return ok();
+    case DeviceAction::stop: run_ = false; break;
+    case DeviceAction::power_cycle:
+      counters_ = {};
+      dtr_ = rts_ = false;
+      received_.clear();
+      program_.reset();
+      program_.look(memory_);
+      break;
+  }
+  heard_.clear();
+  queue_.clear();
+  return ok();
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,59 @@
+// An emulated XGB port that works with UDATA instructions (003 6.6): its module buffers what arrives, and the program
+// of the PLC takes it, sends, and moves DTR and RTS.
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "src/plc/counters.hpp"
+#include "src/plc/emulated_device.hpp"
+#include "src/plc/reply_queue.hpp"
+#include "src/udata/config.hpp"
+#include "src/udata/program.hpp"
+
+namespace fieldproof {
+
+class UdataPort : public EmulatedDevice, private UdataChannel {
+ public:
+  explicit UdataPort(const UdataConfig& config);
+
+  /// A datum ends when the line is silent for the inter-character time (003 4.3.1), or is 1024 bytes long.
+  void receive(const Burst& burst) override;
+  std::optional<Time> wake_at() const override;
+  Bytes advance(Time now) override;
+
+  Status set(std::string_view address, std::string_view hex) override;
+  /// Also "@dtr" and "@rts": 01 while the control line is set. Counters: each datum sent or received is a service, one
+  /// that is lost because nothing takes them an error.
+  Result<std::string> get(std::string_view address, std::size_t digits) const override;
+  /// power_cycle: what was received, the counters and the control lines are lost; memory and mode stay.
+  Status act(std::string_view action) override;
+
+ private:
+  void send(Bytes data) override;
+  std::optional<Bytes> take_received() override;
+  void set_dtr(bool on) override { dtr_ = on; }
+  void set_rts(bool on) override { rts_ = on; }
+
+  bool hears() const { return run_ && module_.cnet && module_.user_frames && module_.link; }
+  void end_datum();
+  void scan();
+
+  PlcMemory memory_;
+  UdataModule module_;
+  UdataProgram program_;
+  Duration gap_;
+  bool run_;
+  bool dtr_ = false, rts_ = false;
+  Bytes heard_;                 // of the datum that arrives
+  std::deque<Bytes> received_;  // oldest first
+  Time last_end_{}, now_{};
+  Duration character_time_{};
+  ReplyQueue queue_;
+  ServiceCounters counters_;
+};
+
+/// In its power-on state. Errors: parse_udata_config.
+Result<std::unique_ptr<EmulatedDevice>> make_udata_port(std::string_view model, const nlohmann::json& config);
+
+}  // namespace fieldproof
