@@ -25,7 +25,7 @@ Result<nlohmann::json> read_p2p_file(const std::string& path) {
   return config;
 }
 
-DeviceFactory naming_file(DeviceFactory make_device, std::string path) {
+HostedFactory naming_file(HostedFactory make_device, std::string path) {
   return [make_device = std::move(make_device), path = std::move(path)](const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
     Result<std::unique_ptr<EmulatedDevice>> device = make_device(config);
     if (!device) return fail(path + ": " + device.error().message);

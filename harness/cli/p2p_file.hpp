@@ -12,6 +12,6 @@ namespace fieldproof {
 Result<nlohmann::json> read_p2p_file(const std::string& path);
 
 /// The same factory, whose errors name the file.
-DeviceFactory naming_file(DeviceFactory make_device, std::string path);
+HostedFactory naming_file(HostedFactory make_device, std::string path);
 
 }  // namespace fieldproof
