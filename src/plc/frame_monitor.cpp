@@ -62,7 +62,6 @@ std::string csv_row(const MonitoredFrame& frame, std::string_view time) {
 }
 
 void FrameMonitor::receive(const Burst& burst) {
-  if (burst.start > silent_from()) close();
   heard_.insert(heard_.end(), burst.bytes.begin(), burst.bytes.end());
   last_end_ = burst.end();
   character_time_ = burst.character_time;

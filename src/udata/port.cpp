@@ -22,7 +22,6 @@ UdataPort::UdataPort(const UdataConfig& config)
 
 void UdataPort::receive(const Burst& burst) {
   if (burst.bytes.empty()) return;
-  if (burst.start - last_end_ > gap_) end_datum();
   last_end_ = burst.end();
   now_ = std::max(now_, last_end_);
   character_time_ = burst.character_time;
