@@ -133,8 +133,6 @@ void P2pClient::power_cycle() {
   busy_.reset();
   wanted_ = round_ = 0;
   clocks_run_ = false;
-  scan();  // a flag that is on has not risen
-  wanted_ = 0;
 }
 
 void P2pClient::on_frame(ByteView frame, Time) {

@@ -138,6 +138,16 @@ TEST(P2pClient, ClocksCountFromPowerOn) {
   EXPECT_EQ(b.client->wake_at(), 500ms);
 }
 
+TEST(P2pClient, ALateLookDoesNotMoveTheClock) {
+  Bench b(block("F90"));
+  b.client->advance(0ms);
+  EXPECT_EQ(to_text(b.client->advance(65ms)), "ask 0");  // for 20, 40 and 60 ms
+  b.now = 65ms;
+  b.reply("ok", 1ms);
+  EXPECT_EQ(b.sent(1s), "ask 0");
+  EXPECT_EQ(b.now, 80ms);
+}
+
 TEST(P2pClient, EdgesOfAClockAreLostWhileBusy) {
   Bench b(block("F90"));
   EXPECT_EQ(b.sent(20ms), "ask 0");
@@ -222,6 +232,10 @@ TEST(P2pClient, NoiseBeforeTheReplyIsPassedOver) {
   b.reply("broken 01");
   b.reply("ok");
   EXPECT_EQ(b.result(0), "1 0 00 01 00");
+  b.pulse("%MX0");
+  b.sent();
+  b.sent(10s);  // silence
+  EXPECT_EQ(b.result(0), "0 1 0A 01 01");
 }
 
 TEST(P2pClient, WhatCannotBeSent) {
