@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "reports/case_text.hpp"
 #include "reports/compare_statistics.hpp"
 
 namespace fieldproof {
@@ -118,7 +119,7 @@ RunSummary summarize(const ResultFile& file) {
   if (const auto gate = file.run.properties.find("gate"); gate != file.run.properties.end()) summary.gate = parse_gate(gate->second);
   for (const CaseResult& result : file.results) {
     summary.tally.add(result.verdict);
-    add(result, summary.cases[result.id]);
+    add(result, summary.cases[case_name(result)]);
   }
   return summary;
 }

@@ -45,11 +45,13 @@ JudgeRules Bench::rules() const {
   JudgeRules rules;
   const Capabilities& can = endpoint_.capabilities();
   rules.guard_band = options_.profile.guard_band;
-  rules.timing_floor = std::max(options_.profile.floor, can.timing_floor);
+  const Duration declared = std::max(options_.profile.floor, can.timing_floor);
+  rules.timing_floor = timing_floor(declared, options_.profile.response_max, floor_);
+  rules.turnaround_min = options_.profile.turnaround_min;
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
   // 003 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
-  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, rules.timing_floor) : shortest_judged;
+  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, gap_floor(declared, floor_)) : shortest_judged;
   return rules;
 }
 
@@ -60,11 +62,19 @@ Status Bench::start() {
   if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
   if (Status begun = endpoint_.begin(config); !begun) return begun;
   const Result<bool> alive = exchange_.anything_answers(station, start_patience);
+  port_failed_ = !alive;
   if (!alive) return alive.error();
   if (*alive) return ok();
   return fail(fmt::format("nothing answers on {} at station {}: check that the device has power, that speed, data bits, parity and stop bits are "
                           "its own, that its station number is {} and that A and B are not swapped",
                           endpoint_.describe(), station, station));
+}
+
+Result<std::optional<AdapterFloor>> Bench::measure_floor() {
+  if (endpoint_.capabilities().simulated) return std::optional<AdapterFloor>();
+  Result<ResponseTimes> times = exchange_.time_probes(options_.station, floor_probes, floor_budget);
+  if (!times) return times.error();
+  return std::optional(AdapterFloor{AdapterFloor::Source::device, {}, std::move(*times)});
 }
 
 int Bench::station_for(const Case& source) const {

@@ -5,6 +5,7 @@
 #include "harness/bench/prepared_case.hpp"
 #include "harness/bench/transcript.hpp"
 #include "harness/endpoints/endpoint.hpp"
+#include "harness/results/response_times.hpp"
 
 namespace fieldproof {
 
@@ -30,6 +31,9 @@ class Exchange {
   /// Does anything answer? Repeats the probe until `patience` is over; a device may be set to delay its replies.
   /// What answers is not judged.
   Result<bool> anything_answers(int station, Duration patience, Duration reply_delay = {});
+
+  /// How long answers to the probe take: so many, or fewer when `budget` is over first.
+  Result<ResponseTimes> time_probes(int station, int count, Duration budget);
 
  private:
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);

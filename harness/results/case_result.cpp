@@ -131,6 +131,7 @@ void to_json(json& object, const CaseResult& result) {
   object = {{"id", result.id},       {"rev", result.rev},     {"protocol", result.protocol},
             {"title", result.title}, {"level", result.level}, {"basis", result.basis},
             {"verdict", to_string(result.verdict)},           {"seconds", result.seconds}};
+  put(object, "line", result.line);
   if (result.repeat != 0) object["repeat"] = result.repeat;
   put(object, "manual", result.manual);
   put(object, "section", result.section);
@@ -157,6 +158,7 @@ void from_json(const json& object, CaseResult& result) {
   const auto verdict = parse_verdict(word);
   if (!verdict) refuse("unknown verdict '" + word + "'", object);
   result.verdict = *verdict;
+  get(object, "line", result.line);
   get(object, "repeat", result.repeat);
   get(object, "rev", result.rev);
   get(object, "protocol", result.protocol);

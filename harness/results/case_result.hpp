@@ -54,7 +54,8 @@ struct Difference {
 };
 
 struct CaseResult {
-  std::string id;        // "xgt_cnet/rss/two_words", unique in a run together with `repeat`
+  std::string id;        // "xgt_cnet/rss/two_words", unique in a run together with `line` and `repeat`
+  std::string line;      // step of a line matrix: "38400-8N1"; empty: there is none
   int repeat = 0;        // 0-based repetition
   int rev = 1;
   std::string protocol;  // "xgt-cnet"
