@@ -55,7 +55,7 @@ void add(const CaseResult& result, CaseSummary& summary) {
   summary.title = result.title;
   summary.rev = result.rev;
   summary.response_ms.insert(summary.response_ms.end(), result.response_ms.begin(), result.response_ms.end());
-  summary.timing_floor_ms = std::max(summary.timing_floor_ms, to_ms(result.recording.timing_floor));
+  summary.timing_floor_ms = std::max(summary.timing_floor_ms, to_ms(result.recording.link_floor));
 }
 
 std::optional<Change> change_of(const CaseSummary& before, const CaseSummary& after, const Gate& old_gate, const Gate& new_gate) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "harness/bench/recording.hpp"
+#include "harness/endpoints/hook.hpp"
 #include "harness/vectors/loader.hpp"
 
 namespace fieldproof {
@@ -47,11 +48,12 @@ JudgeRules Bench::rules() const {
   rules.guard_band = options_.profile.guard_band;
   const Duration declared = std::max(options_.profile.floor, can.timing_floor);
   rules.timing_floor = timing_floor(declared, options_.profile.response_max, floor_);
+  rules.link_floor = gap_floor(declared, floor_);
   rules.turnaround_min = options_.profile.turnaround_min;
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
   // 003 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
-  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, gap_floor(declared, floor_)) : shortest_judged;
+  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, rules.link_floor) : shortest_judged;
   return rules;
 }
 
@@ -64,6 +66,7 @@ Status Bench::start() {
   const Result<bool> alive = exchange_.anything_answers(station, start_patience);
   port_failed_ = !alive;
   if (!alive) return alive.error();
+  answers_ = *alive;
   if (*alive) return ok();
   return fail(fmt::format("nothing answers on {} at station {}: check that the device has power, that speed, data bits, parity and stop bits are "
                           "its own, that its station number is {} and that A and B are not swapped",
@@ -71,7 +74,7 @@ Status Bench::start() {
 }
 
 Result<std::optional<AdapterFloor>> Bench::measure_floor() {
-  if (endpoint_.capabilities().simulated) return std::optional<AdapterFloor>();
+  if (endpoint_.capabilities().simulated || !answers_) return std::optional<AdapterFloor>();
   Result<ResponseTimes> times = exchange_.time_probes(options_.station, floor_probes, floor_budget);
   if (!times) return times.error();
   return std::optional(AdapterFloor{AdapterFloor::Source::device, {}, std::move(*times)});
@@ -256,7 +259,7 @@ void Bench::after(const PreparedCase& prepared, const Transcript& transcript, Ca
 
 bool Bench::power_cycle(CaseResult& result) {
   const bool hook = !options_.power_cycle_command.empty();
-  if (hook && std::system(options_.power_cycle_command.c_str()) != 0) {
+  if (hook && !run_hook(options_.power_cycle_command, {}, {})) {
     result.notes.push_back("the --power-cycle command failed");
     return false;
   }

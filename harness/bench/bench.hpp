@@ -32,7 +32,7 @@ class Bench {
   /// The first sanity exchange: does anything answer at all? The error tells the engineer what to check.
   Status start();
 
-  /// How fast this device answers; none on simulated time, which has no floor.
+  /// How fast this device answers; none on simulated time, which has no floor, and where start() found no answer.
   Result<std::optional<AdapterFloor>> measure_floor();
   void use_floor(AdapterFloor floor) { floor_ = std::move(floor); }
   /// A limit below it is INCONCLUSIVE.
@@ -82,6 +82,7 @@ class Bench {
   std::string stopped_;
   int errors_in_a_row_ = 0;
   bool port_failed_ = false;
+  bool answers_ = false;  // the device answers probes
   bool interrupted_ = false;
 };
 

@@ -62,6 +62,7 @@ class BenchTest : public testing::Test {
 
 TEST_F(BenchTest, TheFloorIsMeasuredOnRealTimeAlone) {
   endpoint.answers["<probe>"] = Pieces{{30ms, "<alive>"}};
+  ASSERT_TRUE(bench().start());
   EXPECT_FALSE(*bench().measure_floor()) << "simulated time has none";
   on_real_device();
   endpoint.can.timing_floor = 20ms;
@@ -76,6 +77,7 @@ TEST_F(BenchTest, TheFloorIsMeasuredOnRealTimeAlone) {
 TEST_F(BenchTest, ALimitBelowTheMeasuredFloorIsInconclusive) {
   on_real_device();
   endpoint.answers["<probe>"] = Pieces{{30ms, "<alive>"}};
+  ASSERT_TRUE(bench().start());
   bench().use_floor(**bench().measure_floor());
   EXPECT_EQ(run(vector(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "29ms"})")).verdict, Verdict::inconclusive);
   EXPECT_EQ(run(vector(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "31ms"})")).verdict, Verdict::pass);

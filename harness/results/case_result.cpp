@@ -98,7 +98,8 @@ void from_json(const json& object, StepOutcome& step) {
 
 void to_json(json& object, const Recording& recording) {
   object = {{"stimulus", recording.stimulus}, {"station", recording.station}, {"steps", recording.steps},
-            {"timing_floor_ms", to_ms(recording.timing_floor)}, {"max_gap_ms", to_ms(recording.max_gap)}};
+            {"timing_floor_ms", to_ms(recording.timing_floor)}, {"link_floor_ms", to_ms(recording.link_floor)},
+            {"max_gap_ms", to_ms(recording.max_gap)}};
   if (recording.flooded) object["flooded"] = true;
   put(object, "dead", recording.dead);
 }
@@ -111,6 +112,8 @@ void from_json(const json& object, Recording& recording) {
   get(object, "flooded", recording.flooded);
   get(object, "dead", recording.dead);
   get_time(object, "timing_floor_ms", recording.timing_floor);
+  recording.link_floor = recording.timing_floor;  // older files have one floor
+  get_time(object, "link_floor_ms", recording.link_floor);
   get_time(object, "max_gap_ms", recording.max_gap);
 }
 

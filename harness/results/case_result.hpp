@@ -42,6 +42,7 @@ struct Recording {
   bool flooded = false;
   std::string dead;              // why the link counts as dead after the case
   Duration timing_floor{};       // what this link could show: JudgeRules
+  Duration link_floor{};         // the part of it that is not the device's own: no smaller shift between runs counts
   Duration max_gap{};
 };
 
