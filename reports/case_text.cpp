@@ -158,8 +158,12 @@ std::string shorten(const std::string& text, const CaseTextOptions& options) {
   return clean.substr(0, cut) + " ...";
 }
 
+std::string case_name(const CaseResult& result) {
+  return result.line.empty() ? xml_line(result.id) : fmt::format("{} [{}]", xml_line(result.id), xml_line(result.line));
+}
+
 std::string case_label(const CaseResult& result) {
-  return result.repeat == 0 ? xml_line(result.id) : fmt::format("{} #{}", xml_line(result.id), result.repeat + 1);
+  return result.repeat == 0 ? case_name(result) : fmt::format("{} #{}", case_name(result), result.repeat + 1);
 }
 
 std::string case_timing(const CaseResult& result) {

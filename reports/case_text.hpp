@@ -17,7 +17,10 @@ struct CaseTextOptions {
 /// One line of text that may be long, cut where the frame that it is about would be.
 std::string shorten(const std::string& text, const CaseTextOptions& options);
 
-/// "xgt_cnet/rss/two_words", or "xgt_cnet/rss/two_words #2" for its first repetition.
+/// "xgt_cnet/rss/two_words", with the step of a line matrix: "xgt_cnet/rss/two_words [38400-8N1]".
+std::string case_name(const CaseResult& result);
+
+/// The name, with " #2" for its first repetition.
 std::string case_label(const CaseResult& result);
 
 /// One line: what is wrong; the verdict's word where nothing is said.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "reports/case_text.hpp"
 #include "reports/compare_statistics.hpp"
 
 namespace fieldproof {
@@ -54,7 +55,7 @@ void add(const CaseResult& result, CaseSummary& summary) {
   summary.title = result.title;
   summary.rev = result.rev;
   summary.response_ms.insert(summary.response_ms.end(), result.response_ms.begin(), result.response_ms.end());
-  summary.timing_floor_ms = std::max(summary.timing_floor_ms, to_ms(result.recording.timing_floor));
+  summary.timing_floor_ms = std::max(summary.timing_floor_ms, to_ms(result.recording.link_floor));
 }
 
 std::optional<Change> change_of(const CaseSummary& before, const CaseSummary& after, const Gate& old_gate, const Gate& new_gate) {
@@ -118,7 +119,7 @@ RunSummary summarize(const ResultFile& file) {
   if (const auto gate = file.run.properties.find("gate"); gate != file.run.properties.end()) summary.gate = parse_gate(gate->second);
   for (const CaseResult& result : file.results) {
     summary.tally.add(result.verdict);
-    add(result, summary.cases[result.id]);
+    add(result, summary.cases[case_name(result)]);
   }
   return summary;
 }

@@ -155,7 +155,7 @@ TEST_F(CompareTest, CertainButSmallShiftsAreNotReported) {
   EXPECT_THAT(compared({result_of("x", Verdict::pass, "", times(400, 8))}, {result_of("x", Verdict::pass, "", times(410, 8))}).comparisons.at(0).shifts, IsEmpty())
       << "2.5 %";
   std::vector<CaseResult> before{result_of("x", Verdict::pass, "", times(4, 8))}, after{result_of("x", Verdict::pass, "", times(9, 8))};
-  after[0].recording.timing_floor = 20ms;
+  after[0].recording.link_floor = 20ms;
   EXPECT_THAT(compared(before, after).comparisons.at(0).shifts, IsEmpty()) << "the link cannot tell 5 ms";
 }
 

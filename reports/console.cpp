@@ -116,6 +116,8 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   const std::size_t total = summary.tally.total();
   std::string text = fmt::format("\n{} case{} in {:.1f} s\n", total, total == 1 ? "" : "s", summary.end.seconds);
   text += counts(summary.tally, options);
+  if (const std::string timing = timing_text(summary.timing); !timing.empty()) text += '\n' + timing;
+  if (summary.soak) text += '\n' + soak_text(*summary.soak);
   text += red_cases(summary.red);
   std::size_t width = 0;
   for (const auto& [kind, path] : summary.reports) width = std::max(width, kind.size());

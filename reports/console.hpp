@@ -1,12 +1,15 @@
 // What a person at the bench reads. Pure functions from results to text: the caller prints.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "harness/results/case_result.hpp"
+#include "harness/results/soak.hpp"
 #include "reports/tally.hpp"
+#include "reports/timing_table.hpp"
 
 namespace fieldproof {
 
@@ -48,6 +51,8 @@ struct Summary {
   RunEnd end;
   std::vector<std::string> red;  // labels of the cases that turned the gate red, in order
   std::vector<std::pair<std::string, std::string>> reports;  // kind and path: {"junit", "fieldproof-out/junit.xml"}
+  TimingTable::Rows timing = {};
+  std::optional<SoakSummary> soak = {};
 };
 
 /// Counts of the verdicts that occur with their meaning, the red cases, exit code and its meaning, paths of the reports.

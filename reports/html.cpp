@@ -31,6 +31,7 @@ void write_contents(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate)
     };
     link(survey.tally.gating(gate) > 0, "#red", "Red");
     link(true, "#sections", "Sections");
+    link(survey.log.soak.has_value(), "#soak", "Soak");
     link(!survey.response_ms.empty(), "#timing", "Response times");
     link(gate.qualify, "#sheet", "Qualification sheet");
     link(true, "#unexecuted", "Not judged");
@@ -116,6 +117,13 @@ void write_times(HtmlWriter& out, const HtmlSurvey& survey) {
   write_timing(out, survey.response_ms, limit);
 }
 
+void write_soak(HtmlWriter& out, const HtmlSurvey& survey) {
+  if (!survey.log.soak) return;
+  out.element("h2", {{"id", "soak"}}, "Soak");
+  out.element("p", {}, "All repetitions. The cases above are the first of each and, as far as they are written, those that failed.");
+  out.element("pre", {}, soak_text(*survey.log.soak));
+}
+
 void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate, const std::string& log_hash) {
   out.element("section", {{"id", "sheet"}, {"class", gate.qualify ? "sheet" : "plain"}}, [&] {
     if (gate.qualify) {
@@ -147,6 +155,7 @@ Result<Tally> write_html(const std::string& ndjson, const std::string& path, con
   write_contents(body, *survey, gate);
   write_red(body, *survey, gate);
   write_sections(body, *survey);
+  write_soak(body, *survey);
   write_times(body, *survey);
   write_sheet(body, *survey, gate, *log_hash);
   write_legend(body, gate);

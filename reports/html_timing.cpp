@@ -101,7 +101,7 @@ void write_timing(HtmlWriter& out, const std::map<std::string, std::vector<doubl
       out.element("tr", {}, [&] {
         out.element("th", {}, "cases");
         out.element("th", {{"class", "plot"}}, [&] { write_axis(out, scale); });
-        for (const char* head : {"replies", "median", "95 %", "greatest"}) out.element("th", {{"class", "num"}}, head);
+        for (const char* head : {"replies", "least", "median", "99 %", "greatest"}) out.element("th", {{"class", "num"}}, head);
       });
     });
     out.element("tbody", {}, [&] {
@@ -112,7 +112,7 @@ void write_timing(HtmlWriter& out, const std::map<std::string, std::vector<doubl
           out.element("td", {}, group);
           out.element("td", {{"class", "plot"}}, [&] { write_plot(out, sorted, scale, limit_ms); });
           out.element("td", {{"class", "num"}}, fmt::format("{}", sorted.size()));
-          for (const double part : {0.5, 0.95, 1.0}) out.element("td", {{"class", "num"}}, fmt::format("{:.3f}", percentile(sorted, part)));
+          for (const double part : {0.0, 0.5, 0.99, 1.0}) out.element("td", {{"class", "num"}}, fmt::format("{:.3f}", percentile(sorted, part)));
         });
       }
     });

@@ -6,6 +6,7 @@
 
 #include "harness/results/ndjson.hpp"
 #include "reports/report_file.hpp"
+#include "reports/timing_table.hpp"
 
 namespace fieldproof {
 namespace {
@@ -25,13 +26,20 @@ std::string counts(const Tally& tally) {
 
 Result<Tally> write_json(const std::string& ndjson, const std::string& path) {
   Tally tally;
-  auto log = read_ndjson(ndjson, [&](const CaseResult& result) { tally.add(result.verdict); });
+  TimingTable timing;
+  auto log = read_ndjson(ndjson, [&](const CaseResult& result) {
+    tally.add(result.verdict);
+    timing.add(result);
+  });
   if (!log) return log.error();
   auto file = ReportFile::create(path);
   if (!file) return file.error();
 
   std::ostream& out = file->out();
-  out << "{\"schema\":1,\n\"run\":" << print(log->run) << ",\n\"counts\":" << counts(tally) << ",\n\"cases\":[";
+  out << "{\"schema\":1,\n\"run\":" << print(log->run) << ",\n\"counts\":" << counts(tally) << ",\n\"timing\":" << print(timing.json());
+  if (log->soak) out << ",\n\"soak\":" << print(*log->soak);
+  if (!log->samples.empty()) out << ",\n\"samples\":" << print(log->samples);
+  out << ",\n\"cases\":[";
   Tally written;
   auto again = read_ndjson(ndjson, [&](const CaseResult& result) {
     out << (written.total() == 0 ? "\n" : ",\n") << print(result);

@@ -11,15 +11,17 @@
 #include "reports/case_text.hpp"
 #include "reports/report_file.hpp"
 #include "reports/run_text.hpp"
+#include "reports/timing_table.hpp"
 #include "reports/xml_text.hpp"
 
 namespace fieldproof {
 namespace {
 
 struct Suite {
-  std::string protocol;
-  Tally tally;
+  std::string protocol = {};
+  Tally tally = {};
   double seconds = 0;
+  TimingTable timing = {};
 };
 
 /// What the first pass finds.
@@ -36,9 +38,10 @@ Result<Survey> survey_results(const std::string& ndjson) {
   std::vector<Suite> suites;
   auto log = read_ndjson(ndjson, [&](const CaseResult& result) {
     auto suite = std::find_if(suites.begin(), suites.end(), [&](const Suite& s) { return s.protocol == result.protocol; });
-    if (suite == suites.end()) suite = suites.insert(suites.end(), {result.protocol, {}, 0});
+    if (suite == suites.end()) suite = suites.insert(suites.end(), {.protocol = result.protocol});
     suite->tally.add(result.verdict);
     suite->seconds += result.seconds;
+    suite->timing.add(result);
   });
   if (!log) return log.error();
   // A run without a result still says what it was about, and why nothing came of it.
@@ -117,7 +120,7 @@ std::string suite_tag(const Suite& suite, const RunLog& log, const Gate& gate) {
   return opening_tag(node, 1);
 }
 
-std::string properties(const RunLog& log, const Gate& gate) {
+std::string properties(const Suite& suite, const RunLog& log, const Gate& gate) {
   pugi::xml_document document;
   pugi::xml_node list = document.append_child("properties");
   const auto add = [&](const std::string& name, const std::string& value) {
@@ -137,6 +140,8 @@ std::string properties(const RunLog& log, const Gate& gate) {
   add("end", log.end ? log.end->finished : "missing");
   if (log.end) add("exit_code", std::to_string(log.end->exit_code));
   if (const std::string why = early_end(log); !why.empty()) add("ended_early", why);
+  if (log.soak) add("soak", soak_text(*log.soak));
+  for (const auto& [name, figures] : suite.timing.rows()) add("reply times " + name, to_string(figures));
   return print(list, 2);
 }
 
@@ -190,7 +195,7 @@ std::string testcase(const CaseResult& result, const Gate& gate) {
 }
 
 Status write_suite(std::ostream& out, const std::string& ndjson, const Suite& suite, const RunLog& log, const Gate& gate) {
-  out << suite_tag(suite, log, gate) << properties(log, gate);
+  out << suite_tag(suite, log, gate) << properties(suite, log, gate);
   Tally written;
   auto again = read_ndjson(ndjson, [&](const CaseResult& result) {
     if (result.protocol != suite.protocol) return;
@@ -222,6 +227,7 @@ JunitName junit_name(const CaseResult& result) {
     name.classname += '.' + name.name.substr(0, slash);
     name.name.erase(0, slash + 1);
   }
+  if (!result.line.empty()) name.name += fmt::format(" [{}]", result.line);
   if (result.repeat > 0) name.name += fmt::format(" #{}", result.repeat + 1);
   return name;
 }

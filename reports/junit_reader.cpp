@@ -6,6 +6,7 @@
 #include <charconv>
 #include <map>
 #include <pugixml.hpp>
+#include <tuple>
 
 namespace fieldproof {
 namespace {
@@ -35,6 +36,10 @@ void read_name(pugi::xml_node node, CaseResult& result) {
         result.repeat = number - 1;
         result.id.resize(mark);
       }
+    }
+    if (const std::size_t mark = result.id.rfind(" ["); mark != std::string::npos && result.id.ends_with(']')) {
+      result.line = result.id.substr(mark + 2, result.id.size() - mark - 3);
+      result.id.resize(mark);
     }
   } else if (classname == "fieldproof") {
     classname.clear();
@@ -90,7 +95,7 @@ Result<ResultFile> read_junit_text(const std::string& text, const std::string& p
   for (const pugi::xpath_node& found : document.select_nodes("//testsuite/properties/property"))
     read_property(found.node().attribute("name").value(), found.node().attribute("value").value(), file.run);
   file.run.started = document.select_node("//testsuite[@timestamp]").node().attribute("timestamp").value();
-  std::map<std::pair<std::string, int>, int> seen;
+  std::map<std::tuple<std::string, std::string, int>, int> seen;
   for (const pugi::xpath_node& found : document.select_nodes("//testcase")) {
     CaseResult result;
     result.rev = 0;
@@ -98,7 +103,7 @@ Result<ResultFile> read_junit_text(const std::string& text, const std::string& p
     if (result.id.empty()) return fail(fmt::format("cannot read {}: test case {} has no name", path, file.results.size() + 1));
     read_outcome(found.node(), result);
     result.seconds = found.node().attribute("time").as_double();
-    result.repeat += seen[{result.id, result.repeat}]++;  // others may name two alike
+    result.repeat += seen[{result.id, result.line, result.repeat}]++;  // others may name two alike
     file.results.push_back(std::move(result));
   }
   return file;

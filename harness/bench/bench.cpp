@@ -7,6 +7,7 @@
 
 #include "harness/bench/p2p_blocks.hpp"
 #include "harness/bench/recording.hpp"
+#include "harness/endpoints/hook.hpp"
 #include "harness/vectors/loader.hpp"
 
 namespace fieldproof {
@@ -51,13 +52,16 @@ JudgeRules Bench::rules() const {
   JudgeRules rules;
   const Capabilities& can = endpoint_.capabilities();
   rules.guard_band = options_.profile.guard_band;
-  rules.timing_floor = std::max(options_.profile.floor, can.timing_floor);
+  const Duration declared = std::max(options_.profile.floor, can.timing_floor);
+  rules.timing_floor = timing_floor(declared, options_.profile.response_max, floor_);
+  rules.link_floor = gap_floor(declared, floor_);
+  rules.turnaround_min = options_.profile.turnaround_min;
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
   // Simulated time is exact, but for the moment at which a character counts as come.
   if (can.simulated) rules.period_tolerance = endpoint_.character_time();
   // 003 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
-  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, rules.timing_floor) : shortest_judged;
+  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, rules.link_floor) : shortest_judged;
   return rules;
 }
 
@@ -69,7 +73,9 @@ Status Bench::start() {
   if (Status begun = endpoint_.begin(config); !begun) return begun;
   const bool listens = endpoint_.capabilities().real_device && !options_.client_cases.empty();
   const Result<bool> alive = listens ? wait_for_request() : exchange_.anything_answers(station, start_patience);
+  port_failed_ = !alive;
   if (!alive) return alive.error();
+  answers_ = *alive;
   if (*alive) return ok();
   if (listens)
     return fail(fmt::format("nothing is asked on {}: check that the PLC is in RUN, that P2P has its link enable (000 11.2.2), that the block's condition "
@@ -101,6 +107,13 @@ Result<bool> Bench::wait_for_request() {
     return asked;
   }
   return true;
+}
+
+Result<std::optional<AdapterFloor>> Bench::measure_floor() {
+  if (endpoint_.capabilities().simulated || !answers_) return std::optional<AdapterFloor>();
+  Result<ResponseTimes> times = exchange_.time_probes(options_.station, floor_probes, floor_budget);
+  if (!times) return times.error();
+  return std::optional(AdapterFloor{AdapterFloor::Source::device, {}, std::move(*times)});
 }
 
 int Bench::station_for(const Case& source) const {
@@ -329,7 +342,7 @@ void Bench::after(const PreparedCase& prepared, const Transcript& transcript, Ca
 
 bool Bench::power_cycle(CaseResult& result) {
   const bool hook = !options_.power_cycle_command.empty();
-  if (hook && std::system(options_.power_cycle_command.c_str()) != 0) {
+  if (hook && !run_hook(options_.power_cycle_command, {}, {})) {
     result.notes.push_back("the --power-cycle command failed");
     return false;
   }

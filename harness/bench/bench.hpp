@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/bench/adapter_floor.hpp"
 #include "harness/bench/exchange.hpp"
 #include "harness/bench/fence.hpp"
 #include "harness/bench/judge.hpp"
@@ -34,6 +35,15 @@ class Bench {
 
   /// The first sanity exchange: does anything answer at all? The error tells the engineer what to check.
   Status start();
+
+  /// How fast this device answers; none on simulated time, which has no floor, and where start() found no answer.
+  Result<std::optional<AdapterFloor>> measure_floor();
+  void use_floor(AdapterFloor floor) { floor_ = std::move(floor); }
+  /// A limit below it is INCONCLUSIVE.
+  Duration floor() const { return rules().timing_floor; }
+
+  /// No case can run, for this reason; they are BLOCKED.
+  void set_aside(std::string why) { stop(std::move(why)); }
 
   /// Never throws; whatever goes wrong is in the result.
   CaseResult run(const Case& source);
@@ -77,10 +87,12 @@ class Bench {
   Arming arming_;
   MemoryAccess memory_;
   Exchange exchange_;
+  std::optional<AdapterFloor> floor_;  // nothing: what is declared
   Readings readings_;
   std::string stopped_;
   int errors_in_a_row_ = 0;
   bool port_failed_ = false;
+  bool answers_ = false;  // the device answers probes
   bool interrupted_ = false;
 };
 

@@ -60,6 +60,29 @@ class BenchTest : public testing::Test {
   std::optional<Bench> bench_;
 };
 
+TEST_F(BenchTest, TheFloorIsMeasuredOnRealTimeAlone) {
+  endpoint.answers["<probe>"] = Pieces{{30ms, "<alive>"}};
+  ASSERT_TRUE(bench().start());
+  EXPECT_FALSE(*bench().measure_floor()) << "simulated time has none";
+  on_real_device();
+  endpoint.can.timing_floor = 20ms;
+  EXPECT_EQ(bench().floor(), 20ms);
+  const Result<std::optional<AdapterFloor>> measured = bench().measure_floor();
+  ASSERT_TRUE(measured && *measured);
+  EXPECT_EQ((*measured)->times.count(), static_cast<std::uint64_t>(floor_probes));
+  bench().use_floor(**measured);
+  EXPECT_EQ(bench().floor(), 30ms);
+}
+
+TEST_F(BenchTest, ALimitBelowTheMeasuredFloorIsInconclusive) {
+  on_real_device();
+  endpoint.answers["<probe>"] = Pieces{{30ms, "<alive>"}};
+  ASSERT_TRUE(bench().start());
+  bench().use_floor(**bench().measure_floor());
+  EXPECT_EQ(run(vector(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "29ms"})")).verdict, Verdict::inconclusive);
+  EXPECT_EQ(run(vector(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "31ms"})")).verdict, Verdict::pass);
+}
+
 TEST_F(BenchTest, StartAsksOnlyWhetherAnythingAnswers) {
   endpoint.answers["<probe>"] = Pieces{{1ms, "utter nonsense"}};
   EXPECT_TRUE(bench().start());
@@ -262,10 +285,23 @@ TEST(Profile, ExtendsAndOverrides) {
   EXPECT_EQ(profile->response_max, 500ms);
 }
 
+TEST(Profile, LimitsHaveUnits) {
+  const Result<Profile> profile = parse_profile(
+      R"({"name": "x", "protocols": ["a"], "timing": {"response_max": "0.25s", "turnaround_min": "1.5ms", "floor": "500us", "max_gap": "4ms", "guard_band": 0.2}})", "p", {});
+  ASSERT_TRUE(profile) << profile.error().message;
+  EXPECT_EQ(profile->response_max, 250ms);
+  EXPECT_EQ(profile->turnaround_min, 1500us);
+  EXPECT_EQ(profile->floor, 500us);
+  EXPECT_EQ(profile->max_gap, 4ms);
+  EXPECT_EQ(profile->guard_band, 0.2);
+}
+
 TEST(Profile, MistakesAreNamed) {
   const auto message = [](const std::string& text) { return parse_profile(text, "p.json", {}).error().message; };
   EXPECT_THAT(message(R"({"name": "x", "protocols": ["xgt-cnet"], "modle": "xbc-h"})"), HasSubstr("unknown key 'modle'; did you mean 'model'?"));
-  EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response_max": 1}})"), HasSubstr("unknown key timing.response_max"));
+  EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response": 1}})"), HasSubstr("unknown key timing.response"));
+  EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response_max": "5 parsecs"}})"), HasSubstr("timing.response_max: '5 parsecs' is no duration"));
+  EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response_max": 5}})"), HasSubstr("timing.response_max: '5' is no duration"));
   EXPECT_THAT(message(R"({"name": "x"})"), HasSubstr("no \"protocols\""));
   EXPECT_THAT(message("{"), HasSubstr("p.json"));
   EXPECT_THAT(load_profile("xbc-j", std::string(FIELDPROOF_SOURCE_DIR) + "/suites/profiles").error().message, HasSubstr("did you mean 'xbc-h'?"));

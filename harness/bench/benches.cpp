@@ -30,6 +30,39 @@ CaseResult Benches::run(const Case& source) {
   return (own == members_.end() ? members_.front() : *own).bench->run(source);
 }
 
+Result<std::string> Benches::measure_floor() {
+  std::string text;
+  for (Member& member : members_) {
+    Result<std::optional<AdapterFloor>> measured = member.bench->measure_floor();
+    if (!measured) return measured.error();
+    if (!*measured) continue;
+    member.bench->use_floor(**measured);
+    const std::string own = to_string(**measured, member.bench->floor());
+    text += members_.size() == 1 ? own : (text.empty() ? "" : "; ") + std::string(member.protocol->name()) + ' ' + own;
+  }
+  return text;
+}
+
+std::string Benches::use_floor(const AdapterFloor& floor) {
+  for (Member& member : members_) member.bench->use_floor(floor);
+  return to_string(floor, members_.front().bench->floor());
+}
+
+Status Benches::start_those_that_answer() {
+  for (Member& member : members_) {
+    const Status alive = member.bench->start();
+    if (alive) continue;
+    if (alive.error().interrupted || member.bench->port_failed()) return alive;
+    member.bench->set_aside(alive.error().message);
+  }
+  return ok();
+}
+
+std::string Benches::stopped() const {
+  const auto can_run = [](const Member& member) { return member.bench->stopped().empty(); };
+  return members_.empty() || std::ranges::any_of(members_, can_run) ? "" : members_.front().bench->stopped();
+}
+
 bool Benches::interrupted() const {
   return std::ranges::any_of(members_, [](const Member& member) { return member.bench->interrupted(); });
 }

@@ -17,10 +17,27 @@ class Benches {
   /// The sanity exchange of each; of those that have not stopped.
   Status start();
 
+  /// Measures what the link of each can show, before its first case; what it comes to, empty on simulated time.
+  Result<std::string> measure_floor();
+  /// The same of the first alone, without using it.
+  Result<std::optional<AdapterFloor>> measured_floor() { return members_.front().bench->measure_floor(); }
+  /// Instead of measuring: given by hand, or measured over a loop.
+  std::string use_floor(const AdapterFloor& floor);
+
+  /// The sanity exchange of each; who does not answer is set aside. Nothing: at least one answers. An error: the port.
+  Status start_those_that_answer();
+
   /// On the bench of the case's protocol; a case of another protocol is SKIP.
   CaseResult run(const Case& source);
 
+  /// Do the links carry speed and character format?
+  bool wire() const { return members_.front().endpoint->capabilities().wire; }
+  /// Closes the ports; nothing but opening anew may follow.
+  void close() { members_.clear(); }
+
   bool interrupted() const;
+  /// Why no further case can run on any of them; empty while one can.
+  std::string stopped() const;
   /// "emulator xbc-h".
   std::string describe() const { return members_.front().endpoint->describe(); }
   /// "xgt-cnet, modbus-rtu".

@@ -283,6 +283,26 @@ Status Exchange::settle(Duration silence) {
   return transcript.trouble ? Status(*transcript.trouble) : ok();
 }
 
+Result<ResponseTimes> Exchange::time_probes(int station, int count, Duration budget) {
+  ResponseTimes times;
+  const Bytes request = protocol_.probe(station, {});
+  const Time give_up = endpoint_.now() + budget;
+  for (int i = 0; i < count && !request.empty() && endpoint_.now() < give_up; ++i) {
+    Transcript transcript;
+    while (listen(endpoint_.now(), transcript)) {}  // what is left of the answer before
+    await_frame_gap(transcript);
+    pending_ = {};
+    if (!transcript.trouble && transmit(request, transcript)) {
+      const Time until = last_sent_.end + timing_.response_max;
+      while (!protocol_.frame_length(pending_.bytes) && listen(until, transcript)) {}
+    }
+    if (transcript.trouble) return *transcript.trouble;
+    if (!pending_.bytes.empty()) times.add(to_ms(pending_.arrivals.front().start - last_sent_.end));
+  }
+  pending_ = {};
+  return times;
+}
+
 /// Takes complete frames off the front; how many.
 std::size_t Exchange::take_frames(Bytes& bytes) const {
   std::size_t count = 0;

@@ -6,6 +6,7 @@
 #include "harness/bench/prepared_case.hpp"
 #include "harness/bench/transcript.hpp"
 #include "harness/endpoints/endpoint.hpp"
+#include "harness/results/response_times.hpp"
 
 namespace fieldproof {
 
@@ -37,6 +38,8 @@ class Exchange {
   Result<bool> anything_is_asked(const PreparedCase& prepared, Duration patience);
   /// Client role: listens until the line is silent for so long; at most ten seconds. Nothing of it is judged.
   Status settle(Duration silence);
+  /// How long answers to the probe take: so many, or fewer when `budget` is over first.
+  Result<ResponseTimes> time_probes(int station, int count, Duration budget);
 
  private:
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);

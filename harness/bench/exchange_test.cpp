@@ -57,6 +57,29 @@ class ExchangeTest : public testing::Test {
 
 constexpr const char* two_requests = R"({"send": "'<ask>'"}, {"expect": "'<answer>'"}, {"send": "'<ask>'"}, {"expect": "'<answer>'"})";
 
+TEST_F(ExchangeTest, ProbesAreTimed) {
+  endpoint.answers["<probe>"] = Pieces{{3ms, "<alive>"}};
+  const TestProtocol protocol;
+  Exchange exchange(endpoint, protocol, {});
+  const Result<ResponseTimes> times = exchange.time_probes(1, 20, 2s);
+  ASSERT_TRUE(times) << times.error().message;
+  EXPECT_EQ(times->count(), 20u);
+  EXPECT_DOUBLE_EQ(times->least(), 3);
+  EXPECT_DOUBLE_EQ(times->greatest(), 3);
+}
+
+TEST_F(ExchangeTest, TimingProbesIsBounded) {
+  endpoint.answers.clear();
+  const TestProtocol protocol;
+  Exchange exchange(endpoint, protocol, {});
+  const Result<ResponseTimes> times = exchange.time_probes(1, 20, 2s);
+  ASSERT_TRUE(times) << times.error().message;
+  EXPECT_EQ(times->count(), 0u);
+  EXPECT_LE(endpoint.sent.size(), 5u) << "nothing answers: half a second each, two seconds in all";
+  const MuteProtocol mute;
+  EXPECT_EQ(Exchange(endpoint, mute, {}).time_probes(1, 20, 2s)->count(), 0u);
+}
+
 TEST_F(ExchangeTest, NothingIsWaitedForWhereFramesHaveAnEnd) {
   EXPECT_THAT(exchange(TestProtocol(), two_requests), ElementsAre("<ask>", "<ask>"));
 }

@@ -186,7 +186,7 @@ class Judge {
   void judge_timing(const PreparedStep& step, const StepRecord& record) {
     const Duration limit = record.deadline - record.stimulus;
     const Duration took = record.received.arrivals.front().start - record.stimulus;
-    if (step.step->within && limit < rules_.timing_floor)
+    if (limit < rules_.timing_floor)
       return lower_to(Verdict::inconclusive, fmt::format("the limit of {:.1f} ms is below the floor of this link, {:.1f} ms", to_ms(limit), to_ms(rules_.timing_floor)));
     if (took > limit) {
       const std::string message = fmt::format("late {}: {:.1f} ms after {}, the limit is {:.0f} ms", prepared_.is_client() ? "request" : "answer",
@@ -195,6 +195,19 @@ class Judge {
     }
     if (static_cast<double>(took.count()) > static_cast<double>(limit.count()) * (1 - rules_.guard_band))
       lower_to(Verdict::marginal, fmt::format("answered after {:.1f} ms: inside the guard band of the limit, {:.0f} ms", to_ms(took), to_ms(limit)));
+    if (rules_.turnaround_min > 0ns) judge_turnaround(took);
+  }
+
+  void judge_turnaround(Duration took) {
+    const Duration least = rules_.turnaround_min;
+    if (least < rules_.timing_floor)
+      return lower_to(Verdict::inconclusive, fmt::format("the turnaround of {:.1f} ms is below the floor of this link, {:.1f} ms", to_ms(least), to_ms(rules_.timing_floor)));
+    if (took < least) {
+      const std::string message = fmt::format("early answer: {:.3f} ms after the request, the turnaround is {:.3f} ms at least", to_ms(took), to_ms(least));
+      return rules_.binding_timing ? miss(message) : lower_to(Verdict::non_strict, message);
+    }
+    if (static_cast<double>(took.count()) < static_cast<double>(least.count()) * (1 + rules_.guard_band))
+      lower_to(Verdict::marginal, fmt::format("answered after {:.3f} ms: inside the guard band of the turnaround, {:.3f} ms", to_ms(took), to_ms(least)));
   }
 
   void judge_gaps(const PreparedStep& step, const Received& received) {

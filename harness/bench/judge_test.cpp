@@ -73,6 +73,32 @@ TEST_F(JudgeTest, TheExpectedReplyPasses) {
   EXPECT_DOUBLE_EQ(result.response_ms[0], 10.0);
 }
 
+/// Both ends of a turnaround, its guard band and the floor below which it cannot be judged.
+TEST_F(JudgeTest, TurnaroundHasALeastTime) {
+  rules.turnaround_min = 4ms;
+  const auto verdict = [&](Duration after) {
+    endpoint.answers["<ask>"] = Pieces{{after, "<answer>"}};
+    return judged(ask());
+  };
+  EXPECT_EQ(verdict(3999us).verdict, Verdict::fail);
+  EXPECT_EQ(verdict(3999us).message, "early answer: 3.999 ms after the request, the turnaround is 4.000 ms at least");
+  EXPECT_EQ(verdict(4ms).verdict, Verdict::marginal);
+  EXPECT_EQ(verdict(4399us).verdict, Verdict::marginal);
+  EXPECT_EQ(verdict(4400us).verdict, Verdict::pass);
+  rules.binding_timing = false;
+  EXPECT_EQ(verdict(3999us).verdict, Verdict::non_strict);
+  rules.timing_floor = 5ms;
+  EXPECT_EQ(verdict(3999us).verdict, Verdict::inconclusive);
+}
+
+TEST_F(JudgeTest, TheLimitOfTheProfileBelowTheFloorIsInconclusiveToo) {
+  endpoint.answers["<ask>"] = Pieces{{10ms, "<answer>"}};
+  rules.timing_floor = 501ms;
+  EXPECT_EQ(judged(ask()).verdict, Verdict::inconclusive);
+  rules.timing_floor = 500ms;
+  EXPECT_EQ(judged(ask()).verdict, Verdict::pass);
+}
+
 TEST_F(JudgeTest, NoAnswerFails) {
   const Judgement result = judged(ask());
   EXPECT_EQ(result.verdict, Verdict::fail);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "src/base/duration.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof {
@@ -16,20 +17,37 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 10> profile_keys{"name", "title", "extends", "model", "protocols", "decisions", "config", "timing", "exclude", "prepared_blocks"};
-constexpr std::array<std::string_view, 4> timing_keys{"response_max_ms", "guard_band", "floor_ms", "max_gap_ms"};
+constexpr std::array<std::string_view, 9> timing_keys{"response_max", "turnaround_min", "floor", "max_gap", "guard_band",
+                                                      "response_max_ms", "turnaround_min_ms", "floor_ms", "max_gap_ms"};
 
 Duration from_ms(double ms) { return Duration(static_cast<Duration::rep>(ms * 1e6)); }
+
+/// A number of milliseconds where the key ends with _ms, else text with a unit.
+Duration duration_of(const std::string& key, const json& value) {
+  if (key.ends_with("_ms")) {
+    const double number = value.get<double>();
+    if (number < 0) throw std::runtime_error(fmt::format("timing.{} is negative", key));
+    return from_ms(number);
+  }
+  const Result<Duration> duration = parse_duration(value.is_string() ? value.get<std::string>() : value.dump());
+  if (!duration) throw std::runtime_error(fmt::format("timing.{}: {}", key, duration.error().message));
+  return *duration;
+}
 
 void read_timing(const json& timing, Profile& profile) {
   for (const auto& [key, value] : timing.items()) {
     if (std::ranges::find(timing_keys, key) == timing_keys.end())
       throw std::runtime_error(fmt::format("unknown key timing.{}{}", key, suggestion(key, timing_keys)));
-    const double number = value.get<double>();
-    if (number < 0) throw std::runtime_error(fmt::format("timing.{} is negative", key));
-    if (key == "response_max_ms") profile.response_max = from_ms(number);
-    if (key == "guard_band") profile.guard_band = number;
-    if (key == "floor_ms") profile.floor = from_ms(number);
-    if (key == "max_gap_ms") profile.max_gap = from_ms(number);
+    if (key == "guard_band") {
+      profile.guard_band = value.get<double>();
+      if (profile.guard_band < 0) throw std::runtime_error("timing.guard_band is negative");
+      continue;
+    }
+    const Duration duration = duration_of(key, value);
+    if (key.starts_with("response_max")) profile.response_max = duration;
+    if (key.starts_with("turnaround_min")) profile.turnaround_min = duration;
+    if (key.starts_with("floor")) profile.floor = duration;
+    if (key.starts_with("max_gap")) profile.max_gap = duration;
   }
 }
 

@@ -1,4 +1,4 @@
-// What a device declares: model, protocols, configuration, timing. It selects cases; what is not declared is SKIP.
+// What a device declares: model, protocols, configuration, timing ("response_max": "500ms", or "response_max_ms": 500). It selects cases; what is not declared is SKIP.
 #pragma once
 
 #include <filesystem>
@@ -24,6 +24,7 @@ struct Profile {
   std::vector<std::pair<std::string, std::string>> exclude;  // glob and reason: SKIP
 
   Duration response_max = 500ms;  // the manuals print none (PROTOCOLS: basis decision)
+  Duration turnaround_min{};      // no reply begins sooner; 0: no such limit (the manuals print none)
   double guard_band = 0.1;        // the last tenth of a limit is MARGINAL
   Duration floor{};               // the link's own uncertainty; 0: the endpoint's
   Duration max_gap{};             // silence allowed inside a reply; 0: 3.5 characters of 11 bits

@@ -131,6 +131,7 @@ Recording make_recording(const PreparedCase& prepared, const Transcript& transcr
   recording.flooded = transcript.flooded;
   recording.dead = transcript.dead;
   recording.timing_floor = rules.timing_floor;
+  recording.link_floor = rules.link_floor;
   recording.max_gap = rules.max_gap;
   recording.period_tolerance = rules.period_tolerance;
   return recording;

@@ -45,9 +45,11 @@ Rejudge::Outcome Rejudge::judge(const CaseResult& recorded) {
   rules.guard_band = profile_.guard_band;
   rules.binding_decisions = rules.binding_timing = profile_.binding_decisions;
   rules.timing_floor = std::max(profile_.floor, recorded.recording.timing_floor);
+  rules.turnaround_min = profile_.turnaround_min;
   rules.max_gap = profile_.max_gap > 0ns ? profile_.max_gap : recorded.recording.max_gap;
   rules.period_tolerance = recorded.recording.period_tolerance;
   take_judgement(fieldproof::judge(*prepared, *transcript, rules, *protocol), result);
+  result.line = recorded.line;
   result.repeat = recorded.repeat;
   result.seconds = recorded.seconds;
   result.exchange = recorded.exchange;

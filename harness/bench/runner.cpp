@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <stdexcept>
 
 namespace fieldproof {
 
@@ -32,7 +33,11 @@ class CaseTest : public testing::Test {
 class Repetitions : public testing::EmptyTestEventListener {
  public:
   explicit Repetitions(Context& context) : context_(context) {}
-  void OnTestIterationStart(const testing::UnitTest&, int iteration) override { context_.repeat = iteration; }
+  void OnTestIterationStart(const testing::UnitTest&, int iteration) override {
+    context_.repeat = iteration;
+    // GoogleTest has no way to end its repetitions early; an exception of a listener ends RUN_ALL_TESTS, and is caught there.
+    if (context_.stopped) throw std::runtime_error("stopped");
+  }
 
  private:
   Context& context_;
@@ -41,7 +46,7 @@ class Repetitions : public testing::EmptyTestEventListener {
 void initialize(const RunnerOptions& options) {
   // Selection, repetition and reports are ours, whatever GTEST_FILTER and its like say in the environment.
   std::vector<std::string> arguments{"fieldproof", "--gtest_color=no", "--gtest_filter=*", "--gtest_output=", "--gtest_fail_fast=0",
-                                     "--gtest_also_run_disabled_tests=1", fmt::format("--gtest_repeat={}", options.repeat)};
+                                     "--gtest_also_run_disabled_tests=1", "--gtest_catch_exceptions=1", fmt::format("--gtest_repeat={}", options.repeat)};
   if (options.shuffle) {
     arguments.push_back("--gtest_shuffle");
     arguments.push_back(fmt::format("--gtest_random_seed={}", options.seed % 100'000));  // what GoogleTest takes

@@ -12,7 +12,7 @@
 namespace fieldproof {
 
 struct RunnerOptions {
-  int repeat = 1;
+  int repeat = 1;                            // -1: until `run` stops it
   bool shuffle = false;
   int seed = 0;
   std::vector<std::string> gtest_arguments;  // what the user gave as --gtest_...

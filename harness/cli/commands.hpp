@@ -28,7 +28,11 @@ struct RunOptions {
   std::string aux;               // a second channel of the PLC under test
   std::vector<std::string> allow_write;
   std::vector<std::string> gtest_arguments;
-  double floor_ms = 0;           // --floor: the adapter's own uncertainty
+  std::string floor;             // the link's own uncertainty: "2ms"; empty: measured
+  std::string loop;              // endpoint with an emulator behind it, to measure the link with
+  std::string matrix;            // line settings to repeat the cases with: "38400 x 8N1,8E1"
+  std::string reconfigure;       // command that sets the device for a step of the matrix; empty: the engineer does
+  std::string duration;          // soak: "8h"
   int seed = -1;                 // >= 0: shuffled by it
   int repeat = 1;
   bool strict = false, qualify = false, fail_on_marginal = false;

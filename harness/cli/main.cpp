@@ -62,7 +62,11 @@ void add_run(CLI::App& app, RunOptions& run) {
   app.add_option("--baseline", run.baseline, "Results of an earlier run: what got worse since then fails the gate");
   app.add_option("--allow-write", run.allow_write, "Real devices: what may be written: M, M100-M199, all (outputs P, Q, U only when named)");
   app.add_option("--power-cycle", run.power_cycle, "Command that switches a real device off and on");
-  app.add_option("--floor", run.floor_ms, "The adapter's own uncertainty in ms: shorter limits are INCONCLUSIVE")->check(CLI::NonNegativeNumber);
+  app.add_option("--floor", run.floor, "The link's own uncertainty, instead of measuring it: 2ms; shorter limits are INCONCLUSIVE");
+  app.add_option("--loop", run.loop, "Measure the link's uncertainty here, where `fieldproof emulate` answers over the same kind of adapter");
+  app.add_option("--matrix", run.matrix, "Repeat the cases for each line setting: \"38400,115200 x 8N1,8E1\", or all");
+  app.add_option("--reconfigure", run.reconfigure, "Command that sets the device for a step of --matrix (SPEED FRAME behind it); else the engineer is asked");
+  app.add_option("--duration", run.duration, "Soak: repeat the cases for so long: 90s, 30m, 8h");
   app.add_option("--seed", run.seed, "Shuffle the cases by this seed")->check(CLI::Range(0, 99'999));
   app.add_option("--repeat", run.repeat, "Run the selection so many times")->check(CLI::Range(1, 1'000'000));
   add_gate(app, run);

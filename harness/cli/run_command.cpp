@@ -11,8 +11,11 @@
 #include "harness/bench/watchdog.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/compare_command.hpp"
+#include "harness/cli/line_matrix.hpp"
+#include "harness/cli/line_steps.hpp"
 #include "harness/cli/run_plan.hpp"
 #include "harness/cli/run_report.hpp"
+#include "harness/cli/soak_log.hpp"
 #include "harness/cli/timestamp.hpp"
 #include "harness/cli/tool_vectors.hpp"
 #include "harness/endpoints/interrupt.hpp"
@@ -28,7 +31,7 @@ Gate gate_of(const RunOptions& options) { return {options.strict, options.fail_o
 class Run {
  public:
   Run(const RunOptions& options, RunPlan& plan, Benches& benches, RunReport& report)
-      : options_(options), plan_(plan), benches_(benches), report_(report) {}
+      : options_(options), plan_(plan), benches_(benches), report_(report), lines_(plan, benches, options.reconfigure) {}
 
   RunInfo info() const {
     RunInfo info;
@@ -45,6 +48,9 @@ class Run {
     if (options_.seed >= 0) info.properties["seed"] = std::to_string(options_.seed);
     if (options_.repeat > 1) info.properties["repeat"] = std::to_string(options_.repeat);
     if (!plan_.line.empty()) info.properties["line"] = plan_.line;
+    if (!plan_.matrix.empty()) info.properties["matrix"] = options_.matrix;
+    if (plan_.soak > 0ns) info.properties["duration"] = options_.duration;
+    if (!floor_.empty()) info.properties["floor"] = floor_;
     info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan_.bench.profile.response_max));
     info.identity = plan_.identity;
     info.hashes = plan_.hashes;
@@ -52,35 +58,103 @@ class Run {
     return info;
   }
 
-  /// Sanity exchange, cases, sanity exchange; how it ended.
-  RunReport::End execute() {
-    if (const Status alive = benches_.start(); alive) {
-      RunnerOptions runner{options_.repeat, options_.seed >= 0, std::max(0, options_.seed), options_.gtest_arguments};
-      run_with_gtest(plan_.selected, runner, [this](const Case& source, int repeat) { return run_case(source, repeat); });
+  /// Sanity exchange and floor, which the head of the reports tells of; an error: nothing can run.
+  Status start() {
+    if (const Status measured = measure_over_loop(); !measured) return measured;
+    if (!plan_.matrix.empty()) return ok();  // at each step
+    if (const Status alive = benches_.start(); !alive) return alive;
+    Result<std::string> floor = take_floor(benches_);
+    if (!floor) return floor.error();
+    floor_ = std::move(*floor);
+    return ok();
+  }
+
+  /// Cases, sanity exchange; how it ended.
+  RunReport::End execute(const Status& started) {
+    started_ = std::chrono::steady_clock::now();
+    if (started) {
+      const int steps = std::max<int>(1, static_cast<int>(plan_.matrix.size()));
+      RunnerOptions runner{plan_.soak > 0ns ? -1 : options_.repeat * steps, options_.seed >= 0, std::max(0, options_.seed), options_.gtest_arguments};
+      run_with_gtest(plan_.selected, runner, [this](const Case& source, int round) { return run_case(source, round); });
+      if (soak_ && report_.tally().total() > 0) report_.add(soak_->summary(seconds()));
       // The last sanity exchange: whatever the cases left behind, the device still answers.
-      if (!interrupted())
+      if (!interrupted() && lines_.live())
         if (const Status still = benches_.start(); !still && !still.error().interrupted) end_.trouble = "after the last case: " + still.error().message;
       // Waivers that the whole run has shown to be needless turn the gate red.
       for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors))) report_.add(result);
-    } else if (alive.error().interrupted) {
+    } else if (started.error().interrupted) {
       end_.interrupted = true;
     } else {
-      end_.trouble = alive.error().message;
+      end_.trouble = started.error().message;
     }
     return end_;
   }
 
  private:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
+
+  /// With --loop: the floor of that link, for this one.
+  Status measure_over_loop() {
+    if (!plan_.loop) return ok();
+    Result<Benches> loop = Benches::open(*plan_.loop, {plan_.protocols.front()}, plan_.bench);
+    if (!loop) return fail("--loop: " + loop.error().message);
+    if (const Status alive = loop->start(); !alive) return Error{"--loop: " + alive.error().message, alive.error().interrupted};
+    Result<std::optional<AdapterFloor>> measured = loop->measured_floor();
+    if (!measured) return measured.error();
+    if (!*measured) return fail("--loop: simulated time has no floor; name a link on real time, such as pty:xbc-h");
+    plan_.floor = std::move(**measured);
+    plan_.floor->source = AdapterFloor::Source::loop;
+    return ok();
+  }
+
+  Result<std::string> take_floor(Benches& benches) const {
+    if (plan_.floor) return benches.use_floor(*plan_.floor);
+    return benches.measure_floor();
+  }
+
+  /// How many results there will be; of a soak, at the speed so far.
+  std::size_t expected_results() const {
+    const std::size_t done = report_.tally().total();
+    if (plan_.soak > 0ns) return done + static_cast<std::size_t>(static_cast<double>(done) * std::max(0.0, std::chrono::duration<double>(plan_.soak).count() / std::max(seconds(), 0.001) - 1));
+    return plan_.selected.size() * static_cast<std::size_t>(options_.repeat) * std::max<std::size_t>(1, plan_.matrix.size());
+  }
+
+  /// The step of the line matrix to which this round belongs. False: stop here.
+  bool enter_step(std::size_t step) {
+    if (lines_.current() == step) return true;
+    const Status entered = lines_.enter(step, [this](Benches& benches) { return take_floor(benches); });
+    if (!entered && entered.error().interrupted) end_.interrupted = true;
+    else if (!entered) end_.trouble = entered.error().message;
+    else report_.say(lines_.remark());
+    return bool(entered);
+  }
+
+  /// A soak goes on as long as there is time, and something to talk to.
+  bool soak_goes_on(int round) {
+    if (!soak_) soak_.emplace(std::chrono::duration<double>(plan_.soak).count(), report_.gate());
+    if (!benches_.stopped().empty()) end_.trouble = benches_.stopped();
+    return end_.trouble.empty() && !soak_->over(seconds()) && !soak_->idle(round);
+  }
+
+  bool add_to_soak(const CaseResult& result) {
+    if (!report_.add(result, soak_->take(result, seconds()))) return false;
+    const std::optional<SoakSample> sample = soak_->due_sample(seconds());
+    return !sample || report_.add(*sample);
+  }
+
   /// False: stop here.
-  bool run_case(const Case& source, int repeat) {
+  bool run_case(const Case& source, int round) {
     if (interrupted()) {
       end_.interrupted = true;
       return false;
     }
-    report_.show_progress(plan_.selected.size() * static_cast<std::size_t>(options_.repeat), source.id);
+    const bool matrix = !plan_.matrix.empty(), soak = plan_.soak > 0ns;
+    if (matrix && !enter_step(static_cast<std::size_t>(round / options_.repeat))) return false;
+    if (soak && !soak_goes_on(round)) return false;
+    report_.show_progress(expected_results(), source.id);
     const auto started = std::chrono::steady_clock::now();
     watchdog_.watch(source.id);
-    CaseResult result = benches_.run(source);
+    CaseResult result = matrix ? lines_.run(source) : benches_.run(source);
     const bool hung = watchdog_.done();
     if (benches_.interrupted() && !hung) {
       end_.interrupted = true;  // the case was not finished: it has no result
@@ -88,10 +162,10 @@ class Run {
     }
     if (hung) result.message = "the bench hung in this case for more than a minute; " + result.message;
     waivers_.apply(result);
-    result.repeat = repeat;
+    result.repeat = soak ? round : round % options_.repeat;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     const bool stop_here = hung || (options_.fail_fast && gates(result.verdict, report_.gate()));
-    return report_.add(result) && !stop_here;
+    return (soak ? add_to_soak(result) : report_.add(result)) && !stop_here;
   }
 
   /// The mistakes of the manuals that the selected cases met.
@@ -110,6 +184,10 @@ class Run {
   RunReport& report_;
   Watchdog watchdog_;
   Waivers waivers_{plan_.waivers, timestamp().substr(0, 10), plan_.identity.firmware};
+  LineSteps lines_;
+  std::optional<SoakLog> soak_;
+  std::string floor_;  // what the link can show, in words
+  std::chrono::steady_clock::time_point started_;
   RunReport::End end_;
 };
 
@@ -192,8 +270,9 @@ int execute(const RunOptions& options, RunPlan& plan, Benches& benches, const st
   Result<RunReport> report = RunReport::create(std::move(*paths), console_options(gate_of(options), options.verbose));
   if (!report) return complain(report.error().message, exit_code::trouble);
   Run run(options, plan, benches, *report);
+  const Status started = run.start();
   if (const Status begun = report->begin(run.info()); !begun) return complain(begun.error().message, exit_code::trouble);
-  RunReport::End end = run.execute();
+  RunReport::End end = run.execute(started);
   if (baseline) end.worse = worse_than(*baseline, options, *report);
   return report->finish(end);
 }
@@ -225,7 +304,7 @@ int run_command(const RunOptions& options) {
   const Result<Fixtures> fixtures = Fixtures::open(*plan);
   if (!fixtures) return complain(fixtures.error().message, options.skip_absent && fixtures.error().absent ? exit_code::absent : exit_code::trouble);
   fixtures->give(plan->bench, plan->stimulus);
-  Result<Benches> benches = Benches::open(plan->endpoint, plan->protocols, plan->bench);
+  Result<Benches> benches = Benches::open(plan->matrix.empty() ? plan->endpoint : at_line(plan->endpoint, plan->matrix.front()), plan->protocols, plan->bench);
   if (!benches) return complain(benches.error().message, options.skip_absent && benches.error().absent ? exit_code::absent : exit_code::trouble);
   return execute(options, *plan, *benches, *baseline);
 }

@@ -5,11 +5,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
+#include <unistd.h>
 
 #include "harness/bench/bench_file.hpp"
+#include "harness/cli/line_matrix.hpp"
 #include "harness/cli/tool_vectors.hpp"
 #include "harness/paths.hpp"
 #include "harness/results/sha256.hpp"
+#include "src/base/duration.hpp"
 
 namespace fieldproof {
 
@@ -42,7 +45,9 @@ std::string replay_command(const RunOptions& options) {
   if (!options.power_cycle.empty()) command += " --power-cycle " + shell_word(options.power_cycle);
   if (!options.stimulus.empty()) command += " --stimulus " + shell_word(options.stimulus);
   if (!options.aux.empty()) command += " --aux " + shell_word(options.aux);
-  if (options.floor_ms > 0) command += fmt::format(" --floor {:g}", options.floor_ms);
+  if (!options.floor.empty()) command += " --floor " + shell_word(options.floor);
+  if (!options.loop.empty()) command += " --loop " + shell_word(options.loop);
+  if (!options.reconfigure.empty()) command += " --reconfigure " + shell_word(options.reconfigure);
   if (options.strict) command += " --strict";
   if (options.fail_on_marginal) command += " --fail-on marginal";
   return command + " --filter ";
@@ -54,7 +59,6 @@ Result<BenchOptions> bench_options(const RunOptions& options, const EndpointName
   if (!profile) return profile.error();
   bench.profile = std::move(*profile);
   if (is_emulated(endpoint) && bench.profile.model.empty()) bench.profile.model = fs::path(endpoint.target).stem();
-  if (options.floor_ms > 0) bench.profile.floor = Duration(static_cast<Duration::rep>(options.floor_ms * 1e6));
   for (const std::string& range : options.allow_write)
     if (Status allowed = bench.fence.allow(range); !allowed) return allowed.error();
   nlohmann::json station{{"station", endpoint.option("station", "1")}};
@@ -86,6 +90,39 @@ Result<RunOptions> with_bench_device(RunOptions options, RunPlan& plan) {
   }
   if (options.endpoint.empty()) options.endpoint = "emulator:";
   return options;
+}
+
+/// The options of timing: floor, line matrix, soak.
+Status read_timing_options(const RunOptions& options, RunPlan& plan) {
+  if (!options.floor.empty()) {
+    const bool plain = options.floor.find_first_not_of("0123456789.") == std::string::npos;
+    const Result<Duration> floor = parse_duration(plain ? options.floor + "ms" : options.floor);
+    if (!floor) return fail("--floor: " + floor.error().message);
+    plan.floor = AdapterFloor{AdapterFloor::Source::by_hand, *floor};
+  }
+  if (!options.loop.empty()) {
+    if (plan.floor) return fail("--floor and --loop exclude each other: the floor is given, or it is measured");
+    const Result<EndpointName> loop = parse_endpoint(options.loop);
+    if (!loop) return fail("--loop: " + loop.error().message);
+    plan.loop = *loop;
+  }
+  if (!options.matrix.empty()) {
+    Result<std::vector<LineSettings>> steps = parse_line_matrix(options.matrix);
+    if (!steps) return steps.error();
+    plan.matrix = std::move(*steps);
+    if (!sets_device(plan.endpoint) && options.reconfigure.empty() && !isatty(STDIN_FILENO))
+      return fail("--matrix needs somebody who sets the device at each step: run it in a terminal, or give --reconfigure COMMAND");
+  } else if (!options.reconfigure.empty()) {
+    return fail("--reconfigure belongs to --matrix; give both");
+  }
+  if (!options.duration.empty()) {
+    const Result<Duration> duration = parse_duration(options.duration);
+    if (!duration) return fail("--duration: " + duration.error().message);
+    if (*duration == 0ns) return fail("--duration: a soak of no time runs nothing");
+    if (!options.matrix.empty() || options.repeat > 1) return fail("--duration excludes --matrix and --repeat: it repeats until the time is over");
+    plan.soak = *duration;
+  }
+  return ok();
 }
 
 /// What a qualification sheet speaks of.
@@ -133,6 +170,7 @@ Result<RunPlan> make_run_plan(const RunOptions& given) {
   Result<EndpointName> endpoint = parse_endpoint(options.endpoint);
   if (!endpoint) return endpoint.error();
   plan.endpoint = std::move(*endpoint);
+  if (const Status read = read_timing_options(options, plan); !read) return read.error();
   const std::string profile = profile_for(options, plan.endpoint, data);
   Result<BenchOptions> bench = bench_options(options, plan.endpoint, profile, data);
   if (!bench) return bench.error();

@@ -10,6 +10,7 @@
 #include "harness/bench/waivers.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/vectors/loader.hpp"
+#include "src/line/settings.hpp"
 
 namespace fieldproof {
 
@@ -24,6 +25,10 @@ struct RunPlan {
   std::vector<const Case*> selected;       // into `vectors`
   Identity identity;                       // of the bench file's device
   std::string line;                        // as the bench file declares it
+  std::vector<LineSettings> matrix;        // --matrix: steps of the line; empty: there is none
+  std::optional<AdapterFloor> floor;       // --floor
+  std::optional<EndpointName> loop;        // --loop: where an emulator answers over the same kind of link
+  Duration soak{};                         // --duration; 0: no soak
   std::map<std::string, std::string> hashes;  // with --qualify: SHA-256 of tool, vectors, profile
 };
 

@@ -76,11 +76,23 @@ Status RunReport::begin(const RunInfo& info) {
   return ok();
 }
 
-bool RunReport::add(const CaseResult& result) {
+bool RunReport::add(const CaseResult& result, bool written) {
   tally_.add(result.verdict);
+  timing_.add(result);
   if (gates(result.verdict, console_.gate) && red_.size() < most_red) red_.push_back(case_label(result));
+  if (!written) return true;
   if (const std::string text = case_report(result, console_); !text.empty()) print(progress_.erase() + text);
-  const Status written = writer_.write(result);
+  return keep(writer_.write(result));
+}
+
+bool RunReport::add(const SoakSample& sample) { return keep(writer_.write(sample)); }
+
+bool RunReport::add(const SoakSummary& soak) {
+  soak_ = soak;
+  return keep(writer_.write(soak));
+}
+
+bool RunReport::keep(const Status& written) {
   if (!written) write_trouble_ = written.error().message;
   return bool(written);
 }
@@ -102,6 +114,8 @@ int RunReport::finish(const End& end) {
   summary.end.interrupted = end.interrupted;
   summary.end.trouble = !end.trouble.empty() ? end.trouble : write_trouble_;
   summary.end.exit_code = code(end);
+  summary.timing = timing_.rows();
+  summary.soak = soak_;
   summary.red = red_;
   summary.reports = paths_;
   summary.reports.insert(summary.reports.end(), other_paths_.begin(), other_paths_.end());

@@ -35,8 +35,12 @@ class RunReport {
   void show_progress(std::size_t total, const std::string& next_id) {
     print(progress_.line(tally_, total, next_id, std::chrono::steady_clock::now() - started_));
   }
-  /// False: it could not be written, stop here.
-  bool add(const CaseResult& result);
+  /// False: it could not be written, stop here. A soak counts most of its results and writes few.
+  bool add(const CaseResult& result, bool written = true);
+  bool add(const SoakSample& sample);
+  bool add(const SoakSummary& soak);
+  /// A line for the engineer between the cases.
+  void say(const std::string& line) { print(progress_.erase() + line + '\n'); }
 
   struct End {
     std::string trouble;       // empty, or why the run stopped early
@@ -62,7 +66,10 @@ class RunReport {
   NdjsonWriter writer_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   Tally tally_;
+  TimingTable timing_;
+  std::optional<SoakSummary> soak_;
   std::vector<std::string> red_;
+  bool keep(const Status& written);
   std::string write_trouble_;
 };
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,6 +29,7 @@ namespace fieldproof {
 struct Finished {
   int code = -1;
   std::string out, err;
+  long peak_kib = 0;  // resident memory
 };
 
 /// A folder that goes with the test.
@@ -121,10 +123,11 @@ class Process {
     while (!over(deadline)) {}
     if (!ended_) ::kill(pid_, SIGKILL);
     int status = 0;
-    ::waitpid(pid_, &status, 0);
+    rusage usage{};
+    ::wait4(pid_, &status, 0, &usage);
     pid_ = -1;
     read_streams();
-    Finished finished{-1, std::move(text_[0]), std::move(text_[1])};
+    Finished finished{-1, std::move(text_[0]), std::move(text_[1]), usage.ru_maxrss};
     if (!ended_) ADD_FAILURE() << name_ << " did not end within " << limit.count() << " s:\n" << finished.out << finished.err;
     else finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return finished;

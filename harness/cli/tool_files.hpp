@@ -43,7 +43,8 @@ inline std::vector<nlohmann::ordered_json> many_vectors(int count) {
 
 /// results.ndjson, read without the tool's own reader.
 struct Results {
-  nlohmann::json run, end;            // null: no such line
+  nlohmann::json run, end, soak;      // null: no such line
+  std::vector<nlohmann::json> samples;
   std::vector<nlohmann::json> cases;  // in the order of the run
 
   std::vector<std::string> ids() const {
@@ -77,6 +78,8 @@ inline Results read_results(const std::string& path) {
     const nlohmann::json one = nlohmann::json::parse(line);
     if (one.contains("run")) results.run = one["run"];
     else if (one.contains("end")) results.end = one["end"];
+    else if (one.contains("soak")) results.soak = one["soak"];
+    else if (one.contains("sample")) results.samples.push_back(one["sample"]);
     else results.cases.push_back(one.at("case"));
   }
   return results;

@@ -98,7 +98,8 @@ void from_json(const json& object, StepOutcome& step) {
 
 void to_json(json& object, const Recording& recording) {
   object = {{"stimulus", recording.stimulus}, {"station", recording.station}, {"steps", recording.steps},
-            {"timing_floor_ms", to_ms(recording.timing_floor)}, {"max_gap_ms", to_ms(recording.max_gap)}};
+            {"timing_floor_ms", to_ms(recording.timing_floor)}, {"link_floor_ms", to_ms(recording.link_floor)},
+            {"max_gap_ms", to_ms(recording.max_gap)}};
   if (recording.flooded) object["flooded"] = true;
   if (recording.period_tolerance > 0ns) object["period_tolerance_ms"] = to_ms(recording.period_tolerance);
   put(object, "dead", recording.dead);
@@ -112,6 +113,8 @@ void from_json(const json& object, Recording& recording) {
   get(object, "flooded", recording.flooded);
   get(object, "dead", recording.dead);
   get_time(object, "timing_floor_ms", recording.timing_floor);
+  recording.link_floor = recording.timing_floor;  // older files have one floor
+  get_time(object, "link_floor_ms", recording.link_floor);
   get_time(object, "max_gap_ms", recording.max_gap);
   get_time(object, "period_tolerance_ms", recording.period_tolerance);
 }
@@ -133,6 +136,7 @@ void to_json(json& object, const CaseResult& result) {
   object = {{"id", result.id},       {"rev", result.rev},     {"protocol", result.protocol},
             {"title", result.title}, {"level", result.level}, {"basis", result.basis},
             {"verdict", to_string(result.verdict)},           {"seconds", result.seconds}};
+  put(object, "line", result.line);
   if (result.repeat != 0) object["repeat"] = result.repeat;
   put(object, "manual", result.manual);
   put(object, "section", result.section);
@@ -159,6 +163,7 @@ void from_json(const json& object, CaseResult& result) {
   const auto verdict = parse_verdict(word);
   if (!verdict) refuse("unknown verdict '" + word + "'", object);
   result.verdict = *verdict;
+  get(object, "line", result.line);
   get(object, "repeat", result.repeat);
   get(object, "rev", result.rev);
   get(object, "protocol", result.protocol);

@@ -42,6 +42,7 @@ struct Recording {
   bool flooded = false;
   std::string dead;              // why the link counts as dead after the case
   Duration timing_floor{};       // what this link could show: JudgeRules
+  Duration link_floor{};         // the part of it that is not the device's own: no smaller shift between runs counts
   Duration max_gap{};
   Duration period_tolerance{};
 };
@@ -55,7 +56,8 @@ struct Difference {
 };
 
 struct CaseResult {
-  std::string id;        // "xgt_cnet/rss/two_words", unique in a run together with `repeat`
+  std::string id;        // "xgt_cnet/rss/two_words", unique in a run together with `line` and `repeat`
+  std::string line;      // step of a line matrix: "38400-8N1"; empty: there is none
   int repeat = 0;        // 0-based repetition
   int rev = 1;
   std::string protocol;  // "xgt-cnet"

@@ -12,6 +12,7 @@ using nlohmann::json;
 CaseResult full_result() {
   CaseResult result;
   result.id = "xgt_cnet/rss/two_words";
+  result.line = "38400-8N1";
   result.repeat = 2;
   result.rev = 3;
   result.protocol = "xgt-cnet";
@@ -68,10 +69,10 @@ TEST(CaseResultJson, EveryFieldComesBack) {
 TEST(CaseResultJson, NoFieldIsForgotten) {
   // As many keys as fields, when none is empty. The binding does not compile once a field is added: then extend it,
   // full_result(), to_json and from_json.
-  const auto& [id, repeat, rev, protocol, title, level, basis, manual, section, quote, verdict, message, notes, expected,
+  const auto& [id, line, repeat, rev, protocol, title, level, basis, manual, section, quote, verdict, message, notes, expected,
                expected_bytes, expected_hex, received, received_bytes, differences, exchange, recording, readings,
                response_ms, seconds, replay] = full_result();
-  EXPECT_EQ(25u, json(full_result()).size());
+  EXPECT_EQ(26u, json(full_result()).size());
 }
 
 TEST(CaseResultJson, EmptyFieldsAreLeftOut) {

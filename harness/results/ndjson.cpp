@@ -58,7 +58,7 @@ class Reader {
       log_.truncated = true;
       return ok();
     }
-    if (!parsed.is_object() || parsed.size() != 1) return damaged("it is not one of run, case, end");
+    if (!parsed.is_object() || parsed.size() != 1) return damaged("it is not one of run, case, sample, soak, end");
     try {
       return take(parsed.begin().key(), parsed.begin().value());
     } catch (const json::exception& error) {
@@ -75,6 +75,10 @@ class Reader {
       const auto result = value.get<CaseResult>();
       ++log_.results;
       on_result_(result);
+    } else if (key == "sample") {
+      log_.samples.push_back(value.get<SoakSample>());
+    } else if (key == "soak") {
+      log_.soak = value.get<SoakSummary>();
     } else if (key == "end") {
       log_.end = value.get<RunEnd>();
     } else {
@@ -125,6 +129,8 @@ void NdjsonWriter::swap(NdjsonWriter& other) noexcept {
 
 Status NdjsonWriter::write(const RunInfo& info) { return write_line(line_of("run", info)); }
 Status NdjsonWriter::write(const CaseResult& result) { return write_line(line_of("case", result)); }
+Status NdjsonWriter::write(const SoakSample& sample) { return write_line(line_of("sample", sample)); }
+Status NdjsonWriter::write(const SoakSummary& soak) { return write_line(line_of("soak", soak)); }
 Status NdjsonWriter::write(const RunEnd& end) { return write_line(line_of("end", end)); }
 
 Status NdjsonWriter::write_line(const std::string& line) {

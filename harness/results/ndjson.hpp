@@ -1,6 +1,7 @@
 // The results of a run as they happen: one JSON object a line, so that whatever kills the run, what was judged is kept.
 //   {"run":{...}}    first
 //   {"case":{...}}   one a result
+//   {"sample":{...}}, {"soak":{...}}   of a soak (soak.hpp)
 //   {"end":{...}}    last; missing when the run was killed
 #pragma once
 
@@ -8,8 +9,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/results/case_result.hpp"
+#include "harness/results/soak.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof {
@@ -29,6 +32,8 @@ class NdjsonWriter {
   /// complete line, and writing may go on.
   Status write(const RunInfo& info);
   Status write(const CaseResult& result);
+  Status write(const SoakSample& sample);
+  Status write(const SoakSummary& soak);
   Status write(const RunEnd& end);
 
   const std::string& path() const { return path_; }
@@ -46,6 +51,8 @@ class NdjsonWriter {
 struct RunLog {
   RunInfo run;
   std::optional<RunEnd> end;  // nothing: the run was killed, or is not over
+  std::vector<SoakSample> samples = {};  // of a soak, in order
+  std::optional<SoakSummary> soak = {};  // nothing: no soak, or a killed one
   std::size_t results = 0;
   bool truncated = false;     // the last line is incomplete and was left out
 };

@@ -175,7 +175,7 @@ TEST_F(Ndjson, DamageNamesFileAndLine) {
   store(std::string(run_line) + "{\"cases\":{}}\n");
   EXPECT_EQ(", line 2: unknown key 'cases'; repair or remove the line", read_error());
   store(std::string(run_line) + "[]\n");
-  EXPECT_EQ(", line 2: it is not one of run, case, end; repair or remove the line", read_error());
+  EXPECT_EQ(", line 2: it is not one of run, case, sample, soak, end; repair or remove the line", read_error());
 }
 
 TEST_F(Ndjson, TheOrderOfLinesIsChecked) {

@@ -10,6 +10,7 @@
 
 #include "harness/vectors/fingerprint.hpp"
 #include "harness/vectors/schema.hpp"
+#include "src/base/duration.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof {
@@ -89,17 +90,9 @@ std::vector<Combination> combinations(const json& each) {
 // ---- one case ------------------------------------------------------------------------------------------------------
 
 Duration read_duration(const std::string& text) {
-  std::size_t used = 0;
-  double amount = 0;
-  try {
-    amount = std::stod(text, &used);
-  } catch (const std::exception&) {
-    throw Broken(fmt::format("'{}' is no duration; write 500us, 20ms or 1s", text));
-  }
-  const std::string unit = text.substr(used);
-  const double scale = unit == "us" ? 1e3 : unit == "ms" ? 1e6 : unit == "s" ? 1e9 : 0;
-  if (scale == 0) throw Broken(fmt::format("'{}' is no duration; write 500us, 20ms or 1s", text));
-  return Duration(static_cast<Duration::rep>(amount * scale));
+  const Result<Duration> duration = parse_duration(text);
+  if (!duration) throw Broken(duration.error().message);
+  return *duration;
 }
 
 // One vector makes up to a thousand cases: texts are substituted where they are read, without a JSON tree for each case.
