@@ -20,6 +20,7 @@ struct Profile {
   bool binding_decisions = true;       // "decisions": "binding" or "advisory"
   nlohmann::json config = nlohmann::json::object();  // the declared configuration, keys of given.config
   std::vector<std::pair<std::string, std::string>> exclude;  // glob and reason: SKIP
+  std::string notes;                   // what the manuals do not print of this device, and what follows from it
 
   Duration response_max = 500ms;  // the manuals print none (PROTOCOLS: basis decision)
   double guard_band = 0.1;        // the last tenth of a limit is MARGINAL
@@ -30,8 +31,9 @@ struct Profile {
 /// The file of a profile: a path as it stands (it has a '/' or ends with .json), a name in `folder`.
 std::filesystem::path profile_path(const std::string& name_or_path, const std::filesystem::path& folder);
 
-/// Reads NAME from `folder`/NAME.json, or a path. "extends" names another profile of the folder.
-/// Errors name the file and the key; an unknown name suggests a near one.
+/// Reads NAME from `folder`/NAME.json, or a path. "extends" names another profile, of its own folder or of `folder`: what
+/// stands there holds where this one says nothing; objects are laid over each other key by key, exclusions add up.
+/// Errors name the file and the key; an unknown name suggests a near one, a circle is told in full.
 Result<Profile> load_profile(const std::string& name_or_path, const std::filesystem::path& folder);
 
 /// One profile's text, with what it extends already loaded into `base`.
