@@ -21,6 +21,9 @@ class Benches {
   CaseResult run(const Case& source);
 
   bool interrupted() const;
+  /// Why no further case is run on this port; empty while they are. `port_failed`: the port itself is gone.
+  const std::string& stopped() const { return members_.front().bench->stopped(); }
+  bool port_failed() const { return members_.front().bench->port_failed(); }
   /// "emulator xbc-h".
   std::string describe() const { return members_.front().endpoint->describe(); }
   /// "xgt-cnet, modbus-rtu".

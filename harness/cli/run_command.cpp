@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 #include <set>
 
@@ -12,10 +15,13 @@
 #include "harness/cli/compare_command.hpp"
 #include "harness/cli/run_plan.hpp"
 #include "harness/cli/run_report.hpp"
+#include "harness/cli/shared_run.hpp"
 #include "harness/cli/timestamp.hpp"
 #include "harness/cli/tool_vectors.hpp"
 #include "harness/endpoints/interrupt.hpp"
 #include "harness/results/ndjson.hpp"
+#include "harness/results/shard.hpp"
+#include "harness/vectors/fingerprint.hpp"
 
 namespace fieldproof {
 
@@ -26,8 +32,9 @@ Gate gate_of(const RunOptions& options) { return {options.strict, options.fail_o
 /// The run itself: cases to results.
 class Run {
  public:
-  Run(const RunOptions& options, RunPlan& plan, Benches& benches, RunReport& report)
-      : options_(options), plan_(plan), benches_(benches), report_(report) {}
+  /// One of `ports` for each device of the plan.
+  Run(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, RunReport& report)
+      : options_(options), plan_(plan), ports_(ports), benches_(ports.front()), report_(report) {}
 
   RunInfo info() const {
     RunInfo info;
@@ -47,15 +54,20 @@ class Run {
     info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan_.bench.profile.response_max));
     info.identity = plan_.identity;
     info.hashes = plan_.hashes;
+    if (const std::optional<Shard> shard = shard_of_environment()) {
+      info.properties["shard"] = to_string(*shard);
+      info.properties["selection"] = selection();
+    }
     info.errata = errata();
+    if (!plan_.others.empty()) name_devices(info);
     return info;
   }
 
   /// Sanity exchange, cases, sanity exchange; how it ended.
   RunReport::End execute() {
+    if (!plan_.others.empty()) return share_out();
     if (const Status alive = benches_.start(); alive) {
-      RunnerOptions runner{options_.repeat, options_.seed >= 0, std::max(0, options_.seed), options_.gtest_arguments};
-      run_with_gtest(plan_.selected, runner, [this](const Case& source, int repeat) { return run_case(source, repeat); });
+      run_with_gtest(plan_.selected, runner_options(), [this](const Case& source, int repeat) { return run_case(source, repeat); });
       // The last sanity exchange: whatever the cases left behind, the device still answers.
       if (!interrupted())
         if (const Status still = benches_.start(); !still && !still.error().interrupted) end_.trouble = "after the last case: " + still.error().message;
@@ -70,6 +82,54 @@ class Run {
   }
 
  private:
+  RunnerOptions runner_options() const { return {options_.repeat, options_.seed >= 0, std::max(0, options_.seed), options_.gtest_arguments}; }
+
+  /// The same on several ports at once. GoogleTest settles which cases, and in which order they are taken.
+  RunReport::End share_out() {
+    std::deque<SharedRun::Task> tasks;
+    run_with_gtest(plan_.selected, runner_options(), [&](const Case& source, int repeat) {
+      tasks.push_back({&source, repeat, false});
+      return true;
+    });
+    const std::size_t total = tasks.size();
+    std::vector<SharedRun::Port> ports{{plan_.identity.name, &ports_.front()}};
+    for (std::size_t i = 0; i < plan_.others.size(); ++i) ports.push_back({plan_.others[i].identity.name, &ports_[i + 1]});
+    SharedRun shared(std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
+      report_.show_progress(total, source.id);
+      waivers_.apply(result);
+      return report_.add(result) && !(options_.fail_fast && gates(result.verdict, report_.gate()));
+    });
+    shared.execute();
+    for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors))) report_.add(result);
+    end_.interrupted = shared.interrupted();
+    end_.trouble = fmt::format("{}", fmt::join(shared.troubles(), "; "));
+    return end_;
+  }
+
+  /// What the devices have in common stays in `info`, each has an entry of its own.
+  void name_devices(RunInfo& info) const {
+    const auto add = [&](const DutPlan& plan, const Benches& benches) {
+      DutInfo dut{benches.describe(), {{"station", std::to_string(plan.bench.station)}}, plan.identity};
+      if (!plan.line.empty()) dut.properties["line"] = plan.line;
+      info.duts.push_back(std::move(dut));
+    };
+    add(plan_, ports_.front());
+    for (std::size_t i = 0; i < plan_.others.size(); ++i) add(plan_.others[i], ports_[i + 1]);
+    for (std::size_t i = 1; i < info.duts.size(); ++i) {
+      info.identity = in_common(info.identity, info.duts[i].identity);
+      info.endpoint += ", " + info.duts[i].endpoint;
+    }
+    info.properties.erase("station");
+    info.properties.erase("line");
+  }
+
+  /// Tells shards of one selection from those of another.
+  std::string selection() const {
+    std::uint64_t print = empty_fingerprint;
+    for (const Case* one : plan_.selected) print = extend_fingerprint(print, one->id + '\n');
+    return fmt::format("{} cases, {:016x}", plan_.selected.size(), print);
+  }
+
   /// False: stop here.
   bool run_case(const Case& source, int repeat) {
     if (interrupted()) {
@@ -105,7 +165,8 @@ class Run {
 
   const RunOptions& options_;
   RunPlan& plan_;
-  Benches& benches_;
+  std::vector<Benches>& ports_;
+  Benches& benches_;  // the first
   RunReport& report_;
   Watchdog watchdog_;
   Waivers waivers_{plan_.waivers, timestamp().substr(0, 10), plan_.identity.firmware};
@@ -142,13 +203,28 @@ Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const
   return std::optional(summarize(*file));
 }
 
-int execute(const RunOptions& options, RunPlan& plan, Benches& benches, const std::optional<RunSummary>& baseline) {
+/// One port a device; the error is that of the first that cannot be opened.
+Result<std::vector<Benches>> open_ports(const RunPlan& plan) {
+  std::vector<Benches> ports;
+  const auto open = [&](const DutPlan& dut) -> Status {
+    Result<Benches> port = Benches::open(dut.endpoint, dut.protocols, dut.bench);
+    if (!port) return port.error();
+    ports.push_back(std::move(*port));
+    return ok();
+  };
+  if (const Status opened = open(plan); !opened) return opened.error();
+  for (const DutPlan& other : plan.others)
+    if (const Status opened = open(other); !opened) return opened.error();
+  return ports;
+}
+
+int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, const std::optional<RunSummary>& baseline) {
   Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return complain(paths.error().message, exit_code::trouble);
   if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
   Result<RunReport> report = RunReport::create(std::move(*paths), console_options(gate_of(options), options.verbose));
   if (!report) return complain(report.error().message, exit_code::trouble);
-  Run run(options, plan, benches, *report);
+  Run run(options, plan, ports, *report);
   if (const Status begun = report->begin(run.info()); !begun) return complain(begun.error().message, exit_code::trouble);
   RunReport::End end = run.execute();
   if (baseline) end.worse = worse_than(*baseline, options, *report);
@@ -179,9 +255,9 @@ int run_command(const RunOptions& options) {
   const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
   if (!baseline) return complain(baseline.error().message, exit_code::usage);
   catch_interrupts();
-  Result<Benches> benches = Benches::open(plan->endpoint, plan->protocols, plan->bench);
-  if (!benches) return complain(benches.error().message, options.skip_absent && benches.error().absent ? exit_code::absent : exit_code::trouble);
-  return execute(options, *plan, *benches, *baseline);
+  Result<std::vector<Benches>> ports = open_ports(*plan);
+  if (!ports) return complain(ports.error().message, options.skip_absent && ports.error().absent ? exit_code::absent : exit_code::trouble);
+  return execute(options, *plan, *ports, *baseline);
 }
 
 int report_command(const ReportOptions& options) {

@@ -12,15 +12,20 @@
 
 namespace fieldproof {
 
-struct RunPlan {
+/// One device and how it is reached.
+struct DutPlan {
   EndpointName endpoint;
   std::vector<const Protocol*> protocols;  // what the endpoint speaks, at least one
   BenchOptions bench;
+  Identity identity;                       // of the bench file's device
+  std::string line;                        // as the bench file declares it
+};
+
+struct RunPlan : DutPlan {
+  std::vector<DutPlan> others;             // further devices, of the same profile and protocols: all share the cases
   std::vector<Waiver> waivers;
   VectorSet vectors;
   std::vector<const Case*> selected;       // into `vectors`
-  Identity identity;                       // of the bench file's device
-  std::string line;                        // as the bench file declares it
   std::map<std::string, std::string> hashes;  // with --qualify: SHA-256 of tool, vectors, profile
 };
 
