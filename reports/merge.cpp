@@ -42,7 +42,7 @@ Status check_alike(const ResultFile& first, const ResultFile& other) {
       {"profile", first.run.profile, other.run.profile, "run all parts with the same --profile"},
       {"gate", property(first.run, "gate"), property(other.run, "gate"), "give all parts the same --strict, --fail-on and --qualify"},
       {"hashed files", hashes_text(first.run), hashes_text(other.run), "run all parts with the same files"},
-      {"number of shards", shards(first), shards(other), "give the shards of one run"},
+      {"shards", shards(first), shards(other), "give the shards of one run"},
       {"selection", property(first.run, "selection"), property(other.run, "selection"), "run all shards with the same --filter"},
       {"repeat", property(first.run, "repeat"), property(other.run, "repeat"), "run all shards with the same --repeat"},
   };

@@ -67,6 +67,11 @@ Status Bench::start() {
                           endpoint_.describe(), station, station));
 }
 
+Result<Fingerprint> Bench::fingerprint() {
+  if (Status alive = start(); !alive) return alive.error();
+  return read_fingerprint(endpoint_, protocol_, options_.station, options_.profile.response_max);
+}
+
 int Bench::station_for(const Case& source) const {
   if (endpoint_.capabilities().real_device) return options_.station;
   return config_station(source.config, options_.station).value_or(options_.station);

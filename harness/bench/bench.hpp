@@ -8,6 +8,7 @@
 
 #include "harness/bench/exchange.hpp"
 #include "harness/bench/fence.hpp"
+#include "harness/bench/fingerprint.hpp"
 #include "harness/bench/judge.hpp"
 #include "harness/bench/profile.hpp"
 #include "harness/bench/readings.hpp"
@@ -30,6 +31,9 @@ class Bench {
 
   /// The first sanity exchange: does anything answer at all? The error tells the engineer what to check.
   Status start();
+
+  /// The areas of the device, after a sanity exchange; errors of either.
+  Result<Fingerprint> fingerprint();
 
   /// Never throws; whatever goes wrong is in the result.
   CaseResult run(const Case& source);

@@ -20,6 +20,9 @@ class Benches {
   /// On the bench of the case's protocol; a case of another protocol is SKIP.
   CaseResult run(const Case& source);
 
+  /// By the first protocol.
+  Result<Fingerprint> fingerprint() { return members_.front().bench->fingerprint(); }
+
   bool interrupted() const;
   /// Why no further case is run on this port; empty while they are. `port_failed`: the port itself is gone.
   const std::string& stopped() const { return members_.front().bench->stopped(); }

@@ -19,9 +19,10 @@ class MemoryAccess {
   /// The last error came from the device (a NAK, no answer), not from a way that does not exist.
   bool refused() const { return refused_; }
 
- private:
+  /// What comes back to a request over the wire, as far as it came in time; empty: nothing.
   Result<Bytes> ask(ByteView request);
 
+ private:
   Endpoint& endpoint_;
   const Protocol& protocol_;
   Duration patience_;

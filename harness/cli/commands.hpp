@@ -65,6 +65,7 @@ struct ProbeOptions {
   std::vector<std::string> stations, speeds, frames, protocols;  // empty: all that is usual
   int wait_ms = 500;             // for the first byte of an answer
   bool all = false;              // go on after the first find
+  bool fingerprint = false;      // of each device that was found
 };
 int probe_command(const ProbeOptions& options);
 

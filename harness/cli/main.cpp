@@ -136,6 +136,7 @@ int run_tool(int argc, char** argv) {
   probe_app->add_option("--protocol", probe.protocols, "Only these: xgt-cnet (default each that has a harmless read)")->delimiter(',')->allow_extra_args(false);
   probe_app->add_option("--wait", probe.wait_ms, "How long an answer may take, in ms")->capture_default_str()->check(CLI::Range(1, 60'000));
   probe_app->add_flag("--all", probe.all, "Go on after the first find");
+  probe_app->add_flag("--fingerprint", probe.fingerprint, "Read which areas the device has and where they end, for the bench file");
   probe_app->footer("Exit codes: 0 found, 1 something is wrong and named, 2 usage, 3 port trouble, 130 interrupted.");
 
   FrameOptions frame;

@@ -88,7 +88,7 @@ class Run {
   RunReport::End share_out() {
     std::deque<SharedRun::Task> tasks;
     run_with_gtest(plan_.selected, runner_options(), [&](const Case& source, int repeat) {
-      tasks.push_back({&source, repeat, false});
+      tasks.push_back({&source, repeat});
       return true;
     });
     const std::size_t total = tasks.size();
@@ -218,14 +218,36 @@ Result<std::vector<Benches>> open_ports(const RunPlan& plan) {
   return ports;
 }
 
+/// Another device on the desk than the bench file has? Also looked at for a sheet to sign, which then shows it.
+Status take_fingerprint(DutPlan& dut, Benches& port, bool wanted) {
+  const Fingerprint& declared = dut.identity.fingerprint;
+  if (declared.empty() && !wanted) return ok();
+  Result<Fingerprint> found = port.fingerprint();
+  if (!found && declared.empty()) return ok();
+  if (!found) return found.error();
+  dut.identity.fingerprint_found = std::move(*found);
+  const std::string difference = fingerprint_difference(declared, dut.identity.fingerprint_found);
+  if (difference.empty()) return ok();
+  return fail(fmt::format("this is not the device '{}' of the bench file: {}; connect that device, or take the fingerprint anew with "
+                          "fieldproof probe ENDPOINT --fingerprint", dut.identity.name, difference));
+}
+
+Status take_fingerprints(RunPlan& plan, std::vector<Benches>& ports, bool wanted) {
+  Status taken = take_fingerprint(plan, ports.front(), wanted);
+  for (std::size_t i = 0; i < plan.others.size() && taken; ++i) taken = take_fingerprint(plan.others[i], ports[i + 1], wanted);
+  return taken;
+}
+
 int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, const std::optional<RunSummary>& baseline) {
   Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return complain(paths.error().message, exit_code::trouble);
   if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
   Result<RunReport> report = RunReport::create(std::move(*paths), console_options(gate_of(options), options.verbose));
   if (!report) return complain(report.error().message, exit_code::trouble);
+  const Status same_devices = take_fingerprints(plan, ports, options.qualify);
   Run run(options, plan, ports, *report);
   if (const Status begun = report->begin(run.info()); !begun) return complain(begun.error().message, exit_code::trouble);
+  if (!same_devices) return report->finish({same_devices.error().interrupted ? "" : same_devices.error().message, same_devices.error().interrupted});
   RunReport::End end = run.execute();
   if (baseline) end.worse = worse_than(*baseline, options, *report);
   return report->finish(end);

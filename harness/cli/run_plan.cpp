@@ -134,6 +134,8 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const std::string& dut, c
   Result<std::vector<const Protocol*>> spoken = protocols_of(plan, selected);
   if (!spoken) return spoken.error();
   plan.protocols = std::move(*spoken);
+  if (const Status known = check_fingerprint(plan.identity.fingerprint, *plan.protocols.front()); !known)
+    return fail(fmt::format("cannot use bench file {}: devices.{}: {}", given.bench, dut, known.error().message));
   return plan;
 }
 

@@ -21,6 +21,10 @@ void SharedRun::execute() {
   interrupted_ = interrupted_ && !hung_;  // the watchdog ends a hanging case in the way of Ctrl-C
   if (interrupted_ || hung_) return;
   for (Task task; take(task);) {
+    if (task.earlier) {
+      report({task.source, task.repeat}, *task.earlier);
+      continue;
+    }
     CaseResult result = result_of(*task.source);
     result.verdict = Verdict::blocked;
     result.message = fmt::format("no port is left: {}", fmt::join(stops_, "; "));
@@ -50,7 +54,7 @@ bool SharedRun::take(Task& task) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return over_ || !tasks_.empty() || running_ == 0; });
   if (over_ || tasks_.empty()) return false;
-  task = tasks_.front();
+  task = std::move(tasks_.front());
   tasks_.pop_front();
   ++running_;
   return true;
@@ -65,7 +69,7 @@ bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
   const bool hung = watchdog.done();
   const bool ended = fieldproof::interrupted() && !hung;
   const bool failed = !ended && (hung || port.benches->port_failed());
-  const bool lost = failed && !hung && !task.taken_over;
+  const bool lost = failed && !hung && !task.earlier;
   const bool done = ended || hung || !port.benches->stopped().empty();
   if (hung) result.message = "the bench hung in this case for more than a minute; " + result.message;
   {
@@ -75,7 +79,7 @@ bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
     over_ |= hung || ended;
     if (done) stops_.push_back(port.name + ": " + (hung ? "hung in " + result.id : port.benches->stopped()));
     if (failed) troubles_.push_back(stops_.back());
-    if (lost) tasks_.push_front({task.source, task.repeat, true});
+    if (lost) tasks_.push_front({task.source, task.repeat, std::move(result)});
     if (ended || lost) --running_;
   }
   changed_.notify_all();
@@ -86,7 +90,7 @@ bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
 
 void SharedRun::report(const Task& task, CaseResult result) {
   result.repeat = task.repeat;
-  if (task.taken_over) result.notes.push_back("begun on another device, whose port failed");
+  if (task.earlier) result.notes.push_back(fmt::format("begun on {}, whose port failed", task.earlier->dut));
   {
     const std::lock_guard lock(mutex_);
     over_ |= !on_result_(*task.source, std::move(result));

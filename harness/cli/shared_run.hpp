@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ class SharedRun {
   struct Task {
     const Case* source = nullptr;
     int repeat = 0;
-    bool taken_over = false;  // from a port that failed in it
+    std::optional<CaseResult> earlier = {};  // of a port that failed in it
   };
   /// Takes a result, one at a time; false: stop here.
   using OnResult = std::function<bool(const Case& source, CaseResult result)>;
@@ -30,7 +31,7 @@ class SharedRun {
   SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult on_result);
 
   /// Until every case has its result. What a port that vanishes leaves goes to the others; what no port is left for is
-  /// BLOCKED. The case in which a port failed is run once more elsewhere: it may be the case that does it.
+  /// BLOCKED. The case in which a port failed is run elsewhere, but only once more: it may be the case that does it.
   void execute();
 
   const std::vector<std::string>& troubles() const { return troubles_; }  // "a: the port failed in ..."
