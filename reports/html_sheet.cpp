@@ -146,7 +146,7 @@ void write_fingerprint(HtmlWriter& out, const Identity& identity) {
         out.element("tr", {}, [&] {
           out.element("th", {}, key);
           out.element("td", {}, declared);
-          out.element("td", {}, declared == found ? found : found + " (differs)");
+          out.element("td", {}, !identity.fingerprint.contains(key) || declared == found ? found : found + " (differs)");
         });
       }
     });

@@ -11,12 +11,11 @@ using testing::HasSubstr;
 
 constexpr int shards = 3;
 
-/// Part of the real vectors, with PASS, SKIP and INFO among them.
 class MergeCommand : public testing::Test {
  protected:
   std::string shard(int index, const std::string& name, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"run", "--endpoint", "emulator:xbm-s", "--out", folder_ / name};
-    if (more.empty()) arguments.insert(arguments.end(), {"--filter", "xgt_cnet/rss/*:xgt_cnet/wss/*"});
+    if (more.empty()) arguments.insert(arguments.end(), {"--vectors", write_vectors(folder_, many_vectors(9))});
     arguments.insert(arguments.end(), more.begin(), more.end());
     ProcessOptions options;
     if (index >= 0) options.environment = {{"GTEST_TOTAL_SHARDS", std::to_string(shards)}, {"GTEST_SHARD_INDEX", std::to_string(index)}};
@@ -52,8 +51,9 @@ class MergeCommand : public testing::Test {
 };
 
 TEST_F(MergeCommand, ShardsAddUpToTheWholeRun) {
-  shard(-1, "whole");
-  for (int index = 0; index < shards; ++index) shard(index, std::to_string(index));
+  const std::vector<std::string> real{"--filter", "xgt_cnet/rss/*"};
+  shard(-1, "whole", real);
+  for (int index = 0; index < shards; ++index) shard(index, std::to_string(index), real);
   const Finished merged = merge({folder_ / "2/results.json", folder_ / "0/results.json", folder_ / "1/results.ndjson"});
   EXPECT_EQ(merged.code, 0) << merged.out << merged.err;
   expect_reports(folder_ / "merged");
@@ -83,14 +83,14 @@ TEST_F(MergeCommand, OtherSelectionsAndTheSameShardTwiceAreRefused) {
   const Finished twice = merge({a, shard(0, "again")});
   EXPECT_EQ(twice.code, 2);
   EXPECT_THAT(twice.err, HasSubstr("both are shard 1/3"));
-  const Finished other = merge({a, shard(1, "b", {"--filter", "xgt_cnet/rss/*"})});
+  const Finished other = merge({a, shard(1, "b", {"--vectors", folder_ / "vectors", "--filter", "*/n1000:*/n1001"})});
   EXPECT_EQ(other.code, 2);
   EXPECT_THAT(other.err, AllOf(HasSubstr("the selection differs"), HasSubstr("b/results.json with")));
 }
 
 TEST_F(MergeCommand, OtherVectorsAreRefused) {
   const std::string a = shard(0, "a");
-  const std::string b = shard(1, "b", {"--vectors", write_vectors(folder_, many_vectors(9))});
+  const std::string b = shard(1, "b", {"--vectors", write_vectors(folder_, many_vectors(8))});
   const Finished finished = merge({a, b});
   EXPECT_EQ(finished.code, 2);
   EXPECT_THAT(finished.err, HasSubstr("the vectors differ: "));

@@ -47,6 +47,7 @@ class Run {
     info.properties["gate"] = to_string(gate_of(options_));
     info.properties["station"] = std::to_string(plan_.bench.station);
     info.properties["protocol"] = benches_.protocol_names();
+    if (!plan_.bench.profile.notes.empty()) info.properties["profile_notes"] = plan_.bench.profile.notes;
     if (!plan_.bench.profile.title.empty()) info.properties["device"] = plan_.bench.profile.title;
     if (options_.seed >= 0) info.properties["seed"] = std::to_string(options_.seed);
     if (options_.repeat > 1) info.properties["repeat"] = std::to_string(options_.repeat);

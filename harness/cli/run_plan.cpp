@@ -8,6 +8,7 @@
 
 #include "harness/bench/bench_file.hpp"
 #include "harness/cli/tool_vectors.hpp"
+#include "harness/endpoints/stable_name.hpp"
 #include "harness/paths.hpp"
 #include "harness/results/sha256.hpp"
 
@@ -127,6 +128,8 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const std::string& dut, c
   Result<EndpointName> endpoint = parse_endpoint(options->endpoint);
   if (!endpoint) return endpoint.error();
   plan.endpoint = std::move(*endpoint);
+  if (const std::string stable = plan.endpoint.kind == "serial" ? stable_name(plan.endpoint.target) : ""; !stable.empty())
+    complain(fmt::format("{} may be another adapter next time; its stable name is {}", plan.endpoint.target, stable), 0);
   profile = profile_for(*options, plan.endpoint, data);
   Result<BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data);
   if (!bench) return bench.error();
