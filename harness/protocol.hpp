@@ -91,6 +91,14 @@ class Protocol {
   /// Areas whose words may be physical outputs: written only when named.
   virtual std::string_view output_areas() const = 0;
 
+  /// Areas of words ("%MW0" is the first of M) by which devices are told apart, with the last words that the known
+  /// models have, in rising order. Empty: there are none.
+  struct Area {
+    std::string name;
+    std::vector<std::uint32_t> last_words;
+  };
+  virtual std::vector<Area> areas() const { return {}; }
+
   /// Checks a `table` vector against the tables in src/; the error says what the table holds instead.
   virtual Status check_fact(const nlohmann::json& facts) const = 0;
 };

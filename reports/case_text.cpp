@@ -228,6 +228,7 @@ std::string case_block(const CaseResult& result, const CaseTextOptions& options)
   add_frames(block, result, options);
   if (!result.differences.empty()) block.add("differs", differences(result, options));
   block.add("timing", case_timing(result));
+  block.add("device", xml_line(result.dut));
   if (!result.exchange.empty() && (options.exchange || several_sent(result))) block.add("exchange", frame_monitor(result, options));
   std::string readings;
   for (const auto& [name, taken] : result.readings) readings += fmt::format("{} = {}\n", xml_line(name), xml_line(taken));

@@ -130,7 +130,9 @@ void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate, co
       out.element("h1", {}, "Qualification sheet");
       write_verdict_of_run(out, survey, gate);
       write_facts(out, survey, gate);
-      write_fingerprint(out, survey.log.run.identity);
+      const RunInfo& run = survey.log.run;
+      if (run.duts.empty()) write_fingerprint(out, run.identity);
+      for (const DutInfo& dut : run.duts) write_fingerprint(out, dut.identity);
     }
     write_unexecuted(out, survey);
     write_readings(out, survey);

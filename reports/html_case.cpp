@@ -156,6 +156,7 @@ void write_remarks(HtmlWriter& out, const CaseResult& result) {
         out.text(" " + shorten(text, limits));
       });
     };
+    item("device", result.dut);
     item("timing", case_timing(result));
     for (const auto& [name, taken] : result.readings) item("reading", name + " = " + taken);
     for (const std::string& note : result.notes) item("note", note);
@@ -181,6 +182,7 @@ void write_pass_line(HtmlWriter& out, const CaseResult& result) {
       }
       out.text(line);
       if (hidden > 0) out.element("em", {}, " " + more_bytes(hidden));
+      if (!result.dut.empty()) out.element("small", {{"class", "dut"}}, result.dut);
       for (const std::string& note : result.notes) out.element("small", {}, shorten(note, {.limit = line_bytes_limit}));
     });
     const auto& times = result.response_ms;

@@ -97,6 +97,23 @@ void write_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
   }
 }
 
+/// Several devices shared the run.
+void write_devices(HtmlWriter& out, const RunInfo& run) {
+  if (run.duts.empty()) return;
+  out.element("h2", {{"id", "devices"}}, "Devices");
+  out.element("table", {{"class", "list devices"}}, [&] {
+    out.element("tbody", {}, [&] {
+      for (const DutInfo& dut : run.duts) {
+        out.element("tr", {}, [&] {
+          out.element("th", {}, dut.identity.name);
+          out.element("td", {}, device_text(dut));
+          out.element("td", {}, dut.identity.notes);
+        });
+      }
+    });
+  });
+}
+
 }  // namespace
 
 std::string device_title(const RunInfo& run) {
@@ -129,6 +146,7 @@ void write_facts(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
     out.element("table", {{"class", "facts"}}, [&] { write_device(out, survey.log.run); });
     out.element("table", {{"class", "facts"}}, [&] { write_run(out, survey, gate); });
   });
+  write_devices(out, survey.log.run);
 }
 
 void write_legend(HtmlWriter& out, const Gate& gate) {

@@ -130,7 +130,7 @@ void write_hashes(HtmlWriter& out, const HtmlSurvey& survey, const std::string& 
 }
 
 void write_fingerprint(HtmlWriter& out, const Identity& identity) {
-  out.element("h2", {}, "Fingerprint");
+  out.element("h2", {}, identity.name.empty() ? "Fingerprint" : "Fingerprint of " + identity.name);
   if (identity.fingerprint.empty() && identity.fingerprint_found.empty()) {
     out.element("p", {}, "None was declared and none was read: the identity above is as the engineer entered it.");
     return;
@@ -146,7 +146,7 @@ void write_fingerprint(HtmlWriter& out, const Identity& identity) {
         out.element("tr", {}, [&] {
           out.element("th", {}, key);
           out.element("td", {}, declared);
-          out.element("td", {}, declared == found ? found : found + " (differs)");
+          out.element("td", {}, !identity.fingerprint.contains(key) || declared == found ? found : found + " (differs)");
         });
       }
     });

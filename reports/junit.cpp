@@ -137,6 +137,7 @@ std::string properties(const Suite& suite, const RunLog& log, const Gate& gate) 
   for (const auto& [name, value] : log.run.properties) {
     if (name != "gate") add(name, value);  // this report's gate is the one above
   }
+  for (const DutInfo& dut : log.run.duts) add("dut." + dut.identity.name, device_text(dut));
   add("end", log.end ? log.end->finished : "missing");
   if (log.end) add("exit_code", std::to_string(log.end->exit_code));
   if (const std::string why = early_end(log); !why.empty()) add("ended_early", why);
@@ -159,7 +160,7 @@ std::string remarks(const CaseResult& result) {
     case Verdict::inconclusive: return headline(result) + case_block(result);
     default: break;
   }
-  std::string text;
+  std::string text = result.dut.empty() ? "" : fmt::format("device {}\n", xml_line(result.dut));
   for (const std::string& note : result.notes) text += xml_line(note) + '\n';
   return text;
 }

@@ -41,6 +41,20 @@ std::string red_counts(const Tally& tally, const Gate& gate) {
   return text;
 }
 
+std::string device_text(const DutInfo& dut) {
+  const Identity& device = dut.identity;
+  std::string text = device.maker;
+  const auto add = [&](const std::string& separator, const std::string& value) {
+    if (!value.empty()) text += (text.empty() ? "" : separator) + value;
+  };
+  add(" ", device.model);
+  if (!device.serial.empty()) add(", ", "serial number " + device.serial);
+  if (!device.firmware.empty()) add(", ", "firmware " + device.firmware);
+  add(", ", "at " + dut.endpoint);
+  for (const auto& [name, value] : dut.properties) add(", ", name + ' ' + value);
+  return text;
+}
+
 std::string early_end(const RunLog& log) {
   if (!log.end) {
     const char* incomplete = log.truncated ? ", and one incomplete" : "";

@@ -116,6 +116,11 @@ Result<std::optional<AdapterFloor>> Bench::measure_floor() {
   return std::optional(AdapterFloor{AdapterFloor::Source::device, {}, std::move(*times)});
 }
 
+Result<Fingerprint> Bench::fingerprint() {
+  if (Status alive = start(); !alive) return alive.error();
+  return read_fingerprint(endpoint_, protocol_, options_.station, options_.profile.response_max);
+}
+
 int Bench::station_for(const Case& source) const {
   if (endpoint_.capabilities().real_device) return options_.station;
   return config_station(source.config, options_.station).value_or(options_.station);

@@ -9,6 +9,7 @@
 #include "harness/bench/adapter_floor.hpp"
 #include "harness/bench/exchange.hpp"
 #include "harness/bench/fence.hpp"
+#include "harness/bench/fingerprint.hpp"
 #include "harness/bench/judge.hpp"
 #include "harness/bench/profile.hpp"
 #include "harness/bench/readings.hpp"
@@ -44,6 +45,8 @@ class Bench {
 
   /// No case can run, for this reason; they are BLOCKED.
   void set_aside(std::string why) { stop(std::move(why)); }
+  /// The areas of the device, after a sanity exchange; errors of either.
+  Result<Fingerprint> fingerprint();
 
   /// Never throws; whatever goes wrong is in the result.
   CaseResult run(const Case& source);

@@ -2,7 +2,7 @@
 //   {"devices": {"c41a": {
 //     "endpoint": "serial:/dev/serial/by-id/usb-FTDI...?rs485=1", "profile": "xbc-dxxxh", "station": 3, "line": "38400-8N1",
 //     "identity": {"maker": "LS ELECTRIC", "model": "XBL-C41A", "serial": "2219-00417", "firmware": "V1.41"},
-//     "fingerprint": {"areas": "PMLKFTCDUZ"}, "allow_write": ["M100-M199", "D0"],
+//     "fingerprint": {"areas": "CDFKLMNPTU", "M": "0-255"}, "allow_write": ["M100-M199", "D0"],
 //     "operator": "J. Kim", "notes": "port 2, terminated both ends"}}}
 #pragma once
 

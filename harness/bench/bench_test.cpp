@@ -276,36 +276,5 @@ TEST(WriteFence, NonsenseIsRefusedByItsName) {
   }
 }
 
-TEST(Profile, ExtendsAndOverrides) {
-  const std::filesystem::path folder = std::string(FIELDPROOF_SOURCE_DIR) + "/suites/profiles";
-  const Result<Profile> profile = load_profile("xbc-dxxxh", folder);
-  ASSERT_TRUE(profile) << profile.error().message;
-  EXPECT_EQ(profile->model, "xbc-h");
-  EXPECT_FALSE(profile->binding_decisions);
-  EXPECT_EQ(profile->response_max, 500ms);
-}
-
-TEST(Profile, LimitsHaveUnits) {
-  const Result<Profile> profile = parse_profile(
-      R"({"name": "x", "protocols": ["a"], "timing": {"response_max": "0.25s", "turnaround_min": "1.5ms", "floor": "500us", "max_gap": "4ms", "guard_band": 0.2}})", "p", {});
-  ASSERT_TRUE(profile) << profile.error().message;
-  EXPECT_EQ(profile->response_max, 250ms);
-  EXPECT_EQ(profile->turnaround_min, 1500us);
-  EXPECT_EQ(profile->floor, 500us);
-  EXPECT_EQ(profile->max_gap, 4ms);
-  EXPECT_EQ(profile->guard_band, 0.2);
-}
-
-TEST(Profile, MistakesAreNamed) {
-  const auto message = [](const std::string& text) { return parse_profile(text, "p.json", {}).error().message; };
-  EXPECT_THAT(message(R"({"name": "x", "protocols": ["xgt-cnet"], "modle": "xbc-h"})"), HasSubstr("unknown key 'modle'; did you mean 'model'?"));
-  EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response": 1}})"), HasSubstr("unknown key timing.response"));
-  EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response_max": "5 parsecs"}})"), HasSubstr("timing.response_max: '5 parsecs' is no duration"));
-  EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response_max": 5}})"), HasSubstr("timing.response_max: '5' is no duration"));
-  EXPECT_THAT(message(R"({"name": "x"})"), HasSubstr("no \"protocols\""));
-  EXPECT_THAT(message("{"), HasSubstr("p.json"));
-  EXPECT_THAT(load_profile("xbc-j", std::string(FIELDPROOF_SOURCE_DIR) + "/suites/profiles").error().message, HasSubstr("did you mean 'xbc-h'?"));
-}
-
 }  // namespace
 }  // namespace fieldproof

@@ -35,7 +35,12 @@ class Benches {
   /// Closes the ports; nothing but opening anew may follow.
   void close() { members_.clear(); }
 
+  /// By the first protocol.
+  Result<Fingerprint> fingerprint() { return members_.front().bench->fingerprint(); }
+
   bool interrupted() const;
+  /// The port itself is gone.
+  bool port_failed() const { return members_.front().bench->port_failed(); }
   /// Why no further case can run on any of them; empty while one can.
   std::string stopped() const;
   /// "emulator xbc-h".

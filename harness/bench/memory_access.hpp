@@ -33,6 +33,9 @@ class MemoryAccess {
   /// The last error came from the device (a NAK, no answer), not from a way that does not exist.
   bool refused() const { return refused_; }
 
+  /// What comes back to a request over the wire, as far as it came in time; empty: nothing.
+  Result<Bytes> ask(int station, ByteView request) { return ask(Server{endpoint_, protocol_, station}, request); }
+
  private:
   /// A server that holds the memory.
   struct Server {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "src/base/duration.hpp"
 #include "src/base/spelling.hpp"
@@ -16,7 +18,8 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> profile_keys{"name", "title", "extends", "model", "protocols", "decisions", "config", "timing", "exclude", "prepared_blocks"};
+constexpr std::array<std::string_view, 11> profile_keys{"name",      "title",  "extends", "model",           "protocols", "decisions",
+                                                         "config", "timing", "exclude", "prepared_blocks", "notes"};
 constexpr std::array<std::string_view, 9> timing_keys{"response_max", "turnaround_min", "floor", "max_gap", "guard_band",
                                                       "response_max_ms", "turnaround_min_ms", "floor_ms", "max_gap_ms"};
 
@@ -70,6 +73,7 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
   else if (key == "timing") read_timing(value, profile);
   else if (key == "exclude") read_exclude(value, profile);
   else if (key == "prepared_blocks") profile.prepared_blocks = read_blocks(value);
+  else if (key == "notes") profile.notes = value;
   else if (key == "decisions") {
     if (value != "binding" && value != "advisory") throw std::runtime_error("decisions is 'binding' or 'advisory'");
     profile.binding_decisions = value == "binding";
@@ -96,18 +100,33 @@ std::string known_profiles(const std::string& name, const fs::path& folder) {
 
 bool names_a_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".json"); }
 
-Result<Profile> load(const std::string& name, const fs::path& folder, int depth) {
-  const bool is_path = names_a_path(name);
+/// What `path` extends, or nothing; what is no name is an error of its own.
+Result<std::optional<std::string>> extended_by(const std::string& text, const fs::path& path) {
+  const json value = json::parse(text, nullptr, false);
+  if (!value.is_object() || !value.contains("extends")) return std::optional<std::string>();
+  if (!value["extends"].is_string()) return fail(fmt::format("cannot read profile {}: \"extends\" is the name of another profile", path.string()));
+  return std::optional<std::string>(value["extends"]);
+}
+
+/// `chain`: the files that extend this one, the first first.
+Result<Profile> load(const std::string& name, const fs::path& folder, std::vector<std::string> chain) {
   const fs::path path = profile_path(name, folder);
   if (!fs::exists(path)) return fail(fmt::format("no profile '{}'{}", name, known_profiles(name, folder)));
+  const bool circle = std::ranges::find(chain, path.string()) != chain.end();
+  chain.push_back(path.string());
+  if (circle) return fail(fmt::format("cannot read profile {}: it extends itself: {}", path.string(), fmt::join(chain, " extends ")));
   const Result<std::string> text = read_text(path);
   if (!text) return text.error();
+  const Result<std::optional<std::string>> extends = extended_by(*text, path);
+  if (!extends) return extends.error();
   Profile base;
-  if (const json value = json::parse(*text, nullptr, false); value.is_object() && value.contains("extends") && value["extends"].is_string()) {
-    if (depth > 8) return fail(fmt::format("{}: profiles extend each other in a circle", path.string()));
-    Result<Profile> extended = load(value["extends"], is_path && !fs::exists(folder / (value["extends"].get<std::string>() + ".json")) ? path.parent_path() : folder, depth + 1);
+  if (*extends) {
+    const bool beside = names_a_path(name) && fs::exists(profile_path(**extends, path.parent_path()));
+    Result<Profile> extended = load(beside ? profile_path(**extends, path.parent_path()).string() : **extends, folder, chain);
+    if (!extended && chain.size() == 1) return fail(fmt::format("{} (extended by {})", extended.error().message, path.string()));
     if (!extended) return extended.error();
     base = std::move(*extended);
+    base.name.clear();  // a name is not inherited
   }
   return parse_profile(*text, path.string(), std::move(base));
 }
@@ -135,6 +154,6 @@ fs::path profile_path(const std::string& name_or_path, const fs::path& folder) {
   return names_a_path(name_or_path) ? fs::path(name_or_path) : folder / (name_or_path + ".json");
 }
 
-Result<Profile> load_profile(const std::string& name_or_path, const fs::path& folder) { return load(name_or_path, folder, 0); }
+Result<Profile> load_profile(const std::string& name_or_path, const fs::path& folder) { return load(name_or_path, folder, {}); }
 
 }  // namespace fieldproof

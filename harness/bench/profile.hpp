@@ -22,6 +22,7 @@ struct Profile {
   /// P2P blocks that are set up in the real module, as in given.config.p2p.blocks (with "parameter" where it is not 1).
   nlohmann::json prepared_blocks = nlohmann::json::array();
   std::vector<std::pair<std::string, std::string>> exclude;  // glob and reason: SKIP
+  std::string notes;                   // what the manuals do not print of this device, and what follows from it
 
   Duration response_max = 500ms;  // the manuals print none (PROTOCOLS: basis decision)
   Duration turnaround_min{};      // no reply begins sooner; 0: no such limit (the manuals print none)
@@ -33,8 +34,9 @@ struct Profile {
 /// The file of a profile: a path as it stands (it has a '/' or ends with .json), a name in `folder`.
 std::filesystem::path profile_path(const std::string& name_or_path, const std::filesystem::path& folder);
 
-/// Reads NAME from `folder`/NAME.json, or a path. "extends" names another profile of the folder.
-/// Errors name the file and the key; an unknown name suggests a near one.
+/// Reads NAME from `folder`/NAME.json, or a path. "extends" names another profile, of its own folder or of `folder`: what
+/// stands there holds where this one says nothing; objects are laid over each other key by key, exclusions add up.
+/// Errors name the file and the key; an unknown name suggests a near one, a circle is told in full.
 Result<Profile> load_profile(const std::string& name_or_path, const std::filesystem::path& folder);
 
 /// One profile's text, with what it extends already loaded into `base`.

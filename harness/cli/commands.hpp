@@ -19,7 +19,8 @@ struct RunOptions {
   std::string out = "fieldproof-out";
   std::string junit, json, html; // empty: in `out`
   std::string capture;           // empty: none
-  std::string bench, dut;        // bench file, and the device of it
+  std::string bench;             // bench file
+  std::vector<std::string> duts; // devices of it; several share the cases
   std::string waivers;
   std::string baseline;          // results of an earlier run, to compare with
   std::string power_cycle;
@@ -74,6 +75,7 @@ struct ProbeOptions {
   std::vector<std::string> stations, speeds, frames, protocols;  // empty: all that is usual
   int wait_ms = 500;             // for the first byte of an answer
   bool all = false;              // go on after the first find
+  bool fingerprint = false;      // of each device that was found
 };
 int probe_command(const ProbeOptions& options);
 
@@ -100,6 +102,14 @@ struct CompareOptions {
   std::string html, junit;
 };
 int compare_command(const CompareOptions& options);
+
+struct MergeOptions {
+  std::vector<std::string> files;  // results.ndjson or results.json of the parts of one run
+  std::string out = "fieldproof-merged";
+  std::string junit, json, html;   // empty: in `out`
+  std::string command;             // as typed, for reports
+};
+int merge_command(const MergeOptions& options);
 
 struct JudgeOptions {
   std::string file;              // results.ndjson or results.json

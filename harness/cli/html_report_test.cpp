@@ -13,7 +13,7 @@ using testing::HasSubstr;
 constexpr const char* bench_file = R"({"devices": {
   "stand_in": {"endpoint": "emulator:xbc-h", "profile": "xbc-h", "station": 5, "line": "19200-8N1",
                "identity": {"maker": "LS ELECTRIC", "model": "XBC-DN32H", "serial": "S7", "firmware": "V1.8"},
-               "fingerprint": {"areas": "PML"}, "allow_write": ["M100-M199"], "operator": "J. Kim", "notes": "a <note>"}}})";
+               "allow_write": ["M100-M199"], "operator": "J. Kim", "notes": "a <note>"}}})";
 
 class HtmlReport : public testing::Test {
  protected:

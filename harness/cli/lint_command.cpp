@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -19,15 +20,37 @@ namespace fs = std::filesystem;
 
 void add(std::vector<std::string>& all, std::vector<std::string> more) { all.insert(all.end(), more.begin(), more.end()); }
 
-std::vector<std::string> lint_profiles(const fs::path& folder) {
+/// What stands in a profile and means nothing to protocols and vectors. `whole`: the set is the one profiles are made for.
+std::vector<std::string> lint_profile(const Profile& profile, const VectorSet& set, bool whole) {
+  std::vector<std::string> problems;
+  bool emulated = profile.model.empty();
+  for (const std::string& name : profile.protocols) {
+    const Result<const Protocol*> protocol = choose_protocol(name, "");
+    if (!protocol) problems.push_back(protocol.error().message);
+    else emulated = emulated || (*protocol)->has_model(profile.model);
+  }
+  if (!emulated && profile.notes.empty())
+    problems.push_back(fmt::format("no case is for the model '{}'; write in \"notes\" why, or correct it", profile.model));
+  for (const auto& [pattern, reason] : profile.exclude)
+    if (whole && std::ranges::none_of(set.cases, [&](const Case& one) { return matches_filter(one.id, pattern); }))
+      problems.push_back(fmt::format("excludes '{}', which is no case", pattern));
+  return problems;
+}
+
+std::vector<std::string> lint_profiles(const fs::path& folder, const VectorSet& set, bool whole) {
   std::vector<std::string> problems;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;
-    const Result<Profile> profile = load_profile(entry.path().stem().string(), folder);
-    if (!profile) problems.push_back(profile.error().message);
-    else if (profile->name != entry.path().stem().string())
-      problems.push_back(fmt::format("{}: its name is '{}'", entry.path().filename().string(), profile->name));
+    const std::string file = entry.path().filename().string(), name = entry.path().stem().string();
+    const Result<Profile> profile = load_profile(name, folder);
+    if (!profile) {
+      problems.push_back(profile.error().message);
+      continue;
+    }
+    if (profile->name != name) problems.push_back(fmt::format("{}: its name is '{}'", file, profile->name));
+    for (const std::string& problem : lint_profile(*profile, set, whole)) problems.push_back(fmt::format("{}: {}", file, problem));
   }
+  std::ranges::sort(problems);
   return problems;
 }
 
@@ -48,7 +71,7 @@ int lint_command(const LintOptions& options) {
   add(problems, lint_statements(set));
   add(problems, lint_readings(set));
   add(problems, lint_tables(set, find_protocol));
-  if (fs::is_directory(data.profiles)) add(problems, lint_profiles(data.profiles));
+  if (fs::is_directory(data.profiles)) add(problems, lint_profiles(data.profiles, set, options.vectors.empty()));
   const std::vector<std::string> quotes = options.manuals.empty() ? lint_lock(set, read_lock(folder)) : lint_quotes(set, options.manuals);
   add(problems, quotes);
   if (options.lock && options.manuals.empty()) return complain("--lock needs --manuals DIR: only verified quotes are locked", exit_code::usage);

@@ -46,7 +46,9 @@ void add_run(CLI::App& app, RunOptions& run) {
                  "emulator:[MODEL][?option=value&...], pty:MODEL, serial:PATH?baud=38400&frame=8N1&station=1, exec:COMMAND ({tty} is the port), tcp:HOST:PORT")
       ->default_str("emulator:");
   app.add_option("--bench", run.bench, "JSON file of the devices on this bench; --dut names one, and other options override it");
-  app.add_option("--dut", run.dut, "Device of the bench file: gives endpoint, profile, --allow-write and identity");
+  app.add_option("--dut", run.duts, "Device of the bench file: gives endpoint, profile, --allow-write and identity; several (--dut A --dut B) share the cases")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--profile", run.profile, "What the device declares: a name from the profiles folder, or a JSON file");
   app.add_option("--filter", run.filter, "Cases by id: globs separated by ':', a leading '-' excludes");
   add_role(app, run.role);
@@ -148,6 +150,7 @@ int run_tool(int argc, char** argv) {
   probe_app->add_option("--protocol", probe.protocols, "Only these: xgt-cnet (default each that has a harmless read)")->delimiter(',')->allow_extra_args(false);
   probe_app->add_option("--wait", probe.wait_ms, "How long an answer may take, in ms")->capture_default_str()->check(CLI::Range(1, 60'000));
   probe_app->add_flag("--all", probe.all, "Go on after the first find");
+  probe_app->add_flag("--fingerprint", probe.fingerprint, "Read which areas the device has and where they end, for the bench file");
   probe_app->footer("Exit codes: 0 found, 1 something is wrong and named, 2 usage, 3 port trouble, 130 interrupted.");
 
   FrameOptions frame;
@@ -179,6 +182,16 @@ int run_tool(int argc, char** argv) {
   compare_app->add_option("--junit", compare.junit, "JUnit file of the comparison: what got worse is a failure");
   compare_app->footer("Exit codes: 0 nothing got worse, 1 something got worse, 2 a file cannot be read.");
 
+  MergeOptions merge;
+  CLI::App* merge_app = app.add_subcommand("merge", "One report of the shards of a run (GTEST_TOTAL_SHARDS, GTEST_SHARD_INDEX)");
+  merge_app->add_option("results", merge.files, "results.json or results.ndjson of each shard")->required();
+  merge_app->add_option("--out", merge.out, "Folder of the reports")->capture_default_str();
+  merge_app->add_option("--junit", merge.junit, "JUnit file, instead of OUT/junit.xml");
+  merge_app->add_option("--json", merge.json, "JSON file, instead of OUT/results.json");
+  merge_app->add_option("--html", merge.html, "HTML file, instead of OUT/report.html");
+  merge_app->footer(exit_codes);
+  merge.command = command_line(argc, argv);
+
   JudgeOptions judge;
   CLI::App* judge_app = app.add_subcommand("judge", "Judge a recorded run again by today's vectors, without the device");
   add_judge(*judge_app, judge);
@@ -196,6 +209,7 @@ int run_tool(int argc, char** argv) {
   frame_app->callback([&] { chosen = [&] { return frame_command(frame); }; });
   errata_app->callback([&] { chosen = [&] { return errata_command(errata); }; });
   compare_app->callback([&] { chosen = [&] { return compare_command(compare); }; });
+  merge_app->callback([&] { chosen = [&] { return merge_command(merge); }; });
   judge_app->callback([&] { chosen = [&] { return judge_command(judge); }; });
   report_app->callback([&] { chosen = [&] { return report_command(report); }; });
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include "harness/bench/benches.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/endpoints/interrupt.hpp"
 #include "harness/probe/conclusion.hpp"
@@ -118,6 +119,21 @@ std::string run_line(const EndpointName& endpoint, const Finding& device, bool s
   return line + " --profile " + (std::ranges::count(models, "xbc-h") > 0 ? "xbc-dxxxh" : models.front());
 }
 
+/// Of a device that was found; what went wrong is said and makes the exit code.
+int print_fingerprint(const EndpointName& endpoint, const Trial& device, bool settable, Duration patience) {
+  EndpointName name = name_of_found(endpoint, device, settable);
+  name.options["protocol"] = device.protocol->name();
+  BenchOptions options;
+  options.station = device.station;
+  options.profile.response_max = patience;
+  Result<Benches> port = Benches::open(name, {device.protocol}, options);
+  if (!port) return complain(port.error().message, exit_code::trouble);
+  const Result<Fingerprint> found = port->fingerprint();
+  if (!found) return complain(found.error().message, found.error().interrupted ? exit_code::interrupted : exit_code::trouble);
+  fmt::print("{:<13} {}\n", "fingerprint", to_string(*found));
+  return exit_code::ok;
+}
+
 void report(const std::vector<Finding>& findings, const EndpointName& endpoint, bool settable) {
   for (const Finding& finding : findings) {
     const bool where = finding.trial.protocol && settable;
@@ -167,6 +183,9 @@ int probe_command(const ProbeOptions& options) {
   if (search->interrupted) fmt::print("{:<13} after {} of {}\n", "interrupted", search->trials, plan.size() + 1);
   const std::vector<Finding> findings = conclude(*search, timing);
   report(findings, *endpoint, space->settable);
+  for (const Finding& finding : findings)
+    if (options.fingerprint && finding.kind == Finding::Kind::device && !search->interrupted)
+      if (const int code = print_fingerprint(*endpoint, finding.trial, space->settable, timing.wait); code != exit_code::ok) return code;
   return exit_code_of(findings, search->interrupted);
 }
 

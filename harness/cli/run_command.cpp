@@ -1,25 +1,30 @@
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 #include <set>
 
 #include "harness/bench/benches.hpp"
 #include "harness/bench/runner.hpp"
-#include "harness/bench/stimulus.hpp"
 #include "harness/bench/watchdog.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/compare_command.hpp"
-#include "harness/cli/line_matrix.hpp"
 #include "harness/cli/line_steps.hpp"
+#include "harness/cli/ports.hpp"
 #include "harness/cli/run_plan.hpp"
 #include "harness/cli/run_report.hpp"
+#include "harness/cli/shared_run.hpp"
 #include "harness/cli/soak_log.hpp"
 #include "harness/cli/timestamp.hpp"
 #include "harness/cli/tool_vectors.hpp"
 #include "harness/endpoints/interrupt.hpp"
 #include "harness/results/ndjson.hpp"
+#include "harness/results/shard.hpp"
+#include "harness/vectors/fingerprint.hpp"
 
 namespace fieldproof {
 
@@ -30,8 +35,9 @@ Gate gate_of(const RunOptions& options) { return {options.strict, options.fail_o
 /// The run itself: cases to results.
 class Run {
  public:
-  Run(const RunOptions& options, RunPlan& plan, Benches& benches, RunReport& report)
-      : options_(options), plan_(plan), benches_(benches), report_(report), lines_(plan, benches, options.reconfigure) {}
+  /// One of `ports` for each device of the plan.
+  Run(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, RunReport& report)
+      : options_(options), plan_(plan), ports_(ports), benches_(ports.front()), report_(report), lines_(plan, ports.front(), options.reconfigure) {}
 
   RunInfo info() const {
     RunInfo info;
@@ -44,6 +50,7 @@ class Run {
     info.properties["gate"] = to_string(gate_of(options_));
     info.properties["station"] = std::to_string(plan_.bench.station);
     info.properties["protocol"] = benches_.protocol_names();
+    if (!plan_.bench.profile.notes.empty()) info.properties["profile_notes"] = plan_.bench.profile.notes;
     if (!plan_.bench.profile.title.empty()) info.properties["device"] = plan_.bench.profile.title;
     if (options_.seed >= 0) info.properties["seed"] = std::to_string(options_.seed);
     if (options_.repeat > 1) info.properties["repeat"] = std::to_string(options_.repeat);
@@ -54,14 +61,19 @@ class Run {
     info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan_.bench.profile.response_max));
     info.identity = plan_.identity;
     info.hashes = plan_.hashes;
+    if (const std::optional<Shard> shard = shard_of_environment()) {
+      info.properties["shard"] = to_string(*shard);
+      info.properties["selection"] = selection();
+    }
     info.errata = errata();
+    if (!plan_.others.empty()) name_devices(info);
     return info;
   }
 
   /// Sanity exchange and floor, which the head of the reports tells of; an error: nothing can run.
   Status start() {
     if (const Status measured = measure_over_loop(); !measured) return measured;
-    if (!plan_.matrix.empty()) return ok();  // at each step
+    if (!plan_.matrix.empty() || !plan_.others.empty()) return ok();  // at each step, or of each device
     if (const Status alive = benches_.start(); !alive) return alive;
     Result<std::string> floor = take_floor(benches_);
     if (!floor) return floor.error();
@@ -72,10 +84,9 @@ class Run {
   /// Cases, sanity exchange; how it ended.
   RunReport::End execute(const Status& started) {
     started_ = std::chrono::steady_clock::now();
+    if (started && !plan_.others.empty()) return share_out();
     if (started) {
-      const int steps = std::max<int>(1, static_cast<int>(plan_.matrix.size()));
-      RunnerOptions runner{plan_.soak > 0ns ? -1 : options_.repeat * steps, options_.seed >= 0, std::max(0, options_.seed), options_.gtest_arguments};
-      run_with_gtest(plan_.selected, runner, [this](const Case& source, int round) { return run_case(source, round); });
+      run_with_gtest(plan_.selected, runner_options(), [this](const Case& source, int round) { return run_case(source, round); });
       if (soak_ && report_.tally().total() > 0) report_.add(soak_->summary(seconds()));
       // The last sanity exchange: whatever the cases left behind, the device still answers.
       if (!interrupted() && lines_.live())
@@ -142,6 +153,57 @@ class Run {
     return !sample || report_.add(*sample);
   }
 
+  RunnerOptions runner_options() const {
+    const int steps = std::max<int>(1, static_cast<int>(plan_.matrix.size()));
+    return {plan_.soak > 0ns ? -1 : options_.repeat * steps, options_.seed >= 0, std::max(0, options_.seed), options_.gtest_arguments};
+  }
+
+  /// The same on several ports at once. GoogleTest settles which cases, and in which order they are taken.
+  RunReport::End share_out() {
+    std::deque<SharedRun::Task> tasks;
+    run_with_gtest(plan_.selected, runner_options(), [&](const Case& source, int repeat) {
+      tasks.push_back({&source, repeat});
+      return true;
+    });
+    const std::size_t total = tasks.size();
+    std::vector<SharedRun::Port> ports{{plan_.identity.name, &ports_.front()}};
+    for (std::size_t i = 0; i < plan_.others.size(); ++i) ports.push_back({plan_.others[i].identity.name, &ports_[i + 1]});
+    SharedRun shared(std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
+      report_.show_progress(total, source.id);
+      waivers_.apply(result);
+      return report_.add(result) && !(options_.fail_fast && gates(result.verdict, report_.gate()));
+    });
+    shared.execute();
+    for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors))) report_.add(result);
+    end_.interrupted = shared.interrupted();
+    end_.trouble = fmt::format("{}", fmt::join(shared.troubles(), "; "));
+    return end_;
+  }
+
+  /// What the devices have in common stays in `info`, each has an entry of its own.
+  void name_devices(RunInfo& info) const {
+    const auto add = [&](const DutPlan& plan, const Benches& benches) {
+      DutInfo dut{benches.describe(), {{"station", std::to_string(plan.bench.station)}}, plan.identity};
+      if (!plan.line.empty()) dut.properties["line"] = plan.line;
+      info.duts.push_back(std::move(dut));
+    };
+    add(plan_, ports_.front());
+    for (std::size_t i = 0; i < plan_.others.size(); ++i) add(plan_.others[i], ports_[i + 1]);
+    for (std::size_t i = 1; i < info.duts.size(); ++i) {
+      info.identity = in_common(info.identity, info.duts[i].identity);
+      info.endpoint += ", " + info.duts[i].endpoint;
+    }
+    info.properties.erase("station");
+    info.properties.erase("line");
+  }
+
+  /// Tells shards of one selection from those of another.
+  std::string selection() const {
+    std::uint64_t print = empty_fingerprint;
+    for (const Case* one : plan_.selected) print = extend_fingerprint(print, one->id + '\n');
+    return fmt::format("{} cases, {:016x}", plan_.selected.size(), print);
+  }
+
   /// False: stop here.
   bool run_case(const Case& source, int round) {
     if (interrupted()) {
@@ -180,7 +242,8 @@ class Run {
 
   const RunOptions& options_;
   RunPlan& plan_;
-  Benches& benches_;
+  std::vector<Benches>& ports_;
+  Benches& benches_;  // the first
   RunReport& report_;
   Watchdog watchdog_;
   Waivers waivers_{plan_.waivers, timestamp().substr(0, 10), plan_.identity.firmware};
@@ -189,48 +252,6 @@ class Run {
   std::string floor_;  // what the link can show, in words
   std::chrono::steady_clock::time_point started_;
   RunReport::End end_;
-};
-
-/// What a run has besides its endpoint. Outlives the benches.
-class Fixtures {
- public:
-  static Result<Fixtures> open(const RunPlan& plan) {
-    Fixtures fixtures;
-    if (plan.aux)
-      if (const Status opened = fixtures.open_aux(*plan.aux); !opened) return opened.error();
-    if (plan.stimulus.empty() || plan.stimulus == "-") return fixtures;
-    Result<std::unique_ptr<Stimulus>> stimulus = Stimulus::start(plan.stimulus);
-    if (!stimulus) return stimulus.error();
-    fixtures.stimulus_ = std::move(*stimulus);
-    return fixtures;
-  }
-
-  void give(BenchOptions& bench, const std::string& stimulus) const {
-    if (aux_) bench.aux = {aux_.get(), aux_protocol_, aux_station_};
-    bench.endpoint_is_stimulus = stimulus == "-";
-    if (stimulus_) bench.stimulus = [program = stimulus_.get()](const std::string& line) { return program->tell(line); };
-  }
-
- private:
-  Status open_aux(const EndpointName& name) {
-    const Result<const Protocol*> protocol = choose_protocol(name.option("protocol", "xgt-cnet"), "");
-    if (!protocol) return fail("--aux: " + protocol.error().message);
-    const std::optional<int> station = config_station({{"station", name.option("station", "1")}}, 1);
-    if (!station) return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255", name.option("station", "1")));
-    Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(name);
-    if (!endpoint) return fail("--aux: " + endpoint.error().message);
-    aux_ = std::move(*endpoint);
-    aux_protocol_ = *protocol;
-    aux_station_ = *station;
-    const Result<bool> alive = Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
-    if (!alive) return alive.error();
-    return *alive ? ok() : Status(fail(fmt::format("nothing answers on --aux {} at station {}", aux_->describe(), aux_station_)));
-  }
-
-  std::unique_ptr<Endpoint> aux_;
-  const Protocol* aux_protocol_ = nullptr;
-  int aux_station_ = 1;
-  std::unique_ptr<Stimulus> stimulus_;
 };
 
 int dry_run(const RunPlan& plan) {
@@ -263,14 +284,15 @@ Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const
   return std::optional(summarize(*file));
 }
 
-int execute(const RunOptions& options, RunPlan& plan, Benches& benches, const std::optional<RunSummary>& baseline) {
+int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, const std::optional<RunSummary>& baseline) {
   Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return complain(paths.error().message, exit_code::trouble);
   if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
   Result<RunReport> report = RunReport::create(std::move(*paths), console_options(gate_of(options), options.verbose));
   if (!report) return complain(report.error().message, exit_code::trouble);
-  Run run(options, plan, benches, *report);
-  const Status started = run.start();
+  const Status same_devices = plan.matrix.empty() ? take_fingerprints(plan, ports, options.qualify) : ok();
+  Run run(options, plan, ports, *report);
+  const Status started = same_devices ? run.start() : same_devices;
   if (const Status begun = report->begin(run.info()); !begun) return complain(begun.error().message, exit_code::trouble);
   RunReport::End end = run.execute(started);
   if (baseline) end.worse = worse_than(*baseline, options, *report);
@@ -301,12 +323,12 @@ int run_command(const RunOptions& options) {
   const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
   if (!baseline) return complain(baseline.error().message, exit_code::usage);
   catch_interrupts();
-  const Result<Fixtures> fixtures = Fixtures::open(*plan);
-  if (!fixtures) return complain(fixtures.error().message, options.skip_absent && fixtures.error().absent ? exit_code::absent : exit_code::trouble);
-  fixtures->give(plan->bench, plan->stimulus);
-  Result<Benches> benches = Benches::open(plan->matrix.empty() ? plan->endpoint : at_line(plan->endpoint, plan->matrix.front()), plan->protocols, plan->bench);
-  if (!benches) return complain(benches.error().message, options.skip_absent && benches.error().absent ? exit_code::absent : exit_code::trouble);
-  return execute(options, *plan, *benches, *baseline);
+  const auto trouble = [&](const Error& error) { return complain(error.message, options.skip_absent && error.absent ? exit_code::absent : exit_code::trouble); };
+  const Result<std::vector<Fixtures>> fixtures = open_fixtures(*plan);
+  if (!fixtures) return trouble(fixtures.error());
+  Result<std::vector<Benches>> ports = open_ports(*plan);
+  if (!ports) return trouble(ports.error());
+  return execute(options, *plan, *ports, *baseline);
 }
 
 int report_command(const ReportOptions& options) {

@@ -10,6 +10,7 @@
 #include "harness/bench/bench_file.hpp"
 #include "harness/cli/line_matrix.hpp"
 #include "harness/cli/tool_vectors.hpp"
+#include "harness/endpoints/stable_name.hpp"
 #include "harness/paths.hpp"
 #include "harness/results/sha256.hpp"
 #include "src/base/duration.hpp"
@@ -70,13 +71,13 @@ Result<BenchOptions> bench_options(const RunOptions& options, const EndpointName
   return bench;
 }
 
-/// What the bench file says of the device, where no option says otherwise. Endpoint, station and line go together.
-Result<RunOptions> with_bench_device(RunOptions options, RunPlan& plan) {
-  if (options.bench.empty() != options.dut.empty()) return fail("--bench FILE and --dut NAME go together; give both");
-  if (!options.bench.empty()) {
+/// What the bench file says of the device `dut` (empty: there is no bench file), where no option says otherwise. Endpoint,
+/// station and line go together.
+Result<RunOptions> with_bench_device(RunOptions options, const std::string& dut, DutPlan& plan) {
+  if (!dut.empty()) {
     const Result<BenchFile> file = load_bench_file(options.bench);
     if (!file) return file.error();
-    const Result<BenchDevice> device = find_device(*file, options.dut);
+    const Result<BenchDevice> device = find_device(*file, dut);
     if (!device) return device.error();
     if (options.endpoint.empty()) {
       options.endpoint = endpoint_of(*device);
@@ -94,6 +95,8 @@ Result<RunOptions> with_bench_device(RunOptions options, RunPlan& plan) {
 
 /// The options of timing: floor, line matrix, soak.
 Status read_timing_options(const RunOptions& options, RunPlan& plan) {
+  for (const auto& [name, given] : {std::pair{"--matrix", !options.matrix.empty()}, {"--duration", !options.duration.empty()}, {"--loop", !options.loop.empty()}})
+    if (given && !plan.others.empty()) return fail(fmt::format("{} is of one device; give one --dut", name));
   if (!options.floor.empty()) {
     const bool plain = options.floor.find_first_not_of("0123456789.") == std::string::npos;
     const Result<Duration> floor = parse_duration(plain ? options.floor + "ms" : options.floor);
@@ -140,10 +143,10 @@ Status hash_files(const fs::path& vectors, const std::string& profile, const Dat
 }
 
 /// The option `protocol`; else what the profile declares: of an emulator all that cases are selected of, else the first.
-Result<std::vector<const Protocol*>> protocols_of(const RunPlan& plan) {
+Result<std::vector<const Protocol*>> protocols_of(const DutPlan& plan, const std::vector<const Case*>& selected) {
   std::vector<std::string> names = plan.bench.profile.protocols;
   const auto is_selected = [&](const std::string& name) {
-    return std::ranges::any_of(plan.selected, [&](const Case* one) { return one->protocol == name; });
+    return std::ranges::any_of(selected, [&](const Case* one) { return one->protocol == name; });
   };
   const std::string first = plan.endpoint.option("protocol", names.empty() ? "" : names.front());
   if (is_emulated(plan.endpoint) && !plan.endpoint.options.contains("protocol")) std::erase_if(names, std::not_fn(is_selected));
@@ -159,22 +162,67 @@ Result<std::vector<const Protocol*>> protocols_of(const RunPlan& plan) {
   return protocols;
 }
 
-}  // namespace
-
-Result<RunPlan> make_run_plan(const RunOptions& given) {
-  RunPlan plan;
+/// `profile` becomes the name of the device's profile.
+Result<DutPlan> make_dut_plan(const RunOptions& given, const std::string& dut, const std::vector<const Case*>& selected, std::string& profile) {
+  DutPlan plan;
   const DataPaths data = find_data();
-  const Result<RunOptions> complete = with_bench_device(given, plan);
-  if (!complete) return complete.error();
-  const RunOptions& options = *complete;
-  Result<EndpointName> endpoint = parse_endpoint(options.endpoint);
+  const Result<RunOptions> options = with_bench_device(given, dut, plan);
+  if (!options) return options.error();
+  Result<EndpointName> endpoint = parse_endpoint(options->endpoint);
   if (!endpoint) return endpoint.error();
   plan.endpoint = std::move(*endpoint);
-  if (const Status read = read_timing_options(options, plan); !read) return read.error();
-  const std::string profile = profile_for(options, plan.endpoint, data);
-  Result<BenchOptions> bench = bench_options(options, plan.endpoint, profile, data);
+  if (const std::string stable = plan.endpoint.kind == "serial" ? stable_name(plan.endpoint.target) : ""; !stable.empty())
+    complain(fmt::format("{} may be another adapter next time; its stable name is {}", plan.endpoint.target, stable), 0);
+  profile = profile_for(*options, plan.endpoint, data);
+  Result<BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data);
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
+  Result<std::vector<const Protocol*>> spoken = protocols_of(plan, selected);
+  if (!spoken) return spoken.error();
+  plan.protocols = std::move(*spoken);
+  if (std::ranges::all_of(selected, [](const Case* one) { return is_client_case(*one); })) plan.bench.client_cases = selected;
+  plan.stimulus = options->stimulus;
+  if (!options->aux.empty()) {
+    Result<EndpointName> aux = parse_endpoint(options->aux);
+    if (!aux) return fail("--aux: " + aux.error().message);
+    plan.aux = std::move(*aux);
+  }
+  if (const Status known = check_fingerprint(plan.identity.fingerprint, *plan.protocols.front()); !known)
+    return fail(fmt::format("cannot use bench file {}: devices.{}: {}", given.bench, dut, known.error().message));
+  return plan;
+}
+
+/// Devices that share the cases must be alike for them: which one takes a case is chance.
+Status check_alike(const DutPlan& first, const DutPlan& other, const std::vector<Waiver>& waivers) {
+  const auto differ = [&](const std::string& what, const std::string& a, const std::string& b) {
+    return fail(fmt::format("cannot share the cases between {} and {}: {} {} and {}; run them apart", first.identity.name, other.identity.name, what, a, b));
+  };
+  const std::string& a = first.bench.profile.name;
+  const std::string& b = other.bench.profile.name;
+  if (a != b) return differ("their profiles are", a, b);
+  if (first.protocols != other.protocols)
+    return differ("they speak", std::string(first.protocols.front()->name()), std::string(other.protocols.front()->name()));
+  const bool by_firmware = std::ranges::any_of(waivers, [](const Waiver& one) { return !one.firmware_from.empty() || !one.firmware_to.empty(); });
+  if (by_firmware && first.identity.firmware != other.identity.firmware)
+    return differ("waivers ask for the firmware, which is", first.identity.firmware, other.identity.firmware);
+  return ok();
+}
+
+Status check_duts(const RunOptions& options) {
+  if (options.bench.empty() != options.duts.empty()) return fail("--bench FILE and --dut NAME go together; give both");
+  if (options.duts.size() > 1 && !options.endpoint.empty()) return fail("--endpoint names one port, --dut several; leave --endpoint out");
+  for (const std::string& dut : options.duts) {
+    if (dut.empty()) return fail("--dut needs the name of a device");
+    if (std::ranges::count(options.duts, dut) > 1) return fail(fmt::format("--dut {} is given twice; leave one", dut));
+  }
+  return ok();
+}
+
+}  // namespace
+
+Result<RunPlan> make_run_plan(const RunOptions& options) {
+  RunPlan plan;
+  if (const Status duts = check_duts(options); !duts) return duts.error();
   Result<std::vector<Waiver>> waivers = load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);
@@ -183,20 +231,21 @@ Result<RunPlan> make_run_plan(const RunOptions& given) {
   plan.vectors = std::move(*loaded);
   for (const Case& one : plan.vectors.cases)
     if (matches_filter(one.id, options.filter) && has_role(one, options.role)) plan.selected.push_back(&one);
-  if (std::ranges::all_of(plan.selected, [](const Case* one) { return is_client_case(*one); })) plan.bench.client_cases = plan.selected;
-  plan.stimulus = options.stimulus;
-  if (!options.aux.empty()) {
-    Result<EndpointName> aux = parse_endpoint(options.aux);
-    if (!aux) return fail("--aux: " + aux.error().message);
-    plan.aux = std::move(*aux);
+  std::string profile;
+  Result<DutPlan> first = make_dut_plan(options, options.duts.empty() ? "" : options.duts.front(), plan.selected, profile);
+  if (!first) return first.error();
+  static_cast<DutPlan&>(plan) = std::move(*first);
+  for (std::size_t i = 1; i < options.duts.size(); ++i) {
+    Result<DutPlan> other = make_dut_plan(options, options.duts[i], plan.selected, profile);
+    if (!other) return other.error();
+    if (const Status alike = check_alike(plan, *other, plan.waivers); !alike) return alike.error();
+    plan.others.push_back(std::move(*other));
   }
-  Result<std::vector<const Protocol*>> spoken = protocols_of(plan);
-  if (!spoken) return spoken.error();
-  plan.protocols = std::move(*spoken);
+  if (const Status read = read_timing_options(options, plan); !read) return read.error();
   if (const std::vector<std::string> lost = unknown_targets(plan.waivers, case_ids(plan.vectors)); !lost.empty())
     return fail(fmt::format("cannot use waivers {}: {}; remove or correct them", options.waivers, fmt::join(lost, ", ")));
   if (options.qualify)
-    if (const Status hashed = hash_files(vectors_path(options.vectors), profile, data, plan.hashes); !hashed) return hashed.error();
+    if (const Status hashed = hash_files(vectors_path(options.vectors), profile, find_data(), plan.hashes); !hashed) return hashed.error();
   return plan;
 }
 

@@ -14,17 +14,22 @@
 
 namespace fieldproof {
 
-struct RunPlan {
+/// One device and how it is reached.
+struct DutPlan {
   EndpointName endpoint;
   std::vector<const Protocol*> protocols;  // what the endpoint speaks, at least one
   BenchOptions bench;
   std::string stimulus;                    // as --stimulus takes it
   std::optional<EndpointName> aux;
+  Identity identity;                       // of the bench file's device
+  std::string line;                        // as the bench file declares it
+};
+
+struct RunPlan : DutPlan {
+  std::vector<DutPlan> others;             // further devices, of the same profile and protocols: all share the cases
   std::vector<Waiver> waivers;
   VectorSet vectors;
   std::vector<const Case*> selected;       // into `vectors`
-  Identity identity;                       // of the bench file's device
-  std::string line;                        // as the bench file declares it
   std::vector<LineSettings> matrix;        // --matrix: steps of the line; empty: there is none
   std::optional<AdapterFloor> floor;       // --floor
   std::optional<EndpointName> loop;        // --loop: where an emulator answers over the same kind of link

@@ -110,7 +110,7 @@ int RunReport::finish(const End& end) {
   Summary summary;
   summary.tally = tally_;
   summary.end.finished = timestamp();
-  summary.end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  summary.end.seconds = end.seconds >= 0 ? end.seconds : std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   summary.end.interrupted = end.interrupted;
   summary.end.trouble = !end.trouble.empty() ? end.trouble : write_trouble_;
   summary.end.exit_code = code(end);

@@ -46,6 +46,7 @@ class RunReport {
     std::string trouble;       // empty, or why the run stopped early
     bool interrupted = false;
     bool worse = false;        // than a baseline: fails a gate that was met
+    double seconds = -1;       // that the run took; negative: since this report was begun
   };
   /// Writes the end and the reports, prints the summary; the exit code of the run.
   int finish(const End& end);

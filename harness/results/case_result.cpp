@@ -61,6 +61,15 @@ Event::Kind parse_kind(const json& object) {
 
 }  // namespace
 
+Identity in_common(Identity a, const Identity& b) {
+  for (std::string Identity::*field : {&Identity::name, &Identity::maker, &Identity::model, &Identity::serial, &Identity::firmware,
+                                       &Identity::operator_name, &Identity::notes})
+    if (a.*field != b.*field) (a.*field).clear();
+  if (a.fingerprint != b.fingerprint) a.fingerprint.clear();
+  if (a.fingerprint_found != b.fingerprint_found) a.fingerprint_found.clear();
+  return a;
+}
+
 void to_json(json& object, const Event& event) {
   object = {{"kind", kind_word(event.kind)}, {"start_ms", to_ms(event.start)}, {"end_ms", to_ms(event.end)}};
   put_bytes(object, "hex", event.bytes);
@@ -138,6 +147,7 @@ void to_json(json& object, const CaseResult& result) {
             {"verdict", to_string(result.verdict)},           {"seconds", result.seconds}};
   put(object, "line", result.line);
   if (result.repeat != 0) object["repeat"] = result.repeat;
+  put(object, "dut", result.dut);
   put(object, "manual", result.manual);
   put(object, "section", result.section);
   put(object, "quote", result.quote);
@@ -165,6 +175,7 @@ void from_json(const json& object, CaseResult& result) {
   result.verdict = *verdict;
   get(object, "line", result.line);
   get(object, "repeat", result.repeat);
+  get(object, "dut", result.dut);
   get(object, "rev", result.rev);
   get(object, "protocol", result.protocol);
   get(object, "title", result.title);
@@ -215,6 +226,18 @@ void from_json(const json& object, Identity& identity) {
   get(object, "fingerprint_found", identity.fingerprint_found);
 }
 
+void to_json(json& object, const DutInfo& dut) {
+  object = {{"endpoint", dut.endpoint}, {"identity", dut.identity}};
+  put(object, "properties", dut.properties);
+}
+
+void from_json(const json& object, DutInfo& dut) {
+  dut = {};
+  object.at("endpoint").get_to(dut.endpoint);
+  get(object, "identity", dut.identity);
+  get(object, "properties", dut.properties);
+}
+
 void to_json(json& object, const ErratumInfo& erratum) {
   object = {{"vector", erratum.vector_id}, {"manual", erratum.manual},   {"section", erratum.section},
             {"printed", erratum.printed},  {"correct", erratum.correct}, {"why", erratum.why}};
@@ -237,6 +260,7 @@ void to_json(json& object, const RunInfo& info) {
   if (json identity = info.identity; !identity.empty()) object["identity"] = std::move(identity);
   put(object, "hashes", info.hashes);
   put(object, "errata", info.errata);
+  put(object, "duts", info.duts);
 }
 
 void from_json(const json& object, RunInfo& info) {
@@ -251,6 +275,7 @@ void from_json(const json& object, RunInfo& info) {
   get(object, "identity", info.identity);
   get(object, "hashes", info.hashes);
   get(object, "errata", info.errata);
+  get(object, "duts", info.duts);
 }
 
 void to_json(json& object, const RunEnd& end) {

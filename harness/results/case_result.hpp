@@ -59,6 +59,7 @@ struct CaseResult {
   std::string id;        // "xgt_cnet/rss/two_words", unique in a run together with `line` and `repeat`
   std::string line;      // step of a line matrix: "38400-8N1"; empty: there is none
   int repeat = 0;        // 0-based repetition
+  std::string dut;       // which device, where the run has several (RunInfo::duts); else empty
   int rev = 1;
   std::string protocol;  // "xgt-cnet"
   std::string title;
@@ -92,6 +93,16 @@ struct Identity {
   std::map<std::string, std::string> fingerprint_found;  // by the bench; empty where it did not look
 };
 
+/// The fields that both have alike, the others empty.
+Identity in_common(Identity a, const Identity& b);
+
+/// One of several devices that shared a run.
+struct DutInfo {
+  std::string endpoint;
+  std::map<std::string, std::string> properties;  // station, line
+  Identity identity = {};
+};
+
 /// A mistake of a manual that the vectors of this run know of.
 struct ErratumInfo {
   std::string vector_id, manual, section;
@@ -108,6 +119,7 @@ struct RunInfo {
   Identity identity = {};
   std::map<std::string, std::string> hashes = {};  // SHA-256 of tool, vectors, profile
   std::vector<ErratumInfo> errata = {};            // of the selected cases
+  std::vector<DutInfo> duts = {};                  // where there are several; `identity` then holds what they have in common
 };
 
 /// How a run ended: the last line of the NDJSON file; absent when it was killed.

@@ -14,6 +14,7 @@ CaseResult full_result() {
   result.id = "xgt_cnet/rss/two_words";
   result.line = "38400-8N1";
   result.repeat = 2;
+  result.dut = "c41a";
   result.rev = 3;
   result.protocol = "xgt-cnet";
   result.title = "Read two words";
@@ -69,7 +70,7 @@ TEST(CaseResultJson, EveryFieldComesBack) {
 TEST(CaseResultJson, NoFieldIsForgotten) {
   // As many keys as fields, when none is empty. The binding does not compile once a field is added: then extend it,
   // full_result(), to_json and from_json.
-  const auto& [id, line, repeat, rev, protocol, title, level, basis, manual, section, quote, verdict, message, notes, expected,
+  const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, manual, section, quote, verdict, message, notes, expected,
                expected_bytes, expected_hex, received, received_bytes, differences, exchange, recording, readings,
                response_ms, seconds, replay] = full_result();
   EXPECT_EQ(26u, json(full_result()).size());
@@ -136,6 +137,18 @@ TEST(RunJson, IdentityHashesAndErrataComeBack) {
   EXPECT_EQ(info.hashes, again.hashes);
   ASSERT_EQ(1u, again.errata.size());
   EXPECT_EQ("six characters", again.errata[0].why);
+  EXPECT_EQ(json(info), json(again));
+}
+
+TEST(RunJson, SeveralDevicesComeBack) {
+  RunInfo info;
+  info.duts = {{"serial:/dev/a", {{"station", "3"}}, {"a", "LS", "XBL-C41A", "S/N 7", "V1.8", "Kim", "", {}, {}}}, {"serial:/dev/b", {}, {}}};
+  const auto again = json(info).get<RunInfo>();
+  ASSERT_EQ(2u, again.duts.size());
+  const auto& [endpoint, properties, identity] = again.duts[0];
+  EXPECT_EQ("serial:/dev/a", endpoint);
+  EXPECT_EQ(info.duts[0].properties, properties);
+  EXPECT_EQ("S/N 7", identity.serial);
   EXPECT_EQ(json(info), json(again));
 }
 

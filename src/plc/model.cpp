@@ -1,6 +1,7 @@
 #include "src/plc/model.hpp"
 
 #include <array>
+#include <set>
 
 namespace fieldproof {
 
@@ -59,6 +60,13 @@ const PlcModel* find_plc_model(std::string_view name) {
     if (model.name == name) return &model;
   }
   return nullptr;
+}
+
+std::vector<std::uint32_t> last_words_of(char letter) {
+  std::set<std::uint32_t> ends;
+  for (const PlcModel& model : models)
+    if (const DeviceArea* area = model.area(letter)) ends.insert(area->last_word());
+  return {ends.begin(), ends.end()};
 }
 
 std::string plc_model_names() {

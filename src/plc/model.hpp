@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fieldproof {
 
@@ -41,6 +42,8 @@ struct PlcModel {
 std::span<const PlcModel> plc_models();
 /// nullptr when unknown.
 const PlcModel* find_plc_model(std::string_view name);
+/// The last words that the models have of an area, in rising order; empty: none has it.
+std::vector<std::uint32_t> last_words_of(char letter);
 /// "xbc-h, xbm-s, xec-h", for messages.
 std::string plc_model_names();
 

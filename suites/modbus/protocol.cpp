@@ -76,6 +76,9 @@ class Modbus : public Protocol {
   nlohmann::json write_config() const override { return {{"bit_write_base", "M0"}, {"word_write_base", "M0"}}; }
   std::string_view output_areas() const override { return "PQU"; }
 
+  /// What the default base of the holding registers reaches.
+  std::vector<Area> areas() const override { return {{"M", last_words_of('M')}}; }
+
   Status check_fact(const nlohmann::json& facts) const override { return modbus::check_fact(facts); }
 
  private:

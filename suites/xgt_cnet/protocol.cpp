@@ -83,6 +83,13 @@ class XgtCnet : public Protocol {
   std::vector<Written> written_by(ByteView request) const override { return xgt_cnet::written_by(request); }
   std::string_view output_areas() const override { return "PQU"; }
 
+  std::vector<Area> areas() const override {
+    std::vector<Area> areas;
+    for (char letter = 'A'; letter <= 'Z'; ++letter)
+      if (std::vector<std::uint32_t> ends = last_words_of(letter); !ends.empty()) areas.push_back({std::string(1, letter), std::move(ends)});
+    return areas;
+  }
+
   Status check_fact(const nlohmann::json& facts) const override {
     if (facts.contains("keyword")) return check_p2p_fact(facts);
     const PlcModel* model = find_plc_model(facts.value("model", ""));

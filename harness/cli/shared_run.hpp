@@ -1,0 +1,59 @@
+// One selection of cases on several ports at once: each case runs once, the next free port takes the next one.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/bench/benches.hpp"
+#include "harness/bench/watchdog.hpp"
+
+namespace fieldproof {
+
+class SharedRun {
+ public:
+  struct Port {
+    std::string name;  // of the device
+    Benches* benches = nullptr;
+  };
+  struct Task {
+    const Case* source = nullptr;
+    int repeat = 0;
+    std::optional<CaseResult> earlier = {};  // of a port that failed in it
+  };
+  /// Takes a result, one at a time; false: stop here.
+  using OnResult = std::function<bool(const Case& source, CaseResult result)>;
+
+  SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult on_result);
+
+  /// Until every case has its result. What a port that vanishes leaves goes to the others; what no port is left for is
+  /// BLOCKED. The case in which a port failed is run elsewhere, but only once more: it may be the case that does it.
+  void execute();
+
+  const std::vector<std::string>& troubles() const { return troubles_; }  // "a: the port failed in ..."
+  bool interrupted() const { return interrupted_; }
+
+ private:
+  void serve(const Port& port);
+  bool take(Task& task);
+  /// False: the port is done.
+  bool run(const Port& port, const Task& task, Watchdog& watchdog);
+  void report(const Task& task, CaseResult result);
+
+  std::vector<Port> ports_;
+  OnResult on_result_;
+  std::mutex mutex_;                 // of all below
+  std::condition_variable changed_;  // a case was finished or given back
+  std::deque<Task> tasks_;
+  std::size_t running_ = 0;
+  std::vector<std::string> troubles_, stops_;
+  bool interrupted_ = false;
+  bool hung_ = false;
+  bool over_ = false;                // on_result_ said so
+};
+
+}  // namespace fieldproof

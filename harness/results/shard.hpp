@@ -1,0 +1,25 @@
+// Which part of a selection a run has done: GoogleTest deals the cases out by GTEST_TOTAL_SHARDS and GTEST_SHARD_INDEX.
+#pragma once
+
+#include <compare>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace fieldproof {
+
+struct Shard {
+  int index = 0;  // from 0
+  int total = 1;
+
+  auto operator<=>(const Shard&) const = default;
+};
+
+/// Nothing where the environment asks for none, or for what is no shard (GoogleTest then says so and ends).
+std::optional<Shard> shard_of_environment();
+
+/// "2/3", counted from 1.
+std::string to_string(const Shard& shard);
+std::optional<Shard> parse_shard(std::string_view text);
+
+}  // namespace fieldproof
