@@ -45,7 +45,6 @@ struct TestProtocol : Protocol {
     return {{"M", 1, 1, "%MW1"}};
   }
   std::string_view output_areas() const override { return "PQ"; }
-  nlohmann::json write_config() const override { return {{"base", "M0"}}; }
   Status check_fact(const nlohmann::json&) const override { return ok(); }
 };
 

@@ -20,6 +20,9 @@ class Benches {
   /// On the bench of the case's protocol; a case of another protocol is SKIP.
   CaseResult run(const Case& source);
 
+  /// `Bench::put_back` of all.
+  std::string put_back();
+
   bool interrupted() const;
   /// "emulator xbc-h".
   std::string describe() const { return members_.front().endpoint->describe(); }
@@ -30,6 +33,7 @@ class Benches {
   struct Member {
     const Protocol* protocol;
     std::unique_ptr<Endpoint> endpoint;
+    std::unique_ptr<Protocol> configured;  // of a real device: as it declares itself
     std::unique_ptr<Bench> bench;
   };
   std::vector<Member> members_;

@@ -14,6 +14,7 @@ Result<Bytes> MemoryAccess::ask(ByteView request) {
     if (burst->bytes.empty()) break;
     reply.insert(reply.end(), burst->bytes.begin(), burst->bytes.end());
   }
+  silent_ = reply.empty();
   return reply;
 }
 

@@ -18,6 +18,8 @@ class MemoryAccess {
   Result<std::string> get(int station, const std::string& address, std::size_t digits);
   /// The last error came from the device (a NAK, no answer), not from a way that does not exist.
   bool refused() const { return refused_; }
+  /// The last request was not answered at all.
+  bool silent() const { return silent_; }
 
  private:
   Result<Bytes> ask(ByteView request);
@@ -25,7 +27,7 @@ class MemoryAccess {
   Endpoint& endpoint_;
   const Protocol& protocol_;
   Duration patience_;
-  bool refused_ = false;
+  bool refused_ = false, silent_ = false;
 };
 
 }  // namespace fieldproof

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/ls_bus/inverter.hpp"
+#include "src/plc/config_reader.hpp"
 #include "suites/ls_bus/facts.hpp"
 #include "suites/ls_bus/frame_parts.hpp"
 #include "suites/ls_bus/memory_requests.hpp"
@@ -26,6 +27,8 @@ bool reads_one_word(ByteView request) {
 
 class LsBus : public Protocol {
  public:
+  explicit LsBus(bool count_first = false) : count_first_(count_first) {}
+
   std::string_view name() const override { return "ls-bus"; }
   std::vector<std::string> models() const override { return {"inverter"}; }
 
@@ -50,7 +53,7 @@ class LsBus : public Protocol {
   }
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
-    return ls_bus::write_requests(station_text(station), address, hex);
+    return ls_bus::write_requests(station_text(station), address, hex, count_first_);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
     return ls_bus::read_requests(station_text(station), address, digits);
@@ -58,11 +61,28 @@ class LsBus : public Protocol {
   Status write_reply(ByteView reply) const override { return ls_bus::write_reply(reply); }
   Result<std::string> read_reply(ByteView reply) const override { return ls_bus::read_reply(reply); }
   std::vector<Written> written_by(ByteView request) const override { return ls_bus::written_by(request); }
+
+  Result<std::unique_ptr<Protocol>> configured(std::string_view, const nlohmann::json& config) const override {
+    bool address_first = true;
+    ConfigReader reader(config, "the inverter's configuration");
+    reader.either("write_order", "address_first", "count_first", address_first);
+    if (reader.error()) return *reader.error();
+    return std::unique_ptr<Protocol>(std::make_unique<LsBus>(!address_first));
+  }
+  std::string spell(std::string_view, std::uint32_t word) const override { return "h" + hex_number(word, 4); }
+  std::vector<Place> places(const Written& written) const override { return ls_bus::places(written); }
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override { return ls_bus::named(address, digits); }
+  std::optional<std::string> moved(std::string_view address, int words) const override { return ls_bus::moved(address, words); }
+  std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
+    return reply ? std::vector<AddressField>() : ls_bus::address_fields(frame, count_first_);
+  }
   /// A parameter may be the run command: a motor turns.
-  nlohmann::json write_config() const override { return {{"write_order", "address_first"}}; }
   std::string_view output_areas() const override { return parameter_area; }
 
   Status check_fact(const nlohmann::json& facts) const override { return ls_bus::check_fact(facts); }
+
+ private:
+  bool count_first_;
 };
 
 }  // namespace
