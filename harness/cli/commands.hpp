@@ -19,6 +19,8 @@ struct RunOptions {
   std::string out = "fieldproof-out";
   std::string junit, json, html; // empty: in `out`
   std::string capture;           // empty: none
+  std::string journal;           // empty: in `out`
+  bool discard_journal = false;  // forget what an earlier run did not put back
   std::string bench, dut;        // bench file, and the device of it
   std::string waivers;
   std::string baseline;          // results of an earlier run, to compare with
@@ -84,6 +86,12 @@ struct ReportOptions {
   std::string ndjson, junit, json, html, capture;
 };
 int report_command(const ReportOptions& options);
+
+struct RestoreOptions {
+  std::string journal;
+  std::string endpoint;          // empty: the one that the journal names
+};
+int restore_command(const RestoreOptions& options);
 
 struct CompareOptions {
   std::vector<std::string> files;  // results: the first is what the others are compared with

@@ -66,6 +66,7 @@ class Run {
     } else {
       end_.trouble = alive.error().message;
     }
+    put_back();
     return end_;
   }
 
@@ -91,6 +92,13 @@ class Run {
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     const bool stop_here = hung || (options_.fail_fast && gates(result.verdict, report_.gate()));
     return report_.add(result) && !stop_here;
+  }
+
+  /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.
+  void put_back() {
+    if (end_.interrupted) clear_interrupt();
+    const std::string open = benches_.put_back();
+    if (!open.empty()) end_.not_restored = fmt::format("NOT RESTORED: {}; type: fieldproof restore {}", open, shell_word(plan_.journal));
   }
 
   /// The mistakes of the manuals that the selected cases met.
@@ -142,6 +150,21 @@ Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const
   return std::optional(summarize(*file));
 }
 
+/// Opens the journal of a device that may be written. The error says what an earlier run left, and what to type.
+Status open_journal(const RunOptions& options, RunPlan& plan) {
+  if (plan.journal.empty()) return ok();
+  Result<Journal> journal = Journal::open(plan.journal);
+  if (!journal) return journal.error();
+  if (options.discard_journal)
+    if (Status discarded = journal->discard(plan.bench.device); !discarded) return discarded;
+  const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) { return is_same_device(one.device, plan.bench.device); });
+  if (open > 0)
+    return fail(fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of its values; type: fieldproof restore {}\n"
+                            "(or forget them: --discard-journal)", plan.bench.device.endpoint, open, shell_word(plan.journal)));
+  plan.bench.journal = std::make_shared<Journal>(std::move(*journal));
+  return ok();
+}
+
 int execute(const RunOptions& options, RunPlan& plan, Benches& benches, const std::optional<RunSummary>& baseline) {
   Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return complain(paths.error().message, exit_code::trouble);
@@ -179,6 +202,7 @@ int run_command(const RunOptions& options) {
   const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
   if (!baseline) return complain(baseline.error().message, exit_code::usage);
   catch_interrupts();
+  if (const Status opened = open_journal(options, *plan); !opened) return complain(opened.error().message, exit_code::usage);
   Result<Benches> benches = Benches::open(plan->endpoint, plan->protocols, plan->bench);
   if (!benches) return complain(benches.error().message, options.skip_absent && benches.error().absent ? exit_code::absent : exit_code::trouble);
   return execute(options, *plan, *benches, *baseline);

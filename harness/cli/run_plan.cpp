@@ -39,6 +39,7 @@ std::string replay_command(const RunOptions& options) {
   if (!options.profile.empty()) command += " --profile " + shell_word(options.profile);
   if (!options.vectors.empty()) command += " --vectors " + shell_word(options.vectors);
   for (const std::string& range : options.allow_write) command += " --allow-write " + shell_word(range);
+  if (!options.journal.empty()) command += " --journal " + shell_word(options.journal);
   if (!options.power_cycle.empty()) command += " --power-cycle " + shell_word(options.power_cycle);
   if (options.floor_ms > 0) command += fmt::format(" --floor {:g}", options.floor_ms);
   if (options.strict) command += " --strict";
@@ -133,6 +134,9 @@ Result<RunPlan> make_run_plan(const RunOptions& given) {
   Result<BenchOptions> bench = bench_options(options, plan.endpoint, profile, data);
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
+  plan.bench.device = {options.endpoint, plan.bench.station, "", plan.bench.profile.model, plan.bench.profile.config};
+  if (!is_emulated(plan.endpoint) && !plan.bench.fence.empty())
+    plan.journal = options.journal.empty() ? (fs::path(options.out) / "journal.ndjson").string() : options.journal;
   Result<std::vector<Waiver>> waivers = load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);

@@ -21,6 +21,7 @@ struct RunPlan {
   std::vector<const Case*> selected;       // into `vectors`
   Identity identity;                       // of the bench file's device
   std::string line;                        // as the bench file declares it
+  std::string journal;                     // of a real device that may be written; empty: none
   std::map<std::string, std::string> hashes;  // with --qualify: SHA-256 of tool, vectors, profile
 };
 
