@@ -165,15 +165,15 @@ std::vector<Protocol::AddressField> address_fields(ByteView frame, bool count_fi
   return {};
 }
 
-std::vector<Protocol::Written> written_by(ByteView frame) {
+std::vector<Protocol::Written> written_by(ByteView frame, std::optional<bool> order) {
   if (frame.size() < 4 || frame[0] != enq || (frame[3] != 'W' && frame[3] != 'w')) return {};
   std::vector<Protocol::Written> written;
   bool settled = false;  // the request adds up address first, and only so
   for (const WriteReading& reading : write_readings(frame)) {
-    if (reading.count_first && settled && !reading.adds_up) continue;
+    if (order ? reading.count_first != *order : reading.count_first && settled && !reading.adds_up) continue;
     settled = reading.adds_up;
     const std::uint32_t first = *value_of(reading.address);
-    const std::string name = reading.count_first ? reading.address + " (read count first)" : reading.address;
+    const std::string name = reading.count_first && !order ? reading.address + " (read count first)" : reading.address;
     written.push_back({std::string(parameter_area), first, first + reading.words - 1, name});
   }
   if (written.empty()) written.push_back({"?", 0, std::numeric_limits<std::uint32_t>::max(), "an unknown place"});

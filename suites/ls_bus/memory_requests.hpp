@@ -2,6 +2,7 @@
 // or "h1230".
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,8 @@ std::optional<std::string> moved(std::string_view address, int words);
 /// The address of a request, in one of the two orders of a write (000 8.2.1: count first).
 std::vector<Protocol::AddressField> address_fields(ByteView request, bool count_first);
 
-/// What a request frame would write: address first, and count first too unless it adds up address first alone.
-std::vector<Protocol::Written> written_by(ByteView request);
+/// What a request frame would write: address first, and count first too unless it adds up address first alone. Of a device
+/// that declares its order (true: count first), in that one.
+std::vector<Protocol::Written> written_by(ByteView request, std::optional<bool> order = {});
 
 }  // namespace fieldproof::ls_bus

@@ -90,6 +90,11 @@ TEST(WriteRequests, GoOutInTheDeclaredOrder) {
   EXPECT_EQ(write_requests("01", "1230", "00FF", true)->front(), request("01W1123000FF"));
 }
 
+TEST(WrittenBy, ADeclaredOrderIsTheOnlyReading) {
+  EXPECT_THAT(shown(written_by(request("01W1230100FF"), false)), ElementsAre("H 4656-4656 1230"));
+  EXPECT_THAT(shown(written_by(request("01W1123000FF"), true)), ElementsAre("H 4656-4656 1230"));
+}
+
 TEST(Places, LeaveOutWhatIsReadOnly) {
   std::string text;
   for (const Protocol::Place& one : places({"H", 0x0002, 0x0011, ""})) text += one.address + ":" + std::to_string(one.digits) + (one.declared ? " " : "? ");

@@ -27,7 +27,8 @@ bool reads_one_word(ByteView request) {
 
 class LsBus : public Protocol {
  public:
-  explicit LsBus(bool count_first = false) : count_first_(count_first) {}
+  /// `count_first`: the order of writes that a device declares; nothing: it declares none.
+  explicit LsBus(std::optional<bool> count_first = {}) : order_(count_first), count_first_(count_first.value_or(false)) {}
 
   std::string_view name() const override { return "ls-bus"; }
   std::vector<std::string> models() const override { return {"inverter"}; }
@@ -60,14 +61,15 @@ class LsBus : public Protocol {
   }
   Status write_reply(ByteView reply) const override { return ls_bus::write_reply(reply); }
   Result<std::string> read_reply(ByteView reply) const override { return ls_bus::read_reply(reply); }
-  std::vector<Written> written_by(ByteView request) const override { return ls_bus::written_by(request); }
+  std::vector<Written> written_by(ByteView request) const override { return ls_bus::written_by(request, order_); }
 
   Result<std::unique_ptr<Protocol>> configured(std::string_view, const nlohmann::json& config) const override {
     bool address_first = true;
     ConfigReader reader(config, "the inverter's configuration");
     reader.either("write_order", "address_first", "count_first", address_first);
     if (reader.error()) return *reader.error();
-    return std::unique_ptr<Protocol>(std::make_unique<LsBus>(!address_first));
+    const bool declared = config.contains("write_order");
+    return std::unique_ptr<Protocol>(std::make_unique<LsBus>(declared ? std::optional(!address_first) : std::nullopt));
   }
   std::string spell(std::string_view, std::uint32_t word) const override { return "h" + hex_number(word, 4); }
   std::vector<Place> places(const Written& written) const override { return ls_bus::places(written); }
@@ -82,6 +84,7 @@ class LsBus : public Protocol {
   Status check_fact(const nlohmann::json& facts) const override { return ls_bus::check_fact(facts); }
 
  private:
+  std::optional<bool> order_;
   bool count_first_;
 };
 
