@@ -223,6 +223,11 @@ bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
     result.notes.push_back("not saved before: nobody can tell where a damaged write request would write");
   const Status saved = saved_.save(written);
   if (saved) return true;
+  // A device that the bench starts itself forgets all with its process: there the case may name the fault.
+  if (endpoint_.capabilities().can_power_cycle && !saved_.port_failed() && options_.journal) {
+    result.notes.push_back(saved.error().message);
+    return true;
+  }
   result.verdict = saved_.port_failed() ? Verdict::error : Verdict::blocked;
   result.message = saved.error().message;
   if (saved_.port_failed()) stop("the port failed before " + result.id + ": " + result.message, &saved.error());

@@ -52,6 +52,7 @@ Result<std::string> SavedMemory::word_by_word(const Protocol::Place& place) {
 
 Result<std::string> SavedMemory::read(const Protocol::Place& place) {
   Result<std::string> value = memory_.get(device_.station, place.address, place.digits);
+  endpoint_failed_ = !value && !memory_.refused() && protocol_.read_requests(device_.station, place.address, place.digits);
   if (!value && memory_.refused() && place.declared && place.digits > word_digits) value = word_by_word(place);
   if (value && value->size() != place.digits) return fail(fmt::format("cannot read {}: {} digits came, {} are due", place.address, value->size(), place.digits));
   return value;
@@ -61,21 +62,26 @@ Status SavedMemory::save(const std::vector<Protocol::Written>& written) {
   if (written.empty()) return ok();
   if (!journal_) return fail("writes, and no journal is open that would keep what the device held");
   std::vector<OpenEntry> entries;
+  std::optional<Error> unreadable;
   for (const Protocol::Written& one : joined(written)) {
     for (const Protocol::Place& place : protocol_.places(one)) {
       const Key key{place.address, place.digits};
       if (!known_.contains(key)) {
         const Result<std::string> value = read(place);
         const bool absent = !value && memory_.refused() && !place.declared;
-        port_failed_ = !value && !memory_.refused() && protocol_.read_requests(device_.station, place.address, place.digits);
-        if (!value && !absent)
-          return Error{fmt::format("cannot save what it writes: {}", value.error().message), value.error().interrupted};
+        if (!value && !absent) {
+          port_failed_ = endpoint_failed_;
+          unreadable = Error{fmt::format("cannot save what it writes: {}", value.error().message), value.error().interrupted};
+          if (port_failed_) return *unreadable;
+          continue;
+        }
         known_[key] = value ? *value : "";
       }
       if (!known_[key].empty() && !is_open(key)) entries.push_back({0, device_, place.address, known_[key]});
     }
   }
-  return journal_->save(entries);
+  if (Status kept = journal_->save(entries); !kept) return kept;
+  return unreadable ? Status(*unreadable) : ok();
 }
 
 Status SavedMemory::write(const OpenEntry& entry, const std::string& holds) {

@@ -18,7 +18,7 @@ class SavedMemory {
       : protocol_(protocol), memory_(endpoint, protocol, patience), device_(std::move(device)), journal_(std::move(journal)) {}
 
   /// Before a case: each place that is not known from an earlier case is read, and all are on the disk when this returns.
-  /// Errors say why the case must not write.
+  /// Errors say why the case must not write; what could be read is in the journal then, too.
   Status save(const std::vector<Protocol::Written>& written);
   /// The last error of `save` was of the port, not of the device.
   bool port_failed() const { return port_failed_; }
@@ -42,7 +42,7 @@ class SavedMemory {
   MemoryAccess memory_;
   JournalDevice device_;
   std::shared_ptr<Journal> journal_;
-  bool port_failed_ = false;
+  bool port_failed_ = false, endpoint_failed_ = false;
   std::map<Key, std::string> known_;  // what places held when this run first came to them; empty: no such memory
 };
 
