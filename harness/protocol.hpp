@@ -76,18 +76,52 @@ class Protocol {
   /// The hex digits in a reply to a read request; an error when it is a refusal or no such reply.
   virtual Result<std::string> read_reply(ByteView reply) const = 0;
 
-  /// What a request would write, for the write fence; empty for reads. Read leniently: a damaged write request names
-  /// area "?" where its addresses cannot be told.
+  /// This protocol as a device of `model` that declares `config` (keys of given.config) speaks it: what follows, and the
+  /// memory requests, then know where its addresses lie. nullptr: they lie there on any. Errors name the key.
+  virtual Result<std::unique_ptr<Protocol>> configured(std::string_view model, const nlohmann::json& config) const;
+
+  /// Memory that a request or an address names: words of an area, or its contacts (bits of T and C), which are apart.
   struct Written {
     std::string area;              // "M"
     std::uint32_t first_word = 0;  // in words of the area
     std::uint32_t last_word = 0;
     std::string address;           // as it stands in the request, for messages
+    bool contacts = false;
+
+    /// Nobody can tell which words of the area; of area "?", not even that.
+    bool unknown() const { return last_word == ~0u || area == "?"; }
   };
+  /// What a request would write, for the write fence; empty for reads. Read leniently: a damaged write request names
+  /// area "?" where its addresses cannot be told.
   virtual std::vector<Written> written_by(ByteView request) const = 0;
-  /// The configuration (keys of `given.config`) under which `written_by` and the memory requests are right: on a real
-  /// device that declares another one nothing is written.
-  virtual nlohmann::json write_config() const;
+  /// A word as --allow-write takes it: "M100", "h1230".
+  virtual std::string spell(std::string_view area, std::uint32_t word) const;
+
+  /// Memory as `read_requests` and `write_requests` reach it: what is saved before a write, and put back.
+  struct Place {
+    std::string address;     // "%MW100"
+    std::size_t digits = 0;
+    bool declared = true;    // false: the declared device has no such memory, a write there must be refused
+  };
+  /// None for what no request can write: there is nothing to put back.
+  virtual std::vector<Place> places(const Written& written) const;
+
+  /// What so many digits at an address of a vector name; nothing where the declared device has no such memory.
+  virtual std::optional<Written> named(std::string_view address, std::size_t digits) const;
+  /// The same address so many words further on, of the same type and as many characters; nothing where there is none.
+  virtual std::optional<std::string> moved(std::string_view address, int words) const;
+  /// An address in a frame. `size` 0: the frame names memory that cannot be moved.
+  struct AddressField {
+    std::size_t offset = 0, size = 0;
+    Written names;
+  };
+  /// In the order of the frame. `reply`: the frame comes from the device.
+  virtual std::vector<AddressField> address_fields(ByteView frame, bool reply) const;
+  /// The bytes of that field so many words further on; nothing where there are none of its size.
+  virtual std::optional<Bytes> moved_field(ByteView frame, const AddressField& field, int words) const;
+  /// Words of an area of the declared device; 0: it has none.
+  virtual std::uint32_t words_of(std::string_view area) const;
+
   /// Areas whose words may be physical outputs: written only when named.
   virtual std::string_view output_areas() const = 0;
 

@@ -44,8 +44,8 @@ struct TestProtocol : Protocol {
     if (request.size() < 2 || request[1] != 'w') return {};
     return {{"M", 1, 1, "%MW1"}};
   }
+
   std::string_view output_areas() const override { return "PQ"; }
-  nlohmann::json write_config() const override { return {{"base", "M0"}}; }
   Status check_fact(const nlohmann::json&) const override { return ok(); }
 };
 

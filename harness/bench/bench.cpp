@@ -7,6 +7,7 @@
 
 #include "harness/bench/p2p_blocks.hpp"
 #include "harness/bench/recording.hpp"
+#include "harness/bench/transposition.hpp"
 #include "harness/endpoints/hook.hpp"
 #include "harness/vectors/loader.hpp"
 
@@ -39,7 +40,8 @@ Bench::Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
       options_(std::move(options)),
       arming_(protocol, {options_.endpoint_is_stimulus ? [&endpoint](const std::string& line) { return endpoint.tell(line); } : options_.stimulus, complete_blocks(options_.profile.prepared_blocks), options_.aux.endpoint != nullptr}),
       memory_(endpoint, protocol, options_.profile.response_max, options_.aux, &arming_),
-      exchange_(endpoint, protocol, timing(), options_.aux, &arming_) {}
+      exchange_(endpoint, protocol, timing(), options_.aux, &arming_),
+      saved_(endpoint, protocol, options_.profile.response_max, options_.device, options_.journal) {}
 
 ExchangeTiming Bench::timing() const {
   ExchangeTiming timing;
@@ -159,17 +161,6 @@ std::string Bench::undeclared(const json& config) const {
   return {};
 }
 
-/// The fence can only tell where a request writes under the configuration that the protocol knows.
-std::string Bench::other_write_config(const json& config) const {
-  const json write_config = protocol_.write_config();
-  for (const auto& [key, known] : write_config.items()) {
-    const json has = config.value(key, options_.profile.config.value(key, known));
-    if (plain(has) != plain(known))
-      return fmt::format("writes with {} = {}; the write fence can follow {} alone", key, plain(has), plain(known));
-  }
-  return {};
-}
-
 /// What the bench sends to a client are answers; what it sets goes over the second channel.
 std::string Bench::client_fence_objection(const PreparedCase& prepared) const {
   const AuxLink& aux = options_.aux;
@@ -183,35 +174,41 @@ std::string Bench::client_fence_objection(const PreparedCase& prepared) const {
     const Result<std::vector<Bytes>> requests = aux.protocol->write_requests(aux.station, address, hex);
     if (!requests) return fmt::format("cannot set {} over --aux: {}", address, requests.error().message);
     for (const Bytes& request : *requests)
-      if (std::string why = options_.fence.objection(aux.protocol->written_by(request), aux.protocol->output_areas()); !why.empty()) return why;
+      if (std::string why = options_.fence.objection(aux.protocol->written_by(request), *aux.protocol); !why.empty()) return why;
   }
   return {};
 }
 
 std::string Bench::fence_objection(const PreparedCase& prepared) const {
   if (prepared.is_client()) return client_fence_objection(prepared);
-  const std::string other = other_write_config(prepared.source->config);
-  const auto objection = [&](ByteView bytes) {
-    const std::vector<Protocol::Written> written = protocol_.written_by(bytes);
-    return !written.empty() && !other.empty() ? other : options_.fence.objection(written, protocol_.output_areas());
-  };
-  const auto setting = [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
-    for (const auto& [address, hex] : memory) {
-      const Result<std::vector<Bytes>> requests = protocol_.write_requests(prepared.station, address, hex);
-      if (!requests) return fmt::format("cannot set {}: {}", address, requests.error().message);
-      for (const Bytes& request : *requests)
-        if (std::string why = objection(request); !why.empty()) return why;
-    }
+  const auto unsettable = [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
+    for (const auto& [address, hex] : memory)
+      if (const Result<std::vector<Bytes>> requests = protocol_.write_requests(prepared.station, address, hex); !requests)
+        return fmt::format("cannot set {}: {}", address, requests.error().message);
     return {};
   };
-  if (std::string why = setting(prepared.source->memory); !why.empty()) return why;
+  if (std::string why = unsettable(prepared.source->memory); !why.empty()) return why;
+  for (const PreparedStep& step : prepared.steps)
+    if (step.step->kind == Step::Kind::set)
+      if (std::string why = unsettable(step.step->memory); !why.empty()) return why;
+  return options_.fence.objection(written_by(prepared), protocol_);
+}
+
+/// In the order of the case.
+std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) const {
+  std::vector<Protocol::Written> written;
+  const auto add = [&](ByteView request) { std::ranges::move(protocol_.written_by(request), std::back_inserter(written)); };
+  const auto add_memory = [&](const std::vector<std::pair<std::string, std::string>>& memory) {
+    for (const auto& [address, hex] : memory)
+      if (const Result<std::vector<Bytes>> requests = protocol_.write_requests(prepared.station, address, hex); requests)
+        for (const Bytes& request : *requests) add(request);
+  };
+  add_memory(prepared.source->memory);
   for (const PreparedStep& step : prepared.steps) {
-    std::string why;
-    if (step.step->kind == Step::Kind::set) why = setting(step.step->memory);
-    if (step.step->kind == Step::Kind::send) why = objection(step.frames.front().frame.bytes);
-    if (!why.empty()) return why;
+    if (step.step->kind == Step::Kind::set) add_memory(step.step->memory);
+    if (step.step->kind == Step::Kind::send) add(step.frames.front().frame.bytes);
   }
-  return {};
+  return written;
 }
 
 Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepared) const {
@@ -225,7 +222,6 @@ Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepar
   if (prepared.looks_at_counters() && !prepared.is_client()) return {Verdict::blocked, "looks at the status counters, which no command reads; see XG5000, status by service"};
   if (source.fresh && !can.can_power_cycle && options_.power_cycle_command.empty())
     return {Verdict::blocked, "needs a device fresh from power-on; give --power-cycle COMMAND"};
-  if (std::string why = fence_objection(prepared); !why.empty()) return {Verdict::blocked, why};
   return {};
 }
 
@@ -250,12 +246,31 @@ CaseResult Bench::run(const Case& source) {
     return result;
   };
   if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass) return decline(outside);
-  const Result<PreparedCase> prepared = prepare(source, station_for(source), protocol_);
+  const Result<PreparedCase> as_printed = prepare(source, station_for(source), protocol_);
+  if (!as_printed) return decline({Verdict::error, as_printed.error().message});
+  if (const Eligibility why = blocked(source, *as_printed); why.verdict != Verdict::pass) return decline(why);
+  // A real device is written only where it is allowed.
+  std::optional<Case> elsewhere;
+  std::vector<Move> moves;
+  if (endpoint_.capabilities().real_device && !as_printed->is_client()) {
+    const Result<std::vector<Move>> planned = plan_moves(source, station_for(source), options_.fence, protocol_);
+    if (!planned) return decline({Verdict::blocked, planned.error().message});
+    moves = *planned;
+  }
+  if (!moves.empty()) {
+    Result<Case> moved = moved_case(source, station_for(source), moves, protocol_);
+    if (!moved) return decline({Verdict::blocked, moved.error().message});
+    elsewhere = std::move(*moved);
+  }
+  const Result<PreparedCase> prepared = elsewhere ? prepare(*elsewhere, station_for(source), protocol_) : as_printed;
   if (!prepared) return decline({Verdict::error, prepared.error().message});
-  if (const Eligibility why = blocked(source, *prepared); why.verdict != Verdict::pass) return decline(why);
+  if (endpoint_.capabilities().real_device)
+    if (std::string why = fence_objection(*prepared); !why.empty()) return decline({Verdict::blocked, why});
   if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass) return decline(why);
   if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
+  for (const Move& move : moves) result.notes.push_back(note_of(move, protocol_));
   execute(*prepared, result);
+  if (!result.recording.stimulus.empty()) result.recording.moves = moves;
   errors_in_a_row_ = result.verdict == Verdict::error ? errors_in_a_row_ + 1 : 0;
   if (errors_in_a_row_ == errors_to_stop && stopped_.empty()) stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));
   return result;
@@ -263,7 +278,14 @@ CaseResult Bench::run(const Case& source) {
 
 void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   note_transposition(prepared, result);
-  if (!prepare_device(prepared, result)) return;
+  const bool writes = endpoint_.capabilities().real_device && !prepared.is_client();
+  if (writes && !save_memory(prepared, result)) return;
+  if (prepare_device(prepared, result)) exchange(prepared, result);
+  if (!writes) return;
+  if (const std::string problem = saved_.restore(); !problem.empty()) result.notes.push_back("not put back what it wrote: " + problem);
+}
+
+void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
   Transcript transcript = exchange_.run(prepared);
   exchange_.close(prepared, transcript);
   if (!transcript.trouble)
@@ -271,6 +293,29 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   judge_exchange(prepared, transcript, result);
   after(prepared, transcript, result);
   readings_.note(result);
+}
+
+bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
+  const std::vector<Protocol::Written> written = written_by(prepared);
+  if (std::ranges::any_of(written, &Protocol::Written::unknown))
+    result.notes.push_back("not saved before: nobody can tell where a damaged write request would write");
+  const Status saved = saved_.save(written);
+  if (saved) return true;
+  // A device that the bench starts itself forgets all with its process: there the case may name the fault.
+  if (endpoint_.capabilities().can_power_cycle && !saved_.port_failed() && options_.journal) {
+    result.notes.push_back(saved.error().message);
+    return true;
+  }
+  result.verdict = saved_.port_failed() ? Verdict::error : Verdict::blocked;
+  result.message = saved.error().message;
+  if (saved_.port_failed()) stop("the port failed before " + result.id + ": " + result.message, &saved.error());
+  return false;
+}
+
+std::string Bench::put_back() {
+  if (!endpoint_.capabilities().real_device) return {};
+  [[maybe_unused]] const std::string problem = saved_.restore();
+  return saved_.open_places();
 }
 
 bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "harness/bench/judge.hpp"
 #include "harness/bench/profile.hpp"
 #include "harness/bench/readings.hpp"
+#include "harness/bench/saved_memory.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/vectors/case.hpp"
 
@@ -28,6 +30,8 @@ struct BenchOptions {
   TellStimulus stimulus;           // --stimulus: what makes the device ask; empty: none
   bool endpoint_is_stimulus = false;  // --stimulus -: the endpoint's own program is told
   std::vector<const Case*> client_cases;  // all that are selected, where every one of them is of a device that asks
+  JournalDevice device;            // for the journal of a real device
+  std::shared_ptr<Journal> journal;  // without one nothing is written to a real device
 };
 
 class Bench {
@@ -51,6 +55,9 @@ class Bench {
   /// Never throws; whatever goes wrong is in the result.
   CaseResult run(const Case& source);
 
+  /// After the last case: tries again to put back what could not be. Empty, or what a real device does not hold as before.
+  std::string put_back();
+
   /// Why no further case can run: the port failed, or the link is dead. Empty while all is well.
   const std::string& stopped() const { return stopped_; }
   bool port_failed() const { return port_failed_; }
@@ -63,9 +70,9 @@ class Bench {
   };
   Eligibility outside_profile(const Case& source) const;
   Eligibility blocked(const Case& source, const PreparedCase& prepared) const;
+  CaseResult run_as_it_is(const Case& source, const std::vector<Move>& moves);
   Eligibility below_floor(const PreparedCase& prepared) const;
   std::string undeclared(const nlohmann::json& config) const;
-  std::string other_write_config(const nlohmann::json& config) const;
   std::string client_fence_objection(const PreparedCase& prepared) const;
   std::string fence_objection(const PreparedCase& prepared) const;
 
@@ -78,6 +85,9 @@ class Bench {
   Status end_asking(const PreparedCase& prepared);
   bool begin_case(const PreparedCase& prepared, CaseResult& result);
   void execute(const PreparedCase& prepared, CaseResult& result);
+  std::vector<Protocol::Written> written_by(const PreparedCase& prepared) const;
+  bool save_memory(const PreparedCase& prepared, CaseResult& result);
+  void exchange(const PreparedCase& prepared, CaseResult& result);
   bool prepare_device(const PreparedCase& prepared, CaseResult& result);
   void judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
   bool power_cycle(CaseResult& result);
@@ -92,6 +102,7 @@ class Bench {
   Exchange exchange_;
   std::optional<AdapterFloor> floor_;  // nothing: what is declared
   Readings readings_;
+  SavedMemory saved_;
   std::string stopped_;
   int errors_in_a_row_ = 0;
   bool port_failed_ = false;

@@ -1,6 +1,7 @@
 #include "harness/bench/bench.hpp"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "harness/bench/scripted_endpoint.hpp"
 #include "harness/test_protocol.hpp"
@@ -26,6 +27,11 @@ class BenchTest : public testing::Test {
     options.profile.protocols = {"xgt-cnet"};
     endpoint.answers["<probe>"] = Pieces{{1ms, "<alive>"}};
     endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
+    options.device.endpoint = "serial:/dev/scripted";
+    const std::string path = testing::TempDir() + "fieldproof_bench_test_" + std::to_string(::getpid()) + ".ndjson";
+    Result<Journal> journal = Journal::open(path);
+    options.journal = std::make_shared<Journal>(std::move(*journal));
+    std::filesystem::remove(path);  // the open file stays
   }
 
   static std::string vector(const std::string& steps, const std::string& more = "") {
@@ -106,14 +112,51 @@ TEST_F(BenchTest, AnExclusionNamesItsReason) {
   EXPECT_THAT(run(vector(ask())).message, HasSubstr("no such command"));
 }
 
-TEST_F(BenchTest, NothingIsWrittenUnderAConfigurationThatTheFenceCannotFollow) {
+TEST_F(BenchTest, NothingIsWrittenWithoutAJournal) {
   on_real_device();
+  options.journal = nullptr;
   ASSERT_TRUE(options.fence.allow("M"));
-  options.profile.config = {{"base", "D0"}};
   const CaseResult write = run(vector(R"({"send": "'<w>'"}, {"expect": "'<ok>'"})"));
   EXPECT_EQ(write.verdict, Verdict::blocked);
-  EXPECT_EQ(write.message, "writes with base = D0; the write fence can follow M0 alone");
+  EXPECT_THAT(write.message, HasSubstr("no journal is open"));
+  EXPECT_THAT(endpoint.sent, IsEmpty());
   EXPECT_EQ(run(vector(ask())).verdict, Verdict::pass) << "a read is no write";
+}
+
+TEST_F(BenchTest, WhatACaseWritesIsReadBeforeAndPutBackAfter) {
+  on_real_device();
+  ASSERT_TRUE(options.fence.allow("M"));
+  endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<00E2>"}};
+  endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
+  const std::string text = vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )");
+  EXPECT_EQ(run(text).verdict, Verdict::pass);
+  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<r%MW1>", "<w%MW1=1234>", "<ask>", "<probe>", "<r%MW1>"));
+  EXPECT_THAT(options.journal->open_entries(), IsEmpty());
+  endpoint.sent.clear();
+  EXPECT_EQ(run(text).verdict, Verdict::pass);
+  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<w%MW1=1234>", "<ask>", "<probe>", "<r%MW1>")) << "each place is read once a run before it is written";
+}
+
+TEST_F(BenchTest, WhatCannotBePutBackStaysInTheJournal) {
+  on_real_device();
+  ASSERT_TRUE(options.fence.allow("M"));
+  endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<00E2>"}};
+  endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
+  endpoint.forgets = "<r%MW1>";  // after its first answer
+  const CaseResult result = run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )"));
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  EXPECT_THAT(result.notes, Contains(HasSubstr("not put back what it wrote: cannot read %MW1")));
+  EXPECT_EQ(bench().put_back(), "%MW1 = 00E2");
+}
+
+TEST_F(BenchTest, WhatCannotBeReadIsNotWritten) {
+  on_real_device();
+  ASSERT_TRUE(options.fence.allow("M"));
+  const CaseResult result = run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )"));
+  EXPECT_EQ(result.verdict, Verdict::blocked);
+  EXPECT_THAT(result.message, HasSubstr("cannot save what it writes: cannot read %MW1"));
+  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<r%MW1>"));
 }
 
 TEST_F(BenchTest, EmulatorsBecomeWhatACaseGives) {
@@ -168,6 +211,7 @@ TEST_F(BenchTest, GivenMemoryIsBehindTheFenceToo) {
 TEST_F(BenchTest, InsideTheFenceItIsWrittenThroughTheProtocol) {
   on_real_device();
   ASSERT_TRUE(options.fence.allow("M"));
+  endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<0000>"}};
   endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
   EXPECT_EQ(run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )")).verdict, Verdict::pass);
 }
@@ -241,10 +285,14 @@ TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
 
 // ---- fence, profile ------------------------------------------------------------------------------------------------
 
+struct FenceProtocol : TestProtocol {
+  std::string_view output_areas() const override { return "PQU"; }
+};
+
 std::string objection(const std::string& allowed, const Protocol::Written& written) {
   WriteFence fence;
   EXPECT_TRUE(fence.allow(allowed)) << allowed;
-  return fence.objection({written}, "PQU");
+  return fence.objection({written}, FenceProtocol());
 }
 
 TEST(WriteFence, RangesAreaAndAll) {
@@ -260,6 +308,22 @@ TEST(WriteFence, RangesAreaAndAll) {
 TEST(WriteFence, OutputsOnlyWhenNamed) {
   EXPECT_NE(objection("all", {"P", 0, 0, "%PW0"}), "");
   EXPECT_EQ(objection("all,P", {"P", 0, 0, "%PW0"}), "");
+}
+
+TEST(WriteFence, RangesThatMeetAreOne) {
+  EXPECT_EQ(objection("M100,M101-M102", {"M", 100, 102, "%MW100"}), "");
+  WriteFence fence;
+  ASSERT_TRUE(fence.allow("M110-M119,M100-M105,M106,D3"));
+  const std::vector<WriteFence::Words> words = fence.allowed("M", "P");
+  ASSERT_EQ(words.size(), 2u);
+  EXPECT_EQ(words[0].last, 106u);
+  EXPECT_EQ(words[1].first, 110u);
+}
+
+TEST(WriteFence, ParametersAreNamedByTheirHexAddress) {
+  const Protocol::Written parameter{"H", 0x1230, 0x1231, "1230"};
+  for (const char* range : {"h1230-h1231", "1230-1231", "H1200-H12FF", "H"}) EXPECT_EQ(objection(range, parameter), "") << range;
+  EXPECT_NE(objection("h1231-h1232", parameter), "");
 }
 
 TEST(WriteFence, ADamagedRequestNeedsAll) {

@@ -11,8 +11,16 @@ Result<Benches> Benches::open(const EndpointName& name, const std::vector<const 
     own.options["protocol"] = protocol->name();
     Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(own);
     if (!endpoint) return endpoint.error();
-    auto bench = std::make_unique<Bench>(**endpoint, *protocol, options);
-    benches.members_.push_back({protocol, std::move(*endpoint), std::move(bench)});
+    std::unique_ptr<Protocol> configured;
+    if ((*endpoint)->capabilities().real_device) {
+      Result<std::unique_ptr<Protocol>> declared = protocol->configured(options.profile.model, options.profile.config);
+      if (!declared) return fail("cannot use profile " + options.profile.name + ": " + declared.error().message);
+      configured = std::move(*declared);
+    }
+    BenchOptions one = options;
+    one.device.protocol = protocol->name();
+    auto bench = std::make_unique<Bench>(**endpoint, configured ? *configured : *protocol, std::move(one));
+    benches.members_.push_back({protocol, std::move(*endpoint), std::move(configured), std::move(bench)});
   }
   return benches;
 }
@@ -61,6 +69,13 @@ Status Benches::start_those_that_answer() {
 std::string Benches::stopped() const {
   const auto can_run = [](const Member& member) { return member.bench->stopped().empty(); };
   return members_.empty() || std::ranges::any_of(members_, can_run) ? "" : members_.front().bench->stopped();
+}
+
+std::string Benches::put_back() {
+  std::string open;
+  for (Member& member : members_)
+    if (const std::string one = member.bench->put_back(); !one.empty()) open += (open.empty() ? "" : ", ") + one;
+  return open;
 }
 
 bool Benches::interrupted() const {

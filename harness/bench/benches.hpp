@@ -37,6 +37,8 @@ class Benches {
 
   /// By the first protocol.
   Result<Fingerprint> fingerprint() { return members_.front().bench->fingerprint(); }
+  /// `Bench::put_back` of all.
+  std::string put_back();
 
   bool interrupted() const;
   /// The port itself is gone.
@@ -52,6 +54,7 @@ class Benches {
   struct Member {
     const Protocol* protocol;
     std::unique_ptr<Endpoint> endpoint;
+    std::unique_ptr<Protocol> configured;  // of a real device: as it declares itself
     std::unique_ptr<Bench> bench;
   };
   std::vector<Member> members_;

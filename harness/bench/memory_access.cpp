@@ -15,6 +15,7 @@ Result<Bytes> MemoryAccess::ask(const Server& server, ByteView request) {
     if (burst->bytes.empty()) break;
     reply.insert(reply.end(), burst->bytes.begin(), burst->bytes.end());
   }
+  silent_ = reply.empty();
   return reply;
 }
 

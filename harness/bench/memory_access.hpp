@@ -32,6 +32,8 @@ class MemoryAccess {
   bool can_read(const PreparedCase& prepared, const std::string& address) const;
   /// The last error came from the device (a NAK, no answer), not from a way that does not exist.
   bool refused() const { return refused_; }
+  /// The last request was not answered at all.
+  bool silent() const { return silent_; }
 
   /// What comes back to a request over the wire, as far as it came in time; empty: nothing.
   Result<Bytes> ask(int station, ByteView request) { return ask(Server{endpoint_, protocol_, station}, request); }
@@ -54,7 +56,7 @@ class MemoryAccess {
   Duration patience_;
   AuxLink aux_;
   Arming* arming_;
-  bool refused_ = false;
+  bool refused_ = false, silent_ = false;
 };
 
 }  // namespace fieldproof

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "harness/bench/recording.hpp"
+#include "harness/bench/transposition.hpp"
 
 namespace fieldproof {
 
@@ -33,13 +34,19 @@ Rejudge::Outcome Rejudge::judge(const CaseResult& recorded) {
   if (source == cases_.end()) return not_judged(recorded, "the vector is gone");
   const Protocol* protocol = find_protocol(source->second->protocol);
   if (!protocol) return not_judged(recorded, fmt::format("there is no protocol '{}'", source->second->protocol));
-  const Result<PreparedCase> prepared = prepare(*source->second, recorded.recording.station, *protocol);
+  // On a real device the case may have been moved, by addresses that its configuration gives a meaning.
+  const Result<std::unique_ptr<Protocol>> configured = protocol->configured(profile_.model, profile_.config);
+  const Protocol& declared = configured && *configured ? **configured : *protocol;
+  const Result<Case> moved = moved_case(*source->second, recorded.recording.station, recorded.recording.moves, declared);
+  if (!moved) return not_judged(recorded, moved.error().message);
+  const Result<PreparedCase> prepared = prepare(*moved, recorded.recording.station, *protocol);
   if (!prepared) return not_judged(recorded, prepared.error().message);
   const Result<Transcript> transcript = replay(recorded, *prepared, profile_.response_max);
   if (!transcript) return not_judged(recorded, transcript.error().message);
 
   Outcome outcome{result_of(*source->second), ""};
   CaseResult& result = outcome.result;
+  for (const Move& move : recorded.recording.moves) result.notes.push_back(note_of(move, declared));
   note_transposition(*prepared, result);
   JudgeRules rules;
   rules.guard_band = profile_.guard_band;

@@ -25,6 +25,7 @@ class ScriptedEndpoint : public Endpoint {
   std::vector<nlohmann::json> begun;
   int fails_after = -1;                               // transmissions until the port fails
   int power_cycles = 0;
+  std::string forgets;                                // answered once, then never again
 
   const Capabilities& capabilities() const override { return can; }
   std::string describe() const override { return "scripted"; }
@@ -41,6 +42,7 @@ class ScriptedEndpoint : public Endpoint {
     const Sent when{now_, now_ + character_time() * static_cast<Duration::rep>(bytes.size())};
     now_ = when.end;
     for (const Piece& piece : answers[sent.back()]) coming_.push_back({to_bytes(piece.text), now_ + piece.after, character_time()});
+    if (sent.back() == forgets) answers.erase(forgets);
     return when;
   }
 

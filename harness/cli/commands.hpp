@@ -21,6 +21,8 @@ struct RunOptions {
   std::string capture;           // empty: none
   std::string bench;             // bench file
   std::vector<std::string> duts; // devices of it; several share the cases
+  std::string journal;           // empty: in `out`
+  bool discard_journal = false;  // forget what an earlier run did not put back
   std::string waivers;
   std::string baseline;          // results of an earlier run, to compare with
   std::string power_cycle;
@@ -96,6 +98,12 @@ struct ReportOptions {
   std::string ndjson, junit, json, html, capture;
 };
 int report_command(const ReportOptions& options);
+
+struct RestoreOptions {
+  std::string journal;
+  std::string endpoint;          // empty: the one that the journal names
+};
+int restore_command(const RestoreOptions& options);
 
 struct CompareOptions {
   std::vector<std::string> files;  // results: the first is what the others are compared with

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "harness/cli/plc_client.hpp"
 #include "harness/cli/tool_files.hpp"
 
 namespace fieldproof {
@@ -61,16 +62,6 @@ class ExecLink : public Link {
   std::string endpoint() override { return "exec:" FIELDPROOF_TOOL " emulate xbc-h --pty {tty}"; }
 };
 
-/// All memory that a protocol can write, filled: whoever asks later cannot rely on zeros.
-ordered_json used_memory() {
-  ordered_json vector = small_vector("used/memory", "[ACK st 'rSS' '01' '02' 'FFFF' ETX BCC]");
-  vector["given"]["memory"] = {{"%PW0", "FFFF*1024"}, {"%MW0", "FFFF*1024"}, {"%KW0", "FFFF*4096"},  {"%LW0", "FFFF*2048"}, {"%DW0", "FFFF*10240"},
-                               {"%RW0", "FFFF*10240"}, {"%UW0", "FFFF*352"}, {"%TW0", "FFFF*1024"}, {"%CW0", "FFFF*1024"}};
-  for (int i = 0; i < 64; ++i)
-    for (const char* contact : {"%TX", "%CX"}) vector["given"]["memory"][contact + std::to_string(i)] = "01";
-  return vector;
-}
-
 /// Two ptys that socat joins: the bench on one end, the emulator on the other, as used as a PLC on a bench is.
 class SerialLink : public Link {
  public:
@@ -79,9 +70,8 @@ class SerialLink : public Link {
     EXPECT_TRUE(socat_.wait_for("starting data transfer loop"));
     device_ = std::make_unique<Process>(std::vector<std::string>{FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
     EXPECT_TRUE(device_->wait_for(folder_ / "device"));
-    const Finished filled = run_tool({"run", "--endpoint", "serial:" + (folder_ / "bench"), "--profile", "xbc-h", "--allow-write", "all,P,Q,U", "--vectors",
-                                      write_vectors(folder_, {used_memory()}), "--out", folder_ / "out"});
-    EXPECT_EQ(filled.code, 0) << filled.out << filled.err;
+    // Whoever asks later cannot rely on zeros.
+    PlcClient(folder_ / "bench").fill(plc_models().front());
   }
   std::string endpoint() override { return "serial:" + (folder_ / "bench"); }
 

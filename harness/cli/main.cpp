@@ -62,7 +62,9 @@ void add_run(CLI::App& app, RunOptions& run) {
   app.add_option("--capture", run.capture, "The traffic as pcapng for Wireshark; Modbus RTU: tshark -d rtacser.data,mbrtu");
   app.add_option("--waivers", run.waivers, "JSON file of accepted failures: id, reason, owner, text, expires, firmware");
   app.add_option("--baseline", run.baseline, "Results of an earlier run: what got worse since then fails the gate");
-  app.add_option("--allow-write", run.allow_write, "Real devices: what may be written: M, M100-M199, all (outputs P, Q, U only when named)");
+  app.add_option("--allow-write", run.allow_write, "Real devices: what may be written: M, M100-M199, h1230-h12FF, all (outputs P, Q, U only when named)");
+  app.add_option("--journal", run.journal, "Real devices: what they held before, instead of OUT/journal.ndjson; see fieldproof restore");
+  app.add_flag("--discard-journal", run.discard_journal, "Forget what an earlier run on this device did not put back");
   app.add_option("--power-cycle", run.power_cycle, "Command that switches a real device off and on");
   app.add_option("--floor", run.floor, "The link's own uncertainty, instead of measuring it: 2ms; shorter limits are INCONCLUSIVE");
   app.add_option("--loop", run.loop, "Measure the link's uncertainty here, where `fieldproof emulate` answers over the same kind of adapter");
@@ -198,6 +200,12 @@ int run_tool(int argc, char** argv) {
   judge_app->footer(exit_codes);
   judge.command = command_line(argc, argv);
 
+  RestoreOptions restore;
+  CLI::App* restore_app = app.add_subcommand("restore", "Put back what an interrupted run left on a real device");
+  restore_app->add_option("journal", restore.journal, "OUT/journal.ndjson")->required();
+  restore_app->add_option("--endpoint", restore.endpoint, "Where the device is reached now, if not as the journal says");
+  restore_app->footer("Exit codes: 0 all is as it was, 2 usage, 3 something could not be put back, 130 interrupted.");
+
   run_app->callback([&] {
     const std::string wrong = unknown_argument(run_app->remaining(), run.gtest_arguments);
     chosen = [&run, wrong] { return wrong.empty() ? run_command(run) : complain(wrong, exit_code::usage); };
@@ -211,6 +219,7 @@ int run_tool(int argc, char** argv) {
   compare_app->callback([&] { chosen = [&] { return compare_command(compare); }; });
   merge_app->callback([&] { chosen = [&] { return merge_command(merge); }; });
   judge_app->callback([&] { chosen = [&] { return judge_command(judge); }; });
+  restore_app->callback([&] { chosen = [&] { return restore_command(restore); }; });
   report_app->callback([&] { chosen = [&] { return report_command(report); }; });
 
   try {

@@ -98,6 +98,7 @@ class Run {
     } else {
       end_.trouble = started.error().message;
     }
+    put_back();
     return end_;
   }
 
@@ -177,6 +178,7 @@ class Run {
     for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors))) report_.add(result);
     end_.interrupted = shared.interrupted();
     end_.trouble = fmt::format("{}", fmt::join(shared.troubles(), "; "));
+    put_back();
     return end_;
   }
 
@@ -228,6 +230,17 @@ class Run {
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     const bool stop_here = hung || (options_.fail_fast && gates(result.verdict, report_.gate()));
     return (soak ? add_to_soak(result) : report_.add(result)) && !stop_here;
+  }
+
+  /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.
+  void put_back() {
+    if (end_.interrupted) clear_interrupt();
+    const auto one = [this](const DutPlan& plan, Benches& port) {
+      const std::string open = port.put_back();
+      if (!open.empty()) end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}", end_.not_restored.empty() ? "" : "\n", open, shell_word(plan.journal));
+    };
+    one(plan_, ports_.front());
+    for (std::size_t i = 0; i < plan_.others.size(); ++i) one(plan_.others[i], ports_[i + 1]);
   }
 
   /// The mistakes of the manuals that the selected cases met.
@@ -284,6 +297,27 @@ Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const
   return std::optional(summarize(*file));
 }
 
+/// Opens the journal of a device that may be written. The error says what an earlier run left, and what to type.
+Status open_journal(const RunOptions& options, DutPlan& plan) {
+  if (plan.journal.empty()) return ok();
+  Result<Journal> journal = Journal::open(plan.journal);
+  if (!journal) return journal.error();
+  if (options.discard_journal)
+    if (Status discarded = journal->discard(plan.bench.device); !discarded) return discarded;
+  const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) { return is_same_device(one.device, plan.bench.device); });
+  if (open > 0)
+    return fail(fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of its values; type: fieldproof restore {}\n"
+                            "(or forget them: --discard-journal)", plan.bench.device.endpoint, open, shell_word(plan.journal)));
+  plan.bench.journal = std::make_shared<Journal>(std::move(*journal));
+  return ok();
+}
+
+Status open_journals(const RunOptions& options, RunPlan& plan) {
+  Status opened = open_journal(options, plan);
+  for (std::size_t i = 0; i < plan.others.size() && opened; ++i) opened = open_journal(options, plan.others[i]);
+  return opened;
+}
+
 int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, const std::optional<RunSummary>& baseline) {
   Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return complain(paths.error().message, exit_code::trouble);
@@ -324,6 +358,7 @@ int run_command(const RunOptions& options) {
   if (!baseline) return complain(baseline.error().message, exit_code::usage);
   catch_interrupts();
   const auto trouble = [&](const Error& error) { return complain(error.message, options.skip_absent && error.absent ? exit_code::absent : exit_code::trouble); };
+  if (const Status opened = open_journals(options, *plan); !opened) return complain(opened.error().message, exit_code::usage);
   const Result<std::vector<Fixtures>> fixtures = open_fixtures(*plan);
   if (!fixtures) return trouble(fixtures.error());
   Result<std::vector<Benches>> ports = open_ports(*plan);

@@ -43,6 +43,7 @@ std::string replay_command(const RunOptions& options) {
   if (!options.profile.empty()) command += " --profile " + shell_word(options.profile);
   if (!options.vectors.empty()) command += " --vectors " + shell_word(options.vectors);
   for (const std::string& range : options.allow_write) command += " --allow-write " + shell_word(range);
+  if (!options.journal.empty()) command += " --journal " + shell_word(options.journal);
   if (!options.power_cycle.empty()) command += " --power-cycle " + shell_word(options.power_cycle);
   if (!options.stimulus.empty()) command += " --stimulus " + shell_word(options.stimulus);
   if (!options.aux.empty()) command += " --aux " + shell_word(options.aux);
@@ -162,6 +163,13 @@ Result<std::vector<const Protocol*>> protocols_of(const DutPlan& plan, const std
   return protocols;
 }
 
+/// Devices that share a run have a journal each.
+std::string journal_path(const RunOptions& options, const std::string& dut) {
+  fs::path path = options.journal.empty() ? fs::path(options.out) / "journal.ndjson" : fs::path(options.journal);
+  if (options.duts.size() > 1) path.replace_filename(path.stem().string() + "-" + dut + path.extension().string());
+  return path.string();
+}
+
 /// `profile` becomes the name of the device's profile.
 Result<DutPlan> make_dut_plan(const RunOptions& given, const std::string& dut, const std::vector<const Case*>& selected, std::string& profile) {
   DutPlan plan;
@@ -177,6 +185,8 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const std::string& dut, c
   Result<BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data);
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
+  plan.bench.device = {options->endpoint, plan.bench.station, "", plan.bench.profile.model, plan.bench.profile.config};
+  if (!is_emulated(plan.endpoint) && !plan.bench.fence.empty()) plan.journal = journal_path(*options, dut);
   Result<std::vector<const Protocol*>> spoken = protocols_of(plan, selected);
   if (!spoken) return spoken.error();
   plan.protocols = std::move(*spoken);

@@ -23,6 +23,7 @@ struct DutPlan {
   std::optional<EndpointName> aux;
   Identity identity;                       // of the bench file's device
   std::string line;                        // as the bench file declares it
+  std::string journal;                     // of a real device that may be written; empty: none
 };
 
 struct RunPlan : DutPlan {

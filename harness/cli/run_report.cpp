@@ -103,7 +103,8 @@ int RunReport::code(const End& end) const {
   // GoogleTest deals the cases out to shards; one of them may get none.
   const bool empty_shard = tally_.total() == 0 && std::getenv("GTEST_TOTAL_SHARDS");
   const int code = empty_shard ? exit_code::ok : gate_exit_code(tally_, console_.gate, false);
-  return end.worse && code != exit_code::trouble ? exit_code::failed : code;
+  if (end.worse && code != exit_code::trouble) return exit_code::failed;
+  return code == exit_code::ok && !end.not_restored.empty() ? exit_code::trouble : code;
 }
 
 int RunReport::finish(const End& end) {
@@ -124,6 +125,7 @@ int RunReport::finish(const End& end) {
   const int report_code = derive_reports(paths_.front().second, paths_, console_.gate);
   if (!end.trouble.empty()) complain(end.trouble, 0);
   print(run_summary(summary, console_));
+  if (!end.not_restored.empty()) complain(end.not_restored, 0);
   const int run_code = summary.end.exit_code;
   return run_code == exit_code::ok || run_code == exit_code::nothing ? std::max(run_code, report_code) : run_code;
 }

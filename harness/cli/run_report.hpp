@@ -47,6 +47,7 @@ class RunReport {
     bool interrupted = false;
     bool worse = false;        // than a baseline: fails a gate that was met
     double seconds = -1;       // that the run took; negative: since this report was begun
+    std::string not_restored;  // what a real device does not hold as before, and what to type: a gate that was met is trouble
   };
   /// Writes the end and the reports, prints the summary; the exit code of the run.
   int finish(const End& end);

@@ -105,6 +105,17 @@ void from_json(const json& object, StepOutcome& step) {
   get(object, "refused_by_device", step.refused_by_device);
 }
 
+void to_json(json& object, const Move& move) {
+  object = {{"area", move.area}, {"first", move.first}, {"last", move.last}, {"words", move.words}};
+}
+
+void from_json(const json& object, Move& move) {
+  object.at("area").get_to(move.area);
+  object.at("first").get_to(move.first);
+  object.at("last").get_to(move.last);
+  object.at("words").get_to(move.words);
+}
+
 void to_json(json& object, const Recording& recording) {
   object = {{"stimulus", recording.stimulus}, {"station", recording.station}, {"steps", recording.steps},
             {"timing_floor_ms", to_ms(recording.timing_floor)}, {"link_floor_ms", to_ms(recording.link_floor)},
@@ -112,12 +123,14 @@ void to_json(json& object, const Recording& recording) {
   if (recording.flooded) object["flooded"] = true;
   if (recording.period_tolerance > 0ns) object["period_tolerance_ms"] = to_ms(recording.period_tolerance);
   put(object, "dead", recording.dead);
+  put(object, "moves", recording.moves);
 }
 
 void from_json(const json& object, Recording& recording) {
   recording = {};
   object.at("stimulus").get_to(recording.stimulus);
   get(object, "station", recording.station);
+  get(object, "moves", recording.moves);
   get(object, "steps", recording.steps);
   get(object, "flooded", recording.flooded);
   get(object, "dead", recording.dead);

@@ -1,6 +1,7 @@
 // What one case came to: the only thing that reports see.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -34,10 +35,20 @@ struct StepOutcome {
   bool refused_by_device = false;
 };
 
+/// Where a case was moved on a real device: what it names in these words of the area lies so many words further on.
+struct Move {
+  std::string area;
+  std::uint32_t first = 0, last = 0;  // in words
+  int words = 0;
+
+  bool operator==(const Move&) const = default;
+};
+
 /// What makes an exchange fit to be judged again (`fieldproof judge`).
 struct Recording {
   std::string stimulus;          // fingerprint of all that was done to the device; empty: nothing was
   int station = 1;               // that the frames were made for
+  std::vector<Move> moves{};     // of its addresses, before the frames were made
   std::vector<StepOutcome> steps;
   bool flooded = false;
   std::string dead;              // why the link counts as dead after the case

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "harness/notation/notation.hpp"
+#include "src/ls_bus/parameters.hpp"
 #include "suites/ls_bus/frame_parts.hpp"
 
 namespace fieldproof::ls_bus {
@@ -71,7 +72,8 @@ Bytes request(std::string_view body) {
   return to_bytes(fmt::format("\x05{}{}\x04", body, hex_number(sum & 0xFF, 2)));
 }
 
-Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_view address, std::string_view hex) {
+Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_view address, std::string_view hex,
+                                          bool count_first) {
   const Result<std::vector<Part>> parts = parts_of(address, hex.size());
   if (!parts) return parts.error();
   const std::uint32_t first = *value_of(parts->front().address);
@@ -82,7 +84,8 @@ Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_
   std::vector<Bytes> requests;
   for (const Part& part : *parts) {
     const std::string_view data = hex.substr(part.first * digits_of_a_word, part.words * digits_of_a_word);
-    requests.push_back(request(fmt::format("{}W{}{}{}", station, part.address, part.words, data)));
+    const std::string count = std::to_string(part.words);
+    requests.push_back(request(fmt::format("{}W{}{}{}", station, count_first ? count : part.address, count_first ? part.address : count, data)));
   }
   return requests;
 }
@@ -109,15 +112,68 @@ Result<std::string> read_reply(ByteView reply) {
   return digits;
 }
 
-std::vector<Protocol::Written> written_by(ByteView frame) {
+std::vector<Protocol::Place> places(const Protocol::Written& written) {
+  const auto within = [](const auto& ranges, std::uint32_t word) {
+    return std::ranges::any_of(ranges, [word](const auto& range) { return range.first <= word && word <= range.last; });
+  };
+  std::vector<Protocol::Place> runs;
+  bool joined = false;
+  for (std::uint32_t word = written.first_word; word <= std::min(written.last_word, 0xFFFFu); ++word) {
+    const bool fixed = within(read_only, word), known = within(inverter_ranges(), word);
+    joined = joined && !fixed && runs.back().declared == known;
+    if (joined) runs.back().digits += digits_of_a_word;
+    else if (!fixed) runs.push_back({hex_number(word, digits_of_a_word), digits_of_a_word, known});
+    joined = !fixed;
+  }
+  return runs;
+}
+
+std::optional<Protocol::Written> named(std::string_view address, std::size_t digits) {
+  const Result<std::vector<Part>> parts = parts_of(address, digits);
+  if (!parts) return std::nullopt;
+  const std::uint32_t first = *value_of(parts->front().address);
+  const auto words = static_cast<std::uint32_t>(digits / digits_of_a_word);
+  return Protocol::Written{std::string(parameter_area), first, first + words - 1, std::string(address)};
+}
+
+std::optional<std::string> moved(std::string_view address, int words) {
+  const std::string prefix(address.starts_with('h') || address.starts_with('H') ? address.substr(0, 1) : "");
+  const std::optional<std::uint32_t> value = value_of(address.substr(prefix.size()));
+  if (!value) return std::nullopt;
+  const std::int64_t sum = std::int64_t{*value} + words;
+  if (sum < 0 || sum > 0xFFFF) return std::nullopt;
+  return prefix + hex_number(static_cast<std::uint64_t>(sum), digits_of_a_word);
+}
+
+std::vector<Protocol::AddressField> address_fields(ByteView frame, bool count_first) {
+  constexpr std::size_t body_at = 4;
+  if (frame.size() < body_at || frame[0] != enq) return {};
+  if (frame[3] == 'W' || frame[3] == 'w') {
+    for (const WriteReading& reading : write_readings(frame))
+      if (reading.count_first == count_first) {
+        const std::uint32_t first = *value_of(reading.address);
+        return {{body_at + (count_first ? 1 : 0), digits_of_a_word, {std::string(parameter_area), first, first + reading.words - 1, reading.address}}};
+      }
+    return {};
+  }
+  for (const Field& field : explain(frame)) {
+    if (field.name != "address") continue;
+    const std::optional<std::uint32_t> first = value_of(field.text);
+    const int words = frame.size() > body_at + digits_of_a_word ? std::max(1, hex_digit(static_cast<char>(frame[body_at + digits_of_a_word]))) : 1;
+    if (first) return {{field.offset, field.size, {std::string(parameter_area), *first, *first + static_cast<std::uint32_t>(words) - 1, field.text}}};
+  }
+  return {};
+}
+
+std::vector<Protocol::Written> written_by(ByteView frame, std::optional<bool> order) {
   if (frame.size() < 4 || frame[0] != enq || (frame[3] != 'W' && frame[3] != 'w')) return {};
   std::vector<Protocol::Written> written;
   bool settled = false;  // the request adds up address first, and only so
   for (const WriteReading& reading : write_readings(frame)) {
-    if (reading.count_first && settled && !reading.adds_up) continue;
+    if (order ? reading.count_first != *order : reading.count_first && settled && !reading.adds_up) continue;
     settled = reading.adds_up;
     const std::uint32_t first = *value_of(reading.address);
-    const std::string name = reading.count_first ? reading.address + " (read count first)" : reading.address;
+    const std::string name = reading.count_first && !order ? reading.address + " (read count first)" : reading.address;
     written.push_back({std::string(parameter_area), first, first + reading.words - 1, name});
   }
   if (written.empty()) written.push_back({"?", 0, std::numeric_limits<std::uint32_t>::max(), "an unknown place"});

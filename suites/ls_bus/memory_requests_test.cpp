@@ -86,5 +86,40 @@ TEST(LsWrittenBy, WithoutAnAddressItCouldWriteAnywhere) {
   EXPECT_THAT(shown(written_by(to_bytes("\x05" "01W"))), ElementsAre(HasSubstr("? 0-")));
 }
 
+TEST(WriteRequests, GoOutInTheDeclaredOrder) {
+  EXPECT_EQ(write_requests("01", "1230", "00FF", true)->front(), request("01W1123000FF"));
+}
+
+TEST(WrittenBy, ADeclaredOrderIsTheOnlyReading) {
+  EXPECT_THAT(shown(written_by(request("01W1230100FF"), false)), ElementsAre("H 4656-4656 1230"));
+  EXPECT_THAT(shown(written_by(request("01W1123000FF"), true)), ElementsAre("H 4656-4656 1230"));
+}
+
+TEST(Places, LeaveOutWhatIsReadOnly) {
+  std::string text;
+  for (const Protocol::Place& one : places({"H", 0x0002, 0x0011, ""})) text += one.address + ":" + std::to_string(one.digits) + (one.declared ? " " : "? ");
+  EXPECT_EQ(text, "0004:20 0010:8 ");
+  EXPECT_FALSE(places({"H", 0x1000, 0x1000, ""}).at(0).declared);
+}
+
+TEST(Addresses, MoveByWords) {
+  EXPECT_EQ(moved("1230", 4), "1234");
+  EXPECT_EQ(moved("h12FF", 1), "h1300");
+  EXPECT_FALSE(moved("0001", -2));
+  EXPECT_FALSE(moved("12G0", 1));
+  EXPECT_EQ(named("1230", 8)->last_word, 0x1231u);
+}
+
+TEST(Addresses, StandInRequests) {
+  const auto at = [](const Bytes& frame, bool count_first) {
+    const auto fields = address_fields(frame, count_first);
+    return fields.empty() ? std::string("none") : std::to_string(fields[0].offset) + " " + fields[0].names.address;
+  };
+  EXPECT_EQ(at(request("01R12302"), false), "4 1230");
+  EXPECT_EQ(at(request("01W1230100FF"), false), "4 1230");
+  EXPECT_EQ(at(request("01W1123000FF"), true), "5 1230");
+  EXPECT_EQ(at(request("01W12G0100FF"), false), "none");
+}
+
 }  // namespace
 }  // namespace fieldproof::ls_bus

@@ -7,6 +7,7 @@
 #include "src/ls_bus/inverter.hpp"
 #include "src/ls_bus/p2p_driver.hpp"
 #include "src/p2p/p2p_plc.hpp"
+#include "src/plc/config_reader.hpp"
 #include "suites/ls_bus/facts.hpp"
 #include "suites/ls_bus/frame_parts.hpp"
 #include "suites/ls_bus/memory_requests.hpp"
@@ -38,6 +39,9 @@ Result<std::unique_ptr<EmulatedDevice>> make_client(std::string_view model, cons
 
 class LsBus : public Protocol {
  public:
+  /// `count_first`: the order of writes that a device declares; nothing: it declares none.
+  explicit LsBus(std::optional<bool> count_first = {}) : order_(count_first), count_first_(count_first.value_or(false)) {}
+
   std::string_view name() const override { return "ls-bus"; }
   std::vector<std::string> models() const override { return {"inverter"}; }
 
@@ -72,19 +76,38 @@ class LsBus : public Protocol {
   }
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
-    return ls_bus::write_requests(station_text(station), address, hex);
+    return ls_bus::write_requests(station_text(station), address, hex, count_first_);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
     return ls_bus::read_requests(station_text(station), address, digits);
   }
   Status write_reply(ByteView reply) const override { return ls_bus::write_reply(reply); }
   Result<std::string> read_reply(ByteView reply) const override { return ls_bus::read_reply(reply); }
-  std::vector<Written> written_by(ByteView request) const override { return ls_bus::written_by(request); }
+  std::vector<Written> written_by(ByteView request) const override { return ls_bus::written_by(request, order_); }
+
+  Result<std::unique_ptr<Protocol>> configured(std::string_view, const nlohmann::json& config) const override {
+    bool address_first = true;
+    ConfigReader reader(config, "the inverter's configuration");
+    reader.either("write_order", "address_first", "count_first", address_first);
+    if (reader.error()) return *reader.error();
+    const bool declared = config.contains("write_order");
+    return std::unique_ptr<Protocol>(std::make_unique<LsBus>(declared ? std::optional(!address_first) : std::nullopt));
+  }
+  std::string spell(std::string_view, std::uint32_t word) const override { return "h" + hex_number(word, 4); }
+  std::vector<Place> places(const Written& written) const override { return ls_bus::places(written); }
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override { return ls_bus::named(address, digits); }
+  std::optional<std::string> moved(std::string_view address, int words) const override { return ls_bus::moved(address, words); }
+  std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
+    return reply ? std::vector<AddressField>() : ls_bus::address_fields(frame, count_first_);
+  }
   /// A parameter may be the run command: a motor turns.
-  nlohmann::json write_config() const override { return {{"write_order", "address_first"}}; }
   std::string_view output_areas() const override { return parameter_area; }
 
   Status check_fact(const nlohmann::json& facts) const override { return ls_bus::check_fact(facts); }
+
+ private:
+  std::optional<bool> order_;
+  bool count_first_;
 };
 
 }  // namespace

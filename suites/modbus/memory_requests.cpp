@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "harness/device_names.hpp"
 #include "harness/notation/notation.hpp"
-#include "src/plc/address.hpp"
+#include "src/plc/config_reader.hpp"
 #include "suites/modbus/functions.hpp"
 
 namespace fieldproof::modbus {
@@ -14,43 +16,40 @@ namespace {
 
 constexpr std::size_t words_at_once = 59;
 constexpr std::size_t bytes_at_once = 2 * words_at_once;
-constexpr std::string_view write_area = "M";     // the default bases (PROTOCOLS.md)
-constexpr std::string_view read_areas = "PI";
 
-/// Where a device address lies in the data addresses of the default bases.
+/// Where a device address lies in the tables.
 struct Place {
   bool bits = false;
   bool writable = false;
+  std::uint32_t size = 0;     // of the table
   char type = 0;
   std::uint32_t address = 0;  // data address of the first element
   std::uint32_t width = 0;    // data addresses an element: bits or words
 };
 
-/// The first model that has the address tells what it means.
-std::optional<DeviceAddress> find_address(std::string_view name, char& area, AddressFault& fault) {
-  for (const PlcModel& model : plc_models()) {
-    const ParsedAddress parsed = parse_address(model, name);
-    if (parsed) {
-      area = model.areas[parsed.address.area].letter;
-      return parsed.address;
-    }
-    fault = std::max(fault, parsed.fault);  // the model that came farthest says what is wrong
+/// The table that `index` of an area lies behind the base of, the writable one first.
+std::optional<ModbusBase> table_of(const Bases& bases, const DeviceAddress& first, bool bits) {
+  using enum ModbusBase;
+  for (const ModbusBase base : {bits ? bit_write : word_write, bits ? bit_read : word_read}) {
+    const DeviceAddress& begin = bases.tables[base].first;
+    if (begin.area == first.area && begin.contact == first.contact && begin.index <= first.index) return base;
   }
   return std::nullopt;
 }
 
-Result<Place> place_of(std::string_view name) {
+Result<Place> place_of(const Bases& bases, std::string_view name) {
   if (name.starts_with('@')) return fail(fmt::format("{} is a counter, which no function code reaches", name));
-  char area = 0;
-  AddressFault fault = AddressFault::none;
-  const std::optional<DeviceAddress> address = find_address(name, area, fault);
-  if (!address) return fail(fmt::format("cannot reach {}: {}", name, describe(fault)));
-  const bool writable = write_area.find(area) != std::string_view::npos;
-  if (!writable && read_areas.find(area) == std::string_view::npos)
-    return fail(fmt::format("{} lies outside the default bases, which are P (XEC: I) and M", name));
-  const bool bits = address->type == 'X' || address->type == 'B';
-  const std::uint32_t width = address->type == 'X' ? 1 : address->type == 'B' ? 8 : type_bytes(address->type) / 2;
-  return Place{bits, writable, address->type, address->index * width, width};
+  const ParsedAddress parsed = parse_address(*bases.model, name);
+  if (!parsed) return fail(fmt::format("cannot reach {}: {}", name, describe(parsed.fault)));
+  DeviceAddress first = parsed.address;
+  const bool bits = first.type == 'X' || first.type == 'B';
+  const std::uint32_t width = first.type == 'X' ? 1 : first.type == 'B' ? 8 : type_bytes(first.type) / 2;
+  first.index *= width;
+  const std::optional<ModbusBase> base = table_of(bases, first, bits);
+  if (!base) return fail(fmt::format("{} lies outside the Modbus bases of the device", name));
+  const ModbusTable& table = bases.tables[*base];
+  const bool writable = *base == ModbusBase::bit_write || *base == ModbusBase::word_write;
+  return Place{bits, writable, table.size, parsed.address.type, first.index - table.first.index, width};
 }
 
 struct Slice {
@@ -66,8 +65,8 @@ Result<std::vector<Slice>> parts_of(const Place& place, std::string_view name, s
   if (digits == 0 || digits % element != 0)
     return fail(fmt::format("{} digits are not a whole number of elements of {} ({} digits each)", digits, name, element));
   const std::size_t elements = digits / element;
-  if (const std::size_t last = place.address + elements * place.width - 1; last > last_data_address)
-    return fail(fmt::format("{} lies past data address {}, the last one", name, last_data_address));
+  if (place.address + elements * place.width > place.size)
+    return fail(fmt::format("{} lies past data address {}, the last one", name, place.size - 1));
   std::vector<Slice> parts;
   for (std::size_t done = 0; done < elements; done += most) {
     const std::size_t count = std::min(most, elements - done);
@@ -120,18 +119,50 @@ unsigned word_at(ByteView bytes, std::size_t at) { return bytes[at] * 256u + byt
 /// Functions of the Modbus standard that write and that the manual does not have: a file, a mask, read and write.
 bool writes_elsewhere(Byte function) { return function >= 0x15 && function <= 0x17; }
 
-Protocol::Written written(bool bits, std::uint32_t first, std::uint32_t count) {
-  const std::uint32_t unit = bits ? 16 : 1;
-  const std::uint32_t last = first + std::max(count, 1u) - 1;
-  return {std::string(write_area), first / unit, last / unit, fmt::format("%{}W{}", write_area, first / unit)};
+/// `count` data addresses of a table.
+Protocol::Written memory_at(const Bases& bases, const FunctionCode& function, std::uint32_t data_address, std::uint32_t count) {
+  const bool inputs = function.base == "bit_read" || function.base == "word_read";
+  using enum ModbusBase;
+  const ModbusTable& table = bases.tables[function.bits ? (inputs ? bit_read : bit_write) : inputs ? word_read : word_write];
+  Protocol::Written memory = memory_of(*bases.model, table.first + data_address, count, "");
+  memory.address = memory.contacts ? fmt::format("%{}X{}", memory.area, memory.first_word) : fmt::format("%{}W{}", memory.area, memory.first_word);
+  return memory;
+}
+
+constexpr std::size_t address_at = 2, address_size = 2;  // in a message
+
+/// How many characters stand before a byte of the message in its frame, and for one byte.
+struct Spelling {
+  std::size_t before = 0, each = 1;
+};
+Spelling spelling_of(const Framing& framing) {
+  const bool binary = framing.station_bytes(1).size() == 1;
+  return binary ? Spelling{} : Spelling{1, 2};
 }
 
 }  // namespace
 
-Result<std::vector<Bytes>> write_requests(const Framing& framing, int station, std::string_view address, std::string_view hex) {
-  const Result<Place> place = place_of(address);
+const Bases& default_bases() {
+  static const Bases bases = *declared_bases("", nlohmann::json::object());
+  return bases;
+}
+
+Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config) {
+  const PlcModel* known = model.empty() ? &plc_models().front() : find_plc_model(model);
+  if (!known) return fail(fmt::format("there is no model '{}'; use one of {}", model, plc_model_names()));
+  ModbusBases bases = default_modbus_bases(*known);
+  ConfigReader reader(config, "the Modbus bases");
+  for (std::size_t i = 0; i < bases.size(); ++i) reader.text((std::string(modbus_base_names[i]) + "_base").c_str(), bases[i]);
+  if (reader.error()) return *reader.error();
+  const Result<ModbusTables> tables = place_modbus_tables(*known, bases);
+  if (!tables) return tables.error();
+  return Bases{known, *tables};
+}
+
+Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station, std::string_view address, std::string_view hex) {
+  const Result<Place> place = place_of(bases, address);
   if (!place) return place.error();
-  if (!place->writable) return fail(fmt::format("{} is read only with the default bases (function codes 02 and 04)", address));
+  if (!place->writable) return fail(fmt::format("{} is read only with the bases of the device (function codes 02 and 04)", address));
   const std::size_t most = place->type == 'X' ? bytes_at_once * 8 : bytes_at_once / type_bytes(place->type);
   const Result<std::vector<Slice>> parts = parts_of(*place, address, hex.size(), most);
   if (!parts) return parts.error();
@@ -148,8 +179,8 @@ Result<std::vector<Bytes>> write_requests(const Framing& framing, int station, s
   return requests;
 }
 
-Result<std::vector<Bytes>> read_requests(const Framing& framing, int station, std::string_view address, std::size_t digits) {
-  const Result<Place> place = place_of(address);
+Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& bases, int station, std::string_view address, std::size_t digits) {
+  const Result<Place> place = place_of(bases, address);
   if (!place) return place.error();
   const bool as_it_stands = place->type == 'B' || place->type == 'W';  // else one element a request
   const Result<std::vector<Slice>> parts = parts_of(*place, address, digits, as_it_stands ? bytes_at_once / type_bytes(place->type) : 1);
@@ -181,7 +212,7 @@ Result<std::string> read_reply(const Framing& framing, ByteView reply) {
   return digits;
 }
 
-std::vector<Protocol::Written> written_by(const Framing& framing, ByteView request) {
+std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases, ByteView request) {
   std::vector<Protocol::Written> result;
   for (const Bytes& message : framing.messages(request)) {
     if (message.size() < 2) continue;
@@ -196,9 +227,45 @@ std::vector<Protocol::Written> written_by(const Framing& framing, ByteView reque
     // A device may believe the count or the byte count.
     const std::uint32_t bytes = known->many && message.size() > 6 ? message[6] : 0;
     const std::uint32_t count = known->many ? std::max<std::uint32_t>(word_at(message, 4), known->bits ? bytes * 8 : bytes / 2) : 1;
-    result.push_back(written(known->bits, word_at(message, 2), count));
+    result.push_back(memory_at(bases, *known, word_at(message, 2), count));
   }
   return result;
+}
+
+std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written& written) {
+  std::vector<Protocol::Place> result;
+  for (Protocol::Place& place : places_on(*bases.model, written)) {
+    const bool by_words = place_of(bases, place.address) && place_of(bases, place.address)->writable;
+    if (by_words || written.contacts || !place.declared) {
+      result.push_back(std::move(place));
+      continue;
+    }
+    const std::string bytes = fmt::format("%{}B{}", written.area, written.first_word * 2);
+    const Result<Place> by_bits = place_of(bases, bytes);
+    result.push_back({by_bits && by_bits->writable ? bytes : place.address, place.digits, true});
+  }
+  return result;
+}
+
+std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases, ByteView frame, bool reply) {
+  const Bytes message = framing.unwrap(frame);
+  const FunctionCode* known = message.size() >= address_at + address_size ? find_function(message[1]) : nullptr;
+  if (!known || (reply && !known->write)) return {};
+  const bool counted = known->many || !known->write;
+  const std::uint32_t count = counted && message.size() >= 6 ? word_at(message, 4) : 1;
+  const Spelling spelling = spelling_of(framing);
+  return {{spelling.before + address_at * spelling.each, address_size * spelling.each,
+           memory_at(bases, *known, word_at(message, address_at), count)}};
+}
+
+std::optional<Bytes> moved_field(const Framing& framing, ByteView frame, const Protocol::AddressField& field, int words) {
+  const Bytes message = framing.unwrap(frame);
+  const FunctionCode* known = find_function(message[1]);
+  const int units = known->bits && !field.names.contacts ? words * 16 : words;
+  const std::int64_t moved = std::int64_t{word_at(message, address_at)} + units;
+  if (moved < 0 || moved > last_data_address) return std::nullopt;
+  if (field.size > address_size) return to_bytes(hex_number(static_cast<std::uint64_t>(moved), 4));
+  return Bytes{static_cast<Byte>(moved >> 8), static_cast<Byte>(moved)};
 }
 
 }  // namespace fieldproof::modbus

@@ -1,26 +1,43 @@
-// Device memory through Modbus with the default bases: bits and words of M are written and read (function codes 01, 03,
-// 0F, 10), those of P, on XEC I, are read (02, 04). No other area has a data address there.
+// Device memory through Modbus, as the bases of a device place it in the four tables: what lies in the two writable ones is
+// written and read (function codes 01, 03, 0F, 10), what lies in the others is read (02, 04). The rest has no data address.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
 #include "harness/protocol.hpp"
+#include "src/modbus/bases.hpp"
 #include "suites/modbus/framing.hpp"
 
 namespace fieldproof::modbus {
 
+/// Which memory of which model the data addresses are.
+struct Bases {
+  const PlcModel* model = nullptr;
+  ModbusTables tables;
+};
+/// Of xbc-h: P0, M0, P0, M0.
+const Bases& default_bases();
+/// `config`: bit_read_base and its like (vectors/README.md). Errors name the model or the key.
+Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config);
+
 /// Few enough words a request for a frame of 255 characters (PROTOCOLS.md, ASCII), and any server.
-/// Bit names of M are those of XBC and XBM, word and bit digit.
 /// Errors say why there is no way.
-Result<std::vector<Bytes>> write_requests(const Framing& framing, int station, std::string_view address, std::string_view hex);
-Result<std::vector<Bytes>> read_requests(const Framing& framing, int station, std::string_view address, std::size_t digits);
+Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station, std::string_view address, std::string_view hex);
+Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& bases, int station, std::string_view address, std::size_t digits);
 
 /// Anything but an exception: its form is for the cases to judge.
 Status write_reply(const Framing& framing, ByteView reply);
 Result<std::string> read_reply(const Framing& framing, ByteView reply);
 
 /// What the messages in a request would write.
-std::vector<Protocol::Written> written_by(const Framing& framing, ByteView request);
+std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases, ByteView request);
+
+/// Words as names that the writable tables reach: words, else bytes through the table of bits; each contact by itself.
+std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written& written);
+
+/// The data address of a frame, or none: where the message is damaged, or a reply without one.
+std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases, ByteView frame, bool reply);
+std::optional<Bytes> moved_field(const Framing& framing, ByteView frame, const Protocol::AddressField& field, int words);
 
 }  // namespace fieldproof::modbus

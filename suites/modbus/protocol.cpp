@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "harness/device_names.hpp"
 #include "src/modbus/modbus_plc.hpp"
 #include "src/modbus/p2p_driver.hpp"
 #include "src/p2p/p2p_plc.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 class Modbus : public Protocol {
  public:
-  Modbus(ModbusMode mode, const Framing& framing) : mode_(mode), framing_(framing) {}
+  Modbus(ModbusMode mode, const Framing& framing, Bases bases = default_bases()) : mode_(mode), framing_(framing), bases_(std::move(bases)) {}
 
   std::string_view name() const override { return framing_.protocol_name(); }
 
@@ -65,15 +66,36 @@ class Modbus : public Protocol {
   }
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
-    return modbus::write_requests(framing_, station, address, hex);
+    return modbus::write_requests(framing_, bases_, station, address, hex);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
-    return modbus::read_requests(framing_, station, address, digits);
+    return modbus::read_requests(framing_, bases_, station, address, digits);
   }
   Status write_reply(ByteView reply) const override { return modbus::write_reply(framing_, reply); }
   Result<std::string> read_reply(ByteView reply) const override { return modbus::read_reply(framing_, reply); }
-  std::vector<Written> written_by(ByteView request) const override { return modbus::written_by(framing_, request); }
-  nlohmann::json write_config() const override { return {{"bit_write_base", "M0"}, {"word_write_base", "M0"}}; }
+  std::vector<Written> written_by(ByteView request) const override { return modbus::written_by(framing_, bases_, request); }
+
+  Result<std::unique_ptr<Protocol>> configured(std::string_view model, const nlohmann::json& config) const override {
+    Result<Bases> bases = declared_bases(model, config);
+    if (!bases) return bases.error();
+    return std::unique_ptr<Protocol>(std::make_unique<Modbus>(mode_, framing_, std::move(*bases)));
+  }
+  std::vector<Place> places(const Written& written) const override { return modbus::places(bases_, written); }
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
+    return named_memory(*bases_.model, address, digits);
+  }
+  std::optional<std::string> moved(std::string_view address, int words) const override { return moved_name(*bases_.model, address, words); }
+  std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
+    return modbus::address_fields(framing_, bases_, frame, reply);
+  }
+  std::optional<Bytes> moved_field(ByteView frame, const AddressField& field, int words) const override {
+    return modbus::moved_field(framing_, frame, field, words);
+  }
+  std::uint32_t words_of(std::string_view area) const override {
+    const DeviceArea* found = area.size() == 1 ? bases_.model->area(area[0]) : nullptr;
+    return found ? found->words : 0;
+  }
+
   std::string_view output_areas() const override { return "PQU"; }
 
   /// What the default base of the holding registers reaches.
@@ -84,6 +106,7 @@ class Modbus : public Protocol {
  private:
   ModbusMode mode_;
   const Framing& framing_;
+  Bases bases_;
 };
 
 }  // namespace

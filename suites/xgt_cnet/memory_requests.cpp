@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include "harness/device_names.hpp"
 #include "harness/notation/notation.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
 
@@ -57,7 +58,9 @@ std::optional<Words> words_of(const Name& name, std::uint32_t count) {
   return Words{*index * bytes / 2, ((*index + count) * bytes - 1) / 2};
 }
 
-Protocol::Written written(const std::string& address, std::uint32_t count) {
+Protocol::Written written(const std::string& address, std::uint32_t count, const PlcModel* model) {
+  if (model && count > 0)
+    if (const ParsedAddress parsed = parse_address(*model, address)) return memory_of(*model, parsed.address, count, address);
   const std::optional<Name> name = read_name(address);
   const std::optional<Words> words = name ? words_of(*name, count) : std::nullopt;
   if (!words) return {name ? std::string(1, name->area) : "?", 0, ~0u, address};  // dotted or damaged: the whole area
@@ -160,19 +163,41 @@ Result<std::string> read_reply(ByteView reply) {
   return digits;
 }
 
-std::vector<Protocol::Written> written_by(ByteView frame) {
+namespace {
+
+bool is_name(const Field& field) { return field.name.starts_with("name") && !field.name.starts_with("name length"); }
+
+/// "number of data" of a continuous request, else one element a name.
+std::uint32_t elements_a_name(const std::vector<Field>& fields) {
+  for (const Field& field : fields) {
+    if (field.name != "number of data") continue;
+    const std::optional<Bytes> value = from_hex(field.text);
+    return value && value->size() == 1 ? value->front() : 0;
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::vector<Protocol::Written> written_by(ByteView frame, const PlcModel* model) {
   if (frame.size() < 4 || frame[0] != 0x05 || std::toupper(frame[3]) != 'W') return {};
   std::vector<Protocol::Written> result;
-  std::uint32_t count = 1;
   const std::vector<Field> fields = explain(frame);
+  const std::uint32_t count = elements_a_name(fields);
   for (const Field& field : fields)
-    if (field.name == "number of data") {
-      const std::optional<Bytes> value = from_hex(field.text);
-      count = value && value->size() == 1 ? value->front() : 0;
-    }
-  for (const Field& field : fields)
-    if (field.name.starts_with("name") && !field.name.starts_with("name length")) result.push_back(written(field.text, count));
+    if (is_name(field)) result.push_back(written(field.text, count, model));
   if (result.empty()) result.push_back({"?", 0, ~0u, "an unknown place"});
+  return result;
+}
+
+std::vector<Protocol::AddressField> address_fields(ByteView request, const PlcModel& model) {
+  std::vector<Protocol::AddressField> result;
+  const std::vector<Field> fields = explain(request);
+  const std::uint32_t count = elements_a_name(fields);
+  for (const Field& field : fields) {
+    const ParsedAddress parsed = is_name(field) ? parse_address(model, field.text) : ParsedAddress{AddressFault::form, {}};
+    if (parsed) result.push_back({field.offset, field.size, memory_of(model, parsed.address, count, field.text)});
+  }
   return result;
 }
 

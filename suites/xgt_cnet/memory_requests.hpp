@@ -1,5 +1,4 @@
 // Memory through the XGT protocol itself, where there is no back door: requests in upper case, which need no BCC.
-// Device names are read leniently and without a model: what a name could touch on any model counts as touched.
 #pragma once
 
 #include <string>
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "harness/protocol.hpp"
+#include "src/plc/model.hpp"
 
 namespace fieldproof::xgt_cnet {
 
@@ -17,7 +17,11 @@ Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_v
 Status write_reply(ByteView reply);
 Result<std::string> read_reply(ByteView reply);
 
-/// What a request frame would write.
-std::vector<Protocol::Written> written_by(ByteView request);
+/// What a request frame would write. Without a model device names are read leniently: what a name could touch on any
+/// model counts as touched.
+std::vector<Protocol::Written> written_by(ByteView request, const PlcModel* model = nullptr);
+
+/// The names in a request, as far as the model has them.
+std::vector<Protocol::AddressField> address_fields(ByteView request, const PlcModel& model);
 
 }  // namespace fieldproof::xgt_cnet

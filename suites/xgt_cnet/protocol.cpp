@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/device_names.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
 #include "src/xgt_cnet/p2p_driver.hpp"
@@ -20,6 +21,9 @@ std::string station_text(int station) { return hex_number(static_cast<unsigned>(
 
 class XgtCnet : public Protocol {
  public:
+  /// nullptr: of no model in particular.
+  explicit XgtCnet(const PlcModel* model = nullptr) : model_(model) {}
+
   std::string_view name() const override { return "xgt-cnet"; }
 
   std::vector<std::string> models() const override {
@@ -80,7 +84,21 @@ class XgtCnet : public Protocol {
   }
   Status write_reply(ByteView reply) const override { return xgt_cnet::write_reply(reply); }
   Result<std::string> read_reply(ByteView reply) const override { return xgt_cnet::read_reply(reply); }
-  std::vector<Written> written_by(ByteView request) const override { return xgt_cnet::written_by(request); }
+  std::vector<Written> written_by(ByteView request) const override { return xgt_cnet::written_by(request, model_); }
+
+  Result<std::unique_ptr<Protocol>> configured(std::string_view model, const nlohmann::json&) const override {
+    return std::unique_ptr<Protocol>(std::make_unique<XgtCnet>(find_plc_model(model)));
+  }
+  std::vector<Place> places(const Written& written) const override { return places_on(model(), written); }
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override { return named_memory(model(), address, digits); }
+  std::optional<std::string> moved(std::string_view address, int words) const override { return moved_name(model(), address, words); }
+  std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
+    return reply ? std::vector<AddressField>() : xgt_cnet::address_fields(frame, model());
+  }
+  std::uint32_t words_of(std::string_view area) const override {
+    const DeviceArea* found = area.size() == 1 ? model().area(area[0]) : nullptr;
+    return found ? found->words : 0;
+  }
   std::string_view output_areas() const override { return "PQU"; }
 
   std::vector<Area> areas() const override {
@@ -105,6 +123,11 @@ class XgtCnet : public Protocol {
       if (key != "model" && key != "area" && key != "words" && key != "write") return fail(fmt::format("unknown fact '{}'", key));
     return ok();
   }
+
+ private:
+  const PlcModel& model() const { return model_ ? *model_ : plc_models().front(); }
+
+  const PlcModel* model_;
 };
 
 }  // namespace

@@ -1,0 +1,108 @@
+// Puts back what an interrupted run left behind: all that is open in its journal, the latest first.
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "harness/bench/exchange.hpp"
+#include "harness/bench/saved_memory.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/endpoints/interrupt.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+constexpr Duration start_patience = 10s, response_max = 500ms;
+
+/// A device of the journal, opened.
+struct Connection {
+  JournalDevice device;
+  std::unique_ptr<Endpoint> endpoint;
+  std::unique_ptr<Protocol> configured;
+  std::unique_ptr<SavedMemory> memory;
+};
+
+/// Opens the device and waits until it answers. Errors say what to check.
+Result<Connection> connect(const JournalDevice& device, const std::string& endpoint_text) {
+  Connection connection{device, {}, {}, {}};
+  Result<EndpointName> name = parse_endpoint(endpoint_text);
+  if (!name) return name.error();
+  name->options["protocol"] = device.protocol;
+  const Result<const Protocol*> protocol = choose_protocol(device.protocol, device.model);
+  if (!protocol) return protocol.error();
+  Result<std::unique_ptr<Protocol>> configured = (*protocol)->configured(device.model, device.config);
+  if (!configured) return configured.error();
+  connection.configured = std::move(*configured);
+  const Protocol& declared = connection.configured ? *connection.configured : **protocol;
+  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(*name);
+  if (!endpoint) return endpoint.error();
+  connection.endpoint = std::move(*endpoint);
+  if (Status begun = connection.endpoint->begin({{"station", device.station}, {"model", device.model}}); !begun) return begun.error();
+  Exchange exchange(*connection.endpoint, declared, {});
+  const Result<bool> alive = exchange.anything_answers(device.station, start_patience);
+  if (!alive) return alive.error();
+  if (!*alive) return fail(fmt::format("nothing answers on {} at station {}: check power, wiring and line settings", endpoint_text, device.station));
+  connection.memory = std::make_unique<SavedMemory>(*connection.endpoint, declared, response_max, device, nullptr);
+  return connection;
+}
+
+class Restoration {
+ public:
+  Restoration(Journal& journal, std::string endpoint) : journal_(journal), endpoint_(std::move(endpoint)) {}
+
+  /// All that is open, the latest first; false where something could not be put back.
+  bool run() {
+    const std::vector<OpenEntry> entries = journal_.open_entries();
+    for (auto one = entries.rbegin(); one != entries.rend(); ++one) {
+      const Status done = put_back(*one);
+      if (done) fmt::print("restored      {} = {} on {}\n", one->address, one->value, endpoint_of(one->device));
+      else fmt::print("NOT RESTORED  {} = {} on {}: {}\n", one->address, one->value, endpoint_of(one->device), done.error().message);
+      all_ = all_ && done;
+    }
+    return all_;
+  }
+
+ private:
+  const std::string& endpoint_of(const JournalDevice& device) const { return endpoint_.empty() ? device.endpoint : endpoint_; }
+
+  Status put_back(const OpenEntry& entry) {
+    if (!connection_ || connection_->device != entry.device) {
+      if (failed_ && failed_->first == entry.device) return failed_->second;
+      connection_.reset();  // before the same port is opened again
+      Result<Connection> opened = connect(entry.device, endpoint_of(entry.device));
+      if (!opened) {
+        failed_ = {entry.device, opened.error()};
+        return opened.error();
+      }
+      connection_ = std::move(*opened);
+    }
+    if (Status done = connection_->memory->put_back(entry); !done) return done;
+    return journal_.restored(entry);
+  }
+
+  Journal& journal_;
+  std::string endpoint_;
+  std::optional<Connection> connection_;
+  std::optional<std::pair<JournalDevice, Error>> failed_;
+  bool all_ = true;
+};
+
+}  // namespace
+
+int restore_command(const RestoreOptions& options) {
+  if (!std::filesystem::exists(options.journal))
+    return complain(fmt::format("cannot read journal {}: there is no such file; a run keeps it in its folder of reports, as journal.ndjson", options.journal),
+                    exit_code::usage);
+  Result<Journal> journal = Journal::open(options.journal);
+  if (!journal) return complain(journal.error().message, exit_code::usage);
+  if (journal->open_entries().empty()) {
+    fmt::print("nothing to put back: {} has no open entry\n", options.journal);
+    return exit_code::ok;
+  }
+  catch_interrupts();
+  if (Restoration(*journal, options.endpoint).run()) return exit_code::ok;
+  if (interrupted()) return exit_code::interrupted;
+  return complain(fmt::format("not all is as it was; correct what is said above and type again: fieldproof restore {}", shell_word(options.journal)),
+                  exit_code::trouble);
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,147 @@
+// What a run writes on a device is put back: after each case, and by `fieldproof restore` after a run that was killed.
+// The device is the emulator in a process of its own behind two ptys, so it survives the run.
+#include <gmock/gmock.h>
+#include <sys/inotify.h>
+
+#include "harness/cli/plc_client.hpp"
+#include "harness/cli/tool_files.hpp"
+
+namespace fieldproof {
+namespace {
+
+using testing::HasSubstr;
+using Memory = std::map<std::string, std::string>;
+
+const PlcModel& xbc() { return plc_models().front(); }
+
+/// Tells when a file has so many lines.
+class LineWatch {
+ public:
+  explicit LineWatch(const std::string& path) : path_(path), fd_(::inotify_init1(IN_CLOEXEC)) {
+    std::ofstream(path_, std::ios::app);
+    EXPECT_GE(::inotify_add_watch(fd_, path_.c_str(), IN_MODIFY), 0);
+  }
+  ~LineWatch() { ::close(fd_); }
+
+  bool wait_for(std::ptrdiff_t lines) const {
+    pollfd changed{fd_, POLLIN, 0};
+    while (count() < lines) {
+      if (::poll(&changed, 1, 60'000) != 1) return false;
+      char events[4096];
+      [[maybe_unused]] const ssize_t got = ::read(fd_, events, sizeof events);
+    }
+    return true;
+  }
+
+ private:
+  std::ptrdiff_t count() const {
+    const std::string text = read_text(path_);
+    return std::count(text.begin(), text.end(), '\n');
+  }
+
+  std::string path_;
+  int fd_;
+};
+
+class Restore : public testing::Test {
+ protected:
+  Restore() : socat_({"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"), "pty,raw,echo=0,link=" + (folder_ / "device")}) {
+    EXPECT_TRUE(socat_.wait_for("starting data transfer loop"));
+    device_ = std::make_unique<Process>(std::vector<std::string>{FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
+    EXPECT_TRUE(device_->wait_for(folder_ / "device"));
+    PlcClient client(folder_ / "bench");
+    client.fill(xbc());
+    before_ = client.read(xbc());
+  }
+
+  Memory memory() const { return PlcClient(folder_ / "bench").read(xbc()); }
+  std::string endpoint() const { return "serial:" + (folder_ / "bench"); }
+  std::string journal() const { return folder_ / "out/journal.ndjson"; }
+  std::vector<std::string> run_arguments(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"run", "--endpoint", endpoint(), "--profile", "xbc-h", "--out", folder_ / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  void expect_as_before() const {
+    std::string changed;
+    for (const auto& [name, reply] : memory())
+      if (before_.at(name) != reply) changed += name + " ";
+    EXPECT_EQ(changed, "");
+  }
+
+  TestFolder folder_;
+  Process socat_;
+  std::unique_ptr<Process> device_;
+  Memory before_;
+};
+
+TEST_F(Restore, ARunInAFewWordsLeavesTheMemoryAsItWas) {
+  const Finished run = run_tool(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/*"}));
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  expect_as_before();
+  const Results results = read_results(folder_ / "out/results.ndjson");
+  const auto moved = std::ranges::count_if(results.cases, [](const nlohmann::json& one) {
+    return one.at("verdict") == "PASS" && one.value("notes", nlohmann::json()).dump().find("transposed: %") != std::string::npos;
+  });
+  EXPECT_GT(moved, 200) << "cases that had to be moved into M100-M119";
+}
+
+TEST_F(Restore, ARunThatMayWriteEverythingDoesToo) {
+  const Finished run = run_tool(run_arguments({"--allow-write", "all,P,Q,U", "--filter", "xgt_cnet/areas/*:xgt_cnet/w*:xgt_cnet/data_types/*"}));
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  expect_as_before();
+}
+
+TEST_F(Restore, AfterAKillAtAnyMomentRestorePutsBack) {
+  std::size_t left_open = 0;
+  for (const int lines : {1, 2, 3, 8, 25, 60}) {
+    std::filesystem::remove_all(folder_ / "out");
+    std::filesystem::create_directories(folder_ / "out");
+    const LineWatch watch(journal());
+    Process run(tool_arguments(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*:xgt_cnet/data_types/*"})));
+    ASSERT_TRUE(watch.wait_for(lines)) << lines;
+    run.signal(SIGKILL);
+    EXPECT_EQ(run.wait().code, 128 + SIGKILL);
+    const Finished restored = run_tool({"restore", journal()});
+    EXPECT_EQ(restored.code, 0) << restored.out << restored.err;
+    left_open += restored.out.find("restored  ") != std::string::npos;
+    expect_as_before();
+    EXPECT_THAT(run_tool({"restore", journal()}).out, HasSubstr("nothing to put back"));
+  }
+  EXPECT_GT(left_open, 0u) << "no kill hit a case that was writing";
+}
+
+/// Cut off in the middle of a case, with a line that the disk has not got whole.
+TEST_F(Restore, ARunDoesNotWriteOverWhatIsOpen) {
+  const std::string entry = R"({"saved":{"address":"%MW100","config":{},"endpoint":")" + endpoint() +
+                            R"(","model":"xbc-h","number":1,"protocol":"xgt-cnet","station":1,"value":"1234"}})";
+  folder_.write("out/journal.ndjson", entry + "\n" + entry.substr(0, 40));
+  const std::vector<std::string> writes = {"--allow-write", "M100", "--filter", "xgt_cnet/wss/*"};
+  const Finished refused = run_tool(run_arguments(writes));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("type: fieldproof restore " + journal()));
+  EXPECT_NE(run_tool(run_arguments({"--filter", "xgt_cnet/rss/*"})).code, 2) << "who writes nothing may read";
+  const Finished restored = run_tool({"restore", journal()});
+  EXPECT_EQ(restored.code, 0) << restored.err;
+  EXPECT_THAT(restored.out, HasSubstr("restored      %MW100 = 1234 on " + endpoint()));
+  EXPECT_THAT(memory().at("05%MW60"), testing::Ne(before_.at("05%MW60"))) << "it wrote what the journal says";
+
+  folder_.write("out/journal.ndjson", entry + "\n");
+  std::vector<std::string> discards = writes;
+  discards.push_back("--discard-journal");
+  EXPECT_NE(run_tool(run_arguments(discards)).code, 2);
+}
+
+TEST_F(Restore, WhatDoesNotAnswerStaysOpen) {
+  const std::string entry = R"({"saved":{"address":"%MW100","config":{},"endpoint":"serial:/no/such/port","model":"xbc-h","number":1,)"
+                            R"("protocol":"xgt-cnet","station":1,"value":"1234"}})";
+  folder_.write("out/journal.ndjson", entry + "\n");
+  const Finished gone = run_tool({"restore", journal()});
+  EXPECT_EQ(gone.code, 3);
+  EXPECT_THAT(gone.out, HasSubstr("NOT RESTORED  %MW100 = 1234"));
+  EXPECT_EQ(run_tool({"restore", journal(), "--endpoint", endpoint()}).code, 0) << "the device hangs on another port now";
+  EXPECT_EQ(run_tool({"restore", folder_ / "none.ndjson"}).code, 2);
+}
+
+}  // namespace
+}  // namespace fieldproof

@@ -1,0 +1,86 @@
+#include "harness/device_names.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace fieldproof {
+
+namespace {
+
+/// Elements in so many words; nothing where it is no whole number of them.
+std::optional<std::int64_t> elements_in(const DeviceAddress& address, int words) {
+  if (address.contact) return words;
+  switch (address.type) {
+    case 'X': return std::int64_t{words} * 16;
+    case 'B': return std::int64_t{words} * 2;
+    case 'W': return words;
+    default: break;
+  }
+  const int width = static_cast<int>(type_bytes(address.type) / 2);
+  if (words % width != 0) return std::nullopt;
+  return words / width;
+}
+
+/// The decimal number `text` plus `step`, in as many digits.
+std::optional<std::string> add_to(std::string_view text, std::int64_t step) {
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || number + step < 0) return std::nullopt;
+  std::string sum = fmt::format("{:0{}}", number + step, text.size());
+  if (sum.size() != text.size()) return std::nullopt;
+  return sum;
+}
+
+}  // namespace
+
+Protocol::Written memory_of(const PlcModel& model, const DeviceAddress& address, std::uint32_t count, std::string_view name) {
+  const std::string area(1, model.areas[address.area].letter);
+  const std::uint32_t last = address.index + std::max(count, 1u) - 1;
+  if (address.contact) return {area, address.index, last, std::string(name), true};
+  if (address.type == 'X') return {area, address.index / 16, last / 16, std::string(name)};
+  const std::uint32_t bytes = type_bytes(address.type);
+  return {area, address.index * bytes / 2, ((last + 1) * bytes - 1) / 2, std::string(name)};
+}
+
+std::optional<Protocol::Written> named_memory(const PlcModel& model, std::string_view name, std::size_t digits) {
+  const ParsedAddress parsed = parse_address(model, name);
+  if (!parsed) return std::nullopt;
+  const auto count = static_cast<std::uint32_t>(digits / (2 * type_bytes(parsed.address.type)));
+  return memory_of(model, parsed.address, count, name);
+}
+
+std::optional<std::string> moved_name(const PlcModel& model, std::string_view name, int words) {
+  const ParsedAddress parsed = parse_address(model, name);
+  if (!parsed || name.find('.') != std::string_view::npos) return std::nullopt;
+  // XBM and XBC: decimal word and one hex digit for the bit.
+  const bool word_and_bit = parsed.address.type == 'X' && !parsed.address.contact && !model.iec;
+  const std::size_t tail = word_and_bit ? 1 : 0;
+  const std::string_view number = name.substr(3, name.size() - 3 - tail);
+  const std::optional<std::int64_t> step = word_and_bit ? words : elements_in(parsed.address, words);
+  const std::optional<std::string> sum = step ? add_to(number, *step) : std::nullopt;
+  if (!sum) return std::nullopt;
+  std::string moved = std::string(name.substr(0, 3)) + *sum + std::string(name.substr(name.size() - tail));
+  if (!parse_address(model, moved)) return std::nullopt;
+  return moved;
+}
+
+std::vector<Protocol::Place> places_on(const PlcModel& model, const Protocol::Written& written) {
+  const DeviceArea* area = written.area.size() == 1 ? model.area(written.area[0]) : nullptr;
+  if (area && !area->write) return {};
+  std::vector<Protocol::Place> places;
+  if (written.contacts) {
+    for (std::uint32_t contact = written.first_word; contact <= written.last_word; ++contact)
+      places.push_back({fmt::format("%{}X{}", written.area, contact), 2, area && contact < area->contacts});
+    return places;
+  }
+  const std::uint32_t has = area ? area->words : 0;
+  const auto add = [&](std::uint32_t first, std::uint32_t end, bool declared) {
+    if (first < end) places.push_back({fmt::format("%{}W{}", written.area, first), (end - first) * std::size_t{4}, declared});
+  };
+  add(written.first_word, std::min(written.last_word + 1, has), true);
+  add(std::max(written.first_word, has), written.last_word + 1, false);
+  return places;
+}
+
+}  // namespace fieldproof
