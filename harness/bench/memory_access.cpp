@@ -47,6 +47,16 @@ Result<std::string> MemoryAccess::read(const Server& server, const std::string& 
   return value.substr(0, digits);
 }
 
+Status MemoryAccess::set(int station, const std::string& address, const std::string& hex) {
+  refused_ = false;
+  return write({endpoint_, protocol_, station}, address, hex);
+}
+
+Result<std::string> MemoryAccess::get(int station, const std::string& address, std::size_t digits) {
+  refused_ = false;
+  return read({endpoint_, protocol_, station}, address, digits);
+}
+
 Status MemoryAccess::set(const PreparedCase& prepared, const std::string& address, const std::string& hex) {
   refused_ = false;
   if (endpoint_.capabilities().back_door) return endpoint_.set(address, hex);

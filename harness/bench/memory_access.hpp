@@ -35,6 +35,9 @@ class MemoryAccess {
   /// The last request was not answered at all.
   bool silent() const { return silent_; }
 
+  /// Over the wire, of a server, whatever the case.
+  Status set(int station, const std::string& address, const std::string& hex);
+  Result<std::string> get(int station, const std::string& address, std::size_t digits);
   /// What comes back to a request over the wire, as far as it came in time; empty: nothing.
   Result<Bytes> ask(int station, ByteView request) { return ask(Server{endpoint_, protocol_, station}, request); }
 
