@@ -73,7 +73,7 @@ TEST(CaseResultJson, NoFieldIsForgotten) {
   const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, manual, section, quote, verdict, message, notes, expected,
                expected_bytes, expected_hex, received, received_bytes, differences, exchange, recording, readings,
                response_ms, seconds, replay] = full_result();
-  EXPECT_EQ(26u, json(full_result()).size());
+  EXPECT_EQ(27u, json(full_result()).size());
 }
 
 TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
