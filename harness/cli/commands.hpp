@@ -57,6 +57,7 @@ int lint_command(const LintOptions& options);
 struct EmulateOptions {
   std::string model;             // "xbc-h?station=1&protocol=xgt-cnet"
   std::string tcp, pty;          // 127.0.0.1:PORT, PATH
+  std::string p2p;               // JSON file of P2P parameters: the device is the client
   int control = -1;              // internal: the harness' back door
   std::string tty;               // internal: the slave that the harness made
   bool verbose = false;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/commands.hpp"
+#include "harness/cli/p2p_file.hpp"
 #include "harness/endpoints/device_host.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/endpoints/interrupt.hpp"
@@ -50,9 +51,15 @@ int emulate_command(const EmulateOptions& options) {
 
   HostOptions host;
   host.model = name->target;
+  if (!options.p2p.empty()) {
+    const Result<nlohmann::json> config = read_p2p_file(options.p2p);
+    if (!config) return complain(config.error().message, exit_code::usage);
+    host.config = *config;
+  }
   for (const auto& [key, value] : name->options)
     if (key != "protocol") host.config[key] = value;
   host.make_device = [protocol = *protocol](const nlohmann::json& config) { return make_stations(*protocol, config); };
+  if (!options.p2p.empty()) host.make_device = naming_file(std::move(host.make_device), options.p2p);
   host.tcp = options.tcp;
   host.tty = options.tty.empty() ? options.pty : options.tty;
   host.control = options.control;

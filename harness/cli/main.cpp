@@ -129,6 +129,7 @@ int run_tool(int argc, char** argv) {
   emulate_app->add_option("model", emulate.model, "MODEL[?station=1&protocol=...]: xbc-h, xbm-s, xec-h, inverter")->required();
   CLI::Option* tcp = emulate_app->add_option("--tcp", emulate.tcp, "Listen on HOST:PORT");
   emulate_app->add_option("--pty", emulate.pty, "A terminal to open, or the link to a new pty")->excludes(tcp);
+  emulate_app->add_option("--p2p", emulate.p2p, "P2P parameters, a JSON file: the device is the client that asks");
   emulate_app->add_option("--control", emulate.control, "Back door of the harness")->group("");
   emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
   emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");

@@ -1,0 +1,36 @@
+#include "harness/cli/p2p_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace fieldproof {
+
+Result<nlohmann::json> read_p2p_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!in) return fail(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+  nlohmann::json config;
+  try {
+    config = nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    return fail(fmt::format("cannot read {}: it is no JSON: {}", path, error.what()));
+  }
+  if (!config.is_object() || !config.contains("p2p"))
+    return fail(fmt::format("cannot read {}: there is no \"p2p\"; give {{\"p2p\": {{\"blocks\": [...]}}}} as vectors/README.md says", path));
+  if (config.emplace("role", "client").first.value() != "client")
+    return fail(fmt::format("cannot use {}: role is {}; P2P is of role client, remove the key", path, config["role"].dump()));
+  return config;
+}
+
+DeviceFactory naming_file(DeviceFactory make_device, std::string path) {
+  return [make_device = std::move(make_device), path = std::move(path)](const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
+    Result<std::unique_ptr<EmulatedDevice>> device = make_device(config);
+    if (!device) return fail(path + ": " + device.error().message);
+    return device;
+  };
+}
+
+}  // namespace fieldproof
