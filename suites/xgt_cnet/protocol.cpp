@@ -10,6 +10,7 @@
 #include "src/xgt_cnet/plc_config.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
 #include "suites/xgt_cnet/memory_requests.hpp"
+#include "suites/xgt_cnet/p2p_facts.hpp"
 
 namespace fieldproof::xgt_cnet {
 
@@ -75,6 +76,7 @@ class XgtCnet : public Protocol {
   std::string_view output_areas() const override { return "PQU"; }
 
   Status check_fact(const nlohmann::json& facts) const override {
+    if (facts.contains("p2p")) return check_p2p_fact(facts);
     const PlcModel* model = find_plc_model(facts.value("model", ""));
     const std::string letter = facts.value("area", "");
     if (!model || letter.size() != 1) return fail("a fact has model (" + plc_model_names() + ") and area (one letter)");
