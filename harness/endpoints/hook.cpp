@@ -52,14 +52,21 @@ Status run_hook(const std::string& command, const std::vector<std::string>& argu
   for (const auto& [key, value] : environment) values.push_back(key + '=' + value);
   const std::vector<char*> argv = pointers(words), envp = pointers(values);
   const UniqueFd nothing(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  // Our handlers live on in the child until it runs the command: a signal must not be lost in them.
+  sigset_t all, before;
+  ::sigfillset(&all);
+  ::sigprocmask(SIG_SETMASK, &all, &before);
   const pid_t pid = ::fork();
-  if (pid < 0) return fail("cannot start '" + command + "': " + errno_text(errno));
   if (pid == 0) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
     ::dup2(nothing.get(), STDIN_FILENO);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
     ::execve(argv[0], argv.data(), envp.data());
     ::_exit(127);
   }
+  ::sigprocmask(SIG_SETMASK, &before, nullptr);
+  if (pid < 0) return fail("cannot start '" + command + "': " + errno_text(errno));
   const UniqueFd end(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
   const bool ended = end && wait_readable(end.get());
   if (!ended) ::kill(pid, SIGTERM);
