@@ -10,7 +10,6 @@
 #include "src/xgt_cnet/plc.hpp"
 #include "src/xgt_cnet/plc_config.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
-#include "suites/xgt_cnet/keyword_facts.hpp"
 #include "suites/xgt_cnet/memory_requests.hpp"
 #include "suites/xgt_cnet/p2p_facts.hpp"
 
@@ -110,7 +109,6 @@ class XgtCnet : public Protocol {
   }
 
   Status check_fact(const nlohmann::json& facts) const override {
-    if (facts.contains("keyword")) return check_keyword_fact(facts);
     if (facts.contains("p2p")) return check_p2p_fact(facts);
     const PlcModel* model = find_plc_model(facts.value("model", ""));
     const std::string letter = facts.value("area", "");
