@@ -23,11 +23,11 @@ std::string refusal(const ResultFile& a, const ResultFile& b) {
   return merged ? "merged" : merged.error().message;
 }
 
-const ResultFile first = file("a", "1/2", {with(Verdict::pass, "x/1"), with(Verdict::fail, "x/3")});
-const ResultFile second = file("b", "2/2", {with(Verdict::pass, "x/2")});
+const ResultFile first_shard = file("a", "1/2", {with(Verdict::pass, "x/1"), with(Verdict::fail, "x/3")});
+const ResultFile second_shard = file("b", "2/2", {with(Verdict::pass, "x/2")});
 
 TEST(Merge, TakesEachResultOnce) {
-  const Result<MergedRun> merged = merge_results({first, second});
+  const Result<MergedRun> merged = merge_results({first_shard, second_shard});
   ASSERT_TRUE(merged) << merged.error().message;
   std::vector<std::string> ids;
   for (const CaseResult& one : merged->results) ids.push_back(one.id);
@@ -41,9 +41,9 @@ TEST(Merge, TakesEachResultOnce) {
 
 TEST(Merge, RefusesWhatIsNotOfOneRun) {
   const auto changed = [](auto change) {
-    ResultFile other = second;
+    ResultFile other = second_shard;
     change(other.run);
-    return refusal(first, other);
+    return refusal(first_shard, other);
   };
   EXPECT_EQ(changed([](RunInfo& run) { run.vectors_hash = "c3d4"; }),
             "cannot merge b with a: the vectors differ: c3d4 and a1b2; run all parts with the same vectors");
@@ -65,16 +65,16 @@ TEST(Merge, OneCaseHasOneVerdict) {
 }
 
 TEST(Merge, MissingKilledAndTroubledShardsAreNamed) {
-  ResultFile killed = second, troubled = second;
+  ResultFile killed = second_shard, troubled = second_shard;
   killed.end.reset();
   troubled.end->trouble = "the port failed";
   EXPECT_THAT(merge_results({file("a", "1/4", {}), file("c", "3/4", {})})->troubles, ElementsAre("shards 2/4, 4/4 are missing"));
-  EXPECT_THAT(merge_results({first, killed})->troubles, ElementsAre("b: the run was killed after 1 results"));
-  EXPECT_THAT(merge_results({first, troubled})->troubles, ElementsAre("b: the port failed"));
+  EXPECT_THAT(merge_results({first_shard, killed})->troubles, ElementsAre("b: the run was killed after 1 results"));
+  EXPECT_THAT(merge_results({first_shard, troubled})->troubles, ElementsAre("b: the port failed"));
 }
 
 TEST(Merge, DevicesAreKeptApart) {
-  ResultFile a = first, b = second;
+  ResultFile a = first_shard, b = second_shard;
   a.run.identity = {.name = "left", .maker = "LS", .model = {}, .serial = "1", .firmware = {}, .operator_name = {}, .notes = {}, .fingerprint = {}, .fingerprint_found = {}};
   b.run.identity = a.run.identity;
   b.run.identity.name = "right";

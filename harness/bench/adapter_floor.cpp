@@ -7,17 +7,17 @@ namespace fieldproof {
 
 namespace {
 
-Duration from_ms(double ms) { return Duration(static_cast<Duration::rep>(std::max(0.0, ms) * 1e6)); }
+Duration from_measured_ms(double ms) { return Duration(static_cast<Duration::rep>(std::max(0.0, ms) * 1e6)); }
 
 }  // namespace
 
 Duration AdapterFloor::floor() const {
   switch (source) {
     case Source::by_hand: return given;
-    case Source::loop: return from_ms(times.percentile(0.99));
+    case Source::loop: return from_measured_ms(times.percentile(0.99));
     case Source::device: break;
   }
-  return from_ms(times.least());
+  return from_measured_ms(times.least());
 }
 
 Duration timing_floor(Duration declared, Duration response_max, const std::optional<AdapterFloor>& measured) {

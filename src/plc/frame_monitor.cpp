@@ -38,7 +38,7 @@ std::string shown(Byte b) {
   return plain ? std::string(1, static_cast<char>(b)) : fmt::format("<{:02X}>", b);
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string field = "\"";
   for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
   return field + '"';
@@ -58,7 +58,7 @@ std::string csv_header() { return "Form,Result,Size,Time,Frame data (HEX),Frame 
 
 std::string csv_row(const MonitoredFrame& frame, std::string_view time) {
   return fmt::format("{},{},{},{},{},{}\r\n", frame.sent ? "Transmission" : "Reception", to_string(frame.result), frame.data.size(),
-                     time, hex_view(frame), quoted(ascii_view(frame)));
+                     time, hex_view(frame), in_quotes(ascii_view(frame)));
 }
 
 void FrameMonitor::receive(const Burst& burst) {
