@@ -15,11 +15,6 @@ constexpr const char* ask_m101 = "[ENQ '02' 'rSS' '01' name(%MW101) EOT BCC]";
 
 const ordered_json read_block{{"flag", "%MX00000"}, {"read", "%MW100"}, {"save", "%MW200"}, {"station", 2}};
 
-ordered_json with(ordered_json object, const char* key, const ordered_json& value) {
-  object[key] = value;
-  return object;
-}
-
 ordered_json partner(const std::string& fault = "none") {
   return {{"station", 2}, {"memory", {{"%MW100", "5ABC"}, {"%MW101", "6BCD"}}}, {"fault", fault}};
 }

@@ -22,20 +22,20 @@ const std::map<std::string, int> shards{{"pty", 4}, {"serial", 1}, {"exec", 2}};
 /// One protocol stands for the links; the others' broken devices and peers are judged over exec: in suites/.
 constexpr const char* all_cases = "xgt_cnet/*";
 
-struct Difference {
+struct KnownDifference {
   std::string pattern, verdict, reason;
   std::set<std::string> links;
 };
 
-std::vector<Difference> allowed_differences() {
-  std::vector<Difference> result;
+std::vector<KnownDifference> allowed_differences() {
+  std::vector<KnownDifference> result;
   for (const json& entry : json::parse(read_text(FIELDPROOF_SOURCE_DIR "/harness/cli/testdata/endpoint_differences.json")))
     for (const json& pattern : entry.at("ids"))
       result.push_back({pattern, entry.at("verdict"), entry.at("reason"), entry.at("links").get<std::set<std::string>>()});
   return result;
 }
 
-bool matches(const Difference& one, const std::string& id) { return ::fnmatch(one.pattern.c_str(), id.c_str(), 0) == 0; }
+bool matches(const KnownDifference& one, const std::string& id) { return ::fnmatch(one.pattern.c_str(), id.c_str(), 0) == 0; }
 
 VerdictsById run(const std::string& endpoint, const std::string& filter, const ProcessOptions& options) {
   const TestFolder folder;
@@ -126,7 +126,7 @@ class Links : public testing::Test {
   static std::string due(const std::string& kind, const std::string& id) {
     const std::string& reference = emulator_.at(id);
     if (reference == "SKIP") return reference;  // outside the profile, whatever the link is
-    for (const Difference& one : differences_)
+    for (const KnownDifference& one : differences_)
       if (one.links.contains(kind) && matches(one, id)) return one.verdict;
     return reference;
   }
@@ -146,7 +146,7 @@ class Links : public testing::Test {
 
   static inline VerdictsById emulator_;
   static inline std::map<std::string, VerdictsById> over_;
-  static inline std::vector<Difference> differences_;
+  static inline std::vector<KnownDifference> differences_;
 };
 
 TEST_F(Links, pty_gives_the_verdicts_of_the_emulator) { expect_as_due("pty"); }
@@ -155,7 +155,7 @@ TEST_F(Links, exec_gives_the_verdicts_of_the_emulator) { expect_as_due("exec"); 
 
 /// An entry that stands for nothing would hide a fault one day.
 TEST_F(Links, each_allowed_difference_is_one) {
-  for (const Difference& one : differences_) {
+  for (const KnownDifference& one : differences_) {
     std::size_t matching = 0;
     for (const auto& [id, verdict] : emulator_) {
       if (verdict == "SKIP" || !matches(one, id)) continue;
@@ -173,7 +173,7 @@ TEST_F(Links, no_case_has_two_reasons) {
   for (const auto& [id, verdict] : emulator_)
     for (const auto& [kind, verdicts] : over_) {
       std::set<std::string> reasons;
-      for (const Difference& one : differences_)
+      for (const KnownDifference& one : differences_)
         if (verdict != "SKIP" && one.links.contains(kind) && matches(one, id)) reasons.insert(one.reason);
       EXPECT_LE(reasons.size(), 1u) << id << " over " << kind << ": " << json(reasons).dump();
     }

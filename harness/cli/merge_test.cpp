@@ -9,7 +9,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr int shards = 3;
+constexpr int shard_count = 3;
 
 class MergeCommand : public testing::Test {
  protected:
@@ -18,7 +18,7 @@ class MergeCommand : public testing::Test {
     if (more.empty()) arguments.insert(arguments.end(), {"--vectors", write_vectors(folder_, many_vectors(9))});
     arguments.insert(arguments.end(), more.begin(), more.end());
     ProcessOptions options;
-    if (index >= 0) options.environment = {{"GTEST_TOTAL_SHARDS", std::to_string(shards)}, {"GTEST_SHARD_INDEX", std::to_string(index)}};
+    if (index >= 0) options.environment = {{"GTEST_TOTAL_SHARDS", std::to_string(shard_count)}, {"GTEST_SHARD_INDEX", std::to_string(index)}};
     const Finished finished = run_tool(arguments, options);
     EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
     return folder_ / name + "/results.json";
@@ -32,8 +32,8 @@ class MergeCommand : public testing::Test {
 
   /// What stands in each report of a folder.
   void expect_alike(const std::string& one, const std::string& other) {
-    const auto json = [&](const std::string& out) { return nlohmann::json::parse(read_text(out + "/results.json")); };
-    EXPECT_EQ(json(one)["counts"], json(other)["counts"]);
+    const auto counts_of = [&](const std::string& out) { return nlohmann::json::parse(read_text(out + "/results.json")); };
+    EXPECT_EQ(counts_of(one)["counts"], counts_of(other)["counts"]);
     Junit a, b;
     read_junit(one + "/junit.xml", a);
     read_junit(other + "/junit.xml", b);
@@ -53,7 +53,7 @@ class MergeCommand : public testing::Test {
 TEST_F(MergeCommand, ShardsAddUpToTheWholeRun) {
   const std::vector<std::string> real{"--filter", "xgt_cnet/rss/*"};
   shard(-1, "whole", real);
-  for (int index = 0; index < shards; ++index) shard(index, std::to_string(index), real);
+  for (int index = 0; index < shard_count; ++index) shard(index, std::to_string(index), real);
   const Finished merged = merge({folder_ / "2/results.json", folder_ / "0/results.json", folder_ / "1/results.ndjson"});
   EXPECT_EQ(merged.code, 0) << merged.out << merged.err;
   expect_reports(folder_ / "merged");

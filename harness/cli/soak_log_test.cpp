@@ -72,7 +72,7 @@ TEST(SoakLog, SamplesAreBounded) {
   std::uint64_t judged = 0;
   for (int second = 0; second < 28'800; ++second) {
     log.take(repetition("a", second), second);
-    if (const auto sample = log.due_sample(second)) ++samples, judged += sample->judged;
+    if (const auto due = log.due_sample(second)) ++samples, judged += due->judged;
   }
   EXPECT_LE(samples, 500);
   EXPECT_GT(samples, 450);
@@ -90,8 +90,8 @@ TEST(SoakLog, TheSummaryComesBackFromJson) {
   SoakLog log(100, {});
   log.take(repetition("a", 0), 0);
   log.take(repetition("a", 1, Verdict::fail), 50);
-  const nlohmann::json json = log.summary(60);
-  EXPECT_EQ(json, nlohmann::json(json.get<SoakSummary>()));
+  const nlohmann::json written = log.summary(60);
+  EXPECT_EQ(written, nlohmann::json(written.get<SoakSummary>()));
 }
 
 }  // namespace

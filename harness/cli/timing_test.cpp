@@ -43,9 +43,9 @@ TEST_F(Timing, RepetitionsAreOneRowOfFigures) {
   const Finished finished = run({"--filter", "xgt_cnet/timing/delay/d10:xgt_cnet/timing/back_to_back", "--repeat", "50"});
   EXPECT_THAT(finished.out, HasSubstr("  xgt_cnet/timing/back_to_back       200      0.000      0.000      0.000      0.000\n"));
   EXPECT_THAT(finished.out, HasSubstr("  xgt_cnet/timing/delay/d10           50     10.000     10.000     10.000     10.000\n"));
-  const auto json = nlohmann::json::parse(read_text(out_ + "/results.json"))["timing"];
-  EXPECT_EQ(json["cases"]["xgt_cnet/timing/delay/d10"], (nlohmann::json{{"replies", 50}, {"min_ms", 10.0}, {"median_ms", 10.0}, {"p99_ms", 10.0}, {"max_ms", 10.0}}));
-  EXPECT_EQ(json["groups"]["xgt_cnet/timing"]["replies"], 250);
+  const auto written = nlohmann::json::parse(read_text(out_ + "/results.json"))["timing"];
+  EXPECT_EQ(written["cases"]["xgt_cnet/timing/delay/d10"], (nlohmann::json{{"replies", 50}, {"min_ms", 10.0}, {"median_ms", 10.0}, {"p99_ms", 10.0}, {"max_ms", 10.0}}));
+  EXPECT_EQ(written["groups"]["xgt_cnet/timing"]["replies"], 250);
   Junit junit;
   read_junit(out_ + "/junit.xml", junit);
   EXPECT_EQ(junit.document.select_node("//property[@name='reply times xgt_cnet/timing/delay/d10']").node().attribute("value").value(),

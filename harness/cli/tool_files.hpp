@@ -28,6 +28,12 @@ inline nlohmann::ordered_json small_vector(const std::string& id, const nlohmann
           {"steps", {{{"send", ask_word}}, {{"expect", expect}}}}};
 }
 
+/// `object` with another key.
+inline nlohmann::ordered_json with(nlohmann::ordered_json object, const char* key, const nlohmann::ordered_json& value) {
+  object[key] = value;
+  return object;
+}
+
 /// Writes vectors/xgt_cnet/test.json; the folder for --vectors.
 inline std::string write_vectors(const TestFolder& folder, const std::vector<nlohmann::ordered_json>& vectors) {
   folder.write("vectors/xgt_cnet/test.json", nlohmann::ordered_json(vectors).dump(1));

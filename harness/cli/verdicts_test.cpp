@@ -20,11 +20,6 @@ ordered_json marginal() {
   return vector;
 }
 
-ordered_json with(ordered_json vector, const char* key, const ordered_json& value) {
-  vector[key] = value;
-  return vector;
-}
-
 ordered_json below_floor() {
   ordered_json vector = small_vector("v/below_floor");
   vector["steps"][1]["within"] = "20ms";

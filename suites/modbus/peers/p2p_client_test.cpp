@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-const std::string folder_of_peers = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/";
+const std::string folder_of_servers = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/";
 
 /// The back door of an emulator in another process (harness/endpoints/device_control.hpp).
 class BackDoor {
@@ -84,8 +84,8 @@ struct Server {
 };
 
 const std::vector<Server> servers{{"libmodbus_rtu", "rtu", {LIBMODBUS_SERVER}},
-                                  {"pymodbus_rtu", "rtu", {"/usr/bin/python3", folder_of_peers + "pymodbus_server.py", "rtu"}},
-                                  {"pymodbus_ascii", "ascii", {"/usr/bin/python3", folder_of_peers + "pymodbus_server.py", "ascii"}}};
+                                  {"pymodbus_rtu", "rtu", {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "rtu"}},
+                                  {"pymodbus_ascii", "ascii", {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "ascii"}}};
 
 void PrintTo(const Server& server, std::ostream* out) { *out << server.name; }
 
