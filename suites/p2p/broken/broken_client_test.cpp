@@ -20,6 +20,9 @@ using Cases = std::vector<Case>;
 
 std::string folder_of(std::string_view id) { return std::string(id.substr(0, id.find('/'))); }
 
+/// A client, without the frame monitor, which stands outside of it.
+bool concerns(const Case& one) { return is_client_case(one) && !one.config.value("monitor", false); }
+
 /// The cases of a folder whose device is a client.
 const Cases& cases(const std::string& folder) {
   static std::map<std::string, Cases> known;
@@ -27,13 +30,20 @@ const Cases& cases(const std::string& folder) {
   if (!is_new) return found->second;
   const VectorSet set = load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/" + folder, FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
   EXPECT_THAT(set.problems, testing::IsEmpty());
-  std::ranges::copy_if(set.cases, std::back_inserter(found->second), is_client_case);
+  std::ranges::copy_if(set.cases, std::back_inserter(found->second), concerns);
   return found->second;
+}
+
+/// That of a case; user frames name theirs themselves.
+std::string model_of(const Case& one) {
+  if (one.protocol == "user-frames") return "";
+  const bool any = one.models.empty() || std::ranges::find(one.models, "xbc-h") != one.models.end();
+  return any ? "xbc-h" : one.models.front();
 }
 
 CaseResult run(const Case& source, const Behaviour& behaviour) {
   const auto protocol = std::ranges::find(protocols(), source.protocol, &Protocol::name);
-  EmulatorEndpoint endpoint({"emulator", source.protocol == "user-frames" ? "" : "xbc-h", {}}, [&](std::string_view model, const nlohmann::json& config) {
+  EmulatorEndpoint endpoint({"emulator", model_of(source), {}}, [&](std::string_view model, const nlohmann::json& config) {
     return make_broken_client(behaviour, source.protocol, model, config);
   });
   BenchOptions options;
