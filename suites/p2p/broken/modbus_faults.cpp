@@ -104,26 +104,26 @@ void save_padding(const P2pBlock& block, PlcMemory& memory) {
 std::vector<Fault> modbus_faults() {
   return {
       {"coil_by_0f", "a single bit is written by function 0F",
-       asks_for([](P2pBlock& block) { block.continuous = block.continuous || block.type == 'X'; }), "modbus_rtu/client/functions/write_bit", ""},
+       asks_for([](P2pBlock& block) { block.continuous = block.continuous || block.type == 'X'; }), "modbus_rtu/client/functions/write_bit/a0142_off", ""},
       {"word_by_10", "a single word is written by function 10",
-       asks_for([](P2pBlock& block) { block.continuous = block.continuous || block.type == 'W'; }), "modbus_rtu/client/functions/write_word", ""},
+       asks_for([](P2pBlock& block) { block.continuous = block.continuous || block.type == 'W'; }), "modbus_rtu/client/functions/write_word/a0001", ""},
       {"run_by_single", "a run is written by function 05 or 06",
        asks_for([](P2pBlock& block) { block.continuous = block.continuous && block.function == P2pBlock::Function::read; }),
-       "modbus_rtu/client/functions/run_of_one", ""},
-      {"input_bits_by_01", "input bits are read by function 01", function_code(read_inputs, read_coils), "modbus_rtu/client/functions/read_bit", ""},
+       "modbus_rtu/client/example/write_m2_bits", ""},
+      {"input_bits_by_01", "input bits are read by function 01", function_code(read_inputs, read_coils), "modbus_rtu/client/functions/read_bit/a10001_on", ""},
       {"input_words_by_03", "input registers are read by function 03", function_code(read_input_words, read_holding),
-       "modbus_rtu/client/functions/read_word", ""},
+       "modbus_rtu/client/functions/read_word/a30000", ""},
       {"tables_3_and_4_swapped", "0x3 is taken for 0x4, and 0x4 for 0x3", table('3', '4'), "modbus_rtu/client/example/read_p0", ""},
-      {"tables_0_and_1_swapped", "0x0 is taken for 0x1, and 0x1 for 0x0", table('0', '1'), "modbus_rtu/client/example/read_m10_bits", ""},
+      {"tables_0_and_1_swapped", "0x0 is taken for 0x1, and 0x1 for 0x0", table('0', '1'), "modbus_rtu/client/example/read_p2_bit_1/en", ""},
       {"address_minus_one", "the address of the partner is taken as one-based: one too low goes out", address(-1),
        "modbus_rtu/client/example/write_m100", ""},
       {"address_plus_one", "the address that goes out is one-based", address(1), "modbus_rtu/client/example/write_m100", ""},
-      {"address_decimal", "the digits of the address are taken as decimal", sends(hex_as_decimal), "modbus_rtu/client/example/write_m1_bit_15", ""},
+      {"address_decimal", "the digits of the address are taken as decimal", sends(hex_as_decimal), "modbus_rtu/client/functions/write_word/a0010", ""},
       {"count_plus_one", "the count is one too high",
        sends([](Bytes& pdu) {
          if (pdu[0] != write_coil && pdu[0] != write_word) set_word(pdu, 3, word(pdu, 3) + 1);
        }),
-       "modbus_rtu/client/functions/read_word", ""},
+       "modbus_rtu/client/functions/read_word/a4000a", ""},
       {"byte_count_missing", "0F and 10 have no byte count",
        sends([](Bytes& pdu) {
          if (pdu[0] >= write_coils) pdu.erase(pdu.begin() + 5);
@@ -138,7 +138,7 @@ std::vector<Fault> modbus_faults() {
        sends([](Bytes& pdu) {
          if (pdu[0] == write_coil && pdu.at(3) == 0xFF) set_word(pdu, 3, 1);
        }),
-       "modbus_rtu/client/functions/write_bit", ""},
+       "modbus_rtu/client/functions/write_bit/a0001_on", ""},
       {"words_low_byte_first", "words that are written go out low byte first", sends(swap_words), "modbus_rtu/client/example/write_d0", ""},
       {"bits_from_the_top", "bits that are written begin at bit 7 of each byte",
        sends([](Bytes& pdu) {
@@ -167,8 +167,8 @@ std::vector<Fault> modbus_faults() {
        understands([](ModbusFrame& reply, const P2pBlock& block) {
          for (std::size_t i = 2; reads_bits(block) && i < reply.pdu.size(); ++i) reply.pdu[i] = bits_reversed(reply.pdu[i]);
        }),
-       "modbus_rtu/client/example/read_m10_bits", ""},
-      {"padding_saved", "the padding of the last byte of bits is saved, too", after_saving(save_padding), "modbus_rtu/client/data/read_bits", ""},
+       "modbus_rtu/client/example/read_m10_bits/printed", ""},
+      {"padding_saved", "the padding of the last byte of bits is saved, too", after_saving(save_padding), "modbus_rtu/client/data/read_bits/b9_at_7", ""},
       {"modbus_foreign_station", "the reply of another station is accepted",
        understands([](ModbusFrame& reply, const P2pBlock& block) { reply.station = static_cast<Byte>(block.station); }),
        "modbus_rtu/client/error/wrong_station", ""},

@@ -66,7 +66,7 @@ std::vector<Fault> user_frame_faults() {
       {"send_without_last_byte", "the last byte of a frame is not sent", spoils([](Bytes& request) { request.pop_back(); }),
        "user_frames/client_px7/example", ""},
       {"send_twice_as_often", "F93 sends every 500 ms",
-       each_block([](P2pBlock& block) { block.condition.period /= 2; }), "user_frames/client_px7/period", ""},
+       each_block([](P2pBlock& block) { block.condition.period /= 2; }), "user_frames/client_px7/period/f93", ""},
       {"send_one_byte_less", "SIZE1 is taken one byte too small",
        asks_for([](P2pBlock& block) { block.size -= block.size > 1; }), "user_frames/client_variables/size_4", ""},
       {"send_in_stop", "STOP does not stop SEND and RECEIVE", deaf_to("stop"), "user_frames/client_px7/stop", ""},

@@ -115,43 +115,43 @@ std::vector<Fault> xgt_request_faults() {
        "xgt_cnet/client/read_cycle", ""},
       {"upper_case_command", "commands go out in upper case, without BCC", sends(upper_case), "xgt_cnet/client/read_cycle", ""},
       {"names_padded", "names go out with leading zeros", names(padded_name), "xgt_cnet/client/read_cycle", ""},
-      {"address_one_too_high", "the address of the partner is one too high", names(next_name), "xgt_cnet/client/read/single", ""},
+      {"address_one_too_high", "the address of the partner is one too high", names(next_name), "xgt_cnet/client/read/single/word", ""},
       {"name_length_decimal", "the length of a name is one too low",
        spoils_with_bcc([](Bytes& request) { --request.at(request.size() > 9 ? 9 : 0); }), "xgt_cnet/client/read_cycle", ""},
       {"block_count_off_by_one", "the number of blocks is one too high", spoils_with_bcc([](Bytes& request) { ++request.at(7); }),
        "xgt_cnet/client/read_cycle", ""},
       {"run_in_bytes", "the number of a run is that of its bytes",
-       sends([](XgtRequest& request, auto&) { request.count *= type_bytes(request.block[0].name[2]); }), "xgt_cnet/client/run/read", ""},
+       sends([](XgtRequest& request, auto&) { request.count *= type_bytes(request.block[0].name[2]); }), "xgt_cnet/client/run/read/words", ""},
       {"run_one_too_long", "the number of a run is one too high", sends([](XgtRequest& request, auto&) { request.count += 1; }),
-       "xgt_cnet/client/run/read", ""},
+       "xgt_cnet/client/run/read/bytes", ""},
       {"station_of_first_block", "every block asks the station of the first", one_station, "xgt_cnet/client/schedule/block_order", ""},
       {"station_decimal", "the station goes out as a decimal number",
        spoils_with_bcc([](Bytes& request) {
          const XgtRequest right = parse_request(request);
          std::ranges::copy(fmt::format("{:02}", right.station % 100), request.begin() + 1);
        }),
-       "xgt_cnet/client/write/station", ""},
+       "xgt_cnet/client/write/station/s31", ""},
       {"first_variable_only", "of several variables only the first is asked for", asks_for([](P2pBlock& block) { block.variables.resize(1); }),
        "xgt_cnet/client/write/two_dwords", ""},
       {"variables_in_reverse", "the last variable comes first", asks_for([](P2pBlock& block) { std::ranges::reverse(block.variables); }),
        "xgt_cnet/client/write/two_dwords", ""},
       {"read_for_write", "a write goes out as a read of the same variables",
-       asks_for([](P2pBlock& block) { block.function = P2pBlock::Function::read; }), "xgt_cnet/client/write/single", ""},
+       asks_for([](P2pBlock& block) { block.function = P2pBlock::Function::read; }), "xgt_cnet/client/write/single/word", ""},
       {"run_as_single", "a run goes out as one single variable",
-       asks_for([](P2pBlock& block) { block.continuous = false; }), "xgt_cnet/client/run/write", ""},
+       asks_for([](P2pBlock& block) { block.continuous = false; }), "xgt_cnet/client/run/write/words", ""},
       {"single_as_run", "a single variable goes out as a run of one",
        asks_for([](P2pBlock& block) {
          block.continuous = block.variables.size() == 1 && block.type != 'X';
          block.size = 1;
        }),
-       "xgt_cnet/client/write/single", ""},
+       "xgt_cnet/client/write/single/word", ""},
       {"own_area_off_by_one", "a write takes its data one element too high",
        asks_for([](P2pBlock& block) {
          for (P2pVariable& variable : block.variables)
            if (writes(block)) variable.own = variable.own + 1;
        }),
-       "xgt_cnet/client/write/single", ""},
-      {"write_bytes_swapped", "what is written goes out low byte first", digits(16, bytes_reversed), "xgt_cnet/client/write/single", ""},
+       "xgt_cnet/client/write/single/word", ""},
+      {"write_bytes_swapped", "what is written goes out low byte first", digits(16, bytes_reversed), "xgt_cnet/client/write/single/word", ""},
       {"write_halves_swapped", "what is written goes out low word first", digits(16, words_reversed), "xgt_cnet/client/write/two_dwords", ""},
       {"write_lower_case", "hex digits of data go out in lower case",
        digits(16,
