@@ -247,6 +247,7 @@ void BrokenClient::saved() {
 
 Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& behaviour, std::string_view protocol,
                                                            std::string_view model, const nlohmann::json& config) {
+  if (protocol == "udata") return make_broken_udata_port(behaviour, model, config);
   PortConfig port;
   if (find_plc_model(model)) port.model = model;
   unsigned time_out = 1;

@@ -11,6 +11,7 @@
 
 #include "src/p2p/client.hpp"
 #include "src/plc/emulated_device.hpp"
+#include "src/udata/config.hpp"
 
 namespace fieldproof::p2p {
 
@@ -49,11 +50,17 @@ struct Behaviour {
   bool keeps_late_replies = false;  // what comes when nothing is under way goes to the next request
   bool all_at_once = false;         // no block waits for another
   std::string deaf_to{};            // an action that changes nothing: "stop", "link off"
+
+  // Of a port that works with UDATA instructions.
+  std::function<void(UdataConfig& config)> works_with_udata{};
+  std::function<void(Bytes& bytes)> says{}, hears{};
 };
 
-/// The client of a protocol ("xgt-cnet", ...) with a fault. `config` is that of its own client. Errors are those of the
-/// good one.
+/// The client of a protocol ("xgt-cnet", ...) with a fault; of "udata" the port. `config` is that of the good device, and so
+/// are the errors.
 Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& behaviour, std::string_view protocol,
                                                            std::string_view model, const nlohmann::json& config);
+Result<std::unique_ptr<EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour, std::string_view model,
+                                                               const nlohmann::json& config);
 
 }  // namespace fieldproof::p2p

@@ -20,10 +20,13 @@ using Cases = std::vector<Case>;
 
 std::string folder_of(std::string_view id) { return std::string(id.substr(0, id.find('/'))); }
 
-/// A client, without the frame monitor, which stands outside of it.
-bool concerns(const Case& one) { return is_client_case(one) && !one.config.value("monitor", false); }
+/// A client, without the frame monitor, which stands outside of it; or a port with UDATA instructions, not a modem.
+bool concerns(const Case& one) {
+  if (one.protocol == "udata") return one.config.contains("instructions") && !one.config.value("monitor", false);
+  return is_client_case(one) && !one.config.value("monitor", false);
+}
 
-/// The cases of a folder whose device is a client.
+/// The cases of a folder that concern the faults here.
 const Cases& cases(const std::string& folder) {
   static std::map<std::string, Cases> known;
   const auto [found, is_new] = known.try_emplace(folder);
@@ -92,7 +95,7 @@ TEST_P(HealthyClient, PassesTheWholeSuite) {
   fmt::print("{:<28} {} cases of {} pass\n", "none", passed, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(P2p, HealthyClient, testing::Values("xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus", "user_frames"),
+INSTANTIATE_TEST_SUITE_P(P2p, HealthyClient, testing::Values("xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus", "user_frames", "udata"),
                          [](const auto& test) { return test.param; });
 
 TEST(FaultTable, NamesAreUnique) {

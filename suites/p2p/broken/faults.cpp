@@ -6,7 +6,7 @@ namespace fieldproof::p2p {
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table = gather<Fault>({trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults,
-                                                         modbus_faults, ls_bus_faults, user_frame_faults});
+                                                         modbus_faults, ls_bus_faults, user_frame_faults, udata_faults});
   return table;
 }
 

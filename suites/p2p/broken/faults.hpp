@@ -25,6 +25,7 @@ std::vector<Fault> xgt_reply_faults();
 std::vector<Fault> modbus_faults();
 std::vector<Fault> ls_bus_faults();
 std::vector<Fault> user_frame_faults();
+std::vector<Fault> udata_faults();
 
 // How their rows are made.
 MakeBehaviour trigger(Trigger trigger);

@@ -171,12 +171,12 @@ std::vector<Fault> modbus_faults() {
       {"padding_saved", "the padding of the last byte of bits is saved, too", after_saving(save_padding), "modbus_rtu/client/data/read_bits/b9_at_7", ""},
       {"modbus_foreign_station", "the reply of another station is accepted",
        understands([](ModbusFrame& reply, const P2pBlock& block) { reply.station = static_cast<Byte>(block.station); }),
-       "modbus_rtu/client/error/wrong_station", ""},
-      {"exception_is_normal", "an exception is a normal end", takes(exception_is_normal), "modbus_rtu/client/error/exception", ""},
+       "modbus_rtu/client/error/wrong_station/s3", ""},
+      {"exception_is_normal", "an exception is a normal end", takes(exception_is_normal), "modbus_rtu/client/error/exception/e02", ""},
       {"echo_not_compared", "a write whose echo has another address or value ends normally", takes(echo_not_compared),
-       "modbus_rtu/client/error/echo", ""},
-      {"crc_ignored", "a wrong CRC is accepted", hears(accept_any_crc), "modbus_rtu/client/error/crc", ""},
-      {"lrc_ignored", "a wrong LRC is accepted", hears(accept_any_lrc), "modbus_ascii/client/error/lrc", ""},
+       "modbus_rtu/client/error/other_echo_06/other_value", ""},
+      {"crc_ignored", "a wrong CRC is accepted", hears(accept_any_crc), "modbus_rtu/client/error/wrong_check/wrong", ""},
+      {"lrc_ignored", "a wrong LRC is accepted", hears(accept_any_lrc), "modbus_ascii/client/error/wrong_check/wrong", ""},
   };
 }
 
