@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(P2p, HealthyClient, testing::Values("xgt_cnet", "modbus
 TEST(FaultTable, NamesAreUnique) {
   std::map<std::string_view, int> names;
   for (const Fault& fault : faults()) EXPECT_EQ(++names[fault.name], 1) << fault.name;
-  EXPECT_GE(faults().size(), 100u);
+  EXPECT_GE(faults().size(), 150u);
 }
 
 }  // namespace

@@ -104,63 +104,63 @@ Behaviour one_station() {
 
 std::vector<Fault> xgt_request_faults() {
   return {
-      {"bcc_missing", "the request has no BCC", spoils([](Bytes& request) { request.resize(request.size() - 2); }), "xgt_cnet/client/read_cycle", ""},
+      {"bcc_missing", "the request has no BCC", spoils([](Bytes& request) { request.resize(request.size() - 2); }), "xgt_cnet/client/read_cycle", "BCC: expected A4, got nothing"},
       {"bcc_off_by_one", "the BCC is one too high",
        bcc_higher_by(1),
-       "xgt_cnet/client/read_cycle", ""},
+       "xgt_cnet/client/read_cycle", "BCC: expected A4, got A5"},
       {"bcc_without_header", "ENQ is not in the sum of the BCC",
        bcc_higher_by(-xgt_enq),
-       "xgt_cnet/client/monitor_capture", ""},
+       "xgt_cnet/client/monitor_capture", "BCC: expected 40, got 3B"},
       {"etx_for_eot", "a request ends with ETX", spoils_with_bcc([](Bytes& request) { request.at(request.size() - 3) = xgt_etx; }),
-       "xgt_cnet/client/read_cycle", ""},
-      {"upper_case_command", "commands go out in upper case, without BCC", sends(upper_case), "xgt_cnet/client/read_cycle", ""},
-      {"names_padded", "names go out with leading zeros", names(padded_name), "xgt_cnet/client/read_cycle", ""},
-      {"address_one_too_high", "the address of the partner is one too high", names(next_name), "xgt_cnet/client/read/single/word", ""},
-      {"name_length_decimal", "the length of a name is one too low",
-       spoils_with_bcc([](Bytes& request) { --request.at(request.size() > 9 ? 9 : 0); }), "xgt_cnet/client/read_cycle", ""},
+       "xgt_cnet/client/read_cycle", "surplus: expected nothing, got <03>A3"},
+      {"upper_case_command", "commands go out in upper case, without BCC", sends(upper_case), "xgt_cnet/client/read_cycle", "command: expected r, got R"},
+      {"names_padded", "names go out with leading zeros", names(padded_name), "xgt_cnet/client/read_cycle", "name length: expected 06, got 08"},
+      {"address_one_too_high", "the address of the partner is one too high", names(next_name), "xgt_cnet/client/read/single/word", "name: expected %MW15, got %MW16"},
+      {"name_length_off_by_one", "the length of a name is one too low",
+       spoils_with_bcc([](Bytes& request) { --request.at(request.size() > 9 ? 9 : 0); }), "xgt_cnet/client/read_cycle", "name length: expected 06, got 05"},
       {"block_count_off_by_one", "the number of blocks is one too high", spoils_with_bcc([](Bytes& request) { ++request.at(7); }),
-       "xgt_cnet/client/read_cycle", ""},
+       "xgt_cnet/client/read_cycle", "block count: expected 01, got 02"},
       {"run_in_bytes", "the number of a run is that of its bytes",
-       sends([](XgtRequest& request, auto&) { request.count *= type_bytes(request.block[0].name[2]); }), "xgt_cnet/client/run/read/words", ""},
+       sends([](XgtRequest& request, auto&) { request.count *= type_bytes(request.block[0].name[2]); }), "xgt_cnet/client/run/read/words", "number of data: expected 02, got 04"},
       {"run_one_too_long", "the number of a run is one too high", sends([](XgtRequest& request, auto&) { request.count += 1; }),
-       "xgt_cnet/client/run/read/bytes", ""},
-      {"station_of_first_block", "every block asks the station of the first", one_station, "xgt_cnet/client/schedule/block_order", ""},
+       "xgt_cnet/client/run/read/bytes", "number of data: expected 03, got 04"},
+      {"station_of_first_block", "every block asks the station of the first", one_station, "xgt_cnet/client/schedule/block_order", "station: expected 05, got 03"},
       {"station_decimal", "the station goes out as a decimal number",
        spoils_with_bcc([](Bytes& request) {
          const XgtRequest right = parse_request(request);
          std::ranges::copy(fmt::format("{:02}", right.station % 100), request.begin() + 1);
        }),
-       "xgt_cnet/client/write/station/s31", ""},
+       "xgt_cnet/client/write/station/s31", "station: expected 1F, got 31"},
       {"first_variable_only", "of several variables only the first is asked for", asks_for([](P2pBlock& block) { block.variables.resize(1); }),
-       "xgt_cnet/client/write/two_dwords", ""},
+       "xgt_cnet/client/write/two_dwords", "block count: expected 02, got 01"},
       {"variables_in_reverse", "the last variable comes first", asks_for([](P2pBlock& block) { std::ranges::reverse(block.variables); }),
-       "xgt_cnet/client/write/two_dwords", ""},
+       "xgt_cnet/client/write/two_dwords", "name length 1: expected 05, got 04"},
       {"read_for_write", "a write goes out as a read of the same variables",
-       asks_for([](P2pBlock& block) { block.function = P2pBlock::Function::read; }), "xgt_cnet/client/write/single/word", ""},
+       asks_for([](P2pBlock& block) { block.function = P2pBlock::Function::read; }), "xgt_cnet/client/write/single/word", "command: expected w, got r"},
       {"run_as_single", "a run goes out as one single variable",
-       asks_for([](P2pBlock& block) { block.continuous = false; }), "xgt_cnet/client/run/write/words", ""},
+       asks_for([](P2pBlock& block) { block.continuous = false; }), "xgt_cnet/client/run/write/words", "command type: expected SB, got SS"},
       {"single_as_run", "a single variable goes out as a run of one",
        asks_for([](P2pBlock& block) {
          block.continuous = block.variables.size() == 1 && block.type != 'X';
          block.size = 1;
        }),
-       "xgt_cnet/client/write/single/word", ""},
+       "xgt_cnet/client/write/single/word", "command type: expected SS, got SB"},
       {"own_area_off_by_one", "a write takes its data one element too high",
        asks_for([](P2pBlock& block) {
          for (P2pVariable& variable : block.variables)
            if (writes(block)) variable.own = variable.own + 1;
        }),
-       "xgt_cnet/client/write/single/word", ""},
-      {"write_bytes_swapped", "what is written goes out low byte first", digits(16, bytes_reversed), "xgt_cnet/client/write/single/word", ""},
-      {"write_halves_swapped", "what is written goes out low word first", digits(16, words_reversed), "xgt_cnet/client/write/two_dwords", ""},
+       "xgt_cnet/client/write/single/word", "data: expected 2468, got 9BDF"},
+      {"write_bytes_swapped", "what is written goes out low byte first", digits(16, bytes_reversed), "xgt_cnet/client/write/single/word", "data: expected 2468, got 6824"},
+      {"write_halves_swapped", "what is written goes out low word first", digits(16, words_reversed), "xgt_cnet/client/write/two_dwords", "data 1: expected 75318642, got 86427531"},
       {"write_lower_case", "hex digits of data go out in lower case",
        digits(16,
               [](std::string digits) {
                 for (char& c : digits) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
                 return digits;
               }),
-       "xgt_cnet/client/example/write_m100_read_d100", ""},
-      {"writes_first_value", "every write sends what memory held at the first", remembers, "xgt_cnet/client/write/value_of_the_moment", ""},
+       "xgt_cnet/client/example/write_m100_read_d100", "data: expected 5ABC, got 5abc"},
+      {"writes_first_value", "every write sends what memory held at the first", remembers, "xgt_cnet/client/write/value_of_the_moment", "data: expected 5ABC, got 2468"},
   };
 }
 
