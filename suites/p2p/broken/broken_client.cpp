@@ -6,40 +6,12 @@
 #include <vector>
 
 #include "src/p2p/registers.hpp"
+#include "suites/p2p/broken/broken_driver.hpp"
 #include "suites/p2p/broken/drivers.hpp"
 
 namespace fieldproof::p2p {
 
 namespace {
-
-/// The good driver, with a fault in what it asks or takes.
-class BrokenDriver : public P2pDriver {
- public:
-  using Asked = std::function<void(const P2pBlock& block)>;
-  BrokenDriver(std::unique_ptr<P2pDriver> good, const Behaviour& behaviour, Asked asked)
-      : good_(std::move(good)), behaviour_(behaviour), asked_(std::move(asked)) {}
-
-  std::string_view name() const override { return good_->name(); }
-  Status check(const P2pBlock& block, const PlcModel& model) const override { return good_->check(block, model); }
-  Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override {
-    asked_(block);
-    return behaviour_.asks ? behaviour_.asks(*good_, block, memory) : good_->request(block, memory);
-  }
-  bool awaits_reply(const P2pBlock& block) const override { return good_->awaits_reply(block); }
-  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const override {
-    if (!behaviour_.takes) return good_->take(block, frame, memory);
-    return behaviour_.takes(*good_, block, Bytes(frame.begin(), frame.end()), memory);
-  }
-  void receive(const Burst& burst, FrameSink& sink) override { good_->receive(burst, sink); }
-  std::optional<Time> wake_at() const override { return good_->wake_at(); }
-  void advance(Time now, FrameSink& sink) override { good_->advance(now, sink); }
-  void reset() override { good_->reset(); }
-
- private:
-  std::unique_ptr<P2pDriver> good_;
-  Behaviour behaviour_;
-  Asked asked_;
-};
 
 class BrokenClient : public EmulatedDevice {
  public:
@@ -74,6 +46,7 @@ class BrokenClient : public EmulatedDevice {
   };
 
   void make_engines(const P2pParameters& parameters, const P2pClient::Timing& timing, const DriverFactory& driver);
+  void give_up();
   void update_mode();
   void look_at_flags();
   bool fires(Block& block, bool on);
@@ -103,7 +76,11 @@ BrokenClient::BrokenClient(const PlcModel& model, const P2pParameters& parameter
 }
 
 void BrokenClient::make_engines(const P2pParameters& parameters, const P2pClient::Timing& timing, const DriverFactory& driver) {
-  const auto asked = [this](const P2pBlock& block) { std::ranges::find(blocks_, block.number, &Block::number)->under_way = true; };
+  const auto asked = [this](const P2pBlock& of) {
+    Block& block = *std::ranges::find(blocks_, of.number, &Block::number);
+    block.under_way = true;
+    if (behaviour_.clears_results) show(block, {.services = block.outcome.services, .errors = block.outcome.errors});
+  };
   const auto make = [&](const P2pParameters& of) {
     engines_.push_back(std::make_unique<P2pClient>(memory_, of, of.channel, driver(asked), timing, [this] { saved(); }));
   };
@@ -164,9 +141,15 @@ Status BrokenClient::act(std::string_view action) {
   return ok();
 }
 
-void BrokenClient::update_mode() {
+void BrokenClient::give_up() {
+  for (const auto& engine : engines_) engine->set_active(false);
+  std::ranges::for_each(blocks_, [](Block& block) { block.under_way = false; });
   for (const auto& engine : engines_) engine->set_active(run_ && link_);
-  if (!run_ || !link_) std::ranges::for_each(blocks_, [](Block& block) { block.under_way = false; });
+}
+
+void BrokenClient::update_mode() {
+  if (!run_ || !link_) give_up();
+  for (const auto& engine : engines_) engine->set_active(run_ && link_);
   if (behaviour_.trigger != Trigger::held_flag || !run_) return;
   for (const Block& block : blocks_)
     if (block.on) fire(block);
@@ -184,6 +167,9 @@ void BrokenClient::look_at_flags() {
 bool BrokenClient::fires(Block& block, bool on) {
   switch (behaviour_.trigger) {
     case Trigger::both_edges: return true;
+    case Trigger::aborted_by_fall:
+      if (!on && block.under_way) give_up();
+      return on;
     case Trigger::falling_edge: return !on;
     case Trigger::every_second_edge: return on && ++block.edges % 2 == 1;
     case Trigger::queued_edges:

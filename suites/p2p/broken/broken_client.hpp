@@ -33,6 +33,7 @@ enum class Trigger {
   queued_edges,        // what rises while the block is under way is served behind it
   every_second_edge,
   held_flag,           // a flag that is on when the PLC goes to RUN counts as risen
+  aborted_by_fall,     // a flag that falls gives up what is under way
 };
 
 /// One fault at work. What is empty is done right.
@@ -47,6 +48,7 @@ struct Behaviour {
   std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block, Bytes frame, PlcMemory& memory)> takes{};
   /// Changes what a block shows when it ends. True: the block is asked once more.
   std::function<bool(const Outcome& before, Outcome& now)> ends{};
+  bool clears_results = false;      // when a block is asked, it shows neither NDR nor ERR
   bool keeps_late_replies = false;  // what comes when nothing is under way goes to the next request
   bool all_at_once = false;         // no block waits for another
   std::string deaf_to{};            // an action that changes nothing: "stop", "link off"

@@ -66,6 +66,8 @@ std::vector<Fault> result_faults() {
       {"ndr_not_set", "a normal end does not show", ends([](const Outcome&, Outcome& now) { now.ndr = false; }), "xgt_cnet/client/read_cycle", "%LW512 holds 0000"},
       {"ndr_and_err_swapped", "bit 0 is ERR, bit 1 NDR", ends([](const Outcome&, Outcome& now) { std::swap(now.ndr, now.err); }),
        "xgt_cnet/client/read_cycle", "%LW512 holds 0002"},
+      {"cleared_by_request", "NDR, ERR and STATUS are cleared when the block is asked", [] { return Behaviour{.clears_results = true}; },
+       "xgt_cnet/client/flags/kept_until_the_end", "%LW512 holds 0000"},
       {"status_not_set", "an abnormal end leaves STATUS as it is", ends([](const Outcome& before, Outcome& now) { now.status = before.status; }),
        "xgt_cnet/client/error/nak/range", "%LW513 holds 0000"},
       {"status_kept_on_success", "a normal end leaves the STATUS of the last error",
