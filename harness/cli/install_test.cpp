@@ -35,7 +35,7 @@ TEST_F(Installed, runs_green_from_another_folder) {
 /// Not those of the source tree, which a developer's machine still has.
 TEST_F(Installed, takes_its_own_vectors_and_profiles) {
   const std::string data = folder_ / "usr/share/fieldproof";
-  for (const char* protocol : {"xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus", "user_frames"})
+  for (const char* protocol : {"xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus", "user_frames", "udata"})
     std::filesystem::remove_all(data + "/vectors/" + protocol);
   folder_.write("usr/share/fieldproof/vectors/xgt_cnet/test.json", nlohmann::ordered_json::array({small_vector("own/vector")}).dump());
   std::filesystem::rename(data + "/profiles/xbc-h.json", data + "/profiles/own.json");
