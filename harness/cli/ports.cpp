@@ -9,7 +9,7 @@ namespace fieldproof {
 Result<Fixtures> Fixtures::open(const DutPlan& plan) {
   Fixtures fixtures;
   if (plan.aux)
-    if (const Status opened = fixtures.open_aux(*plan.aux); !opened) return opened.error();
+    if (const Status opened = fixtures.open_aux(*plan.aux, plan.bench.aux_device); !opened) return opened.error();
   if (plan.stimulus.empty() || plan.stimulus == "-") return fixtures;
   Result<std::unique_ptr<Stimulus>> stimulus = Stimulus::start(plan.stimulus);
   if (!stimulus) return stimulus.error();
@@ -23,16 +23,17 @@ void Fixtures::give(BenchOptions& bench, const std::string& stimulus) const {
   if (stimulus_) bench.stimulus = [program = stimulus_.get()](const std::string& line) { return program->tell(line); };
 }
 
-Status Fixtures::open_aux(const EndpointName& name) {
-  const Result<const Protocol*> protocol = choose_protocol(name.option("protocol", "xgt-cnet"), "");
+Status Fixtures::open_aux(const EndpointName& name, const JournalDevice& device) {
+  const Result<const Protocol*> protocol = choose_protocol(device.protocol, "");
   if (!protocol) return fail("--aux: " + protocol.error().message);
-  const std::optional<int> station = config_station({{"station", name.option("station", "1")}}, 1);
-  if (!station) return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255", name.option("station", "1")));
+  Result<std::unique_ptr<Protocol>> configured = (*protocol)->configured(device.model, device.config);
+  if (!configured) return fail("--aux: " + configured.error().message);
+  aux_configured_ = std::move(*configured);
   Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(name);
   if (!endpoint) return fail("--aux: " + endpoint.error().message);
   aux_ = std::move(*endpoint);
-  aux_protocol_ = *protocol;
-  aux_station_ = *station;
+  aux_protocol_ = aux_configured_ ? aux_configured_.get() : *protocol;
+  aux_station_ = device.station;
   const Result<bool> alive = Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
   if (!alive) return alive.error();
   return *alive ? ok() : Status(fail(fmt::format("nothing answers on --aux {} at station {}", aux_->describe(), aux_station_)));

@@ -18,9 +18,10 @@ class Fixtures {
   void give(BenchOptions& bench, const std::string& stimulus) const;
 
  private:
-  Status open_aux(const EndpointName& name);
+  Status open_aux(const EndpointName& name, const JournalDevice& device);
 
   std::unique_ptr<Endpoint> aux_;
+  std::unique_ptr<Protocol> aux_configured_;  // as the profile declares it; nullptr: nothing to declare
   const Protocol* aux_protocol_ = nullptr;
   int aux_station_ = 1;
   std::unique_ptr<Stimulus> stimulus_;

@@ -88,6 +88,8 @@ class Run {
     if (started) {
       run_with_gtest(plan_.selected, runner_options(), [this](const Case& source, int round) { return run_case(source, round); });
       if (soak_ && report_.tally().total() > 0) report_.add(soak_->summary(seconds()));
+      // Whoever vanished is trouble, whatever the verdict of the case in which it did. Steps of a matrix are BLOCKED.
+      if (plan_.matrix.empty() && !interrupted() && end_.trouble.empty()) end_.trouble = benches_.stopped();
       // The last sanity exchange: whatever the cases left behind, the device still answers.
       if (!interrupted() && lines_.live())
         if (const Status still = benches_.start(); !still && !still.error().interrupted) end_.trouble = "after the last case: " + still.error().message;
@@ -302,12 +304,14 @@ Status open_journal(const RunOptions& options, DutPlan& plan) {
   if (plan.journal.empty()) return ok();
   Result<Journal> journal = Journal::open(plan.journal);
   if (!journal) return journal.error();
-  if (options.discard_journal)
-    if (Status discarded = journal->discard(plan.bench.device); !discarded) return discarded;
-  const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) { return is_same_device(one.device, plan.bench.device); });
-  if (open > 0)
-    return fail(fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of its values; type: fieldproof restore {}\n"
-                            "(or forget them: --discard-journal)", plan.bench.device.endpoint, open, shell_word(plan.journal)));
+  for (const JournalDevice& device : {plan.bench.device, plan.bench.aux_device}) {
+    if (options.discard_journal)
+      if (Status discarded = journal->discard(device); !discarded) return discarded;
+    const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) { return is_same_device(one.device, device); });
+    if (open > 0)
+      return fail(fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of its values; type: fieldproof restore {}\n"
+                              "(or forget them: --discard-journal)", device.endpoint, open, shell_word(plan.journal)));
+  }
   plan.bench.journal = std::make_shared<Journal>(std::move(*journal));
   return ok();
 }

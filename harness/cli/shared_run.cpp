@@ -78,7 +78,7 @@ bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
     interrupted_ |= ended;
     over_ |= hung || ended;
     if (done) stops_.push_back(port.name + ": " + (hung ? "hung in " + result.id : port.benches->stopped()));
-    if (failed) troubles_.push_back(stops_.back());
+    if (done && !ended) troubles_.push_back(stops_.back());
     if (lost) tasks_.push_front({task.source, task.repeat, std::move(result)});
     if (ended || lost) --running_;
   }
