@@ -79,7 +79,7 @@ Status Bench::start() {
   const Result<bool> alive = listens ? wait_for_request() : exchange_.anything_answers(station, start_patience);
   port_failed_ = !alive;
   if (!alive) return alive.error();
-  answers_ = *alive;
+  answers_ = *alive && !listens;
   if (*alive) return ok();
   if (listens)
     return fail(fmt::format("nothing is asked on {}: check that the PLC is in RUN, that P2P has its link enable (000 11.2.2), that the block's condition "
@@ -105,9 +105,10 @@ Result<bool> Bench::wait_for_request() {
     const Result<PreparedCase> prepared = prepare(*one, options_.station, protocol_);
     if (!prepared || !prepared->expects_requests() || blocked(*one, *prepared).verdict != Verdict::pass || below_floor(*prepared).verdict != Verdict::pass) continue;
     CaseResult given;
-    if (!begin_case(*prepared, given)) return fail(given.message);
+    if (!save_memory(*prepared, given) || !begin_case(*prepared, given)) return fail(given.message);
     const Result<bool> asked = exchange_.anything_is_asked(*prepared, start_patience);
     if (const Status over = end_asking(*prepared); !over) return over.error();
+    [[maybe_unused]] const std::string problem = saved_for(*prepared).restore();  // told at the end, where it lasts
     return asked;
   }
   return true;
