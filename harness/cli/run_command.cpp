@@ -57,7 +57,7 @@ class Run {
     if (!plan_.line.empty()) info.properties["line"] = plan_.line;
     if (!plan_.matrix.empty()) info.properties["matrix"] = options_.matrix;
     if (plan_.soak > 0ns) info.properties["duration"] = options_.duration;
-    if (!floor_.empty()) info.properties["floor"] = floor_;
+    if (!floors_.empty() && !floors_.front().empty()) info.properties["floor"] = floors_.front();
     info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan_.bench.profile.response_max));
     info.identity = plan_.identity;
     info.hashes = plan_.hashes;
@@ -70,14 +70,17 @@ class Run {
     return info;
   }
 
-  /// Sanity exchange and floor, which the head of the reports tells of; an error: nothing can run.
+  /// Sanity exchange and floor of each device, which the head of the reports tells of; an error: nothing can run.
   Status start() {
     if (const Status measured = measure_over_loop(); !measured) return measured;
-    if (!plan_.matrix.empty() || !plan_.others.empty()) return ok();  // at each step, or of each device
-    if (const Status alive = benches_.start(); !alive) return alive;
-    Result<std::string> floor = take_floor(benches_);
-    if (!floor) return floor.error();
-    floor_ = std::move(*floor);
+    if (!plan_.matrix.empty()) return ok();  // at each step
+    for (Benches& port : ports_) {
+      const Status alive = port.start();
+      Result<std::string> floor = alive ? take_floor(port) : alive.error();
+      if (!floor && (plan_.others.empty() || floor.error().interrupted)) return floor.error();
+      floors_.push_back(floor ? *floor : "");
+      unable_.push_back(floor ? "" : floor.error().message);  // the other devices go on without it
+    }
     return ok();
   }
 
@@ -105,6 +108,8 @@ class Run {
   }
 
  private:
+  const DutPlan& dut(std::size_t port) const { return port == 0 ? plan_ : plan_.others[port - 1]; }
+
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
 
   /// With --loop: the floor of that link, for this one.
@@ -169,8 +174,8 @@ class Run {
       return true;
     });
     const std::size_t total = tasks.size();
-    std::vector<SharedRun::Port> ports{{plan_.identity.name, &ports_.front()}};
-    for (std::size_t i = 0; i < plan_.others.size(); ++i) ports.push_back({plan_.others[i].identity.name, &ports_[i + 1]});
+    std::vector<SharedRun::Port> ports;
+    for (std::size_t i = 0; i < ports_.size(); ++i) ports.push_back({dut(i).identity.name, &ports_[i], unable_[i]});
     SharedRun shared(std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
       report_.show_progress(total, source.id);
       waivers_.apply(result);
@@ -186,19 +191,20 @@ class Run {
 
   /// What the devices have in common stays in `info`, each has an entry of its own.
   void name_devices(RunInfo& info) const {
-    const auto add = [&](const DutPlan& plan, const Benches& benches) {
-      DutInfo dut{benches.describe(), {{"station", std::to_string(plan.bench.station)}}, plan.identity};
-      if (!plan.line.empty()) dut.properties["line"] = plan.line;
-      info.duts.push_back(std::move(dut));
-    };
-    add(plan_, ports_.front());
-    for (std::size_t i = 0; i < plan_.others.size(); ++i) add(plan_.others[i], ports_[i + 1]);
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+      const DutPlan& plan = dut(i);
+      DutInfo one{ports_[i].describe(), {{"station", std::to_string(plan.bench.station)}}, plan.identity};
+      if (!plan.line.empty()) one.properties["line"] = plan.line;
+      if (i < floors_.size() && !floors_[i].empty()) one.properties["floor"] = floors_[i];
+      info.duts.push_back(std::move(one));
+    }
     for (std::size_t i = 1; i < info.duts.size(); ++i) {
       info.identity = in_common(info.identity, info.duts[i].identity);
       info.endpoint += ", " + info.duts[i].endpoint;
     }
     info.properties.erase("station");
     info.properties.erase("line");
+    info.properties.erase("floor");
   }
 
   /// Tells shards of one selection from those of another.
@@ -237,12 +243,9 @@ class Run {
   /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.
   void put_back() {
     if (end_.interrupted) clear_interrupt();
-    const auto one = [this](const DutPlan& plan, Benches& port) {
-      const std::string open = port.put_back();
-      if (!open.empty()) end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}", end_.not_restored.empty() ? "" : "\n", open, shell_word(plan.journal));
-    };
-    one(plan_, ports_.front());
-    for (std::size_t i = 0; i < plan_.others.size(); ++i) one(plan_.others[i], ports_[i + 1]);
+    for (std::size_t i = 0; i < ports_.size(); ++i)
+      if (const std::string open = ports_[i].put_back(); !open.empty())
+        end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}", end_.not_restored.empty() ? "" : "\n", open, shell_word(dut(i).journal));
   }
 
   /// The mistakes of the manuals that the selected cases met.
@@ -264,7 +267,8 @@ class Run {
   Waivers waivers_{plan_.waivers, timestamp().substr(0, 10), plan_.identity.firmware};
   LineSteps lines_;
   std::optional<SoakLog> soak_;
-  std::string floor_;  // what the link can show, in words
+  std::vector<std::string> floors_;  // of each port: what the link can show, in words
+  std::vector<std::string> unable_;  // of each port: why it cannot run; empty: it can
   std::chrono::steady_clock::time_point started_;
   RunReport::End end_;
 };

@@ -33,20 +33,18 @@ void SharedRun::execute() {
 }
 
 void SharedRun::serve(const Port& port) {
-  const auto alive = [&](const std::string& when) {
-    const Status answers = port.benches->start();
-    if (answers) return true;
+  const auto cannot = [&](const std::string& when, const Error& error) {
     const std::lock_guard lock(mutex_);
-    interrupted_ |= answers.error().interrupted;
-    stops_.push_back(port.name + ": " + when + answers.error().message);
-    if (!answers.error().interrupted) troubles_.push_back(stops_.back());
-    return false;
+    interrupted_ |= error.interrupted;
+    stops_.push_back(port.name + ": " + when + error.message);
+    if (!error.interrupted) troubles_.push_back(stops_.back());
   };
-  if (!alive("")) return;
+  if (!port.unable.empty()) return cannot("", Error{port.unable});
   Watchdog watchdog;
   for (Task task; take(task);)
     if (!run(port, task, watchdog)) return;
-  if (!fieldproof::interrupted()) alive("after the last case: ");
+  if (fieldproof::interrupted()) return;
+  if (const Status still = port.benches->start(); !still) cannot("after the last case: ", still.error());
 }
 
 /// Waits while another port may still give its case back.
