@@ -1,7 +1,6 @@
 // What a run writes on a device is put back: after each case, and by `fieldproof restore` after a run that was killed.
 // The device is the emulator in a process of its own behind two ptys, so it survives the run.
 #include <gmock/gmock.h>
-#include <sys/inotify.h>
 
 #include "harness/cli/plc_client.hpp"
 #include "harness/cli/tool_files.hpp"
@@ -13,35 +12,6 @@ using testing::HasSubstr;
 using Memory = std::map<std::string, std::string>;
 
 const PlcModel& xbc() { return plc_models().front(); }
-
-/// Tells when a file has so many lines.
-class LineWatch {
- public:
-  explicit LineWatch(const std::string& path) : path_(path), fd_(::inotify_init1(IN_CLOEXEC)) {
-    std::ofstream(path_, std::ios::app);
-    EXPECT_GE(::inotify_add_watch(fd_, path_.c_str(), IN_MODIFY), 0);
-  }
-  ~LineWatch() { ::close(fd_); }
-
-  bool wait_for(std::ptrdiff_t lines) const {
-    pollfd changed{fd_, POLLIN, 0};
-    while (count() < lines) {
-      if (::poll(&changed, 1, 60'000) != 1) return false;
-      char events[4096];
-      [[maybe_unused]] const ssize_t got = ::read(fd_, events, sizeof events);
-    }
-    return true;
-  }
-
- private:
-  std::ptrdiff_t count() const {
-    const std::string text = read_text(path_);
-    return std::count(text.begin(), text.end(), '\n');
-  }
-
-  std::string path_;
-  int fd_;
-};
 
 class Restore : public testing::Test {
  protected:
@@ -78,9 +48,9 @@ class Restore : public testing::Test {
   std::unique_ptr<Process> writing_run(int lines) const {
     std::filesystem::remove_all(folder_ / "out");
     std::filesystem::create_directories(folder_ / "out");
-    const LineWatch watch(journal());
+    const FileWatch journal_watch(journal());
     auto run = std::make_unique<Process>(tool_arguments(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*:xgt_cnet/data_types/*"})));
-    EXPECT_TRUE(watch.wait_for(lines)) << lines;
+    EXPECT_TRUE(journal_watch.wait_until([&](const std::string& text) { return std::count(text.begin(), text.end(), '\n') >= lines; })) << lines;
     return run;
   }
   /// All is as before; was there anything to put back?
