@@ -1,10 +1,37 @@
 #include "harness/cli/ports.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "harness/cli/line_matrix.hpp"
 
 namespace fieldproof {
+
+namespace {
+
+Status open_journal(const RunOptions& options, DutPlan& plan) {
+  if (plan.journal.empty()) return ok();
+  Result<Journal> journal = Journal::open(plan.journal);
+  if (!journal) return journal.error();
+  for (const JournalDevice& device : {plan.bench.device, plan.bench.aux_device}) {
+    if (options.discard_journal)
+      if (Status discarded = journal->discard(device); !discarded) return discarded;
+    const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) { return is_same_device(one.device, device); });
+    if (open > 0)
+      return fail(fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of its values; type: fieldproof restore {}\n"
+                              "(or forget them: --discard-journal)", device.endpoint, open, shell_word(plan.journal)));
+  }
+  plan.bench.journal = std::make_shared<Journal>(std::move(*journal));
+  return ok();
+}
+
+}  // namespace
+
+Status open_journals(const RunOptions& options, RunPlan& plan) {
+  Status opened = open_journal(options, plan);
+  for (std::size_t i = 0; i < plan.others.size() && opened; ++i) opened = open_journal(options, plan.others[i]);
+  return opened;
+}
 
 Result<Fixtures> Fixtures::open(const DutPlan& plan) {
   Fixtures fixtures;

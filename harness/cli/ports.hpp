@@ -27,6 +27,9 @@ class Fixtures {
   std::unique_ptr<Stimulus> stimulus_;
 };
 
+/// Opens the journal of each device that may be written. The error says what an earlier run left, and what to type.
+Status open_journals(const RunOptions& options, RunPlan& plan);
+
 /// Opens what stands beside each device of the plan, and gives it to its bench.
 Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan);
 
