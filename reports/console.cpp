@@ -77,6 +77,7 @@ std::string run_head(const RunInfo& run) {
   std::string text = fmt::format("fieldproof {}  {}", xml_line(run.tool_version), xml_line(run.endpoint));
   if (!run.profile.empty()) text += fmt::format("  profile {}", xml_line(run.profile));
   for (const auto& [name, value] : run.properties) text += fmt::format("  {}={}", xml_line(name), xml_line(value));
+  for (const DutInfo& dut : run.duts) text += fmt::format("\n  {}: {}", xml_line(dut.identity.name), xml_line(device_text(dut)));
   return text + '\n';
 }
 

@@ -58,7 +58,8 @@ std::string device_text(const DutInfo& dut) {
 std::string early_end(const RunLog& log) {
   if (!log.end) {
     const char* incomplete = log.truncated ? ", and one incomplete" : "";
-    return fmt::format("the run was killed: {} results were written before{}", log.results, incomplete);
+    const std::string soak = killed_soak_text(log.samples);
+    return fmt::format("the run was killed: {} results were written before{}{}{}", log.results, incomplete, soak.empty() ? "" : "; ", soak);
   }
   if (log.end->interrupted) return "the run was interrupted" + (log.end->trouble.empty() ? "" : ": " + log.end->trouble);
   return log.end->trouble;

@@ -41,7 +41,9 @@ Bench::Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
       arming_(protocol, {options_.endpoint_is_stimulus ? [&endpoint](const std::string& line) { return endpoint.tell(line); } : options_.stimulus, complete_blocks(options_.profile.prepared_blocks), options_.aux.endpoint != nullptr}),
       memory_(endpoint, protocol, options_.profile.response_max, options_.aux, &arming_),
       exchange_(endpoint, protocol, timing(), options_.aux, &arming_),
-      saved_(endpoint, protocol, options_.profile.response_max, options_.device, options_.journal) {}
+      saved_(endpoint, protocol, options_.profile.response_max, options_.device, options_.journal),
+      saved_over_aux_(options_.aux.endpoint ? *options_.aux.endpoint : endpoint, options_.aux.protocol ? *options_.aux.protocol : protocol,
+                      options_.profile.response_max, options_.aux_device, options_.journal) {}
 
 ExchangeTiming Bench::timing() const {
   ExchangeTiming timing;
@@ -77,7 +79,7 @@ Status Bench::start() {
   const Result<bool> alive = listens ? wait_for_request() : exchange_.anything_answers(station, start_patience);
   port_failed_ = !alive;
   if (!alive) return alive.error();
-  answers_ = *alive;
+  answers_ = *alive && !listens;
   if (*alive) return ok();
   if (listens)
     return fail(fmt::format("nothing is asked on {}: check that the PLC is in RUN, that P2P has its link enable (000 11.2.2), that the block's condition "
@@ -103,9 +105,10 @@ Result<bool> Bench::wait_for_request() {
     const Result<PreparedCase> prepared = prepare(*one, options_.station, protocol_);
     if (!prepared || !prepared->expects_requests() || blocked(*one, *prepared).verdict != Verdict::pass || below_floor(*prepared).verdict != Verdict::pass) continue;
     CaseResult given;
-    if (!begin_case(*prepared, given)) return fail(given.message);
+    if (!save_memory(*prepared, given) || !begin_case(*prepared, given)) return fail(given.message);
     const Result<bool> asked = exchange_.anything_is_asked(*prepared, start_patience);
     if (const Status over = end_asking(*prepared); !over) return over.error();
+    [[maybe_unused]] const std::string problem = saved_for(*prepared).restore();  // told at the end, where it lasts
     return asked;
   }
   return true;
@@ -161,10 +164,11 @@ std::string Bench::undeclared(const json& config) const {
   return {};
 }
 
-/// What the bench sends to a client are answers; what it sets goes over the second channel.
-std::string Bench::client_fence_objection(const PreparedCase& prepared) const {
+/// What the bench sends to a client are answers; what it sets goes over the second channel. An error: it cannot be set.
+Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCase& prepared) const {
+  std::vector<Protocol::Written> written;
   const AuxLink& aux = options_.aux;
-  if (!aux.endpoint) return {};
+  if (!aux.endpoint) return written;
   std::vector<std::pair<std::string, std::string>> memory = prepared.source->memory;
   for (const nlohmann::json& block : p2p_blocks(prepared.source->config))
     if (!flag_of(block).empty() && !runs_by_clock(block)) memory.emplace_back(flag_of(block), "00");
@@ -172,15 +176,18 @@ std::string Bench::client_fence_objection(const PreparedCase& prepared) const {
     if (step.step->kind == Step::Kind::set) memory.insert(memory.end(), step.step->memory.begin(), step.step->memory.end());
   for (const auto& [address, hex] : memory) {
     const Result<std::vector<Bytes>> requests = aux.protocol->write_requests(aux.station, address, hex);
-    if (!requests) return fmt::format("cannot set {} over --aux: {}", address, requests.error().message);
-    for (const Bytes& request : *requests)
-      if (std::string why = options_.fence.objection(aux.protocol->written_by(request), *aux.protocol); !why.empty()) return why;
+    if (!requests) return fail(fmt::format("cannot set {} over --aux: {}", address, requests.error().message));
+    for (const Bytes& request : *requests) std::ranges::move(aux.protocol->written_by(request), std::back_inserter(written));
   }
-  return {};
+  return written;
 }
 
 std::string Bench::fence_objection(const PreparedCase& prepared) const {
-  if (prepared.is_client()) return client_fence_objection(prepared);
+  if (prepared.is_client()) {
+    const Result<std::vector<Protocol::Written>> written = written_over_aux(prepared);
+    if (!written) return written.error().message;
+    return written->empty() ? "" : options_.fence.objection(*written, *options_.aux.protocol);
+  }
   const auto unsettable = [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
     for (const auto& [address, hex] : memory)
       if (const Result<std::vector<Bytes>> requests = protocol_.write_requests(prepared.station, address, hex); !requests)
@@ -196,6 +203,7 @@ std::string Bench::fence_objection(const PreparedCase& prepared) const {
 
 /// In the order of the case.
 std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) const {
+  if (prepared.is_client()) return *written_over_aux(prepared);  // the fence has let it pass
   std::vector<Protocol::Written> written;
   const auto add = [&](ByteView request) { std::ranges::move(protocol_.written_by(request), std::back_inserter(written)); };
   const auto add_memory = [&](const std::vector<std::pair<std::string, std::string>>& memory) {
@@ -278,11 +286,11 @@ CaseResult Bench::run(const Case& source) {
 
 void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   note_transposition(prepared, result);
-  const bool writes = endpoint_.capabilities().real_device && !prepared.is_client();
-  if (writes && !save_memory(prepared, result)) return;
+  const bool real = endpoint_.capabilities().real_device;
+  if (real && !save_memory(prepared, result)) return;
   if (prepare_device(prepared, result)) exchange(prepared, result);
-  if (!writes) return;
-  if (const std::string problem = saved_.restore(); !problem.empty()) result.notes.push_back("not put back what it wrote: " + problem);
+  if (!real) return;
+  if (const std::string problem = saved_for(prepared).restore(); !problem.empty()) result.notes.push_back("not put back what it wrote: " + problem);
 }
 
 void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
@@ -299,39 +307,50 @@ bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
   const std::vector<Protocol::Written> written = written_by(prepared);
   if (std::ranges::any_of(written, &Protocol::Written::unknown))
     result.notes.push_back("not saved before: nobody can tell where a damaged write request would write");
-  const Status saved = saved_.save(written);
+  SavedMemory& memory = saved_for(prepared);
+  const Status saved = memory.save(written);
   if (saved) return true;
   // A device that the bench starts itself forgets all with its process: there the case may name the fault.
-  if (endpoint_.capabilities().can_power_cycle && !saved_.port_failed() && options_.journal) {
+  if (endpoint_.capabilities().can_power_cycle && !memory.port_failed() && !prepared.is_client() && options_.journal) {
     result.notes.push_back(saved.error().message);
     return true;
   }
-  result.verdict = saved_.port_failed() ? Verdict::error : Verdict::blocked;
-  result.message = saved.error().message;
-  if (saved_.port_failed()) stop("the port failed before " + result.id + ": " + result.message, &saved.error());
+  result.verdict = memory.port_failed() ? Verdict::error : Verdict::blocked;
+  result.message = (prepared.is_client() ? "--aux: " : "") + saved.error().message;
+  if (memory.port_failed()) stop("the port failed before " + result.id + ": " + result.message, &saved.error());
+  else if (memory.silent()) prepared.is_client() ? stop(result.message) : look_for_device(result);
   return false;
 }
 
 std::string Bench::put_back() {
   if (!endpoint_.capabilities().real_device) return {};
-  [[maybe_unused]] const std::string problem = saved_.restore();
-  return saved_.open_places();
+  std::string open;
+  for (SavedMemory* memory : {&saved_, &saved_over_aux_}) {
+    [[maybe_unused]] const std::string problem = memory->restore();
+    if (const std::string places = memory->open_places(); !places.empty()) open += (open.empty() ? "" : ", ") + places;
+  }
+  return open;
 }
 
 bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
+  const bool real = endpoint_.capabilities().real_device;
   const auto give_up = [&](Verdict verdict, const Error& error) {
     result.verdict = verdict;
     result.message = error.message;
     if (error.interrupted) stop("interrupted", &error);
+    else if (real && verdict == Verdict::error) stop("the port failed in " + result.id + ": " + error.message, &error);
     return false;
   };
   if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun) return give_up(Verdict::error, begun.error());
-  if (prepared.source->fresh && endpoint_.capabilities().real_device && !power_cycle(result))
-    return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
+  if (prepared.source->fresh && real && !power_cycle(result)) return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
   // What a clock asked between the cases is no part of this one. It waits for its answer before it asks again.
-  if (endpoint_.capabilities().real_device && prepared.runs_by_clock())
+  if (real && prepared.runs_by_clock())
     if (Status quiet = exchange_.settle(50ms); !quiet) return give_up(Verdict::error, quiet.error());
-  return begin_case(prepared, result);
+  if (begin_case(prepared, result)) return true;
+  if (!real || prepared.is_client() || interrupted_) return false;
+  if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
+  if (memory_.silent()) look_for_device(result);
+  return false;
 }
 
 /// Sets the given memory; whatever makes a real client ask is told of the case.
@@ -386,7 +405,19 @@ void Bench::after(const PreparedCase& prepared, const Transcript& transcript, Ca
     }
   }
   // Emulators become a fresh device with the next case.
-  if (!dead || !endpoint_.capabilities().real_device) return;
+  if (dead && endpoint_.capabilities().real_device) revive(result);
+}
+
+/// It did not answer when its memory was read or set for a case: does it still answer anything?
+void Bench::look_for_device(CaseResult& result) {
+  const Result<bool> alive = exchange_.anything_answers(options_.station, 3 * options_.profile.response_max);
+  if (!alive) return stop("the port failed in " + result.id + ": " + alive.error().message, &alive.error());
+  if (*alive) return;
+  result.message += "; nothing answers any more";
+  revive(result);
+}
+
+void Bench::revive(CaseResult& result) {
   if (!power_cycle(result)) stop(fmt::format("the link is dead since {}; power-cycle the device, or give --power-cycle COMMAND", result.id));
 }
 

@@ -31,6 +31,7 @@ struct BenchOptions {
   bool endpoint_is_stimulus = false;  // --stimulus -: the endpoint's own program is told
   std::vector<const Case*> client_cases;  // all that are selected, where every one of them is of a device that asks
   JournalDevice device;            // for the journal of a real device
+  JournalDevice aux_device;        // of `aux`
   std::shared_ptr<Journal> journal;  // without one nothing is written to a real device
 };
 
@@ -73,7 +74,7 @@ class Bench {
   CaseResult run_as_it_is(const Case& source, const std::vector<Move>& moves);
   Eligibility below_floor(const PreparedCase& prepared) const;
   std::string undeclared(const nlohmann::json& config) const;
-  std::string client_fence_objection(const PreparedCase& prepared) const;
+  Result<std::vector<Protocol::Written>> written_over_aux(const PreparedCase& prepared) const;
   std::string fence_objection(const PreparedCase& prepared) const;
 
   int station_for(const Case& source) const;
@@ -86,10 +87,13 @@ class Bench {
   bool begin_case(const PreparedCase& prepared, CaseResult& result);
   void execute(const PreparedCase& prepared, CaseResult& result);
   std::vector<Protocol::Written> written_by(const PreparedCase& prepared) const;
+  SavedMemory& saved_for(const PreparedCase& prepared) { return prepared.is_client() ? saved_over_aux_ : saved_; }
   bool save_memory(const PreparedCase& prepared, CaseResult& result);
   void exchange(const PreparedCase& prepared, CaseResult& result);
   bool prepare_device(const PreparedCase& prepared, CaseResult& result);
   void judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
+  void look_for_device(CaseResult& result);
+  void revive(CaseResult& result);
   bool power_cycle(CaseResult& result);
   void after(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
   void stop(std::string why, const Error* error = nullptr);
@@ -102,7 +106,7 @@ class Bench {
   Exchange exchange_;
   std::optional<AdapterFloor> floor_;  // nothing: what is declared
   Readings readings_;
-  SavedMemory saved_;
+  SavedMemory saved_, saved_over_aux_;
   std::string stopped_;
   int errors_in_a_row_ = 0;
   bool port_failed_ = false;

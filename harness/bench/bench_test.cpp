@@ -156,7 +156,21 @@ TEST_F(BenchTest, WhatCannotBeReadIsNotWritten) {
   const CaseResult result = run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )"));
   EXPECT_EQ(result.verdict, Verdict::blocked);
   EXPECT_THAT(result.message, HasSubstr("cannot save what it writes: cannot read %MW1"));
-  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<r%MW1>"));
+  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<r%MW1>", "<probe>")) << "silence: is it still there?";
+}
+
+/// It answers the read that saves the word, and then nothing: neither the write nor the probe.
+TEST_F(BenchTest, ADeviceThatFallsSilentBeforeACaseEndsTheRun) {
+  on_real_device();
+  ASSERT_TRUE(options.fence.allow("M"));
+  endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<00E2>"}};
+  endpoint.forgets = "<r%MW1>";
+  endpoint.answers.erase("<probe>");
+  const CaseResult result = run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )"));
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_THAT(result.message, HasSubstr("not <ok>; nothing answers any more"));
+  EXPECT_THAT(bench().stopped(), HasSubstr("the link is dead since xgt_cnet/a/b"));
+  EXPECT_EQ(bench().put_back(), "%MW1 = 00E2");
 }
 
 TEST_F(BenchTest, EmulatorsBecomeWhatACaseGives) {

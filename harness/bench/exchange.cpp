@@ -299,7 +299,8 @@ Result<ResponseTimes> Exchange::time_probes(int station, int count, Duration bud
     if (transcript.trouble) return *transcript.trouble;
     if (!pending_.bytes.empty()) times.add(to_ms(pending_.arrivals.front().start - last_sent_.end));
   }
-  pending_ = {};
+  // Late or second answers are not for the first case to find.
+  if (const Status quiet = settle(timing_.quiet); !quiet) return quiet.error();
   return times;
 }
 

@@ -263,7 +263,8 @@ class Judge {
     if (missed_) return;
     result_.received = transcript_.surplus;
     const Bytes& bytes = transcript_.surplus.bytes;
-    miss(fmt::format("{} bytes after the complete exchange: {}", bytes.size(), shortened(bytes)));
+    const char* hint = protocol_.frame_length(bytes) == bytes.size() ? " (a whole frame: do two devices have this station number?)" : "";
+    miss(fmt::format("{} bytes after the complete exchange{}: {}", bytes.size(), hint, shortened(bytes)));
   }
 
   const PreparedCase& prepared_;

@@ -22,6 +22,8 @@ class SavedMemory {
   Status save(const std::vector<Protocol::Written>& written);
   /// The last error of `save` was of the port, not of the device.
   bool port_failed() const { return port_failed_; }
+  /// The device left the last read or write unanswered.
+  bool silent() const { return memory_.silent(); }
 
   /// After it: what has changed is put back, the latest first. Empty, or what could not be, and why.
   std::string restore();

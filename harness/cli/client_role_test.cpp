@@ -143,9 +143,35 @@ TEST_F(ClientRole, PreparedBlocksAreArmedAndLookedAtOverASecondChannel) {
   const std::vector<std::string> arguments{"--endpoint", "serial:" + folder / "port", "--aux", "serial:" + folder / "aux?station=3",
                                            "--profile",  profile(ordered_json::array({read_block})), "--allow-write", "M"};
   EXPECT_EQ(run({good, wrong, write_case()}, arguments).code, 1);
-  EXPECT_EQ(results.verdict("xgt_cnet/client/read/none"), "PASS");
+  EXPECT_EQ(results.verdict("xgt_cnet/client/read/none"), "PASS") << results.of("xgt_cnet/client/read/none").dump(1);
   EXPECT_EQ(results.of("xgt_cnet/client/read/nak").at("message"), "%LW512 holds 0002, 0001 is due");
   EXPECT_EQ(results.verdict("xgt_cnet/client/write"), "BLOCKED") << "another block than the prepared one";
+}
+
+/// What the bench sets over the second channel is put back there: flags and data; after a kill by `restore`.
+TEST_F(ClientRole, MemorySetOverTheSecondChannelIsPutBack) {
+  const std::string blocks = R"([{"block": 0, "function": "write", "flag": "%MX00000", "read": ["%MW100"], "save": ["%MW300"], "station": 2}])";
+  Process plc({"python3", script(), folder / "port", folder / "aux", blocks, R"({"%MW100": "0BAD", "%MW0": "8000"})"});
+  ASSERT_TRUE(plc.wait_for("ready"));
+  const std::string aux = "serial:" + folder / "aux?station=3", journal = folder / "out/journal.ndjson";
+  const ordered_json write_block{{"function", "write"}, {"flag", "%MX00000"}, {"read", "%MW100"}, {"save", "%MW300"}, {"station", 2}};
+  const std::vector<std::string> arguments{"--endpoint", "serial:" + folder / "port", "--aux", aux, "--allow-write", "M", "--profile",
+                                           profile(ordered_json::array({write_block}))};
+  const auto holds = [&](const std::string& address, const std::string& digits) {
+    ordered_json look = small_vector("look", "[ACK st 'rSS' '01' '02' '" + digits + "' ETX BCC]");
+    look["steps"][0]["send"] = "[ENQ st 'rSS' '01' name(" + address + ") EOT BCC]";
+    return run_tool({"run", "--endpoint", aux, "--profile", "xbc-h", "--vectors", write_vectors(folder, {look}), "--out", folder / "look"}).code == 0;
+  };
+  EXPECT_EQ(run({write_case()}, arguments).code, 0);
+  EXPECT_TRUE(holds("%MW100", "0BAD"));
+  EXPECT_TRUE(holds("%MW0", "8000"));
+  EXPECT_THAT(read_text(journal), HasSubstr(R"("endpoint":"serial:)" + folder / "aux?station=3"));
+
+  const std::string open = R"({"saved":{"address":"%MW100","config":{},"endpoint":")" + aux + R"(","model":"xbc-h","number":1,"protocol":"xgt-cnet","station":3,"value":"1BAD"}})";
+  folder.write("out/journal.ndjson", open + "\n");
+  EXPECT_THAT(run({write_case()}, arguments).err, HasSubstr("cannot write to " + aux));
+  EXPECT_EQ(run_tool({"restore", journal}).code, 0);
+  EXPECT_TRUE(holds("%MW100", "1BAD"));
 }
 
 TEST_F(ClientRole, RolesSelectCases) {

@@ -1,15 +1,42 @@
 #include "harness/cli/ports.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "harness/cli/line_matrix.hpp"
 
 namespace fieldproof {
 
+namespace {
+
+Status open_journal(const RunOptions& options, DutPlan& plan) {
+  if (plan.journal.empty()) return ok();
+  Result<Journal> journal = Journal::open(plan.journal);
+  if (!journal) return journal.error();
+  for (const JournalDevice& device : {plan.bench.device, plan.bench.aux_device}) {
+    if (options.discard_journal)
+      if (Status discarded = journal->discard(device); !discarded) return discarded;
+    const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) { return is_same_device(one.device, device); });
+    if (open > 0)
+      return fail(fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of its values; type: fieldproof restore {}\n"
+                              "(or forget them: --discard-journal)", device.endpoint, open, shell_word(plan.journal)));
+  }
+  plan.bench.journal = std::make_shared<Journal>(std::move(*journal));
+  return ok();
+}
+
+}  // namespace
+
+Status open_journals(const RunOptions& options, RunPlan& plan) {
+  Status opened = open_journal(options, plan);
+  for (std::size_t i = 0; i < plan.others.size() && opened; ++i) opened = open_journal(options, plan.others[i]);
+  return opened;
+}
+
 Result<Fixtures> Fixtures::open(const DutPlan& plan) {
   Fixtures fixtures;
   if (plan.aux)
-    if (const Status opened = fixtures.open_aux(*plan.aux); !opened) return opened.error();
+    if (const Status opened = fixtures.open_aux(*plan.aux, plan.bench.aux_device); !opened) return opened.error();
   if (plan.stimulus.empty() || plan.stimulus == "-") return fixtures;
   Result<std::unique_ptr<Stimulus>> stimulus = Stimulus::start(plan.stimulus);
   if (!stimulus) return stimulus.error();
@@ -23,16 +50,17 @@ void Fixtures::give(BenchOptions& bench, const std::string& stimulus) const {
   if (stimulus_) bench.stimulus = [program = stimulus_.get()](const std::string& line) { return program->tell(line); };
 }
 
-Status Fixtures::open_aux(const EndpointName& name) {
-  const Result<const Protocol*> protocol = choose_protocol(name.option("protocol", "xgt-cnet"), "");
+Status Fixtures::open_aux(const EndpointName& name, const JournalDevice& device) {
+  const Result<const Protocol*> protocol = choose_protocol(device.protocol, "");
   if (!protocol) return fail("--aux: " + protocol.error().message);
-  const std::optional<int> station = config_station({{"station", name.option("station", "1")}}, 1);
-  if (!station) return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255", name.option("station", "1")));
+  Result<std::unique_ptr<Protocol>> configured = (*protocol)->configured(device.model, device.config);
+  if (!configured) return fail("--aux: " + configured.error().message);
+  aux_configured_ = std::move(*configured);
   Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(name);
   if (!endpoint) return fail("--aux: " + endpoint.error().message);
   aux_ = std::move(*endpoint);
-  aux_protocol_ = *protocol;
-  aux_station_ = *station;
+  aux_protocol_ = aux_configured_ ? aux_configured_.get() : *protocol;
+  aux_station_ = device.station;
   const Result<bool> alive = Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
   if (!alive) return alive.error();
   return *alive ? ok() : Status(fail(fmt::format("nothing answers on --aux {} at station {}", aux_->describe(), aux_station_)));

@@ -18,13 +18,17 @@ class Fixtures {
   void give(BenchOptions& bench, const std::string& stimulus) const;
 
  private:
-  Status open_aux(const EndpointName& name);
+  Status open_aux(const EndpointName& name, const JournalDevice& device);
 
   std::unique_ptr<Endpoint> aux_;
+  std::unique_ptr<Protocol> aux_configured_;  // as the profile declares it; nullptr: nothing to declare
   const Protocol* aux_protocol_ = nullptr;
   int aux_station_ = 1;
   std::unique_ptr<Stimulus> stimulus_;
 };
+
+/// Opens the journal of each device that may be written. The error says what an earlier run left, and what to type.
+Status open_journals(const RunOptions& options, RunPlan& plan);
 
 /// Opens what stands beside each device of the plan, and gives it to its bench.
 Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan);

@@ -1,7 +1,6 @@
 // What a run writes on a device is put back: after each case, and by `fieldproof restore` after a run that was killed.
 // The device is the emulator in a process of its own behind two ptys, so it survives the run.
 #include <gmock/gmock.h>
-#include <sys/inotify.h>
 
 #include "harness/cli/plc_client.hpp"
 #include "harness/cli/tool_files.hpp"
@@ -14,44 +13,20 @@ using Memory = std::map<std::string, std::string>;
 
 const PlcModel& xbc() { return plc_models().front(); }
 
-/// Tells when a file has so many lines.
-class LineWatch {
- public:
-  explicit LineWatch(const std::string& path) : path_(path), fd_(::inotify_init1(IN_CLOEXEC)) {
-    std::ofstream(path_, std::ios::app);
-    EXPECT_GE(::inotify_add_watch(fd_, path_.c_str(), IN_MODIFY), 0);
-  }
-  ~LineWatch() { ::close(fd_); }
-
-  bool wait_for(std::ptrdiff_t lines) const {
-    pollfd changed{fd_, POLLIN, 0};
-    while (count() < lines) {
-      if (::poll(&changed, 1, 60'000) != 1) return false;
-      char events[4096];
-      [[maybe_unused]] const ssize_t got = ::read(fd_, events, sizeof events);
-    }
-    return true;
-  }
-
- private:
-  std::ptrdiff_t count() const {
-    const std::string text = read_text(path_);
-    return std::count(text.begin(), text.end(), '\n');
-  }
-
-  std::string path_;
-  int fd_;
-};
-
 class Restore : public testing::Test {
  protected:
-  Restore() : socat_({"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"), "pty,raw,echo=0,link=" + (folder_ / "device")}) {
-    EXPECT_TRUE(socat_.wait_for("starting data transfer loop"));
-    device_ = std::make_unique<Process>(std::vector<std::string>{FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
-    EXPECT_TRUE(device_->wait_for(folder_ / "device"));
+  Restore() : device_({FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"}) {
+    EXPECT_TRUE(device_.wait_for(folder_ / "device"));
+    plug_in();
     PlcClient client(folder_ / "bench");
     client.fill(xbc());
     before_ = client.read(xbc());
+  }
+
+  /// The adapter: a pty for the bench, joined to that of the device. The device keeps its memory without it.
+  void plug_in() {
+    adapter_ = std::make_unique<Process>(std::vector<std::string>{"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"), "file:" + (folder_ / "device") + ",raw,echo=0"});
+    EXPECT_TRUE(adapter_->wait_for("starting data transfer loop"));
   }
 
   Memory memory() const { return PlcClient(folder_ / "bench").read(xbc()); }
@@ -69,14 +44,41 @@ class Restore : public testing::Test {
     EXPECT_EQ(changed, "");
   }
 
+  /// A run in the middle of write cases: its journal has so many lines.
+  std::unique_ptr<Process> writing_run(int lines) const {
+    std::filesystem::remove_all(folder_ / "out");
+    std::filesystem::create_directories(folder_ / "out");
+    const FileWatch journal_watch(journal());
+    auto run = std::make_unique<Process>(tool_arguments(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*:xgt_cnet/data_types/*"})));
+    EXPECT_TRUE(journal_watch.wait_until([&](const std::string& text) { return std::count(text.begin(), text.end(), '\n') >= lines; })) << lines;
+    return run;
+  }
+  /// All is as before; was there anything to put back?
+  bool restores() const {
+    const Finished restored = run_tool({"restore", journal()});
+    EXPECT_EQ(restored.code, 0) << restored.out << restored.err;
+    expect_as_before();
+    return restored.out.find("restored  ") != std::string::npos;
+  }
+  /// One case at most has the verdict of it; the rest is not judged, and says why.
+  void expect_vanished(const std::string& why) const {
+    expect_reports(folder_ / "out");
+    EXPECT_NE(read_text(folder_ / "out/report.html"), "");
+    const Results results = read_results(folder_ / "out/results.ndjson");
+    std::map<std::string, std::size_t> counts = results.counts();
+    EXPECT_LE(counts["FAIL"] + counts["ERROR"], 1u);
+    EXPECT_GT(counts["BLOCKED"], 100u);
+    EXPECT_THAT(results.cases.back().dump(), HasSubstr(why));
+  }
+
   TestFolder folder_;
-  Process socat_;
-  std::unique_ptr<Process> device_;
+  Process device_;
+  std::unique_ptr<Process> adapter_;
   Memory before_;
 };
 
 TEST_F(Restore, ARunInAFewWordsLeavesTheMemoryAsItWas) {
-  const Finished run = run_tool(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/*"}));
+  const Finished run = run_tool(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*:xgt_cnet/errors/*:xgt_cnet/monitor_*"}));
   EXPECT_EQ(run.code, 0) << run.out << run.err;
   expect_as_before();
   const Results results = read_results(folder_ / "out/results.ndjson");
@@ -95,20 +97,40 @@ TEST_F(Restore, ARunThatMayWriteEverythingDoesToo) {
 TEST_F(Restore, AfterAKillAtAnyMomentRestorePutsBack) {
   std::size_t left_open = 0;
   for (const int lines : {1, 2, 3, 8, 25, 60}) {
-    std::filesystem::remove_all(folder_ / "out");
-    std::filesystem::create_directories(folder_ / "out");
-    const LineWatch watch(journal());
-    Process run(tool_arguments(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*:xgt_cnet/data_types/*"})));
-    ASSERT_TRUE(watch.wait_for(lines)) << lines;
-    run.signal(SIGKILL);
-    EXPECT_EQ(run.wait().code, 128 + SIGKILL);
-    const Finished restored = run_tool({"restore", journal()});
-    EXPECT_EQ(restored.code, 0) << restored.out << restored.err;
-    left_open += restored.out.find("restored  ") != std::string::npos;
-    expect_as_before();
+    const std::unique_ptr<Process> run = writing_run(lines);
+    run->signal(SIGKILL);
+    EXPECT_EQ(run->wait().code, 128 + SIGKILL);
+    left_open += restores();
     EXPECT_THAT(run_tool({"restore", journal()}).out, HasSubstr("nothing to put back"));
   }
   EXPECT_GT(left_open, 0u) << "no kill hit a case that was writing";
+}
+
+/// Unplugged: the master end of the port closes.
+TEST_F(Restore, AfterTheAdapterIsPulledOutRestorePutsBack) {
+  std::size_t left_open = 0;
+  for (const int lines : {1, 9, 41}) {
+    const std::unique_ptr<Process> run = writing_run(lines);
+    adapter_.reset();
+    const Finished finished = run->wait();
+    EXPECT_EQ(finished.code, 3) << finished.out << finished.err;
+    expect_vanished("the port failed ");
+    plug_in();
+    left_open += restores();
+  }
+  EXPECT_GT(left_open, 0u) << "no case was writing";
+}
+
+/// It loses its power, so to speak, but not its memory: the port is there, and nobody answers.
+TEST_F(Restore, AfterTheDeviceFellSilentRestorePutsBack) {
+  const std::unique_ptr<Process> run = writing_run(1);
+  device_.signal(SIGSTOP);
+  const Finished finished = run->wait();
+  EXPECT_EQ(finished.code, 3) << finished.out << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("the link is dead since xgt_cnet/"));
+  expect_vanished("the link is dead since ");
+  device_.signal(SIGCONT);
+  restores();
 }
 
 /// Cut off in the middle of a case, with a line that the disk has not got whole.

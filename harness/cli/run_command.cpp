@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <fmt/format.h>
@@ -15,6 +14,7 @@
 #include "harness/cli/compare_command.hpp"
 #include "harness/cli/line_steps.hpp"
 #include "harness/cli/ports.hpp"
+#include "harness/cli/run_info.hpp"
 #include "harness/cli/run_plan.hpp"
 #include "harness/cli/run_report.hpp"
 #include "harness/cli/shared_run.hpp"
@@ -23,14 +23,10 @@
 #include "harness/cli/tool_vectors.hpp"
 #include "harness/endpoints/interrupt.hpp"
 #include "harness/results/ndjson.hpp"
-#include "harness/results/shard.hpp"
-#include "harness/vectors/fingerprint.hpp"
 
 namespace fieldproof {
 
 namespace {
-
-Gate gate_of(const RunOptions& options) { return {options.strict, options.fail_on_marginal, options.qualify}; }
 
 /// The run itself: cases to results.
 class Run {
@@ -39,45 +35,19 @@ class Run {
   Run(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, RunReport& report)
       : options_(options), plan_(plan), ports_(ports), benches_(ports.front()), report_(report), lines_(plan, ports.front(), options.reconfigure) {}
 
-  RunInfo info() const {
-    RunInfo info;
-    info.tool_version = FIELDPROOF_VERSION;
-    info.started = timestamp();
-    info.endpoint = benches_.describe();
-    info.profile = plan_.bench.profile.name;
-    info.command = options_.command;
-    info.vectors_hash = plan_.vectors.hash;
-    info.properties["gate"] = to_string(gate_of(options_));
-    info.properties["station"] = std::to_string(plan_.bench.station);
-    info.properties["protocol"] = benches_.protocol_names();
-    if (!plan_.bench.profile.notes.empty()) info.properties["profile_notes"] = plan_.bench.profile.notes;
-    if (!plan_.bench.profile.title.empty()) info.properties["device"] = plan_.bench.profile.title;
-    if (options_.seed >= 0) info.properties["seed"] = std::to_string(options_.seed);
-    if (options_.repeat > 1) info.properties["repeat"] = std::to_string(options_.repeat);
-    if (!plan_.line.empty()) info.properties["line"] = plan_.line;
-    if (!plan_.matrix.empty()) info.properties["matrix"] = options_.matrix;
-    if (plan_.soak > 0ns) info.properties["duration"] = options_.duration;
-    if (!floor_.empty()) info.properties["floor"] = floor_;
-    info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan_.bench.profile.response_max));
-    info.identity = plan_.identity;
-    info.hashes = plan_.hashes;
-    if (const std::optional<Shard> shard = shard_of_environment()) {
-      info.properties["shard"] = to_string(*shard);
-      info.properties["selection"] = selection();
-    }
-    info.errata = errata();
-    if (!plan_.others.empty()) name_devices(info);
-    return info;
-  }
+  RunInfo info() const { return run_info(options_, plan_, ports_, floors_); }
 
-  /// Sanity exchange and floor, which the head of the reports tells of; an error: nothing can run.
+  /// Sanity exchange and floor of each device, which the head of the reports tells of; an error: nothing can run.
   Status start() {
     if (const Status measured = measure_over_loop(); !measured) return measured;
-    if (!plan_.matrix.empty() || !plan_.others.empty()) return ok();  // at each step, or of each device
-    if (const Status alive = benches_.start(); !alive) return alive;
-    Result<std::string> floor = take_floor(benches_);
-    if (!floor) return floor.error();
-    floor_ = std::move(*floor);
+    if (!plan_.matrix.empty()) return ok();  // at each step
+    for (Benches& port : ports_) {
+      const Status alive = port.start();
+      Result<std::string> floor = alive ? take_floor(port) : alive.error();
+      if (!floor && (plan_.others.empty() || floor.error().interrupted)) return floor.error();
+      floors_.push_back(floor ? *floor : "");
+      unable_.push_back(floor ? "" : floor.error().message);  // the other devices go on without it
+    }
     return ok();
   }
 
@@ -88,6 +58,8 @@ class Run {
     if (started) {
       run_with_gtest(plan_.selected, runner_options(), [this](const Case& source, int round) { return run_case(source, round); });
       if (soak_ && report_.tally().total() > 0) report_.add(soak_->summary(seconds()));
+      // Whoever vanished is trouble, whatever the verdict of the case in which it did. Steps of a matrix are BLOCKED.
+      if (plan_.matrix.empty() && !interrupted() && end_.trouble.empty()) end_.trouble = benches_.stopped();
       // The last sanity exchange: whatever the cases left behind, the device still answers.
       if (!interrupted() && lines_.live())
         if (const Status still = benches_.start(); !still && !still.error().interrupted) end_.trouble = "after the last case: " + still.error().message;
@@ -167,8 +139,8 @@ class Run {
       return true;
     });
     const std::size_t total = tasks.size();
-    std::vector<SharedRun::Port> ports{{plan_.identity.name, &ports_.front()}};
-    for (std::size_t i = 0; i < plan_.others.size(); ++i) ports.push_back({plan_.others[i].identity.name, &ports_[i + 1]});
+    std::vector<SharedRun::Port> ports;
+    for (std::size_t i = 0; i < ports_.size(); ++i) ports.push_back({plan_.dut(i).identity.name, &ports_[i], unable_[i]});
     SharedRun shared(std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
       report_.show_progress(total, source.id);
       waivers_.apply(result);
@@ -180,30 +152,6 @@ class Run {
     end_.trouble = fmt::format("{}", fmt::join(shared.troubles(), "; "));
     put_back();
     return end_;
-  }
-
-  /// What the devices have in common stays in `info`, each has an entry of its own.
-  void name_devices(RunInfo& info) const {
-    const auto add = [&](const DutPlan& plan, const Benches& benches) {
-      DutInfo dut{benches.describe(), {{"station", std::to_string(plan.bench.station)}}, plan.identity};
-      if (!plan.line.empty()) dut.properties["line"] = plan.line;
-      info.duts.push_back(std::move(dut));
-    };
-    add(plan_, ports_.front());
-    for (std::size_t i = 0; i < plan_.others.size(); ++i) add(plan_.others[i], ports_[i + 1]);
-    for (std::size_t i = 1; i < info.duts.size(); ++i) {
-      info.identity = in_common(info.identity, info.duts[i].identity);
-      info.endpoint += ", " + info.duts[i].endpoint;
-    }
-    info.properties.erase("station");
-    info.properties.erase("line");
-  }
-
-  /// Tells shards of one selection from those of another.
-  std::string selection() const {
-    std::uint64_t print = empty_fingerprint;
-    for (const Case* one : plan_.selected) print = extend_fingerprint(print, one->id + '\n');
-    return fmt::format("{} cases, {:016x}", plan_.selected.size(), print);
   }
 
   /// False: stop here.
@@ -235,22 +183,9 @@ class Run {
   /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.
   void put_back() {
     if (end_.interrupted) clear_interrupt();
-    const auto one = [this](const DutPlan& plan, Benches& port) {
-      const std::string open = port.put_back();
-      if (!open.empty()) end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}", end_.not_restored.empty() ? "" : "\n", open, shell_word(plan.journal));
-    };
-    one(plan_, ports_.front());
-    for (std::size_t i = 0; i < plan_.others.size(); ++i) one(plan_.others[i], ports_[i + 1]);
-  }
-
-  /// The mistakes of the manuals that the selected cases met.
-  std::vector<ErratumInfo> errata() const {
-    std::set<std::string> selected;
-    for (const Case* one : plan_.selected) selected.insert(one->vector_id);
-    std::vector<ErratumInfo> met;
-    for (const Erratum& one : plan_.vectors.errata)
-      if (selected.contains(one.vector_id)) met.push_back(erratum_info(one));
-    return met;
+    for (std::size_t i = 0; i < ports_.size(); ++i)
+      if (const std::string open = ports_[i].put_back(); !open.empty())
+        end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}", end_.not_restored.empty() ? "" : "\n", open, shell_word(plan_.dut(i).journal));
   }
 
   const RunOptions& options_;
@@ -262,7 +197,8 @@ class Run {
   Waivers waivers_{plan_.waivers, timestamp().substr(0, 10), plan_.identity.firmware};
   LineSteps lines_;
   std::optional<SoakLog> soak_;
-  std::string floor_;  // what the link can show, in words
+  std::vector<std::string> floors_;  // of each port: what its link can show, in words
+  std::vector<std::string> unable_;  // of each port: why it cannot run; empty: it can
   std::chrono::steady_clock::time_point started_;
   RunReport::End end_;
 };
@@ -295,27 +231,6 @@ Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const
   for (const Case* one : plan.selected) selected.insert(one->id);
   std::erase_if(file->results, [&](const CaseResult& one) { return !selected.contains(one.id); });
   return std::optional(summarize(*file));
-}
-
-/// Opens the journal of a device that may be written. The error says what an earlier run left, and what to type.
-Status open_journal(const RunOptions& options, DutPlan& plan) {
-  if (plan.journal.empty()) return ok();
-  Result<Journal> journal = Journal::open(plan.journal);
-  if (!journal) return journal.error();
-  if (options.discard_journal)
-    if (Status discarded = journal->discard(plan.bench.device); !discarded) return discarded;
-  const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) { return is_same_device(one.device, plan.bench.device); });
-  if (open > 0)
-    return fail(fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of its values; type: fieldproof restore {}\n"
-                            "(or forget them: --discard-journal)", plan.bench.device.endpoint, open, shell_word(plan.journal)));
-  plan.bench.journal = std::make_shared<Journal>(std::move(*journal));
-  return ok();
-}
-
-Status open_journals(const RunOptions& options, RunPlan& plan) {
-  Status opened = open_journal(options, plan);
-  for (std::size_t i = 0; i < plan.others.size() && opened; ++i) opened = open_journal(options, plan.others[i]);
-  return opened;
 }
 
 int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, const std::optional<RunSummary>& baseline) {

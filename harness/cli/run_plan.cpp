@@ -195,6 +195,9 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const std::string& dut, c
   if (!options->aux.empty()) {
     Result<EndpointName> aux = parse_endpoint(options->aux);
     if (!aux) return fail("--aux: " + aux.error().message);
+    const std::optional<int> station = config_station({{"station", aux->option("station", "1")}}, 1);
+    if (!station) return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255", aux->option("station", "1")));
+    plan.bench.aux_device = {options->aux, *station, aux->option("protocol", "xgt-cnet"), plan.bench.profile.model, plan.bench.profile.config};
     plan.aux = std::move(*aux);
   }
   if (const Status known = check_fingerprint(plan.identity.fingerprint, *plan.protocols.front()); !known)

@@ -36,6 +36,9 @@ struct RunPlan : DutPlan {
   std::optional<EndpointName> loop;        // --loop: where an emulator answers over the same kind of link
   Duration soak{};                         // --duration; 0: no soak
   std::map<std::string, std::string> hashes;  // with --qualify: SHA-256 of tool, vectors, profile
+
+  /// By the number of its port: this one, then `others`.
+  const DutPlan& dut(std::size_t port) const { return port == 0 ? *this : others[port - 1]; }
 };
 
 /// Errors are the user's: they name the option, file, line or key.

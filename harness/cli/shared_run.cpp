@@ -33,20 +33,18 @@ void SharedRun::execute() {
 }
 
 void SharedRun::serve(const Port& port) {
-  const auto alive = [&](const std::string& when) {
-    const Status answers = port.benches->start();
-    if (answers) return true;
+  const auto cannot = [&](const std::string& when, const Error& error) {
     const std::lock_guard lock(mutex_);
-    interrupted_ |= answers.error().interrupted;
-    stops_.push_back(port.name + ": " + when + answers.error().message);
-    if (!answers.error().interrupted) troubles_.push_back(stops_.back());
-    return false;
+    interrupted_ |= error.interrupted;
+    stops_.push_back(port.name + ": " + when + error.message);
+    if (!error.interrupted) troubles_.push_back(stops_.back());
   };
-  if (!alive("")) return;
+  if (!port.unable.empty()) return cannot("", Error{port.unable});
   Watchdog watchdog;
   for (Task task; take(task);)
     if (!run(port, task, watchdog)) return;
-  if (!fieldproof::interrupted()) alive("after the last case: ");
+  if (fieldproof::interrupted()) return;
+  if (const Status still = port.benches->start(); !still) cannot("after the last case: ", still.error());
 }
 
 /// Waits while another port may still give its case back.
@@ -78,7 +76,7 @@ bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
     interrupted_ |= ended;
     over_ |= hung || ended;
     if (done) stops_.push_back(port.name + ": " + (hung ? "hung in " + result.id : port.benches->stopped()));
-    if (failed) troubles_.push_back(stops_.back());
+    if (done && !ended) troubles_.push_back(stops_.back());
     if (lost) tasks_.push_front({task.source, task.repeat, std::move(result)});
     if (ended || lost) --running_;
   }

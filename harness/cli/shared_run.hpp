@@ -19,6 +19,7 @@ class SharedRun {
   struct Port {
     std::string name;  // of the device
     Benches* benches = nullptr;
+    std::string unable = {};  // why it did not start; empty: it answers
   };
   struct Task {
     const Case* source = nullptr;

@@ -1,6 +1,8 @@
 // Several devices of a bench file share one run.
 #include <gmock/gmock.h>
 
+#include <memory>
+
 #include "harness/cli/tool_files.hpp"
 
 namespace fieldproof {
@@ -64,16 +66,18 @@ TEST_F(SharedRuns, EachCaseRunsOnceAndSaysWhere) {
 }
 
 TEST_F(SharedRuns, EveryReportNamesTheDevice) {
-  EXPECT_EQ(run({{"a", device("good")}, {"b", device("good")}}, 20, {"--qualify"}).code, 0);
+  const Finished finished = run({{"a", device("good")}, {"b", device("good")}}, 20, {"--qualify"});
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_THAT(finished.out, HasSubstr("\n  b: LS, serial number S-2, at exec:"));
   const std::string junit = read_text(folder_ / "out/junit.xml"), html = read_text(folder_ / "out/report.html");
-  EXPECT_THAT(junit, AllOf(HasSubstr(R"(name="dut.a" value="LS, serial number S-1, at exec:)"), HasSubstr("device a\n"), HasSubstr("device b\n")));
+  EXPECT_THAT(junit, AllOf(HasSubstr(R"(name="dut.a" value="LS, serial number S-1, at exec:)"), HasSubstr("floor 20.0 ms (20 answers by the device"), HasSubstr("device a\n"), HasSubstr("device b\n")));
   EXPECT_THAT(html, AllOf(HasSubstr("serial number S-1"), HasSubstr("serial number S-2"), HasSubstr("<small class=\"dut\">a</small>"),
                           HasSubstr("Fingerprint of b")));
 }
 
 TEST_F(SharedRuns, WhatAVanishedDeviceLeavesGoesToTheOthers) {
-  // The sanity exchange is its first request, so it dies in its third case.
-  const Finished finished = run({{"mortal", device("die", "3")}, {"b", device("good")}}, 20);
+  // The sanity exchange and the floor are its first 21 requests, so it dies in its second case.
+  const Finished finished = run({{"mortal", device("die", "24")}, {"b", device("good")}}, 20);
   EXPECT_EQ(finished.code, 3) << finished.out;
   EXPECT_THAT(finished.err, HasSubstr("mortal: the port failed in xgt_cnet/many/"));
   expect_reports(folder_ / "out");
@@ -86,7 +90,7 @@ TEST_F(SharedRuns, WhatAVanishedDeviceLeavesGoesToTheOthers) {
 }
 
 TEST_F(SharedRuns, WithNoDeviceLeftTheRestIsBlocked) {
-  const Finished finished = run({{"a", device("die", "4")}, {"b", device("die", "4")}}, 20);
+  const Finished finished = run({{"a", device("die", "25")}, {"b", device("die", "25")}}, 20);
   EXPECT_EQ(finished.code, 3) << finished.out;
   const Results shared = results();
   EXPECT_THAT(shared.ids(), UnorderedElementsAreArray(ids(20))) << "each case has a result";
@@ -131,10 +135,54 @@ TEST_F(SharedRuns, UnlikeDevicesAreRefused) {
   EXPECT_THAT(run({{"a", device("good")}, {"b", device("good")}}, 1, {"--dut", "c"}).err, HasSubstr("no device 'c'"));
 }
 
+TEST_F(SharedRuns, WhatIsOfOneDeviceIsRefused) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--matrix", "9600 x 8N1"}, {"--duration", "1h"}, {"--loop", "pty:xbc-h"}}) {
+    const Finished finished = run({{"a", device("good")}, {"b", device("good")}}, 1, more);
+    EXPECT_EQ(finished.code, 2);
+    EXPECT_THAT(finished.err, HasSubstr(more.front() + " is of one device; give one --dut"));
+  }
+}
+
+/// Each device has a journal of its own: what is open of one is put back, or forgotten, without the other.
+TEST_F(SharedRuns, EachDeviceHasItsJournal) {
+  std::map<std::string, std::unique_ptr<Process>> wires, plcs;
+  nlohmann::ordered_json devices;
+  for (const std::string name : {"a", "b"}) {
+    plcs[name] = std::make_unique<Process>(std::vector<std::string>{FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / ("plc_" + name)});
+    ASSERT_TRUE(plcs[name]->wait_for(folder_ / ("plc_" + name)));
+    wires[name] = std::make_unique<Process>(std::vector<std::string>{"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / name), "file:" + (folder_ / ("plc_" + name)) + ",raw,echo=0"});
+    ASSERT_TRUE(wires[name]->wait_for("starting data transfer loop"));
+    devices[name] = {{"endpoint", "serial:" + (folder_ / name)}, {"profile", "xbc-h"}, {"allow_write", {"M100-M119"}}};
+  }
+  const std::string bench = folder_.write("bench.json", nlohmann::ordered_json{{"devices", devices}}.dump());
+  const auto journal = [&](const std::string& name) { return folder_ / ("out/journal-" + name + ".ndjson"); };
+  const auto run_both = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"run", "--bench", bench, "--dut", "a,b", "--filter", "xgt_cnet/wsb/*", "--out", folder_ / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(arguments);
+  };
+  const auto open = [&](const std::string& name) {
+    folder_.write("out/journal-" + name + ".ndjson", R"({"saved":{"address":"%MW105","config":{},"endpoint":"serial:)" + (folder_ / name) +
+                  R"(","model":"xbc-h","number":1,"protocol":"xgt-cnet","station":1,"value":"1234"}})" + "\n");
+  };
+  EXPECT_EQ(run_both().code, 0);
+  for (const std::string name : {"a", "b"}) {
+    EXPECT_THAT(read_text(journal(name)), AllOf(HasSubstr("saved"), HasSubstr(folder_ / name)));
+    EXPECT_THAT(run_tool({"restore", journal(name)}).out, HasSubstr("nothing to put back"));
+  }
+  open("a");
+  open("b");
+  EXPECT_THAT(run_both().err, HasSubstr("type: fieldproof restore " + journal("a")));
+  EXPECT_EQ(run_tool({"restore", journal("a")}).code, 0);
+  EXPECT_THAT(run_both().err, HasSubstr("type: fieldproof restore " + journal("b")));
+  EXPECT_EQ(run_both({"--discard-journal"}).code, 0);
+  EXPECT_THAT(run_tool({"restore", journal("b")}).out, HasSubstr("nothing to put back"));
+}
+
 TEST_F(SharedRuns, CtrlCEndsAllPorts) {
   const std::string fifo = folder_ / "fifo";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
-  const std::string bench = folder_.write("bench.json", nlohmann::ordered_json{{"devices", {{"a", device("tell", fifo + " 5")}, {"b", device("mute", "5")}}}}.dump());
+  const std::string bench = folder_.write("bench.json", nlohmann::ordered_json{{"devices", {{"a", device("tell", fifo + " 25")}, {"b", device("mute", "25")}}}}.dump());
   Process tool(tool_arguments({"run", "--bench", bench, "--dut", "a", "--dut", "b", "--vectors", write_vectors(folder_, slow_vectors(500)), "--out", folder_ / "out"}));
   EXPECT_EQ(read_text(fifo), "asked");
   tool.signal(SIGINT);

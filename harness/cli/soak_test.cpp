@@ -80,6 +80,19 @@ TEST_F(Soak, AnInterruptWritesTheReports) {
   }
 }
 
+/// What it had come to is in its samples.
+TEST_F(Soak, AKilledOneIsReportedFromItsSamples) {
+  std::filesystem::create_directories(out_);
+  const FileWatch results_watch(out_ + "/results.ndjson");
+  Process process(arguments(many_vectors(1), "8s"));
+  ASSERT_TRUE(results_watch.wait_until([](const std::string& text) { return text.find("{\"sample\":") != text.npos; }));
+  process.signal(SIGKILL);
+  EXPECT_EQ(process.wait().code, 128 + SIGKILL);
+  EXPECT_EQ(run_tool({"report", out_ + "/results.ndjson", "--junit", out_ + "/junit.xml", "--json", out_ + "/results.json", "--html", out_ + "/report.html"}).code, 0);
+  expect_reports(out_);
+  EXPECT_THAT(read_text(out_ + "/junit.xml"), testing::ContainsRegex("the run was killed: 1 results were written before; [1-9] s of soak: [0-9]+ judged repetitions, 0 red"));
+}
+
 TEST_F(Soak, WhereNothingRunsItEnds) {
   nlohmann::ordered_json other = small_vector("v/other_model");
   other["models"] = {"xec-h"};

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/inotify.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -210,6 +211,33 @@ inline std::vector<std::string> tool_arguments(std::vector<std::string> argument
 inline Finished run_tool(std::vector<std::string> arguments, const ProcessOptions& options = {}) {
   return run_program(tool_arguments(std::move(arguments)), options);
 }
+
+/// Sees a file grow. Makes it, in a folder that is there.
+class FileWatch {
+ public:
+  explicit FileWatch(const std::string& path) : path_(path), fd_(::inotify_init1(IN_CLOEXEC)) {
+    std::ofstream(path_, std::ios::app);
+    EXPECT_GE(::inotify_add_watch(fd_, path_.c_str(), IN_MODIFY), 0);
+  }
+  ~FileWatch() { ::close(fd_); }
+  FileWatch(const FileWatch&) = delete;
+  FileWatch& operator=(const FileWatch&) = delete;
+
+  /// False: nothing came any more for a minute.
+  bool wait_until(const auto& holds) const {
+    pollfd changed{fd_, POLLIN, 0};
+    while (!holds(read_text(path_))) {
+      if (::poll(&changed, 1, 60'000) != 1) return false;
+      char events[4096];
+      [[maybe_unused]] const ssize_t got = ::read(fd_, events, sizeof events);
+    }
+    return true;
+  }
+
+ private:
+  std::string path_;
+  int fd_;
+};
 
 /// For a command line of the shell.
 inline std::string quoted(const std::string& text) { return "'" + text + "'"; }

@@ -35,6 +35,20 @@ std::string soak_text(const SoakSummary& soak) {
   return text;
 }
 
+std::string killed_soak_text(const std::vector<SoakSample>& samples) {
+  if (samples.empty()) return "";
+  SoakSample all{0, samples.back().to_s};
+  for (const SoakSample& one : samples) {
+    all.judged += one.judged;
+    all.failed += one.failed;
+  }
+  std::string text = fmt::format("{:.0f} s of soak: {}, {} red", all.to_s, times(all.judged, "judged repetition"), all.failed);
+  const ResponseFigures& first = samples.front().response;
+  const ResponseFigures& last = samples.back().response;
+  if (first.count > 0 && last.count > 0) text += fmt::format("; median {:.3f} ms at first, {:.3f} ms at last", first.median, last.median);
+  return text;
+}
+
 void to_json(json& object, const SoakSample& sample) {
   object = {{"from_s", sample.from_s}, {"to_s", sample.to_s}, {"judged", sample.judged}, {"failed", sample.failed}, {"response", sample.response}};
 }

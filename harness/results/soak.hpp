@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "harness/results/response_times.hpp"
 
@@ -38,6 +39,8 @@ struct SoakSummary {
 
 /// Lines for people: rounds, error rate, response times, drift, failures that are not written.
 std::string soak_text(const SoakSummary& soak);
+/// What is known of a soak that was killed: "600 s of soak: 1200 judged repetitions, 3 red; median 2.1 ms at first, 2.3 ms at last".
+std::string killed_soak_text(const std::vector<SoakSample>& samples);
 
 void to_json(nlohmann::json& json, const SoakSample& sample);
 void to_json(nlohmann::json& json, const SoakCase& one);

@@ -1,8 +1,10 @@
 """A small XGT client for the tests of the built tool: single words, XGT, with BCC.
 
   client.py TTY                  asks for the blocks that lines of --stimulus on its standard input name
-  client.py LINK AUX BLOCKS      a PLC with two ports, ptys linked from LINK and AUX: P2P blocks (JSON) set up, on LINK as
-                                 client, and its memory served on AUX, flags of P2P 1 (L word 512 + 6 b) included
+  client.py LINK AUX BLOCKS MEMORY
+                                 a PLC with two ports, ptys linked from LINK and AUX: P2P blocks (JSON) set up, on LINK as
+                                 client, and its memory served on AUX, flags of P2P 1 (L word 512 + 6 b) included;
+                                 MEMORY is what it holds at first: {"%MW100": "5ABC"}
   FIELDPROOF_CLIENT=twice|mute   asks twice, asks nothing
 """
 import json
@@ -15,7 +17,26 @@ import tty
 ENQ, ACK, NAK, EOT, ETX = b"\x05", b"\x06", b"\x15", b"\x04", b"\x03"
 BEHAVIOUR = os.environ.get("FIELDPROOF_CLIENT", "")
 TIME_OUT = 0.2
-memory = {}  # words by "%MW100"
+memory = {}  # words by "%MW100"; a bit "%MX1234" is bit 4 of "%MW123"
+
+
+def load(address):
+    if address[2] != "X":
+        return memory.get(address, "0000")
+    return "%02X" % (int(load(word_of(address)), 16) >> int(address[-1], 16) & 1)
+
+
+def store(address, digits):
+    if address[2] != "X":
+        memory[address] = digits
+        return
+    bit = 1 << int(address[-1], 16)
+    word = int(load(word_of(address)), 16) & ~bit
+    memory[word_of(address)] = "%04X" % (word | bit * int(digits, 16))
+
+
+def word_of(bit):
+    return "%%%sW%d" % (bit[1], int(bit[3:-1] or "0"))
 
 
 def checked(frame):
@@ -76,10 +97,11 @@ def serve(frame):
     address = frame[10:10 + size].decode()
     head = ACK + frame[1:6]
     if frame[3:4].upper() == b"W":
-        memory[address] = frame[10 + size:frame.index(EOT)].decode()
+        store(address, frame[10 + size:frame.index(EOT)].decode())
         answer = head + ETX
     else:
-        answer = head + b"0102" + memory.get(address, "0000").encode() + ETX
+        value = load(address).encode()
+        answer = head + b"01%02X" % (len(value) // 2) + value + ETX
     return checked(answer) if frame[3:4].islower() else answer
 
 
@@ -153,12 +175,13 @@ def plc(port, aux, blocks):
         if select.select([aux], [], [], clock.wait())[0]:
             written = serve_one(aux)
             for block in blocks:
-                if block["flag"] != written:
+                flag = block["flag"]
+                if not written or not flag.startswith("%"):
                     continue
-                rises = int(memory[written], 16) and written not in on
-                (on.add if int(memory[written], 16) else on.discard)(written)
+                rises = int(load(flag), 16) and flag not in on
+                (on.add if int(load(flag), 16) else on.discard)(flag)
                 if rises:
-                    ask(port, block, {one: memory.get(one, "0000") for one in block["read"]})
+                    ask(port, block, {one: load(one) for one in block["read"]})
         clock.tick(port)
 
 
@@ -168,6 +191,7 @@ def main():
         tty.setraw(port, 0)
         return stimulated(port)
     port, aux = terminal(sys.argv[1]), terminal(sys.argv[2])
+    memory.update(json.loads(sys.argv[4]) if len(sys.argv) > 4 else {})
     print("ready", flush=True)
     plc(port, aux, json.loads(sys.argv[3]))
 

@@ -6,6 +6,8 @@ They answer each request that ends with EOT and its check with one word of zero 
   mute N             is silent for ever after the N-th request
   flood              sends without end once it was asked
   drip               sends its answers, one byte a second
+  twice              answers again 50 ms later, as a second device of the same station number does
+  parity             sends the eighth bit as even parity, as a device set to 7E1 does
   tell FIFO N        is silent for ever after the N-th request, and says so to the FIFO
   close LINK N       makes a pty of its own, linked from LINK, says 'ready', and closes it at the request after the N-th
 """
@@ -79,6 +81,12 @@ def main():
             flood(port)
         elif behaviour == "drip":
             drip(port, answer(request))
+        elif behaviour == "twice":
+            os.write(port, answer(request))
+            select.select([], [], [], 0.05)
+            os.write(port, answer(request))
+        elif behaviour == "parity":
+            os.write(port, bytes(byte | (bin(byte).count("1") % 2) << 7 for byte in answer(request)))
         else:
             os.write(port, answer(request))
     if behaviour == "die":
