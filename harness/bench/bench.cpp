@@ -313,7 +313,8 @@ bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
   // A device that the bench starts itself forgets all with its process: there the case may name the fault.
   if (endpoint_.capabilities().can_power_cycle && !memory.port_failed() && !prepared.is_client() && options_.journal) {
     result.notes.push_back(saved.error().message);
-    return true;
+    // An answer that is only late must not be taken for one to what is tested.
+    return !memory.silent() || exchange_.settle(timing().late_watch);
   }
   result.verdict = memory.port_failed() ? Verdict::error : Verdict::blocked;
   result.message = (prepared.is_client() ? "--aux: " : "") + saved.error().message;
