@@ -287,7 +287,8 @@ Result<ResponseTimes> Exchange::time_probes(int station, int count, Duration bud
   ResponseTimes times;
   const Bytes request = protocol_.probe(station, {});
   const Time give_up = endpoint_.now() + budget;
-  for (int i = 0; i < count && !request.empty() && endpoint_.now() < give_up; ++i) {
+  bool late = false;  // then what comes next would be taken for the answer to another probe
+  for (int i = 0; i < count && !late && !request.empty() && endpoint_.now() < give_up; ++i) {
     Transcript transcript;
     while (listen(endpoint_.now(), transcript)) {}  // what is left of the answer before
     await_frame_gap(transcript);
@@ -297,10 +298,11 @@ Result<ResponseTimes> Exchange::time_probes(int station, int count, Duration bud
       while (!protocol_.frame_length(pending_.bytes) && listen(until, transcript)) {}
     }
     if (transcript.trouble) return *transcript.trouble;
-    if (!pending_.bytes.empty()) times.add(to_ms(pending_.arrivals.front().start - last_sent_.end));
+    late = pending_.bytes.empty();
+    if (!late) times.add(to_ms(pending_.arrivals.front().start - last_sent_.end));
   }
   // Late or second answers are not for the first case to find.
-  if (const Status quiet = settle(timing_.quiet); !quiet) return quiet.error();
+  if (const Status quiet = settle(late ? timing_.late_watch : timing_.quiet); !quiet) return quiet.error();
   return times;
 }
 
