@@ -67,7 +67,7 @@ int emulate_command(const EmulateOptions& options) {
     record = std::move(*opened);
   }
   host.make_device = [protocol = *protocol, record](const nlohmann::json& config) { return make_stations(*protocol, config, record); };
-  if (!options.p2p.empty()) host.make_device = naming_file(std::move(host.make_device), options.p2p);
+  if (!options.p2p.empty()) host.make_device = naming_file(std::move(host.make_device), fmt::format("{}, as {} (MODEL?protocol=... for another)", options.p2p, (*protocol)->name()));
   host.tcp = options.tcp;
   host.tty = options.tty.empty() ? options.pty : options.tty;
   host.control = options.control;

@@ -27,9 +27,9 @@ TEST(EmulateP2p, ErrorsNameFileAndKey) {
   EXPECT_THAT(refused("{}"), HasSubstr("there is no \"p2p\""));
   EXPECT_THAT(refused("[]"), HasSubstr("there is no \"p2p\""));
   EXPECT_THAT(refused(R"({"role": "server", "p2p": {}})"), HasSubstr("role is \"server\"; P2P is of role client"));
-  EXPECT_THAT(refused(R"({"time_out": 51, "p2p": {}})"), HasSubstr("p2p.json: cannot read the P2P client's configuration: time_out is 51"));
+  EXPECT_THAT(refused(R"({"time_out": 51, "p2p": {}})"), HasSubstr("p2p.json, as xgt-cnet (MODEL?protocol=... for another): cannot read the P2P client's configuration: time_out is 51"));
   EXPECT_THAT(refused(R"({"p2p": {"blocks": [{"flag": "F90", "read": "%MW1", "save": "%FW1"}]}})"),
-              HasSubstr("p2p.json: cannot read P2P block 0: save '%FW1': F is read only"));
+              HasSubstr("p2p.json, as xgt-cnet (MODEL?protocol=... for another): cannot read P2P block 0: save '%FW1': F is read only"));
   const Finished absent = run_tool({"emulate", "xbc-h", "--p2p", folder / "absent.json"});
   EXPECT_EQ(absent.code, 2);
   EXPECT_THAT(absent.err, HasSubstr("absent.json: No such file"));
