@@ -2,30 +2,20 @@
 
 #include <gmock/gmock.h>
 
+#include "src/p2p/test_blocks.hpp"
+#include "src/plc/test_frame_log.hpp"
+
 namespace fieldproof {
 namespace {
 
+using test::Broken;
+using test::Log;
+using test::p2p_read;
+using test::p2p_write;
 using testing::HasSubstr;
 
 const PlcModel& xbc = *find_plc_model("xbc-h");
 constexpr Duration gap = 4ms;
-
-P2pBlock block(P2pBlock::Function function, std::string partner, std::string_view own, unsigned size = 0) {
-  const ParsedAddress parsed = parse_address(xbc, own);
-  EXPECT_TRUE(parsed) << own;
-  return {.function = function,
-          .continuous = size != 0,
-          .type = own[2],
-          .size = size == 0 ? 1 : size,
-          .station = 1,
-          .variables = {{std::move(partner), parsed.address}}};
-}
-P2pBlock read(std::string partner, std::string_view own, unsigned size = 0) {
-  return block(P2pBlock::Function::read, std::move(partner), own, size);
-}
-P2pBlock write(std::string partner, std::string_view own, unsigned size = 0) {
-  return block(P2pBlock::Function::write, std::move(partner), own, size);
-}
 
 /// Header, body with its sum, EOT.
 Bytes frame(Byte header, std::string_view body) {
@@ -34,14 +24,6 @@ Bytes frame(Byte header, std::string_view body) {
 }
 Bytes ack(std::string_view body) { return frame(ls_ack, body); }
 Bytes nak(std::string_view body) { return frame(ls_nak, body); }
-
-struct Log : FrameSink {
-  void on_frame(ByteView found, Time) override { frames.emplace_back(found.begin(), found.end()); }
-  void on_broken_frame(std::uint16_t why) override { broken.push_back(why); }
-  std::vector<Bytes> frames;
-  std::vector<std::uint16_t> broken;
-};
-using Broken = std::vector<std::uint16_t>;
 
 class LsBusP2p : public testing::Test {
  protected:
@@ -61,31 +43,31 @@ class LsBusP2p : public testing::Test {
 /// The examples of 8.2, sums added up by hand.
 TEST_F(LsBusP2p, AsksAsTheExamplesDo) {
   set("%MW100", "00FF");
-  EXPECT_EQ(ask(write("1230", "%MW100")), "\x05" "01W1230100FF9B\x04");
-  EXPECT_EQ(ask(read("1230", "%MW100")), "\x05" "01R12301AA\x04");
-  EXPECT_EQ(ask(read("h1230", "%MW100", 1)), "\x05" "01R12301AA\x04");
+  EXPECT_EQ(ask(p2p_write("1230", "%MW100")), "\x05" "01W1230100FF9B\x04");
+  EXPECT_EQ(ask(p2p_read("1230", "%MW100")), "\x05" "01R12301AA\x04");
+  EXPECT_EQ(ask(p2p_read("h1230", "%MW100", 1)), "\x05" "01R12301AA\x04");
   driver = make_ls_bus_p2p_driver(LsWriteOrder::count_first, gap);
-  EXPECT_EQ(ask(write("1230", "%MW100")), "\x05" "01W1123000FF9B\x04");
-  EXPECT_EQ(ask(read("1230", "%MW100")), "\x05" "01R12301AA\x04") << "only a write has two orders";
+  EXPECT_EQ(ask(p2p_write("1230", "%MW100")), "\x05" "01W1123000FF9B\x04");
+  EXPECT_EQ(ask(p2p_read("1230", "%MW100")), "\x05" "01R12301AA\x04") << "only a write has two orders";
 }
 
 TEST_F(LsBusP2p, EightWordsFillAFrame) {
   set("%MW100", "11112222333344445555666677778888");
-  const std::string longest = ask(write("0100", "%MW100", 8));
+  const std::string longest = ask(p2p_write("0100", "%MW100", 8));
   EXPECT_EQ(longest.size(), ls_max_frame);
   EXPECT_EQ(longest.substr(1, 8), "01W01008");
   EXPECT_EQ(longest.substr(9, 32), "11112222333344445555666677778888");
 }
 
 TEST_F(LsBusP2p, SavesWhatItRead) {
-  const P2pBlock of = read("1230", "%MW200", 2);
+  const P2pBlock of = p2p_read("1230", "%MW200", 2);
   ask(of);
   EXPECT_EQ(answer(of, ack("01R1234abCD")), p2p_error::none);
   EXPECT_EQ(get("%MW200", 8), "1234ABCD");
 }
 
 TEST_F(LsBusP2p, TakesTheEchoOfWhatWasSent) {
-  const P2pBlock of = write("1230", "%MW100");
+  const P2pBlock of = p2p_write("1230", "%MW100");
   set("%MW100", "00FF");
   ask(of);
   set("%MW100", "0100");
@@ -95,7 +77,7 @@ TEST_F(LsBusP2p, TakesTheEchoOfWhatWasSent) {
 }
 
 TEST_F(LsBusP2p, RefusesWhatIsNotTheReply) {
-  const P2pBlock of = read("1230", "%MW200", 2);
+  const P2pBlock of = p2p_read("1230", "%MW200", 2);
   ask(of);
   Bytes wrong_sum = ack("01R11112222");
   wrong_sum[wrong_sum.size() - 2] ^= 1;
@@ -118,20 +100,20 @@ TEST_F(LsBusP2p, RefusesParametersThatHaveNoFrame) {
     const Status checked = driver->check(of, xbc);
     return checked ? std::string("accepted") : checked.error().message;
   };
-  EXPECT_EQ(why(read("1230", "%MW100", 8)), "accepted");
-  EXPECT_THAT(why(read("1230", "%MW100", 9)), HasSubstr("size is 9; an LS Bus block has 1 to 8 words"));
-  EXPECT_THAT(why(read("1230", "%MX00100")), HasSubstr("type is not word"));
+  EXPECT_EQ(why(p2p_read("1230", "%MW100", 8)), "accepted");
+  EXPECT_THAT(why(p2p_read("1230", "%MW100", 9)), HasSubstr("size is 9; an LS Bus block has 1 to 8 words"));
+  EXPECT_THAT(why(p2p_read("1230", "%MX00100")), HasSubstr("type is not word"));
   for (const char* address : {"", "123", "12300", "123G", "%MW100", "h123"})
-    EXPECT_THAT(why(write(address, "%MW100")), HasSubstr("no address of an inverter")) << address;
-  EXPECT_THAT(why(write("FFFF", "%MW100", 2)), HasSubstr("past FFFF"));
-  EXPECT_EQ(why(write("FFFE", "%MW100", 2)), "accepted");
-  P2pBlock odd = read("1230", "%MW100");
+    EXPECT_THAT(why(p2p_write(address, "%MW100")), HasSubstr("no address of an inverter")) << address;
+  EXPECT_THAT(why(p2p_write("FFFF", "%MW100", 2)), HasSubstr("past FFFF"));
+  EXPECT_EQ(why(p2p_write("FFFE", "%MW100", 2)), "accepted");
+  P2pBlock odd = p2p_read("1230", "%MW100");
   odd.variables.push_back(odd.variables.front());
   EXPECT_THAT(why(odd), HasSubstr("there are 2 variables"));
-  odd = read("1230", "%MW100");
+  odd = p2p_read("1230", "%MW100");
   odd.function = P2pBlock::Function::receive;
   EXPECT_THAT(why(odd), HasSubstr("neither read nor write"));
-  odd = read("1230", "%MW100");
+  odd = p2p_read("1230", "%MW100");
   odd.variables.front().own = parse_address(xbc, "%MB100").address;
   EXPECT_THAT(why(odd), HasSubstr("save is not a word"));
 }

@@ -4,6 +4,7 @@
 
 #include "src/modbus/p2p_address.hpp"
 #include "src/modbus/test_frames.hpp"
+#include "src/p2p/test_blocks.hpp"
 #include "src/plc/counters.hpp"
 
 namespace fieldproof {
@@ -13,29 +14,13 @@ using test::ascii;
 using test::Broken;
 using test::hex;
 using test::Log;
+using test::p2p_read;
+using test::p2p_write;
 using test::rtu;
 using testing::HasSubstr;
 
 const PlcModel& xbc = *find_plc_model("xbc-h");
 constexpr Duration gap = 4ms;
-
-/// As parameters give it: own addresses by name.
-P2pBlock block(P2pBlock::Function function, std::string partner, std::string_view own, unsigned size = 0) {
-  const ParsedAddress parsed = parse_address(xbc, own);
-  EXPECT_TRUE(parsed) << own;
-  return {.function = function,
-          .continuous = size != 0,
-          .type = own[2],
-          .size = size == 0 ? 1 : size,
-          .station = 1,
-          .variables = {{std::move(partner), parsed.address}}};
-}
-P2pBlock read(std::string partner, std::string_view own, unsigned size = 0) {
-  return block(P2pBlock::Function::read, std::move(partner), own, size);
-}
-P2pBlock write(std::string partner, std::string_view own, unsigned size = 0) {
-  return block(P2pBlock::Function::write, std::move(partner), own, size);
-}
 
 class ModbusP2p : public testing::TestWithParam<ModbusMode> {
  protected:
@@ -63,28 +48,28 @@ TEST_P(ModbusP2p, AsksAsTheExampleDoes) {
   set("%DW0", "0001000200030004");
   set("%MX0001F", "01");
   set("%MW2", "A55A");
-  EXPECT_EQ(ask(write("0x40001", "%MW100")), frame("01 06 0001 1234"));
-  EXPECT_EQ(ask(write("0x40002", "%DW0", 4)), frame("01 10 0002 0004 08 0001 0002 0003 0004"));
-  EXPECT_EQ(ask(write("0x00142", "%MX0001F")), frame("01 05 0142 FF00"));
-  EXPECT_EQ(ask(write("0x00150", "%MX00020", 16)), frame("01 0F 0150 0010 02 5A A5"));
-  EXPECT_EQ(ask(read("0x40002", "%MW160")), frame("01 03 0002 0001"));
-  EXPECT_EQ(ask(read("0x30002", "%MW160")), frame("01 04 0002 0001"));
-  EXPECT_EQ(ask(read("0x30000", "%MW150", 4)), frame("01 04 0000 0004"));
-  EXPECT_EQ(ask(read("0x00021", "%MX01701")), frame("01 01 0021 0001"));
-  EXPECT_EQ(ask(read("0x10021", "%MX01701")), frame("01 02 0021 0001"));
-  EXPECT_EQ(ask(read("0x100A0", "%MX01800", 16)), frame("01 02 00A0 0010"));
+  EXPECT_EQ(ask(p2p_write("0x40001", "%MW100")), frame("01 06 0001 1234"));
+  EXPECT_EQ(ask(p2p_write("0x40002", "%DW0", 4)), frame("01 10 0002 0004 08 0001 0002 0003 0004"));
+  EXPECT_EQ(ask(p2p_write("0x00142", "%MX0001F")), frame("01 05 0142 FF00"));
+  EXPECT_EQ(ask(p2p_write("0x00150", "%MX00020", 16)), frame("01 0F 0150 0010 02 5A A5"));
+  EXPECT_EQ(ask(p2p_read("0x40002", "%MW160")), frame("01 03 0002 0001"));
+  EXPECT_EQ(ask(p2p_read("0x30002", "%MW160")), frame("01 04 0002 0001"));
+  EXPECT_EQ(ask(p2p_read("0x30000", "%MW150", 4)), frame("01 04 0000 0004"));
+  EXPECT_EQ(ask(p2p_read("0x00021", "%MX01701")), frame("01 01 0021 0001"));
+  EXPECT_EQ(ask(p2p_read("0x10021", "%MX01701")), frame("01 02 0021 0001"));
+  EXPECT_EQ(ask(p2p_read("0x100A0", "%MX01800", 16)), frame("01 02 00A0 0010"));
 }
 
-TEST_P(ModbusP2p, WritesAZeroBitAsZero) { EXPECT_EQ(ask(write("0x00142", "%MX0001F")), frame("01 05 0142 0000")); }
+TEST_P(ModbusP2p, WritesAZeroBitAsZero) { EXPECT_EQ(ask(p2p_write("0x00142", "%MX0001F")), frame("01 05 0142 0000")); }
 
 TEST_P(ModbusP2p, ARunOfOneIsARun) {
   set("%MW5", "BEEF");
-  EXPECT_EQ(ask(write("0x40001", "%MW5", 1)), frame("01 10 0001 0001 02 BEEF"));
-  EXPECT_EQ(ask(write("0x00001", "%MX00050", 1)), frame("01 0F 0001 0001 01 01"));
+  EXPECT_EQ(ask(p2p_write("0x40001", "%MW5", 1)), frame("01 10 0001 0001 02 BEEF"));
+  EXPECT_EQ(ask(p2p_write("0x00001", "%MX00050", 1)), frame("01 0F 0001 0001 01 01"));
 }
 
 TEST_P(ModbusP2p, SavesWhatItRead) {
-  const P2pBlock words = read("0x30000", "%MW150", 2), bits = read("0x00010", "%MX01804", 10), bit = read("0x10021", "%MX01701");
+  const P2pBlock words = p2p_read("0x30000", "%MW150", 2), bits = p2p_read("0x00010", "%MX01804", 10), bit = p2p_read("0x10021", "%MX01701");
   ask(words);
   EXPECT_EQ(answer(words, "01 04 04 1234 ABCD"), p2p_error::none);
   EXPECT_EQ(get("%MW150", 8), "1234ABCD");
@@ -99,17 +84,17 @@ TEST_P(ModbusP2p, SavesWhatItRead) {
 
 TEST_P(ModbusP2p, TakesTheEchoOfAWrite) {
   set("%MW100", "1234");
-  for (const auto& [of, reply] : {std::pair{write("0x40001", "%MW100"), "01 06 0001 1234"},
-                                  {write("0x40002", "%MW100", 1), "01 10 0002 0001"},
-                                  {write("0x00142", "%MX01002"), "01 05 0142 FF00"},
-                                  {write("0x00150", "%MX00020", 16), "01 0F 0150 0010"}}) {
+  for (const auto& [of, reply] : {std::pair{p2p_write("0x40001", "%MW100"), "01 06 0001 1234"},
+                                  {p2p_write("0x40002", "%MW100", 1), "01 10 0002 0001"},
+                                  {p2p_write("0x00142", "%MX01002"), "01 05 0142 FF00"},
+                                  {p2p_write("0x00150", "%MX00020", 16), "01 0F 0150 0010"}}) {
     ask(of);
     EXPECT_EQ(answer(of, reply), p2p_error::none) << reply;
   }
 }
 
 TEST_P(ModbusP2p, TheEchoIsOfWhatWasSent) {
-  const P2pBlock of = write("0x40001", "%MW100");
+  const P2pBlock of = p2p_write("0x40001", "%MW100");
   set("%MW100", "1234");
   ask(of);
   set("%MW100", "5678");
@@ -118,7 +103,7 @@ TEST_P(ModbusP2p, TheEchoIsOfWhatWasSent) {
 }
 
 TEST_P(ModbusP2p, RefusesWhatIsNotTheReply) {
-  const P2pBlock words = read("0x40002", "%MW160", 2), run = write("0x40002", "%MW100", 2);
+  const P2pBlock words = p2p_read("0x40002", "%MW160", 2), run = p2p_write("0x40002", "%MW100", 2);
   ask(words);
   for (const auto& [reply, code] : {std::pair{"02 03 04 1111 2222", p2p_error::station},
                                     {"01 04 04 1111 2222", p2p_error::driver},
@@ -150,22 +135,22 @@ TEST_P(ModbusP2p, RefusesParametersThatHaveNoFrame) {
     const Status checked = driver->check(of, xbc);
     return checked ? std::string("accepted") : checked.error().message;
   };
-  EXPECT_THAT(why(write("0x30001", "%MW100")), HasSubstr("save '0x30001' can only be read"));
-  EXPECT_THAT(why(write("0x10001", "%MX00010")), HasSubstr("can only be read"));
-  EXPECT_THAT(why(read("0x10001", "%MW100")), HasSubstr("read '0x10001' holds bits"));
-  EXPECT_THAT(why(read("0x40001", "%MX00010")), HasSubstr("holds words"));
+  EXPECT_THAT(why(p2p_write("0x30001", "%MW100")), HasSubstr("save '0x30001' can only be read"));
+  EXPECT_THAT(why(p2p_write("0x10001", "%MX00010")), HasSubstr("can only be read"));
+  EXPECT_THAT(why(p2p_read("0x10001", "%MW100")), HasSubstr("read '0x10001' holds bits"));
+  EXPECT_THAT(why(p2p_read("0x40001", "%MX00010")), HasSubstr("holds words"));
   for (const char* address : {"", "40001", "0x2", "0x20001", "0x50001", "0x4001", "0x400001", "0x4000G", "%MW100"})
-    EXPECT_THAT(why(read(address, "%MW100")), HasSubstr("no Modbus address; write 0x")) << address;
-  EXPECT_EQ(why(read("0x4FfFf", "%MW100")), "accepted");
-  EXPECT_THAT(why(read("0x4FFFF", "%MW100", 2)), HasSubstr("past data address FFFF"));
-  EXPECT_THAT(why(read("0x40001", "%MB100")), HasSubstr("type is neither bit nor word"));
-  P2pBlock two = read("0x40001", "%MW100");
+    EXPECT_THAT(why(p2p_read(address, "%MW100")), HasSubstr("no Modbus address; write 0x")) << address;
+  EXPECT_EQ(why(p2p_read("0x4FfFf", "%MW100")), "accepted");
+  EXPECT_THAT(why(p2p_read("0x4FFFF", "%MW100", 2)), HasSubstr("past data address FFFF"));
+  EXPECT_THAT(why(p2p_read("0x40001", "%MB100")), HasSubstr("type is neither bit nor word"));
+  P2pBlock two = p2p_read("0x40001", "%MW100");
   two.variables.push_back(two.variables.front());
   EXPECT_THAT(why(two), HasSubstr("there are 2 variables; a Modbus block has one"));
-  P2pBlock send = read("0x40001", "%MW100");
+  P2pBlock send = p2p_read("0x40001", "%MW100");
   send.function = P2pBlock::Function::send;
   EXPECT_THAT(why(send), HasSubstr("neither read nor write"));
-  P2pBlock mixed = read("0x40001", "%MW100");
+  P2pBlock mixed = p2p_read("0x40001", "%MW100");
   mixed.variables.front().own = parse_address(xbc, "%MB100").address;
   EXPECT_THAT(why(mixed), HasSubstr("save is not a word"));
 }
@@ -181,19 +166,19 @@ TEST_P(ModbusP2p, KeepsTheSizesOfTheManual) {
     past.size = 0;
     EXPECT_FALSE(driver->check(past, xbc)) << "none";
   };
-  limit(read("0x00000", "%MX00000", in_rtu ? 2000 : 976));
-  limit(read("0x30000", "%MW0", in_rtu ? 120 : 61));
-  limit(write("0x00000", "%MX00000", in_rtu ? 1968 : 944));
-  limit(write("0x40000", "%MW0", in_rtu ? 120 : 59));
+  limit(p2p_read("0x00000", "%MX00000", in_rtu ? 2000 : 976));
+  limit(p2p_read("0x30000", "%MW0", in_rtu ? 120 : 61));
+  limit(p2p_write("0x00000", "%MX00000", in_rtu ? 1968 : 944));
+  limit(p2p_write("0x40000", "%MW0", in_rtu ? 120 : 59));
   if (in_rtu) return;
-  EXPECT_EQ(ask(write("0x00000", "%MX00000", 944)).size(), 255u);
-  EXPECT_EQ(ask(write("0x40000", "%MW0", 59)).size(), 255u);
+  EXPECT_EQ(ask(p2p_write("0x00000", "%MX00000", 944)).size(), 255u);
+  EXPECT_EQ(ask(p2p_write("0x40000", "%MW0", 59)).size(), 255u);
 }
 
 TEST(ModbusP2pRtu, AWrongCrcIsABccError) {
   const auto driver = make_modbus_p2p_driver(ModbusMode::rtu, gap);
   PlcMemory memory(xbc);
-  const P2pBlock of = read("0x40002", "%MW160");
+  const P2pBlock of = p2p_read("0x40002", "%MW160");
   EXPECT_TRUE(driver->request(of, memory));
   Bytes reply = rtu("01 03 02 1234");
   reply.back() ^= 1;
@@ -205,7 +190,7 @@ TEST(ModbusP2pRtu, AWrongCrcIsABccError) {
 TEST(ModbusP2pAscii, TellsCheckDigitsAndLengthApart) {
   const auto driver = make_modbus_p2p_driver(ModbusMode::ascii, gap);
   PlcMemory memory(xbc);
-  const P2pBlock of = read("0x40002", "%MW160");
+  const P2pBlock of = p2p_read("0x40002", "%MW160");
   EXPECT_TRUE(driver->request(of, memory));
   EXPECT_EQ(driver->take(of, to_bytes(":0103021234B5\r\n"), memory), p2p_error::bcc);
   EXPECT_EQ(driver->take(of, to_bytes(":01030212G4B4\r\n"), memory), p2p_error::not_hex);

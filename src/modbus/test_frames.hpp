@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/modbus/frame.hpp"
-#include "src/plc/frame_sink.hpp"
+#include "src/plc/test_frame_log.hpp"
 
 namespace fieldproof::test {
 
@@ -33,22 +33,5 @@ inline Bytes operator+(Bytes a, const Bytes& b) {
 inline Bytes part(const Bytes& bytes, std::size_t from, std::size_t until) {
   return Bytes(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.begin() + static_cast<std::ptrdiff_t>(until));
 }
-
-/// Writes down what it is given.
-class Log : public FrameSink {
- public:
-  void on_frame(ByteView frame, Time end) override {
-    frames.emplace_back(frame.begin(), frame.end());
-    ends.push_back(end);
-  }
-  void on_broken_frame(std::uint16_t why) override { broken.push_back(why); }
-
-  std::vector<Bytes> frames;
-  std::vector<Time> ends;
-  std::vector<std::uint16_t> broken;
-};
-
-using Broken = std::vector<std::uint16_t>;
-using Frames = std::vector<Bytes>;
 
 }  // namespace fieldproof::test

@@ -5,32 +5,20 @@
 #include <random>
 #include <vector>
 
+#include "src/plc/test_frame_log.hpp"
 #include "src/xgt_cnet/test_frames.hpp"
 
 namespace fieldproof {
 namespace {
 
 using test::ack;
+using test::Broken;
 using test::enq;
+using test::Frames;
+using test::Log;
 using test::nak;
 using test::operator+;
 
-/// Writes down what it is given.
-class Log : public FrameSink {
- public:
-  void on_frame(ByteView frame, Time end) override {
-    frames.emplace_back(frame.begin(), frame.end());
-    ends.push_back(end);
-  }
-  void on_broken_frame(std::uint16_t why) override { broken.push_back(why); }
-
-  std::vector<Bytes> frames;
-  std::vector<Time> ends;
-  std::vector<std::uint16_t> broken;
-};
-
-using Broken = std::vector<std::uint16_t>;
-using Frames = std::vector<Bytes>;
 constexpr Duration character = 1ms;
 constexpr Duration gap = 4ms;
 
