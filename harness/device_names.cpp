@@ -1,8 +1,8 @@
 #include "harness/device_names.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
-#include <fmt/format.h>
 
 namespace fieldproof {
 
@@ -26,7 +26,8 @@ std::optional<std::int64_t> elements_in(const DeviceAddress& address, int words)
 std::optional<std::string> add_to(std::string_view text, std::int64_t step) {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size() || number + step < 0) return std::nullopt;
+  if (error != std::errc{} || end != text.data() + text.size() || number + step < 0)
+    return std::nullopt;
   std::string sum = fmt::format("{:0{}}", number + step, text.size());
   if (sum.size() != text.size()) return std::nullopt;
   return sum;
@@ -34,7 +35,8 @@ std::optional<std::string> add_to(std::string_view text, std::int64_t step) {
 
 }  // namespace
 
-Protocol::Written memory_of(const PlcModel& model, const DeviceAddress& address, std::uint32_t count, std::string_view name) {
+Protocol::Written memory_of(const PlcModel& model, const DeviceAddress& address,
+                            std::uint32_t count, std::string_view name) {
   const std::string area(1, model.areas[address.area].letter);
   const std::uint32_t last = address.index + std::max(count, 1u) - 1;
   if (address.contact) return {area, address.index, last, std::string(name), true};
@@ -43,7 +45,8 @@ Protocol::Written memory_of(const PlcModel& model, const DeviceAddress& address,
   return {area, address.index * bytes / 2, ((last + 1) * bytes - 1) / 2, std::string(name)};
 }
 
-std::optional<Protocol::Written> named_memory(const PlcModel& model, std::string_view name, std::size_t digits) {
+std::optional<Protocol::Written> named_memory(const PlcModel& model, std::string_view name,
+                                              std::size_t digits) {
   const ParsedAddress parsed = parse_address(model, name);
   if (!parsed) return std::nullopt;
   const auto count = static_cast<std::uint32_t>(digits / (2 * type_bytes(parsed.address.type)));
@@ -57,10 +60,12 @@ std::optional<std::string> moved_name(const PlcModel& model, std::string_view na
   const bool word_and_bit = parsed.address.type == 'X' && !parsed.address.contact && !model.iec;
   const std::size_t tail = word_and_bit ? 1 : 0;
   const std::string_view number = name.substr(3, name.size() - 3 - tail);
-  const std::optional<std::int64_t> step = word_and_bit ? words : elements_in(parsed.address, words);
+  const std::optional<std::int64_t> step =
+      word_and_bit ? words : elements_in(parsed.address, words);
   const std::optional<std::string> sum = step ? add_to(number, *step) : std::nullopt;
   if (!sum) return std::nullopt;
-  std::string moved = std::string(name.substr(0, 3)) + *sum + std::string(name.substr(name.size() - tail));
+  std::string moved =
+      std::string(name.substr(0, 3)) + *sum + std::string(name.substr(name.size() - tail));
   if (!parse_address(model, moved)) return std::nullopt;
   return moved;
 }
@@ -71,12 +76,15 @@ std::vector<Protocol::Place> places_on(const PlcModel& model, const Protocol::Wr
   std::vector<Protocol::Place> places;
   if (written.contacts) {
     for (std::uint32_t contact = written.first_word; contact <= written.last_word; ++contact)
-      places.push_back({fmt::format("%{}X{}", written.area, contact), 2, area && contact < area->contacts});
+      places.push_back(
+          {fmt::format("%{}X{}", written.area, contact), 2, area && contact < area->contacts});
     return places;
   }
   const std::uint32_t has = area ? area->words : 0;
   const auto add = [&](std::uint32_t first, std::uint32_t end, bool declared) {
-    if (first < end) places.push_back({fmt::format("%{}W{}", written.area, first), (end - first) * std::size_t{4}, declared});
+    if (first < end)
+      places.push_back(
+          {fmt::format("%{}W{}", written.area, first), (end - first) * std::size_t{4}, declared});
   };
   add(written.first_word, std::min(written.last_word + 1, has), true);
   add(std::max(written.first_word, has), written.last_word + 1, false);

@@ -6,9 +6,12 @@
 
 namespace fieldproof {
 
-Result<std::unique_ptr<EmulatedDevice>> make_monitored_device(const Protocol& protocol, std::string_view model, nlohmann::json config,
+Result<std::unique_ptr<EmulatedDevice>> make_monitored_device(const Protocol& protocol,
+                                                              std::string_view model,
+                                                              nlohmann::json config,
                                                               const FrameMonitor::Record& record) {
-  if (!config.is_object() || (!record && !config.contains("monitor"))) return protocol.make_device(model, config);
+  if (!config.is_object() || (!record && !config.contains("monitor")))
+    return protocol.make_device(model, config);
   bool monitored = record != nullptr;
   PortConfig port;
   ConfigReader reader(config, "the emulated device's configuration");
@@ -20,9 +23,12 @@ Result<std::unique_ptr<EmulatedDevice>> make_monitored_device(const Protocol& pr
   if (!device || !monitored) return device;
   const Protocol& own = protocol.of_model(model);
   const bool client = port.role == PortConfig::Role::client;
-  MonitorRules rules{[&own](ByteView bytes) { return own.frame_length(bytes); },
-                     [&own, client](ByteView frame, bool sent) { return own.monitor_result(frame, client, sent); }, port.gap()};
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<FrameMonitor>(std::move(*device), std::move(rules), record));
+  MonitorRules rules{
+      [&own](ByteView bytes) { return own.frame_length(bytes); },
+      [&own, client](ByteView frame, bool sent) { return own.monitor_result(frame, client, sent); },
+      port.gap()};
+  return std::unique_ptr<EmulatedDevice>(
+      std::make_unique<FrameMonitor>(std::move(*device), std::move(rules), record));
 }
 
 }  // namespace fieldproof

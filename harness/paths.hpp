@@ -1,4 +1,5 @@
-// Where the tool finds its vectors and profiles: beside the installed tool, else in the source tree it was built from.
+// Where the tool finds its vectors and profiles: beside the installed tool, else in the source tree
+// it was built from.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +7,7 @@
 namespace fieldproof {
 
 struct DataPaths {
-  std::filesystem::path vectors;   // with schema.json, manuals.json, statements/, quotes.lock
+  std::filesystem::path vectors;  // with schema.json, manuals.json, statements/, quotes.lock
   std::filesystem::path profiles;
   std::filesystem::path definitions;  // of user-defined frames
 };

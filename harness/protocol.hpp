@@ -20,11 +20,12 @@ namespace fieldproof {
 
 /// One named part of a frame, as `frame` and the field-by-field difference show it.
 struct Field {
-  std::string name;          // "block count"
-  std::size_t offset = 0;    // first byte in the frame
-  std::size_t size = 0;      // bytes
-  std::string text;          // printable form: "02", "%MW020"
-  std::string problem;       // empty when the field is right: "not hex", "expected D6 (sum of header to tail)"
+  std::string name;        // "block count"
+  std::size_t offset = 0;  // first byte in the frame
+  std::size_t size = 0;    // bytes
+  std::string text;        // printable form: "02", "%MW020"
+  std::string
+      problem;  // empty when the field is right: "not hex", "expected D6 (sum of header to tail)"
 };
 /// Are there fields, all of them right?
 bool faultless(const std::vector<Field>& fields);
@@ -42,8 +43,10 @@ class Protocol {
   /// What is known of the frames and the probe of one model, where models differ in it.
   virtual const Protocol& of_model([[maybe_unused]] std::string_view model) const { return *this; }
 
-  /// A new emulated device in its power-on state. Errors name the model or the key of `config` (vectors/README.md).
-  virtual Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const = 0;
+  /// A new emulated device in its power-on state. Errors name the model or the key of `config`
+  /// (vectors/README.md).
+  virtual Result<std::unique_ptr<EmulatedDevice>> make_device(
+      std::string_view model, const nlohmann::json& config) const = 0;
 
   /// The station number as it stands in a frame.
   virtual Bytes station_bytes(int station) const = 0;
@@ -54,61 +57,72 @@ class Protocol {
   /// The parts of a frame, as far as it can be read; never fails.
   virtual std::vector<Field> explain(ByteView frame) const = 0;
 
-  /// What a frame monitor says of a frame that a client (else a server) sends or receives: `unknown` where it is damaged,
-  /// or none that this side deals with.
+  /// What a frame monitor says of a frame that a client (else a server) sends or receives:
+  /// `unknown` where it is damaged, or none that this side deals with.
   virtual FrameResult monitor_result(ByteView frame, bool client, bool sent) const;
 
-  /// The silence that must lie between anything on the line and the next request. Modbus RTU ends a frame by it.
-  /// Zero where a frame has an end of its own.
+  /// The silence that must lie between anything on the line and the next request. Modbus RTU ends a
+  /// frame by it. Zero where a frame has an end of its own.
   virtual Duration frame_gap([[maybe_unused]] Duration character_time) const { return {}; }
 
-  /// A harmless request that any healthy device answers. Its reply cannot be mistaken for a reply to `tested`
-  /// (empty: no such demand). Empty: there is none, silences are waited out.
+  /// A harmless request that any healthy device answers. Its reply cannot be mistaken for a reply
+  /// to `tested` (empty: no such demand). Empty: there is none, silences are waited out.
   virtual Bytes probe(int station, ByteView tested) const = 0;
-  /// Does `reply` have the form of a reply to `probe`? Its check is not judged, only what tells it from others.
+  /// Does `reply` have the form of a reply to `probe`? Its check is not judged, only what tells it
+  /// from others.
   virtual bool is_reply_to_probe(ByteView probe, ByteView reply) const = 0;
 
-  /// The requests that set, or read, memory through the protocol itself. Errors say why there is no way ("read only").
-  virtual Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const = 0;
-  virtual Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const = 0;
+  /// The requests that set, or read, memory through the protocol itself. Errors say why there is no
+  /// way ("read only").
+  virtual Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
+                                                    std::string_view hex) const = 0;
+  virtual Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
+                                                   std::size_t digits) const = 0;
   /// Success when `reply` acknowledges a write request.
   virtual Status write_reply(ByteView reply) const = 0;
   /// The hex digits in a reply to a read request; an error when it is a refusal or no such reply.
   virtual Result<std::string> read_reply(ByteView reply) const = 0;
 
-  /// This protocol as a device of `model` that declares `config` (keys of given.config) speaks it: what follows, and the
-  /// memory requests, then know where its addresses lie. nullptr: they lie there on any. Errors name the key.
-  virtual Result<std::unique_ptr<Protocol>> configured(std::string_view model, const nlohmann::json& config) const;
+  /// This protocol as a device of `model` that declares `config` (keys of given.config) speaks it:
+  /// what follows, and the memory requests, then know where its addresses lie. nullptr: they lie
+  /// there on any. Errors name the key.
+  virtual Result<std::unique_ptr<Protocol>> configured(std::string_view model,
+                                                       const nlohmann::json& config) const;
 
-  /// Memory that a request or an address names: words of an area, or its contacts (bits of T and C), which are apart.
+  /// Memory that a request or an address names: words of an area, or its contacts (bits of T and
+  /// C), which are apart.
   struct Written {
     std::string area;              // "M"
     std::uint32_t first_word = 0;  // in words of the area
     std::uint32_t last_word = 0;
-    std::string address;           // as it stands in the request, for messages
+    std::string address;  // as it stands in the request, for messages
     bool contacts = false;
 
     /// Nobody can tell which words of the area; of area "?", not even that.
     bool unknown() const { return last_word == ~0u || area == "?"; }
   };
-  /// What a request would write, for the write fence; empty for reads. Read leniently: a damaged write request names
-  /// area "?" where its addresses cannot be told.
+  /// What a request would write, for the write fence; empty for reads. Read leniently: a damaged
+  /// write request names area "?" where its addresses cannot be told.
   virtual std::vector<Written> written_by(ByteView request) const = 0;
   /// A word as --allow-write takes it: "M100", "h1230".
   virtual std::string spell(std::string_view area, std::uint32_t word) const;
 
-  /// Memory as `read_requests` and `write_requests` reach it: what is saved before a write, and put back.
+  /// Memory as `read_requests` and `write_requests` reach it: what is saved before a write, and put
+  /// back.
   struct Place {
-    std::string address;     // "%MW100"
+    std::string address;  // "%MW100"
     std::size_t digits = 0;
-    bool declared = true;    // false: the declared device has no such memory, a write there must be refused
+    bool declared =
+        true;  // false: the declared device has no such memory, a write there must be refused
   };
   /// None for what no request can write: there is nothing to put back.
   virtual std::vector<Place> places(const Written& written) const;
 
-  /// What so many digits at an address of a vector name; nothing where the declared device has no such memory.
+  /// What so many digits at an address of a vector name; nothing where the declared device has no
+  /// such memory.
   virtual std::optional<Written> named(std::string_view address, std::size_t digits) const;
-  /// The same address so many words further on, of the same type and as many characters; nothing where there is none.
+  /// The same address so many words further on, of the same type and as many characters; nothing
+  /// where there is none.
   virtual std::optional<std::string> moved(std::string_view address, int words) const;
   /// An address in a frame. `size` 0: the frame names memory that cannot be moved.
   struct AddressField {
@@ -118,22 +132,24 @@ class Protocol {
   /// In the order of the frame. `reply`: the frame comes from the device.
   virtual std::vector<AddressField> address_fields(ByteView frame, bool reply) const;
   /// The bytes of that field so many words further on; nothing where there are none of its size.
-  virtual std::optional<Bytes> moved_field(ByteView frame, const AddressField& field, int words) const;
+  virtual std::optional<Bytes> moved_field(ByteView frame, const AddressField& field,
+                                           int words) const;
   /// Words of an area of the declared device; 0: it has none.
   virtual std::uint32_t words_of(std::string_view area) const;
 
   /// Areas whose words may be physical outputs: written only when named.
   virtual std::string_view output_areas() const = 0;
 
-  /// Areas of words ("%MW0" is the first of M) by which devices are told apart, with the last words that the known
-  /// models have, in rising order. Empty: there are none.
+  /// Areas of words ("%MW0" is the first of M) by which devices are told apart, with the last words
+  /// that the known models have, in rising order. Empty: there are none.
   struct Area {
     std::string name;
     std::vector<std::uint32_t> last_words;
   };
   virtual std::vector<Area> areas() const { return {}; }
 
-  /// Checks a `table` vector against the tables in src/; the error says what the table holds instead.
+  /// Checks a `table` vector against the tables in src/; the error says what the table holds
+  /// instead.
   virtual Status check_fact(const nlohmann::json& facts) const = 0;
 };
 
@@ -141,8 +157,8 @@ class Protocol {
 std::span<const Protocol* const> protocols();
 /// nullptr when unknown.
 const Protocol* find_protocol(std::string_view name);
-/// The protocol `name`, or where it is empty, the first one that has `model` (empty: the default protocol).
-/// Errors name what there is.
+/// The protocol `name`, or where it is empty, the first one that has `model` (empty: the default
+/// protocol). Errors name what there is.
 Result<const Protocol*> choose_protocol(std::string_view name, std::string_view model);
 
 }  // namespace fieldproof

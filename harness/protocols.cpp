@@ -1,7 +1,7 @@
 // Looks protocols up in the table of suites/protocols.cpp.
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 
 #include "harness/protocol.hpp"
 #include "src/base/spelling.hpp"
@@ -19,7 +19,8 @@ namespace {
 Error unknown_protocol(std::string_view name) {
   std::vector<std::string_view> names;
   for (const Protocol* protocol : protocols()) names.push_back(protocol->name());
-  return fail(fmt::format("there is no protocol '{}'; use one of {}{}", name, fmt::join(names, ", "), suggestion(name, names)));
+  return fail(fmt::format("there is no protocol '{}'; use one of {}{}", name,
+                          fmt::join(names, ", "), suggestion(name, names)));
 }
 
 Error unknown_model(std::string_view model) {
@@ -28,14 +29,16 @@ Error unknown_model(std::string_view model) {
     for (const std::string& one : protocol->models())
       if (std::ranges::count(models, one) == 0) models.push_back(one);
   const std::vector<std::string_view> known(models.begin(), models.end());
-  return fail(fmt::format("there is no model '{}'; use one of {}{}", model, fmt::join(known, ", "), suggestion(model, known)));
+  return fail(fmt::format("there is no model '{}'; use one of {}{}", model, fmt::join(known, ", "),
+                          suggestion(model, known)));
 }
 
 }  // namespace
 
 Result<const Protocol*> choose_protocol(std::string_view name, std::string_view model) {
   for (const Protocol* protocol : protocols())
-    if (name.empty() ? model.empty() || protocol->has_model(model) : protocol->name() == name) return &protocol->of_model(model);
+    if (name.empty() ? model.empty() || protocol->has_model(model) : protocol->name() == name)
+      return &protocol->of_model(model);
   return name.empty() ? unknown_model(model) : unknown_protocol(name);
 }
 

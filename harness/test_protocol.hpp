@@ -1,4 +1,5 @@
-// A protocol as small as can be, for tests of the harness: '<' body '>' frames, stations as two hex digits.
+// A protocol as small as can be, for tests of the harness: '<' body '>' frames, stations as two hex
+// digits.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +12,13 @@ namespace fieldproof {
 struct TestProtocol : Protocol {
   std::string_view name() const override { return "xgt-cnet"; }
   std::vector<std::string> models() const override { return {"test"}; }
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view, const nlohmann::json&) const override { return fail("no device"); }
-  Bytes station_bytes(int station) const override { return to_bytes(hex_number(static_cast<unsigned>(station), 2)); }
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view,
+                                                      const nlohmann::json&) const override {
+    return fail("no device");
+  }
+  Bytes station_bytes(int station) const override {
+    return to_bytes(hex_number(static_cast<unsigned>(station), 2));
+  }
 
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     const auto tail = std::ranges::find(bytes, Byte{'>'});
@@ -21,20 +27,27 @@ struct TestProtocol : Protocol {
   }
   std::vector<Field> explain(ByteView frame) const override {
     std::vector<Field> fields;
-    for (std::size_t i = 0; i < frame.size(); ++i) fields.push_back({"byte " + std::to_string(i), i, 1, to_text(frame.subspan(i, 1)), ""});
+    for (std::size_t i = 0; i < frame.size(); ++i)
+      fields.push_back({"byte " + std::to_string(i), i, 1, to_text(frame.subspan(i, 1)), ""});
     return fields;
   }
 
   Bytes probe(int, ByteView) const override { return to_bytes("<probe>"); }
-  bool is_reply_to_probe(ByteView, ByteView reply) const override { return to_text(reply) == "<alive>"; }
+  bool is_reply_to_probe(ByteView, ByteView reply) const override {
+    return to_text(reply) == "<alive>";
+  }
 
-  Result<std::vector<Bytes>> write_requests(int, std::string_view address, std::string_view hex) const override {
+  Result<std::vector<Bytes>> write_requests(int, std::string_view address,
+                                            std::string_view hex) const override {
     return std::vector<Bytes>{to_bytes("<w" + std::string(address) + "=" + std::string(hex) + ">")};
   }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view address, std::size_t) const override {
+  Result<std::vector<Bytes>> read_requests(int, std::string_view address,
+                                           std::size_t) const override {
     return std::vector<Bytes>{to_bytes("<r" + std::string(address) + ">")};
   }
-  Status write_reply(ByteView reply) const override { return to_text(reply) == "<ok>" ? ok() : Status(fail("not <ok>")); }
+  Status write_reply(ByteView reply) const override {
+    return to_text(reply) == "<ok>" ? ok() : Status(fail("not <ok>"));
+  }
   Result<std::string> read_reply(ByteView reply) const override {
     if (reply.size() < 3) return fail("no value");
     return to_text(reply.subspan(1, reply.size() - 2));

@@ -15,23 +15,30 @@
 namespace fieldproof {
 namespace {
 
-/// Another piece of the same frame? What belongs to no step is a probe, which is sent in one piece, or its answer.
+/// Another piece of the same frame? What belongs to no step is a probe, which is sent in one piece,
+/// or its answer.
 bool continues(const Event& event, const Event& before) {
-  return event.kind == before.kind && event.step == before.step && event.surplus == before.surplus &&
+  return event.kind == before.kind && event.step == before.step &&
+         event.surplus == before.surplus &&
          (event.step >= 0 || event.kind == Event::Kind::received);
 }
 
 std::string comment_of(const CaseResult& result, const Event& event) {
   std::string part;
-  if (event.surplus) part = ", surplus";
-  else if (event.step >= 0) part = fmt::format(", step {}", event.step + 1);
-  else if (!result.recording.stimulus.empty()) part = ", probe";  // without a recording the steps are not known
-  return xml_line(case_label(result).substr(0, 1000)) + part + ": " + std::string(to_string(result.verdict));
+  if (event.surplus)
+    part = ", surplus";
+  else if (event.step >= 0)
+    part = fmt::format(", step {}", event.step + 1);
+  else if (!result.recording.stimulus.empty())
+    part = ", probe";  // without a recording the steps are not known
+  return xml_line(case_label(result).substr(0, 1000)) + part + ": " +
+         std::string(to_string(result.verdict));
 }
 
 void join(CapturedFrame& frame, const Event& event) {
   const double pause = to_ms(event.start) - to_ms(frame.end);
-  if (pause > 0 && frame.comment.size() < 1500) frame.comment += fmt::format("; pause of {:.3f} ms after {} bytes", pause, frame.bytes.size());
+  if (pause > 0 && frame.comment.size() < 1500)
+    frame.comment += fmt::format("; pause of {:.3f} ms after {} bytes", pause, frame.bytes.size());
   frame.end = event.end;
   frame.bytes.insert(frame.bytes.end(), event.bytes.begin(), event.bytes.end());
 }
@@ -41,16 +48,20 @@ std::uint64_t since_epoch(const std::string& text) {
   using namespace std::chrono;
   int y = 0, mo = 0, d = 0, h = 0, mi = 0, s = 0, zone_h = 0, zone_m = 0;
   char sign = '+';
-  if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d:%2d%c%2d:%2d", &y, &mo, &d, &h, &mi, &s, &sign, &zone_h, &zone_m) < 6) return 0;
-  const year_month_day date{year(y), month(static_cast<unsigned>(mo)), day(static_cast<unsigned>(d))};
+  if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d:%2d%c%2d:%2d", &y, &mo, &d, &h, &mi, &s, &sign,
+                  &zone_h, &zone_m) < 6)
+    return 0;
+  const year_month_day date{year(y), month(static_cast<unsigned>(mo)),
+                            day(static_cast<unsigned>(d))};
   if (!date.ok() || y < 1970 || y > 2200) return 0;
   const minutes zone = hours(zone_h) + minutes(zone_m);
-  const seconds time = sys_days(date).time_since_epoch() + hours(h) + minutes(mi) + seconds(s) - (sign == '-' ? -zone : zone);
+  const seconds time = sys_days(date).time_since_epoch() + hours(h) + minutes(mi) + seconds(s) -
+                       (sign == '-' ? -zone : zone);
   return static_cast<std::uint64_t>(nanoseconds(time).count());
 }
 
-/// Clocks that begin anew, or stand behind another one, go on where the last case ended. Unsigned: a damaged file may
-/// hold any time.
+/// Clocks that begin anew, or stand behind another one, go on where the last case ended. Unsigned:
+/// a damaged file may hold any time.
 class Calendar {
  public:
   void begin_run(const std::string& started) { offset_ = since_epoch(started); }
@@ -73,8 +84,10 @@ class Capture {
 
   void begin(const RunInfo& run) {
     const Identity& device = run.identity;
-    const std::string hardware = xml_line(fmt::format("{} {} {} {}", device.maker, device.model, device.serial, device.firmware));
-    out_ << pcapng_section("fieldproof " + xml_line(run.tool_version), hardware.find_first_not_of(' ') == std::string::npos ? "" : hardware);
+    const std::string hardware = xml_line(
+        fmt::format("{} {} {} {}", device.maker, device.model, device.serial, device.firmware));
+    out_ << pcapng_section("fieldproof " + xml_line(run.tool_version),
+                           hardware.find_first_not_of(' ') == std::string::npos ? "" : hardware);
     endpoint_ = xml_line(run.endpoint);
     calendar_.begin_run(run.started);
   }
@@ -85,12 +98,14 @@ class Capture {
     calendar_.begin_case(frames.front().start);
     const std::uint32_t interface = interface_of(result.protocol);
     for (const CapturedFrame& frame : frames)
-      out_ << pcapng_packet({interface, calendar_.pass(frame.end), frame.sent, frame.bytes, frame.comment});
+      out_ << pcapng_packet(
+          {interface, calendar_.pass(frame.end), frame.sent, frame.bytes, frame.comment});
   }
 
  private:
   std::uint32_t interface_of(const std::string& protocol) {
-    const auto [found, added] = interfaces_.emplace(protocol, static_cast<std::uint32_t>(interfaces_.size()));
+    const auto [found, added] =
+        interfaces_.emplace(protocol, static_cast<std::uint32_t>(interfaces_.size()));
     if (added) out_ << pcapng_interface(linktype_rtac_serial, xml_line(protocol), endpoint_);
     return found->second;
   }
@@ -108,8 +123,11 @@ std::vector<CapturedFrame> captured_frames(const CaseResult& result) {
   const Event* before = nullptr;
   for (const Event& event : result.exchange) {
     if (event.kind == Event::Kind::note || event.bytes.empty()) continue;
-    if (before && continues(event, *before)) join(frames.back(), event);
-    else frames.push_back({event.kind == Event::Kind::sent, event.start, event.end, event.bytes, comment_of(result, event)});
+    if (before && continues(event, *before))
+      join(frames.back(), event);
+    else
+      frames.push_back({event.kind == Event::Kind::sent, event.start, event.end, event.bytes,
+                        comment_of(result, event)});
     before = &event;
   }
   return frames;

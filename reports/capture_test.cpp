@@ -23,10 +23,11 @@ CaseResult with_exchange(std::vector<Event> exchange) {
 }
 
 TEST(CapturedFrames, JoinsWhatAPortDeliversInPieces) {
-  const auto frames = captured_frames(with_exchange({piece(Event::Kind::sent, "05 30", 0ms, 0),
-                                                     piece(Event::Kind::received, "06 30", 5ms, 1),
-                                                     {Event::Kind::note, 6ms, 6ms, {}, "a note", -1, false},
-                                                     piece(Event::Kind::received, "31 03", 6ms, 1)}));
+  const auto frames =
+      captured_frames(with_exchange({piece(Event::Kind::sent, "05 30", 0ms, 0),
+                                     piece(Event::Kind::received, "06 30", 5ms, 1),
+                                     {Event::Kind::note, 6ms, 6ms, {}, "a note", -1, false},
+                                     piece(Event::Kind::received, "31 03", 6ms, 1)}));
   ASSERT_EQ(2u, frames.size());
   EXPECT_TRUE(frames[0].sent);
   EXPECT_FALSE(frames[1].sent);
@@ -37,18 +38,23 @@ TEST(CapturedFrames, JoinsWhatAPortDeliversInPieces) {
 }
 
 TEST(CapturedFrames, APauseInsideAFrameIsSaid) {
-  const auto frames = captured_frames(with_exchange({piece(Event::Kind::sent, "05 30", 0ms, 0), piece(Event::Kind::sent, "31", 21ms, 0)}));
+  const auto frames = captured_frames(with_exchange(
+      {piece(Event::Kind::sent, "05 30", 0ms, 0), piece(Event::Kind::sent, "31", 21ms, 0)}));
   ASSERT_EQ(1u, frames.size());
   EXPECT_EQ("a/b, step 1: PASS; pause of 20.000 ms after 2 bytes", frames[0].comment);
 }
 
 TEST(CapturedFrames, StepsProbesAndSurplusStayApart) {
-  const auto frames = captured_frames(with_exchange({piece(Event::Kind::sent, "01", 0ms, 0), piece(Event::Kind::sent, "02", 1ms, 1),
-                                                     piece(Event::Kind::received, "03", 2ms, 2), piece(Event::Kind::received, "04", 3ms, -1, true),
-                                                     piece(Event::Kind::sent, "05", 4ms, -1), piece(Event::Kind::sent, "06", 5ms, -1)}));
+  const auto frames = captured_frames(with_exchange(
+      {piece(Event::Kind::sent, "01", 0ms, 0), piece(Event::Kind::sent, "02", 1ms, 1),
+       piece(Event::Kind::received, "03", 2ms, 2),
+       piece(Event::Kind::received, "04", 3ms, -1, true), piece(Event::Kind::sent, "05", 4ms, -1),
+       piece(Event::Kind::sent, "06", 5ms, -1)}));
   std::vector<std::string> comments;
   for (const CapturedFrame& frame : frames) comments.push_back(frame.comment);
-  EXPECT_THAT(comments, testing::ElementsAre("a/b, step 1: PASS", "a/b, step 2: PASS", "a/b, step 3: PASS", "a/b, surplus: PASS", "a/b, probe: PASS", "a/b, probe: PASS"));
+  EXPECT_THAT(comments,
+              testing::ElementsAre("a/b, step 1: PASS", "a/b, step 2: PASS", "a/b, step 3: PASS",
+                                   "a/b, surplus: PASS", "a/b, probe: PASS", "a/b, probe: PASS"));
 }
 
 TEST(CapturedFrames, OfAnOldRecordingHaveNoStep) {
@@ -57,11 +63,14 @@ TEST(CapturedFrames, OfAnOldRecordingHaveNoStep) {
 
 TEST(Pcapng, BlocksAreWholeWordsBetweenTheirLengths) {
   const Bytes frame = *from_hex("01 02 03");
-  for (const std::string& block : {pcapng_section("application", "hardware"), pcapng_section("", ""),
-                                   pcapng_interface(linktype_rtac_serial, "xgt-cnet", "x"), pcapng_packet({0, 0, true, frame, "comment"})}) {
+  for (const std::string& block :
+       {pcapng_section("application", "hardware"), pcapng_section("", ""),
+        pcapng_interface(linktype_rtac_serial, "xgt-cnet", "x"),
+        pcapng_packet({0, 0, true, frame, "comment"})}) {
     EXPECT_EQ(0u, block.size() % 4);
     EXPECT_EQ(block.substr(4, 4), block.substr(block.size() - 4));
-    EXPECT_EQ(block.size(), static_cast<unsigned char>(block[4]) + 256u * static_cast<unsigned char>(block[5]));
+    EXPECT_EQ(block.size(),
+              static_cast<unsigned char>(block[4]) + 256u * static_cast<unsigned char>(block[5]));
   }
 }
 

@@ -29,7 +29,8 @@ std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t la
 }
 
 std::string dump(const FrameCells& cells, const CaseTextOptions& options, bool offsets) {
-  const std::size_t shown = options.limit == 0 ? cells.size() : std::min(cells.size(), options.limit);
+  const std::size_t shown =
+      options.limit == 0 ? cells.size() : std::min(cells.size(), options.limit);
   std::string text;
   for (std::size_t first = 0; first < shown; first += bytes_a_line) {
     text += dump_line(cells, first, std::min(first + bytes_a_line, shown), offsets);
@@ -67,7 +68,8 @@ class Block {
   std::string text_;
 };
 
-/// The frame that the judged answer answers: the last sent before it; without an answer, the last sent.
+/// The frame that the judged answer answers: the last sent before it; without an answer, the last
+/// sent.
 const Event* request_of(const CaseResult& result) {
   const Event* request = nullptr;
   const Event* before_answer = nullptr;
@@ -83,14 +85,16 @@ std::string clause(const CaseResult& result) {
   std::string text = xml_line(result.manual);
   if (!result.section.empty()) text += (text.empty() ? "" : ", ") + xml_line(result.section);
   if (!result.level.empty()) {
-    text += fmt::format("{}({}, {})", text.empty() ? "" : " ", xml_line(result.level), xml_line(result.basis));
+    text += fmt::format("{}({}, {})", text.empty() ? "" : " ", xml_line(result.level),
+                        xml_line(result.basis));
   }
   if (!result.quote.empty()) text += fmt::format("\n\"{}\"", xml_line(result.quote));
   return text;
 }
 
 /// Notation above, bytes below.
-std::string frame(const std::string& notation, const std::string& bytes, const CaseTextOptions& options) {
+std::string frame(const std::string& notation, const std::string& bytes,
+                  const CaseTextOptions& options) {
   return (notation.empty() ? "" : shorten(notation, options) + '\n') + bytes;
 }
 
@@ -104,7 +108,8 @@ std::string differences(const CaseResult& result, const CaseTextOptions& options
   constexpr std::size_t widest = 40;  // one long value must not push all others aside
   std::array<std::size_t, 3> widths{};
   for (const Row& row : rows) {
-    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::min(widest, std::max(widths[i], characters(row[i])));
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      widths[i] = std::min(widest, std::max(widths[i], characters(row[i])));
   }
   std::string text;
   for (const Row& row : rows) {
@@ -131,7 +136,8 @@ void add_frames(Block& block, const CaseResult& result, const CaseTextOptions& o
   if (const Event* request = request_of(result)) {
     block.add("sent", frame(request->text, hex_dump(request->bytes, options), options));
   }
-  const std::string expected_bytes = expected ? dump(*expected, options, offsets) : shorten(result.expected_hex, options);
+  const std::string expected_bytes =
+      expected ? dump(*expected, options, offsets) : shorten(result.expected_hex, options);
   block.add("expected", frame(result.expected, expected_bytes, options));
   const std::string came = frame(result.received, dump(received, options, offsets), options);
   block.add("received", came.empty() ? "nothing" : came);
@@ -150,20 +156,25 @@ const char* arrow(Event::Kind kind) {
 
 std::string shorten(const std::string& text, const CaseTextOptions& options) {
   const std::size_t limit = options.limit * 4;  // a byte in notation takes one to four characters
-  // Cleaning never shortens: what stands far behind the cut need not be cleaned. A character split here is behind it, too.
-  const std::string clean = xml_line(limit == 0 ? std::string_view(text) : std::string_view(text).substr(0, limit + 4));
+  // Cleaning never shortens: what stands far behind the cut need not be cleaned. A character split
+  // here is behind it, too.
+  const std::string clean =
+      xml_line(limit == 0 ? std::string_view(text) : std::string_view(text).substr(0, limit + 4));
   if (limit == 0 || clean.size() <= limit) return clean;
   std::size_t cut = limit;
-  while (cut > 0 && (static_cast<Byte>(clean[cut]) & 0xC0u) == 0x80u) --cut;  // not within a character
+  while (cut > 0 && (static_cast<Byte>(clean[cut]) & 0xC0u) == 0x80u)
+    --cut;  // not within a character
   return clean.substr(0, cut) + " ...";
 }
 
 std::string case_name(const CaseResult& result) {
-  return result.line.empty() ? xml_line(result.id) : fmt::format("{} [{}]", xml_line(result.id), xml_line(result.line));
+  return result.line.empty() ? xml_line(result.id)
+                             : fmt::format("{} [{}]", xml_line(result.id), xml_line(result.line));
 }
 
 std::string case_label(const CaseResult& result) {
-  return result.repeat == 0 ? case_name(result) : fmt::format("{} #{}", case_name(result), result.repeat + 1);
+  return result.repeat == 0 ? case_name(result)
+                            : fmt::format("{} #{}", case_name(result), result.repeat + 1);
 }
 
 std::string case_timing(const CaseResult& result) {
@@ -172,13 +183,14 @@ std::string case_timing(const CaseResult& result) {
   if (times.size() == 1) return fmt::format("reply after {:.3f} ms", times[0]);
   if (times.size() <= 4) {
     std::string text = "replies after";
-    for (const double& time : times) text += fmt::format("{} {:.3f}", &time == &times.front() ? "" : ",", time);
+    for (const double& time : times)
+      text += fmt::format("{} {:.3f}", &time == &times.front() ? "" : ",", time);
     return text + " ms";
   }
   std::vector<double> sorted = times;
   std::sort(sorted.begin(), sorted.end());
-  return fmt::format("{} replies after {:.3f} to {:.3f} ms, median {:.3f} ms", sorted.size(), sorted.front(), sorted.back(),
-                     sorted[sorted.size() / 2]);
+  return fmt::format("{} replies after {:.3f} to {:.3f} ms, median {:.3f} ms", sorted.size(),
+                     sorted.front(), sorted.back(), sorted[sorted.size() / 2]);
 }
 
 std::string case_message(const CaseResult& result) {
@@ -203,7 +215,8 @@ std::string indent(std::string_view lines, std::size_t columns) {
 
 std::string frame_monitor(const CaseResult& result, const CaseTextOptions& options) {
   if (result.exchange.empty()) return "";
-  const auto row = [](const std::string& time, const std::string& gap, const char* direction, const std::string& text) {
+  const auto row = [](const std::string& time, const std::string& gap, const char* direction,
+                      const std::string& text) {
     return fmt::format("{:>10}  {:>9}  {}  {}\n", time, gap, direction, text);
   };
   constexpr std::size_t frame_column = 28;
@@ -212,8 +225,10 @@ std::string frame_monitor(const CaseResult& result, const CaseTextOptions& optio
   std::optional<Time> last_end;
   for (const Event& event : result.exchange) {
     const bool is_frame = event.kind != Event::Kind::note;
-    const std::string gap = is_frame && last_end ? fmt::format("{:.3f}", to_ms(event.start - *last_end)) : "";
-    text += row(fmt::format("{:.3f}", to_ms(event.start - zero)), gap, arrow(event.kind), shorten(event.text, options));
+    const std::string gap =
+        is_frame && last_end ? fmt::format("{:.3f}", to_ms(event.start - *last_end)) : "";
+    text += row(fmt::format("{:.3f}", to_ms(event.start - zero)), gap, arrow(event.kind),
+                shorten(event.text, options));
     if (!is_frame) continue;
     text += indent(hex_dump(event.bytes, options), frame_column);
     last_end = event.end;
@@ -229,9 +244,11 @@ std::string case_block(const CaseResult& result, const CaseTextOptions& options)
   if (!result.differences.empty()) block.add("differs", differences(result, options));
   block.add("timing", case_timing(result));
   block.add("device", xml_line(result.dut));
-  if (!result.exchange.empty() && (options.exchange || several_sent(result))) block.add("exchange", frame_monitor(result, options));
+  if (!result.exchange.empty() && (options.exchange || several_sent(result)))
+    block.add("exchange", frame_monitor(result, options));
   std::string readings;
-  for (const auto& [name, taken] : result.readings) readings += fmt::format("{} = {}\n", xml_line(name), xml_line(taken));
+  for (const auto& [name, taken] : result.readings)
+    readings += fmt::format("{} = {}\n", xml_line(name), xml_line(taken));
   block.add("reading", readings);
   std::string notes;
   for (const std::string& note : result.notes) notes += xml_line(note) + '\n';

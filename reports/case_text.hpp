@@ -1,4 +1,5 @@
-// A case in words, frames and numbers: the block that the console prints and that stands in the body of a JUnit failure.
+// A case in words, frames and numbers: the block that the console prints and that stands in the
+// body of a JUnit failure.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,8 @@ namespace fieldproof {
 
 struct CaseTextOptions {
   std::size_t limit = 0;  // bytes of a frame that are shown; 0: all
-  bool exchange = false;  // the exchange in any case; else only where a case sends more than one frame
+  bool exchange =
+      false;  // the exchange in any case; else only where a case sends more than one frame
 };
 
 /// One line of text that may be long, cut where the frame that it is about would be.
@@ -26,11 +28,13 @@ std::string case_label(const CaseResult& result);
 /// One line: what is wrong; the verdict's word where nothing is said.
 std::string case_message(const CaseResult& result);
 
-/// "reply after 4.208 ms"; of many, how many with least, greatest and median. Empty without a reply.
+/// "reply after 4.208 ms"; of many, how many with least, greatest and median. Empty without a
+/// reply.
 std::string case_timing(const CaseResult& result);
 
-/// Title, clause and quote, sent, expected and received frames (notation, and hex with the bytes that differ marked),
-/// differences as a table, timing, readings, notes and replay command. What is not known is left out.
+/// Title, clause and quote, sent, expected and received frames (notation, and hex with the bytes
+/// that differ marked), differences as a table, timing, readings, notes and replay command. What is
+/// not known is left out.
 ///
 ///   Read one word from M20 and one from P001 of station 1
 ///   clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed)
@@ -42,7 +46,8 @@ std::string case_timing(const CaseResult& result);
 /// Each line ends with a line feed; only characters that xml_text allows.
 std::string case_block(const CaseResult& result, const CaseTextOptions& options = {});
 
-/// The exchange as a frame monitor shows it: time since its first event, gap since the frame before it (ms), direction.
+/// The exchange as a frame monitor shows it: time since its first event, gap since the frame before
+/// it (ms), direction.
 std::string frame_monitor(const CaseResult& result, const CaseTextOptions& options = {});
 
 /// Hex in lines of 16 bytes, with offsets where there is more than one line: "06 30 31 ...".

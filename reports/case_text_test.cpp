@@ -53,14 +53,19 @@ CaseResult answer(const std::string& expected_hex, const std::string& received) 
 }
 
 TEST(CaseBlock, MarksEachByteThatDiffers) {
-  EXPECT_EQ("expected  06 30 ?? 31\n"
-            "received  06 31 99 32\n             ^^    ^^\n", case_block(answer("06 30 ?? 31", "06 31 99 32")));
+  EXPECT_EQ(
+      "expected  06 30 ?? 31\n"
+      "received  06 31 99 32\n             ^^    ^^\n",
+      case_block(answer("06 30 ?? 31", "06 31 99 32")));
 }
 
 TEST(CaseBlock, MarksTheFirstByteOnlyWhereTheRestHasMoved) {
-  EXPECT_EQ("expected  06 30 31\nreceived  06 31\n             ^^\n", case_block(answer("06 30 31", "06 31")));
-  EXPECT_EQ("expected  06 30\nreceived  06 30 31 32\n                ^^\n", case_block(answer("06 30", "06 30 31 32")));
-  EXPECT_EQ("expected  06 30 31\nreceived  06 30 --\n                ^^\n", case_block(answer("06 30 31", "06 30")));
+  EXPECT_EQ("expected  06 30 31\nreceived  06 31\n             ^^\n",
+            case_block(answer("06 30 31", "06 31")));
+  EXPECT_EQ("expected  06 30\nreceived  06 30 31 32\n                ^^\n",
+            case_block(answer("06 30", "06 30 31 32")));
+  EXPECT_EQ("expected  06 30 31\nreceived  06 30 --\n                ^^\n",
+            case_block(answer("06 30 31", "06 30")));
 }
 
 TEST(CaseBlock, ExpectedAndReceivedStandByteBelowByte) {
@@ -69,7 +74,8 @@ TEST(CaseBlock, ExpectedAndReceivedStandByteBelowByte) {
 }
 
 TEST(CaseBlock, AlternativesInWordsStayWords) {
-  EXPECT_EQ("expected  as_sent 06, upper 15\nreceived  07\n", case_block(answer("as_sent 06, upper 15", "07")));
+  EXPECT_EQ("expected  as_sent 06, upper 15\nreceived  07\n",
+            case_block(answer("as_sent 06, upper 15", "07")));
 }
 
 TEST(CaseBlock, TheRequestIsTheOneThatWasAnswered) {
@@ -77,26 +83,31 @@ TEST(CaseBlock, TheRequestIsTheOneThatWasAnswered) {
   result.exchange.push_back({Event::Kind::sent, 4s, 4s, {0x05}, "SANITY"});
   EXPECT_THAT(case_block(result), HasSubstr("sent      ENQ '01rSS0106%MW100' EOT 'A3'"));
   result.received_bytes.clear();
-  EXPECT_THAT(case_block(result), HasSubstr("sent      SANITY")) << "no answer: the last that was sent";
+  EXPECT_THAT(case_block(result), HasSubstr("sent      SANITY"))
+      << "no answer: the last that was sent";
 }
 
 TEST(CaseBlock, SeveralFramesShowTheExchange) {
   auto result = samples::failure();
   EXPECT_THAT(case_block(result), Not(HasSubstr("exchange")));
-  EXPECT_THAT(case_block(result, {.exchange = true}), HasSubstr("exchange     time ms     gap ms       frame"));
+  EXPECT_THAT(case_block(result, {.exchange = true}),
+              HasSubstr("exchange     time ms     gap ms       frame"));
   result.exchange.push_back(result.exchange[0]);
   EXPECT_THAT(case_block(result), HasSubstr("exchange     time ms"));
 }
 
 TEST(CaseBlock, DifferencesAreAligned) {
   CaseResult result;
-  result.differences = {{"block count", "01", "00", ""}, {"국번", "00", "01", "station"},
+  result.differences = {{"block count", "01", "00", ""},
+                        {"국번", "00", "01", "station"},
                         {"data", std::string(50, '1'), "2", "long"}};
-  EXPECT_EQ("differs   field        expected                                  received\n"
-            "          block count  01                                        00\n"
-            "          국번           00                                        01        station\n"
-            "          data         " + std::string(50, '1') + "  2         long\n",
-            case_block(result));
+  EXPECT_EQ(
+      "differs   field        expected                                  received\n"
+      "          block count  01                                        00\n"
+      "          국번           00                                        01        station\n"
+      "          data         " +
+          std::string(50, '1') + "  2         long\n",
+      case_block(result));
 }
 
 TEST(CaseBlock, Timing) {
@@ -125,8 +136,8 @@ TEST(CaseBlock, NothingInItHarmsATerminalOrXml) {
   auto result = samples::failure();
   std::string every;
   for (int b = 0; b < 256; ++b) every += static_cast<char>(b);
-  result.title = result.manual = result.section = result.level = result.basis = result.quote = result.expected = result.received =
-      result.replay = every;
+  result.title = result.manual = result.section = result.level = result.basis = result.quote =
+      result.expected = result.received = result.replay = every;
   result.expected_hex = every;
   result.notes = {every};
   result.readings = {{every, every}};

@@ -19,19 +19,19 @@ struct CaseSummary {
   Verdict verdict = Verdict::error;  // the gravest
   std::string message;               // of that
   std::string title;
-  int rev = 0;                       // 0: the file does not say
+  int rev = 0;  // 0: the file does not say
   std::size_t repetitions = 0;
-  std::size_t with_verdict = 0;      // repetitions that came to `verdict`
-  std::vector<double> response_ms;   // of all repetitions
-  double timing_floor_ms = 0;        // what the link cannot tell apart
+  std::size_t with_verdict = 0;     // repetitions that came to `verdict`
+  std::vector<double> response_ms;  // of all repetitions
+  double timing_floor_ms = 0;       // what the link cannot tell apart
 };
 
 struct RunSummary {
   std::string path;
   RunInfo run;
   std::optional<RunEnd> end;
-  Gate gate;                         // as the run was judged
-  Tally tally;                       // results
+  Gate gate;    // as the run was judged
+  Tally tally;  // results
   std::map<std::string, CaseSummary> cases;
 };
 RunSummary summarize(const ResultFile& file);
@@ -48,9 +48,10 @@ enum class Change {
   removed,           // in the old run alone
   revised            // the vector asserts something else (`rev`): not comparable
 };
-inline constexpr std::array<Change, 9> all_changes = {Change::newly_failing, Change::weaker,       Change::no_longer_judged,
-                                                      Change::newly_passing, Change::other_reason, Change::other_verdict,
-                                                      Change::added,         Change::removed,      Change::revised};
+inline constexpr std::array<Change, 9> all_changes = {
+    Change::newly_failing, Change::weaker,       Change::no_longer_judged,
+    Change::newly_passing, Change::other_reason, Change::other_verdict,
+    Change::added,         Change::removed,      Change::revised};
 /// "newly failing"
 std::string to_string(Change change);
 /// "red now, and not before"
@@ -68,30 +69,30 @@ struct CaseChange {
 /// A case whose reply times shifted by more than chance, and by enough to matter.
 struct TimeShift {
   std::string id;
-  double before_ms = 0, after_ms = 0;         // medians
-  double shift_ms = 0;                        // Hodges-Lehmann; positive: slower
+  double before_ms = 0, after_ms = 0;  // medians
+  double shift_ms = 0;                 // Hodges-Lehmann; positive: slower
   double p = 1, corrected_p = 1;
   std::size_t replies_before = 0, replies_after = 0;
 };
 
 /// What was tested, so that "no shift" can be told from "could not be seen".
 struct TimingTest {
-  static constexpr double alpha = 0.05;         // chance of even one false alarm in the whole comparison
-  static constexpr double least_share = 0.05;   // of the old median
+  static constexpr double alpha = 0.05;  // chance of even one false alarm in the whole comparison
+  static constexpr double least_share = 0.05;  // of the old median
   static constexpr double least_ms = 0.5;
   static constexpr std::size_t least_replies = 4;  // fewer cannot reach alpha
-  std::size_t tested = 0;                       // cases
-  std::size_t too_few = 0;                      // cases with reply times, but too few of them
-  std::size_t exact = 0;                        // tested by the exact distribution
+  std::size_t tested = 0;                          // cases
+  std::size_t too_few = 0;                         // cases with reply times, but too few of them
+  std::size_t exact = 0;                           // tested by the exact distribution
 };
 
 struct Comparison {
   const RunSummary* before = nullptr;
   const RunSummary* after = nullptr;
-  std::vector<CaseChange> changes;              // in the order of Change, then of ids
-  std::vector<TimeShift> shifts;                // slower first, the largest first
+  std::vector<CaseChange> changes;  // in the order of Change, then of ids
+  std::vector<TimeShift> shifts;    // slower first, the largest first
   TimingTest timing;
-  std::size_t unchanged = 0;                    // cases
+  std::size_t unchanged = 0;  // cases
   std::size_t count(Change change) const;
   std::size_t slower() const;
   bool worse() const;
@@ -103,7 +104,7 @@ Comparison compare(const RunSummary& before, const RunSummary& after);
 /// One row a case over all runs, the rows that differ first.
 struct MatrixRow {
   std::string id;
-  std::vector<const CaseSummary*> cells;        // one a run; nullptr: not in it
+  std::vector<const CaseSummary*> cells;  // one a run; nullptr: not in it
   bool differs = false;
 };
 std::vector<MatrixRow> matrix(const std::vector<RunSummary>& runs);
@@ -114,8 +115,8 @@ struct ComparisonSet {
   ComparisonSet(const ComparisonSet&) = delete;
   ComparisonSet& operator=(const ComparisonSet&) = delete;
 
-  std::vector<RunSummary> runs;                 // at least two
-  std::vector<Comparison> comparisons;          // runs[0] with runs[i + 1]
+  std::vector<RunSummary> runs;         // at least two
+  std::vector<Comparison> comparisons;  // runs[0] with runs[i + 1]
   std::vector<MatrixRow> rows;
   bool worse() const;
   /// "A", "B", ...: how tables name the runs.

@@ -16,7 +16,9 @@ void write_cell(HtmlWriter& out, const CaseSummary* summary) {
   out.element("td", {}, [&] {
     if (!summary) return out.text("\u2013");
     write_verdict(out, summary->verdict);
-    if (summary->with_verdict < summary->repetitions) out.element("small", {}, fmt::format("{} of {}", summary->with_verdict, summary->repetitions));
+    if (summary->with_verdict < summary->repetitions)
+      out.element("small", {},
+                  fmt::format("{} of {}", summary->with_verdict, summary->repetitions));
   });
 }
 
@@ -35,11 +37,15 @@ void write_folded(HtmlWriter& out, bool open, const std::string& summary, const 
     out.element("summary", {}, [&] { out.element("b", {}, summary); });
     body();
   };
-  if (open) out.element("details", {{"open", "open"}}, inside);
-  else out.element("details", {}, inside);
+  if (open)
+    out.element("details", {{"open", "open"}}, inside);
+  else
+    out.element("details", {}, inside);
 }
 
-std::string pair_name(std::size_t i) { return ComparisonSet::letter(0) + " to " + ComparisonSet::letter(i + 1); }
+std::string pair_name(std::size_t i) {
+  return ComparisonSet::letter(0) + " to " + ComparisonSet::letter(i + 1);
+}
 
 void write_banner(HtmlWriter& out, const ComparisonSet& set) {
   out.element("div", {{"class", set.worse() ? "banner bad" : "banner good"}}, [&] {
@@ -47,8 +53,9 @@ void write_banner(HtmlWriter& out, const ComparisonSet& set) {
     out.element("h1", {}, set.worse() ? "something got worse" : "nothing got worse");
     for (std::size_t i = 0; i < set.comparisons.size(); ++i) {
       const Comparison& one = set.comparisons[i];
-      out.element("p", {{"class", "detail"}}, fmt::format("{}: {}; {} of {} cases unchanged", pair_name(i), outcome(one), one.unchanged,
-                                                          one.unchanged + one.changes.size()));
+      out.element("p", {{"class", "detail"}},
+                  fmt::format("{}: {}; {} of {} cases unchanged", pair_name(i), outcome(one),
+                              one.unchanged, one.unchanged + one.changes.size()));
     }
   });
 }
@@ -82,11 +89,13 @@ void write_change(HtmlWriter& out, const CaseChange& change) {
     write_cell(out, change.after);
     out.element("td", {}, [&] {
       const auto message = [&](const CaseSummary* summary, const char* when) {
-        if (summary && !summary->message.empty()) out.element("p", {}, fmt::format("{}: {}", when, summary->message));
+        if (summary && !summary->message.empty())
+          out.element("p", {}, fmt::format("{}: {}", when, summary->message));
       };
       message(change.before, "before");
       message(change.after, "now");
-      if (change.change == Change::revised) out.element("p", {}, fmt::format("rev {} to {}", change.before->rev, change.after->rev));
+      if (change.change == Change::revised)
+        out.element("p", {}, fmt::format("rev {} to {}", change.before->rev, change.after->rev));
     });
   });
   out.markup("\n");
@@ -99,14 +108,15 @@ void write_changes(HtmlWriter& out, const Comparison& comparison, std::size_t in
     const std::size_t count = comparison.count(kind);
     if (count == 0) continue;
     const bool told_first = kind <= Change::other_reason;
-    write_folded(out, told_first, fmt::format("{} {}: {}", count, to_string(kind), meaning(kind)), [&] {
-      out.element("table", {{"class", "list"}}, [&] {
-        write_head(out, {"Case", before, after, "What was said"});
-        out.element("tbody", {}, [&] {
-          for (std::size_t i = 0; i < count; ++i, ++next) write_change(out, *next);
-        });
-      });
-    });
+    write_folded(out, told_first, fmt::format("{} {}: {}", count, to_string(kind), meaning(kind)),
+                 [&] {
+                   out.element("table", {{"class", "list"}}, [&] {
+                     write_head(out, {"Case", before, after, "What was said"});
+                     out.element("tbody", {}, [&] {
+                       for (std::size_t i = 0; i < count; ++i, ++next) write_change(out, *next);
+                     });
+                   });
+                 });
   }
 }
 
@@ -114,7 +124,8 @@ void write_times(HtmlWriter& out, const Comparison& comparison) {
   const TimingTest& timing = comparison.timing;
   if (timing.tested + timing.too_few == 0) return;
   out.element("h3", {}, "Reply times");
-  if (comparison.shifts.empty()) out.element("p", {}, timing.tested > 0 ? "No shift that is more than chance." : "Not tested.");
+  if (comparison.shifts.empty())
+    out.element("p", {}, timing.tested > 0 ? "No shift that is more than chance." : "Not tested.");
   else
     out.element("table", {{"class", "list"}}, [&] {
       write_head(out, {"", "Case", "Medians and shift"});
@@ -122,7 +133,10 @@ void write_times(HtmlWriter& out, const Comparison& comparison) {
         for (const TimeShift& shift : comparison.shifts) {
           out.element("tr", {}, [&] {
             const bool slower = shift.shift_ms > 0;
-            out.element("td", {}, [&] { out.element("span", {{"class", slower ? "verdict v-fail" : "verdict v-pass"}}, slower ? "slower" : "faster"); });
+            out.element("td", {}, [&] {
+              out.element("span", {{"class", slower ? "verdict v-fail" : "verdict v-pass"}},
+                          slower ? "slower" : "faster");
+            });
             out.element("th", {}, [&] { out.element("code", {}, shift.id); });
             out.element("td", {}, shift_text(shift));
           });
@@ -139,7 +153,8 @@ void write_matrix_table(HtmlWriter& out, const ComparisonSet& set, const Rows& r
     out.element("thead", {}, [&] {
       out.element("tr", {}, [&] {
         out.element("th", {}, "Case");
-        for (std::size_t i = 0; i < set.runs.size(); ++i) out.element("th", {}, ComparisonSet::letter(i));
+        for (std::size_t i = 0; i < set.runs.size(); ++i)
+          out.element("th", {}, ComparisonSet::letter(i));
       });
     });
     out.element("tbody", {}, [&] {
@@ -159,9 +174,13 @@ void write_matrix(HtmlWriter& out, const ComparisonSet& set) {
   const auto same = std::ranges::find(set.rows, false, &MatrixRow::differs);
   const auto differing = std::ranges::subrange(set.rows.begin(), same);
   const auto equal = std::ranges::subrange(same, set.rows.end());
-  if (differing.empty()) out.element("p", {}, "No case differs.");
-  else write_matrix_table(out, set, differing);
-  if (!equal.empty()) write_folded(out, false, fmt::format("{} cases alike in all runs", equal.size()), [&] { write_matrix_table(out, set, equal); });
+  if (differing.empty())
+    out.element("p", {}, "No case differs.");
+  else
+    write_matrix_table(out, set, differing);
+  if (!equal.empty())
+    write_folded(out, false, fmt::format("{} cases alike in all runs", equal.size()),
+                 [&] { write_matrix_table(out, set, equal); });
 }
 
 }  // namespace

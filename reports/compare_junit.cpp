@@ -13,31 +13,40 @@
 namespace fieldproof {
 namespace {
 
-void set_text(pugi::xml_node node, const char* name, const std::string& value) { node.append_attribute(name).set_value(xml_line(value).c_str()); }
+void set_text(pugi::xml_node node, const char* name, const std::string& value) {
+  node.append_attribute(name).set_value(xml_line(value).c_str());
+}
 void set_count(pugi::xml_node node, const char* name, std::size_t value) {
   node.append_attribute(name).set_value(static_cast<unsigned long long>(value));
 }
 
-bool is_incomparable(Change change) { return change == Change::added || change == Change::removed || change == Change::revised; }
+bool is_incomparable(Change change) {
+  return change == Change::added || change == Change::removed || change == Change::revised;
+}
 
 std::string body_of(const CaseChange& change) {
   std::string body = fmt::format("{}: {}\n", to_string(change.change), meaning(change.change));
   const auto side = [&](const char* name, const CaseSummary* summary) {
     if (!summary) return;
-    body += fmt::format("{}  {}{}{}\n", name, verdict_text(summary), summary->message.empty() ? "" : "  ", xml_text(summary->message));
+    body += fmt::format("{}  {}{}{}\n", name, verdict_text(summary),
+                        summary->message.empty() ? "" : "  ", xml_text(summary->message));
   };
   side("before", change.before);
   side("after ", change.after);
   return body;
 }
 
-/// Class names begin with the suite's name: a case stands in each suite, and readers want it unique.
-pugi::xml_node add_case(pugi::xml_node suite, const std::string& id, const std::string& suffix = "") {
+/// Class names begin with the suite's name: a case stands in each suite, and readers want it
+/// unique.
+pugi::xml_node add_case(pugi::xml_node suite, const std::string& id,
+                        const std::string& suffix = "") {
   CaseResult named;
   named.id = id;
   const JunitName name = junit_name(named);
   pugi::xml_node node = suite.append_child("testcase");
-  set_text(node, "classname", suite.attribute("name").value() + name.classname.substr(std::string("fieldproof").size()));
+  set_text(
+      node, "classname",
+      suite.attribute("name").value() + name.classname.substr(std::string("fieldproof").size()));
   set_text(node, "name", name.name + suffix);
   set_text(node, "time", "0.000");
   return node;
@@ -49,7 +58,9 @@ void add_change(pugi::xml_node suite, const CaseChange& change) {
   if (worse || is_incomparable(change.change)) {
     pugi::xml_node outcome = node.append_child(worse ? "failure" : "skipped");
     set_text(outcome, "type", to_string(change.change));
-    set_text(outcome, "message", fmt::format("{}: {} -> {}", to_string(change.change), verdict_text(change.before), verdict_text(change.after)));
+    set_text(outcome, "message",
+             fmt::format("{}: {} -> {}", to_string(change.change), verdict_text(change.before),
+                         verdict_text(change.after)));
     if (worse) outcome.text().set(xml_text(body_of(change)).c_str());
   }
   if (!worse) node.append_child("system-out").text().set(xml_text(body_of(change)).c_str());
@@ -86,14 +97,16 @@ SuiteCounts add_suite(pugi::xml_node root, const Comparison& comparison, const s
     skipped += is_incomparable(change.change);
   }
   set_text(suite, "name", name);
-  const SuiteCounts counts{comparison.unchanged + comparison.changes.size() + comparison.shifts.size(), failures};
+  const SuiteCounts counts{
+      comparison.unchanged + comparison.changes.size() + comparison.shifts.size(), failures};
   set_count(suite, "tests", counts.tests);
   set_count(suite, "failures", counts.failures);
   set_count(suite, "errors", 0);
   set_count(suite, "skipped", skipped);
   set_text(suite, "time", "0.000");
   pugi::xml_node properties = suite.append_child("properties");
-  add_property(properties, "before", comparison.before->path + ": " + run_facts(*comparison.before));
+  add_property(properties, "before",
+               comparison.before->path + ": " + run_facts(*comparison.before));
   add_property(properties, "after", comparison.after->path + ": " + run_facts(*comparison.after));
   add_property(properties, "outcome", outcome(comparison));
   for (const CaseChange& change : comparison.changes) add_change(suite, change);
@@ -115,7 +128,9 @@ Status write_compare_junit(const ComparisonSet& set, const std::string& path) {
   set_text(root, "name", "fieldproof compare");
   SuiteCounts all;
   for (std::size_t i = 0; i < set.comparisons.size(); ++i) {
-    const SuiteCounts counts = add_suite(root, set.comparisons[i], fmt::format("compare_{}_{}", ComparisonSet::letter(0), ComparisonSet::letter(i + 1)));
+    const SuiteCounts counts = add_suite(
+        root, set.comparisons[i],
+        fmt::format("compare_{}_{}", ComparisonSet::letter(0), ComparisonSet::letter(i + 1)));
     all.tests += counts.tests;
     all.failures += counts.failures;
   }

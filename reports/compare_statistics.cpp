@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t exact_smaller = 10, exact_all = 40;
 constexpr std::size_t most_pairs = 250'000;
 
-/// Ranks of both samples together, doubled so that the middle ranks of ties are whole numbers; `before` first.
+/// Ranks of both samples together, doubled so that the middle ranks of ties are whole numbers;
+/// `before` first.
 struct Ranks {
   std::vector<std::size_t> doubled;
   double tie_sum = 0;  // of t^3 - t over groups of equal values
@@ -35,7 +36,8 @@ Ranks rank(const std::vector<double>& before, const std::vector<double>& after) 
   return ranks;
 }
 
-/// Among all ways to choose `count` of the ranks, the share whose sum lies as far from the middle as `sum`, or farther.
+/// Among all ways to choose `count` of the ranks, the share whose sum lies as far from the middle
+/// as `sum`, or farther.
 double exact_p(const std::vector<std::size_t>& ranks, std::size_t count, std::size_t sum) {
   const std::size_t total = std::accumulate(ranks.begin(), ranks.end(), std::size_t{0});
   std::vector<std::vector<double>> ways(count + 1, std::vector<double>(total + 1, 0.0));
@@ -44,9 +46,11 @@ double exact_p(const std::vector<std::size_t>& ranks, std::size_t count, std::si
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     reached += ranks[i];
     for (std::size_t chosen = std::min(count, i + 1); chosen >= 1; --chosen)
-      for (std::size_t s = reached; s >= ranks[i]; --s) ways[chosen][s] += ways[chosen - 1][s - ranks[i]];
+      for (std::size_t s = reached; s >= ranks[i]; --s)
+        ways[chosen][s] += ways[chosen - 1][s - ranks[i]];
   }
-  const double middle = static_cast<double>(total) * static_cast<double>(count) / static_cast<double>(ranks.size());
+  const double middle =
+      static_cast<double>(total) * static_cast<double>(count) / static_cast<double>(ranks.size());
   const double distance = std::abs(static_cast<double>(sum) - middle) - 1e-9;
   double all = 0, far = 0;
   for (std::size_t s = 0; s <= total; ++s) {
@@ -62,7 +66,8 @@ double normal_p(const Ranks& ranks, double n1, double n2, double doubled_sum) {
   const double variance = n1 * n2 / 12 * (n + 1 - ranks.tie_sum / (n * (n - 1)));
   if (variance <= 0) return 1;
   const double distance = std::max(0.0, std::abs(doubled_sum / 2 - n1 * (n + 1) / 2) - 0.5);
-  return std::min(1.0, 2 * boost::math::cdf(boost::math::complement(boost::math::normal(), distance / std::sqrt(variance))));
+  return std::min(1.0, 2 * boost::math::cdf(boost::math::complement(
+                               boost::math::normal(), distance / std::sqrt(variance))));
 }
 
 double hodges_lehmann(const std::vector<double>& before, const std::vector<double>& after) {
@@ -89,14 +94,17 @@ RankTest mann_whitney(const std::vector<double>& before, const std::vector<doubl
   const Ranks ranks = rank(before, after);
   const bool before_is_smaller = before.size() <= after.size();
   const auto split = ranks.doubled.begin() + static_cast<std::ptrdiff_t>(before.size());
-  const std::size_t sum = before_is_smaller ? std::accumulate(ranks.doubled.begin(), split, std::size_t{0})
-                                            : std::accumulate(split, ranks.doubled.end(), std::size_t{0});
+  const std::size_t sum = before_is_smaller
+                              ? std::accumulate(ranks.doubled.begin(), split, std::size_t{0})
+                              : std::accumulate(split, ranks.doubled.end(), std::size_t{0});
   const std::size_t smaller = std::min(before.size(), after.size());
   RankTest test;
   test.shift = hodges_lehmann(before, after);
   test.exact = smaller <= exact_smaller && ranks.doubled.size() <= exact_all;
   test.p = test.exact ? exact_p(ranks.doubled, smaller, sum)
-                      : normal_p(ranks, static_cast<double>(smaller), static_cast<double>(ranks.doubled.size() - smaller), static_cast<double>(sum));
+                      : normal_p(ranks, static_cast<double>(smaller),
+                                 static_cast<double>(ranks.doubled.size() - smaller),
+                                 static_cast<double>(sum));
   return test;
 }
 
@@ -115,7 +123,9 @@ std::vector<double> holm(const std::vector<double>& p) {
 
 std::size_t samples_needed(std::size_t tests, double alpha) {
   unsigned n = 2;
-  while (2 / boost::math::binomial_coefficient<double>(2 * n, n) > alpha / static_cast<double>(std::max<std::size_t>(tests, 1))) ++n;
+  while (2 / boost::math::binomial_coefficient<double>(2 * n, n) >
+         alpha / static_cast<double>(std::max<std::size_t>(tests, 1)))
+    ++n;
   return n;
 }
 

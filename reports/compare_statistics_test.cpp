@@ -16,7 +16,8 @@ std::vector<double> sample(std::size_t count, double from, double step) {
   return values;
 }
 
-/// The figures are those of published tables and of counting by hand: 2 of the C(n1+n2, n1) ways are as extreme.
+/// The figures are those of published tables and of counting by hand: 2 of the C(n1+n2, n1) ways
+/// are as extreme.
 TEST(MannWhitney, IsExactForFewSamples) {
   const RankTest apart = mann_whitney({1, 2, 3, 4}, {5, 6, 7, 8});
   EXPECT_TRUE(apart.exact);
@@ -24,7 +25,8 @@ TEST(MannWhitney, IsExactForFewSamples) {
   EXPECT_DOUBLE_EQ(apart.shift, 4);
   EXPECT_DOUBLE_EQ(mann_whitney({5, 6, 7, 8}, {1, 2, 3, 4}).p, 2.0 / 70);
   EXPECT_DOUBLE_EQ(mann_whitney({5, 6, 7, 8}, {1, 2, 3, 4}).shift, -4);
-  EXPECT_DOUBLE_EQ(mann_whitney({1, 2, 4}, {3, 5, 6, 7}).p, 4.0 / 35);  // U = 1: 2 ways of 35 on each side
+  EXPECT_DOUBLE_EQ(mann_whitney({1, 2, 4}, {3, 5, 6, 7}).p,
+                   4.0 / 35);  // U = 1: 2 ways of 35 on each side
   EXPECT_DOUBLE_EQ(mann_whitney({1}, {2}).p, 1);
   EXPECT_DOUBLE_EQ(mann_whitney({}, {2}).p, 1);
 }
@@ -33,12 +35,14 @@ TEST(MannWhitney, TakesTiesIntoAccount) {
   EXPECT_DOUBLE_EQ(mann_whitney({3, 3, 3, 3}, {3, 3, 3, 3}).p, 1);
   // Simulated time: each run repeats one value exactly.
   EXPECT_DOUBLE_EQ(mann_whitney({3, 3, 3, 3}, {4, 4, 4, 4}).p, 2.0 / 70);
-  // Of the 6 ways to choose 2 of {1, 2, 2, 3}: middle ranks 1, 2.5, 2.5, 4; sums 3.5, 3.5, 5, 5, 6.5, 6.5.
+  // Of the 6 ways to choose 2 of {1, 2, 2, 3}: middle ranks 1, 2.5, 2.5, 4; sums 3.5, 3.5, 5,
+  // 5, 6.5, 6.5.
   EXPECT_DOUBLE_EQ(mann_whitney({1, 2}, {2, 3}).p, 4.0 / 6);
 }
 
 TEST(MannWhitney, ApproximatesWhereThereAreMany) {
-  const auto before = sample(30, 10, 0.1), same = sample(30, 10.05, 0.1), later = sample(30, 12, 0.1);
+  const auto before = sample(30, 10, 0.1), same = sample(30, 10.05, 0.1),
+             later = sample(30, 12, 0.1);
   EXPECT_FALSE(mann_whitney(before, same).exact);
   EXPECT_GT(mann_whitney(before, same).p, 0.5);
   EXPECT_LT(mann_whitney(before, later).p, 1e-5);
@@ -46,8 +50,8 @@ TEST(MannWhitney, ApproximatesWhereThereAreMany) {
   EXPECT_DOUBLE_EQ(mann_whitney(std::vector<double>(50, 1), std::vector<double>(50, 1)).p, 1);
 }
 
-/// Counted out by another program: of 15 and 30 values, U = 345 is exact at p = 0.00322. Farther out the
-/// approximation is too large, that is, on the safe side: 0.000224 at U = 372.
+/// Counted out by another program: of 15 and 30 values, U = 345 is exact at p = 0.00322. Farther
+/// out the approximation is too large, that is, on the safe side: 0.000224 at U = 372.
 TEST(MannWhitney, ApproximationAgreesWithTheExactDistribution) {
   const auto before = sample(15, 0.5, 1);
   const RankTest near = mann_whitney(before, sample(30, 1, 1));
@@ -80,13 +84,15 @@ TEST(MannWhitney, HugeSamplesAreBearable) {
 }
 
 TEST(Holm, RaisesEachByItsRankAndKeepsTheOrder) {
-  EXPECT_THAT(holm({0.04, 0.01, 0.03}), ElementsAre(DoubleNear(0.06, 1e-12), DoubleNear(0.03, 1e-12), DoubleNear(0.06, 1e-12)));
+  EXPECT_THAT(
+      holm({0.04, 0.01, 0.03}),
+      ElementsAre(DoubleNear(0.06, 1e-12), DoubleNear(0.03, 1e-12), DoubleNear(0.06, 1e-12)));
   EXPECT_THAT(holm({0.9, 0.8}), ElementsAre(1.0, 1.0));
   EXPECT_TRUE(holm({}).empty());
 }
 
 TEST(SamplesNeeded, GrowsWithTheNumberOfTests) {
-  EXPECT_EQ(samples_needed(1, 0.05), 4u);     // 2/C(8,4) = 0.029, 2/C(6,3) = 0.1
+  EXPECT_EQ(samples_needed(1, 0.05), 4u);      // 2/C(8,4) = 0.029, 2/C(6,3) = 0.1
   EXPECT_EQ(samples_needed(3000, 0.05), 10u);  // 2/C(20,10) = 1.08e-5, 0.05/3000 = 1.67e-5
   EXPECT_EQ(samples_needed(0, 0.05), 4u);
 }

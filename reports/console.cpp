@@ -36,7 +36,8 @@ std::string coloured(const std::string& text, const char* code, const ConsoleOpt
 /// The word of a verdict in its colour, then blanks up to `width`.
 std::string verdict_word(Verdict verdict, std::size_t width, const ConsoleOptions& options) {
   const std::string word(to_string(verdict));
-  return coloured(word, colour_code(verdict, options.gate), options) + std::string(width - word.size(), ' ');
+  return coloured(word, colour_code(verdict, options.gate), options) +
+         std::string(width - word.size(), ' ');
 }
 
 std::string counts(const Tally& tally, const ConsoleOptions& options) {
@@ -45,14 +46,16 @@ std::string counts(const Tally& tally, const ConsoleOptions& options) {
   for (Verdict verdict : Tally::verdicts) {
     if (tally.of(verdict) == 0) continue;
     const std::string word = verdict_word(verdict, verdict_width, options);
-    text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, word, verdict_meaning(verdict), gate_hint(verdict, options.gate));
+    text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, word,
+                        verdict_meaning(verdict), gate_hint(verdict, options.gate));
   }
   return text;
 }
 
 std::string red_cases(const std::vector<std::string>& red) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(red.size(), red_limit); ++i) text += fmt::format("  {}\n", red[i]);
+  for (std::size_t i = 0; i < std::min(red.size(), red_limit); ++i)
+    text += fmt::format("  {}\n", red[i]);
   if (red.size() > red_limit) text += fmt::format("  ... and {} more\n", red.size() - red_limit);
   return text.empty() ? "" : "\nred:\n" + text;
 }
@@ -60,13 +63,15 @@ std::string red_cases(const std::vector<std::string>& red) {
 /// "45 s", "3 min", "2 h".
 std::string rough_time(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);
-  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.0f} h", seconds / 3600);
+  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60)
+                        : fmt::format("{:.0f} h", seconds / 3600);
 }
 
 std::string outcome(const Summary& summary, const ConsoleOptions& options) {
   const int code = summary.end.exit_code;
   std::string text = coloured(exit_meaning(code), code == 0 ? "32" : "1;31", options);
-  if (const std::string red = red_counts(summary.tally, options.gate); !red.empty()) text += ": " + red;
+  if (const std::string red = red_counts(summary.tally, options.gate); !red.empty())
+    text += ": " + red;
   if (!summary.end.trouble.empty()) text += fmt::format("; {}", xml_line(summary.end.trouble));
   return fmt::format("exit {}: {}\n", code, text);
 }
@@ -74,10 +79,13 @@ std::string outcome(const Summary& summary, const ConsoleOptions& options) {
 }  // namespace
 
 std::string run_head(const RunInfo& run) {
-  std::string text = fmt::format("fieldproof {}  {}", xml_line(run.tool_version), xml_line(run.endpoint));
+  std::string text =
+      fmt::format("fieldproof {}  {}", xml_line(run.tool_version), xml_line(run.endpoint));
   if (!run.profile.empty()) text += fmt::format("  profile {}", xml_line(run.profile));
-  for (const auto& [name, value] : run.properties) text += fmt::format("  {}={}", xml_line(name), xml_line(value));
-  for (const DutInfo& dut : run.duts) text += fmt::format("\n  {}: {}", xml_line(dut.identity.name), xml_line(device_text(dut)));
+  for (const auto& [name, value] : run.properties)
+    text += fmt::format("  {}={}", xml_line(name), xml_line(value));
+  for (const DutInfo& dut : run.duts)
+    text += fmt::format("\n  {}: {}", xml_line(dut.identity.name), xml_line(device_text(dut)));
   return text + '\n';
 }
 
@@ -89,19 +97,25 @@ std::string case_report(const CaseResult& result, const ConsoleOptions& options)
   text += '\n';
   // A case that never started has nothing but its message.
   const bool executed = red || !result.exchange.empty();
-  if (executed) text += indent(case_block(result, {.limit = console_limit, .exchange = options.verbose}), 2) + '\n';
+  if (executed)
+    text +=
+        indent(case_block(result, {.limit = console_limit, .exchange = options.verbose}), 2) + '\n';
   return text;
 }
 
-std::string Progress::line(const Tally& tally, std::size_t total, const std::string& next_id, Duration elapsed) {
+std::string Progress::line(const Tally& tally, std::size_t total, const std::string& next_id,
+                           Duration elapsed) {
   if (!options_.terminal || (shown_ && elapsed - drawn_ < shortest_display)) return "";
   const std::size_t done = tally.total();
   const std::size_t left = total - std::min(done, total);
   const std::string of = std::to_string(total);
   std::string text = fmt::format("[{:>{}}/{}] ", done, of.size(), of);
-  if (const std::size_t red = tally.gating(options_.gate); red > 0) text += fmt::format("{} red, ", red);
+  if (const std::size_t red = tally.gating(options_.gate); red > 0)
+    text += fmt::format("{} red, ", red);
   text += fmt::format("{} to go", left);
-  if (done > 0 && elapsed >= 1s) text += ", ~" + rough_time(std::chrono::duration<double>(elapsed).count() / static_cast<double>(done) * static_cast<double>(left));
+  if (done > 0 && elapsed >= 1s)
+    text += ", ~" + rough_time(std::chrono::duration<double>(elapsed).count() /
+                               static_cast<double>(done) * static_cast<double>(left));
   text += "  " + xml_line(next_id);
   // A line that wraps cannot be erased.
   const auto room = static_cast<std::size_t>(std::max(options_.width - 1, 0));
@@ -115,15 +129,18 @@ std::string Progress::erase() { return std::exchange(shown_, false) ? erase_line
 
 std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   const std::size_t total = summary.tally.total();
-  std::string text = fmt::format("\n{} case{} in {:.1f} s\n", total, total == 1 ? "" : "s", summary.end.seconds);
+  std::string text =
+      fmt::format("\n{} case{} in {:.1f} s\n", total, total == 1 ? "" : "s", summary.end.seconds);
   text += counts(summary.tally, options);
-  if (const std::string timing = timing_text(summary.timing); !timing.empty()) text += '\n' + timing;
+  if (const std::string timing = timing_text(summary.timing); !timing.empty())
+    text += '\n' + timing;
   if (summary.soak) text += '\n' + soak_text(*summary.soak);
   text += red_cases(summary.red);
   std::size_t width = 0;
   for (const auto& [kind, path] : summary.reports) width = std::max(width, kind.size());
   if (!summary.reports.empty()) text += '\n';
-  for (const auto& [kind, path] : summary.reports) text += fmt::format("{:<{}}  {}\n", kind, width, path);
+  for (const auto& [kind, path] : summary.reports)
+    text += fmt::format("{:<{}}  {}\n", kind, width, path);
   return text + '\n' + outcome(summary, options);
 }
 

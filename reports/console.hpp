@@ -24,18 +24,22 @@ struct ConsoleOptions {
 /// What a run is about, before its first case.
 std::string run_head(const RunInfo& run);
 
-/// A case as it happens: one line, and the block of case_text.hpp, when it turns the gate red or with -v; else nothing.
+/// A case as it happens: one line, and the block of case_text.hpp, when it turns the gate red or
+/// with -v; else nothing.
 std::string case_report(const CaseResult& result, const ConsoleOptions& options);
 
-/// The one line that moves. Only on a terminal: a log gets the cases that turn the gate red, and the summary.
+/// The one line that moves. Only on a terminal: a log gets the cases that turn the gate red, and
+/// the summary.
 class Progress {
  public:
   explicit Progress(const ConsoleOptions& options) : options_(options) {}
 
-  /// "[  12/1480] 1 red, 1468 to go, ~3 min  xgt_cnet/rss/two_words" over the line before it, before case `next_id` runs.
-  /// `elapsed` counts from the start of the run. Empty where the line is younger than 20 ms: a terminal must not slow
-  /// down cases of a tenth of a millisecond, while each case on a real line still shows.
-  std::string line(const Tally& tally, std::size_t total, const std::string& next_id, Duration elapsed);
+  /// "[  12/1480] 1 red, 1468 to go, ~3 min  xgt_cnet/rss/two_words" over the line before it,
+  /// before case `next_id` runs. `elapsed` counts from the start of the run. Empty where the line
+  /// is younger than 20 ms: a terminal must not slow down cases of a tenth of a millisecond, while
+  /// each case on a real line still shows.
+  std::string line(const Tally& tally, std::size_t total, const std::string& next_id,
+                   Duration elapsed);
 
   /// Removes the line before anything else is printed; empty where none stands.
   std::string erase();
@@ -50,12 +54,14 @@ struct Summary {
   Tally tally;
   RunEnd end;
   std::vector<std::string> red;  // labels of the cases that turned the gate red, in order
-  std::vector<std::pair<std::string, std::string>> reports;  // kind and path: {"junit", "fieldproof-out/junit.xml"}
+  std::vector<std::pair<std::string, std::string>>
+      reports;  // kind and path: {"junit", "fieldproof-out/junit.xml"}
   TimingTable::Rows timing = {};
   std::optional<SoakSummary> soak = {};
 };
 
-/// Counts of the verdicts that occur with their meaning, the red cases, exit code and its meaning, paths of the reports.
+/// Counts of the verdicts that occur with their meaning, the red cases, exit code and its meaning,
+/// paths of the reports.
 std::string run_summary(const Summary& summary, const ConsoleOptions& options);
 
 }  // namespace fieldproof

@@ -14,8 +14,10 @@ using testing::StartsWith;
 const ConsoleOptions terminal{.terminal = true};
 
 TEST(RunHead, SaysWhatIsTested) {
-  EXPECT_EQ("fieldproof 0.1.0  emulator:xbc-h?station=1  profile xbc-h  gate=default  line=9600-8N1  seed=7\n",
-            run_head(samples::run_info()));
+  EXPECT_EQ(
+      "fieldproof 0.1.0  emulator:xbc-h?station=1  profile xbc-h  gate=default  line=9600-8N1  "
+      "seed=7\n",
+      run_head(samples::run_info()));
 }
 
 TEST(CaseReport, AFailureIsALineAndABlock) {
@@ -23,7 +25,8 @@ TEST(CaseReport, AFailureIsALineAndABlock) {
   result.exchange.clear();
   result.quote.clear();
   result.notes.clear();
-  EXPECT_EQ(R"(FAIL          xgt_cnet/rss/one_word  BCC: expected 0F, received 09 (the sum leaves out the header)
+  EXPECT_EQ(
+      R"(FAIL          xgt_cnet/rss/one_word  BCC: expected 0F, received 09 (the sum leaves out the header)
   Read one word from M100 of station 1
   clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed)
   expected  [ACK st 'rSS' '01' '02' '1234' ETX BCC]
@@ -39,19 +42,22 @@ TEST(CaseReport, AFailureIsALineAndABlock) {
   replay    fieldproof run --filter xgt_cnet/rss/one_word --endpoint emulator:xbc-h
 
 )",
-            case_report(result, {}));
+      case_report(result, {}));
 }
 
 TEST(CaseReport, WhatTheGateLetsPassIsQuiet) {
   for (Verdict verdict : Tally::verdicts) {
-    EXPECT_EQ(gates(verdict, {}), !case_report(samples::with(verdict, "a/b"), {}).empty()) << to_string(verdict);
+    EXPECT_EQ(gates(verdict, {}), !case_report(samples::with(verdict, "a/b"), {}).empty())
+        << to_string(verdict);
   }
-  EXPECT_THAT(case_report(samples::with(Verdict::non_strict, "a/b", "upper case"), {.gate = {.strict = true}}),
+  EXPECT_THAT(case_report(samples::with(Verdict::non_strict, "a/b", "upper case"),
+                          {.gate = {.strict = true}}),
               StartsWith("NON-STRICT    a/b  upper case\n"));
 }
 
 TEST(CaseReport, VerboseShowsEveryCaseWithItsExchange) {
-  EXPECT_EQ("SKIP          a/b  no area P\n", case_report(samples::with(Verdict::skip, "a/b", "no area P"), {.verbose = true}));
+  EXPECT_EQ("SKIP          a/b  no area P\n",
+            case_report(samples::with(Verdict::skip, "a/b", "no area P"), {.verbose = true}));
   auto passed = samples::with(Verdict::pass, "a/b");
   passed.exchange = samples::failure().exchange;
   EXPECT_EQ(R"(PASS          a/b
@@ -70,14 +76,17 @@ TEST(CaseReport, VerboseShowsEveryCaseWithItsExchange) {
 
 TEST(CaseReport, ColourOnATerminalOnly) {
   EXPECT_THAT(case_report(samples::failure(), {}), Not(HasSubstr("\x1b")));
-  EXPECT_THAT(case_report(samples::failure(), terminal), StartsWith("\x1b[1;31mFAIL\x1b[0m          xgt_cnet"));
-  EXPECT_THAT(case_report(samples::failure(), {.terminal = true, .colour = false}), StartsWith("FAIL          xgt_cnet"));
+  EXPECT_THAT(case_report(samples::failure(), terminal),
+              StartsWith("\x1b[1;31mFAIL\x1b[0m          xgt_cnet"));
+  EXPECT_THAT(case_report(samples::failure(), {.terminal = true, .colour = false}),
+              StartsWith("FAIL          xgt_cnet"));
 }
 
 TEST(CaseReport, TheDeviceCannotDriveTheTerminal) {
   auto result = samples::failure();
   result.message = "got \x1b[2J\r\n";
-  EXPECT_THAT(case_report(result, {}), StartsWith("FAIL          xgt_cnet/rss/one_word  got [1B][2J[0D][0A]\n"));
+  EXPECT_THAT(case_report(result, {}),
+              StartsWith("FAIL          xgt_cnet/rss/one_word  got [1B][2J[0D][0A]\n"));
 }
 
 TEST(CaseReport, AFloodIsCutShort) {
@@ -96,8 +105,10 @@ Tally tally_of(std::size_t passed, std::size_t failed = 0) {
 TEST(Progress, SaysWhatIsDoneAndWhatIsLeft) {
   Progress progress(terminal);
   EXPECT_EQ("\r\x1b[K[   0/1480] 1480 to go  a/b", progress.line({}, 1480, "a/b", 0s));
-  EXPECT_EQ("\r\x1b[K[  12/1480] 2 red, 1468 to go, ~4 min  a/c", progress.line(tally_of(10, 2), 1480, "a/c", 2s));
-  EXPECT_EQ("\r\x1b[K[1479/1480] 2 red, 1 to go, ~0 s  a/c", progress.line(tally_of(1477, 2), 1480, "a/c", 300s));
+  EXPECT_EQ("\r\x1b[K[  12/1480] 2 red, 1468 to go, ~4 min  a/c",
+            progress.line(tally_of(10, 2), 1480, "a/c", 2s));
+  EXPECT_EQ("\r\x1b[K[1479/1480] 2 red, 1 to go, ~0 s  a/c",
+            progress.line(tally_of(1477, 2), 1480, "a/c", 300s));
 }
 
 TEST(Progress, EstimatesRoughly) {
@@ -168,7 +179,8 @@ TEST(RunSummary, OfAGreenRunIsShort) {
   Summary summary;
   summary.tally.add(Verdict::pass);
   summary.end = samples::run_end(0);
-  EXPECT_EQ("\n1 case in 2.2 s\n  1  PASS          as the manual says\n\nexit 0: gate met\n", run_summary(summary, {}));
+  EXPECT_EQ("\n1 case in 2.2 s\n  1  PASS          as the manual says\n\nexit 0: gate met\n",
+            run_summary(summary, {}));
   EXPECT_THAT(run_summary(summary, terminal), HasSubstr("exit 0: \x1b[32mgate met\x1b[0m\n"));
 }
 
@@ -176,7 +188,9 @@ TEST(RunSummary, SaysWhyARunStoppedEarly) {
   Summary summary;
   summary.end = samples::run_end(3);
   summary.end.trouble = "nothing answers; check station and line";
-  EXPECT_EQ("\n0 cases in 2.2 s\n\nexit 3: bench trouble; nothing answers; check station and line\n", run_summary(summary, {}));
+  EXPECT_EQ(
+      "\n0 cases in 2.2 s\n\nexit 3: bench trouble; nothing answers; check station and line\n",
+      run_summary(summary, {}));
 }
 
 TEST(RunSummary, NamesTheFirstOfManyRedCases) {

@@ -1,4 +1,5 @@
-// Traceability: each testable statement of each manual, the vectors that test it, and what a device made of them.
+// Traceability: each testable statement of each manual, the vectors that test it, and what a device
+// made of them.
 #pragma once
 
 #include <map>
@@ -12,14 +13,14 @@ namespace fieldproof {
 /// A vector that cites a statement.
 struct CoverageVector {
   std::string id, title;
-  bool table = false;           // a fact without wire effect: `lint` checks it, no device does
-  std::size_t cases = 0;        // that it expands to
-  Tally verdicts;               // of a run, where its results are given
-  std::string why_not;          // why cases of it were not judged there: the first reason
+  bool table = false;     // a fact without wire effect: `lint` checks it, no device does
+  std::size_t cases = 0;  // that it expands to
+  Tally verdicts;         // of a run, where its results are given
+  std::string why_not;    // why cases of it were not judged there: the first reason
 };
 
-/// What became of a statement. `tested`, without results: it has a vector; with them: at least one case was judged, and
-/// none failed (`failed`: FAIL, or XFAIL).
+/// What became of a statement. `tested`, without results: it has a vector; with them: at least one
+/// case was judged, and none failed (`failed`: FAIL, or XFAIL).
 enum class Traced { tested, failed, unjudged, table, reasoned, open };
 
 struct CoverageStatement {
@@ -33,12 +34,12 @@ struct CoverageStatement {
 
 struct CoverageManual {
   std::string id, title;
-  std::vector<CoverageStatement> statements;   // by section, in the order in which a person counts
+  std::vector<CoverageStatement> statements;  // by section, in the order in which a person counts
 };
 
 struct Coverage {
   std::string vectors_hash;
-  std::string results, endpoint;               // the file of results and what was tested; empty: none
+  std::string results, endpoint;  // the file of results and what was tested; empty: none
   std::vector<CoverageManual> manuals;
 
   bool with_results() const { return !results.empty(); }
@@ -52,8 +53,11 @@ struct CoverageCounts {
   void add(Traced state) { ++of[state], ++total; }
   std::size_t count(Traced state) const;
   std::size_t judged() const { return count(Traced::tested) + count(Traced::failed); }
-  std::size_t with_vector() const { return judged() + count(Traced::unjudged) + count(Traced::table); }
-  /// Judged statements of all, in percent; without results those with a table count too. 100 where there is none.
+  std::size_t with_vector() const {
+    return judged() + count(Traced::unjudged) + count(Traced::table);
+  }
+  /// Judged statements of all, in percent; without results those with a table count too. 100 where
+  /// there is none.
   double percent(bool with_results) const;
 };
 CoverageCounts count_statements(const CoverageManual& manual, bool with_results);

@@ -17,8 +17,11 @@ struct Column {
 };
 
 std::vector<Column> columns_of(const Coverage& coverage) {
-  std::vector<Column> columns{{Traced::tested, coverage.with_results() ? "held" : "with vectors", "v-pass"}};
-  if (coverage.with_results()) columns.insert(columns.end(), {{Traced::failed, "failed", "v-fail"}, {Traced::unjudged, "not judged", "v-blocked"}});
+  std::vector<Column> columns{
+      {Traced::tested, coverage.with_results() ? "held" : "with vectors", "v-pass"}};
+  if (coverage.with_results())
+    columns.insert(columns.end(), {{Traced::failed, "failed", "v-fail"},
+                                   {Traced::unjudged, "not judged", "v-blocked"}});
   columns.push_back({Traced::table, "tables", "v-pass"});
   columns.push_back({Traced::reasoned, "reasons", "v-skip"});
   columns.push_back({Traced::open, "open", "v-fail"});
@@ -27,12 +30,20 @@ std::vector<Column> columns_of(const Coverage& coverage) {
 
 void write_banner(HtmlWriter& out, const Coverage& coverage) {
   const CoverageCounts counts = count_statements(coverage);
-  out.element("header", {{"class", counts.count(Traced::open) + counts.count(Traced::failed) == 0 ? "banner good" : "banner bad"}}, [&] {
-    out.element("p", {{"class", "device"}}, coverage.with_results() ? coverage.endpoint : "vectors " + coverage.vectors_hash);
-    out.element("h1", {}, fmt::format("{:.1f} % of {} statements {}", counts.percent(coverage.with_results()), counts.total,
-                                      coverage.with_results() ? "were judged" : "have a vector"));
-    out.element("p", {{"class", "detail"}}, coverage_summary(coverage));
-  });
+  out.element(
+      "header",
+      {{"class", counts.count(Traced::open) + counts.count(Traced::failed) == 0 ? "banner good"
+                                                                                : "banner bad"}},
+      [&] {
+        out.element(
+            "p", {{"class", "device"}},
+            coverage.with_results() ? coverage.endpoint : "vectors " + coverage.vectors_hash);
+        out.element(
+            "h1", {},
+            fmt::format("{:.1f} % of {} statements {}", counts.percent(coverage.with_results()),
+                        counts.total, coverage.with_results() ? "were judged" : "have a vector"));
+        out.element("p", {{"class", "detail"}}, coverage_summary(coverage));
+      });
 }
 
 void write_vectors(HtmlWriter& out, const CoverageStatement& statement, bool with_results) {
@@ -63,7 +74,8 @@ void write_statement(HtmlWriter& out, const CoverageStatement& statement, bool w
 }
 
 /// The statements of one section; the first of `statements` says which.
-void write_section(HtmlWriter& out, std::span<const CoverageStatement> statements, const std::vector<Column>& columns, bool with_results) {
+void write_section(HtmlWriter& out, std::span<const CoverageStatement> statements,
+                   const std::vector<Column>& columns, bool with_results) {
   CoverageCounts counts;
   for (const CoverageStatement& statement : statements) counts.add(statement.state(with_results));
   out.element("details", {{"class", "section"}}, [&] {
@@ -71,32 +83,37 @@ void write_section(HtmlWriter& out, std::span<const CoverageStatement> statement
       out.element("span", {{"class", "name"}}, statements.front().section);
       for (const Column& column : columns) {
         const std::size_t count = counts.count(column.state);
-        out.element("span", {{"class", count == 0 ? "none" : column.css}, {"data-verdict", column.head}}, count == 0 ? "\u00B7" : std::to_string(count));
+        out.element("span",
+                    {{"class", count == 0 ? "none" : column.css}, {"data-verdict", column.head}},
+                    count == 0 ? "\u00B7" : std::to_string(count));
       }
     });
     out.element("table", {{"class", "lines"}}, [&] {
       out.element("tbody", {}, [&] {
-        for (const CoverageStatement& statement : statements) write_statement(out, statement, with_results);
+        for (const CoverageStatement& statement : statements)
+          write_statement(out, statement, with_results);
       });
     });
   });
   out.markup("\n");
 }
 
-void write_manual(HtmlWriter& out, const CoverageManual& manual, const std::vector<Column>& columns, bool with_results) {
+void write_manual(HtmlWriter& out, const CoverageManual& manual, const std::vector<Column>& columns,
+                  bool with_results) {
   out.element("h2", {}, fmt::format("{}: {}", manual.id, manual.title));
   if (manual.statements.empty()) return out.element("p", {}, "No statements are listed yet.");
-  out.element("div", {{"class", "matrix"}, {"style", fmt::format("--columns:{}", columns.size())}}, [&] {
-    out.element("div", {{"class", "head"}}, [&] {
-      out.element("span", {{"class", "name"}}, "section");
-      for (const Column& column : columns) out.element("span", {}, column.head);
-    });
-    const std::span<const CoverageStatement> all = manual.statements;
-    for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
-      while (to < all.size() && all[to].section == all[from].section) ++to;
-      write_section(out, all.subspan(from, to - from), columns, with_results);
-    }
-  });
+  out.element("div", {{"class", "matrix"}, {"style", fmt::format("--columns:{}", columns.size())}},
+              [&] {
+                out.element("div", {{"class", "head"}}, [&] {
+                  out.element("span", {{"class", "name"}}, "section");
+                  for (const Column& column : columns) out.element("span", {}, column.head);
+                });
+                const std::span<const CoverageStatement> all = manual.statements;
+                for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+                  while (to < all.size() && all[to].section == all[from].section) ++to;
+                  write_section(out, all.subspan(from, to - from), columns, with_results);
+                }
+              });
 }
 
 }  // namespace
@@ -104,9 +121,12 @@ void write_manual(HtmlWriter& out, const CoverageManual& manual, const std::vect
 std::string coverage_html(const Coverage& coverage) {
   HtmlWriter body;
   write_banner(body, coverage);
-  body.element("p", {}, "Tables are facts without effect on the wire, which `fieldproof lint` checks; a reason says why no vector can test a statement.");
+  body.element("p", {},
+               "Tables are facts without effect on the wire, which `fieldproof lint` checks; a "
+               "reason says why no vector can test a statement.");
   const std::vector<Column> columns = columns_of(coverage);
-  for (const CoverageManual& manual : coverage.manuals) write_manual(body, manual, columns, coverage.with_results());
+  for (const CoverageManual& manual : coverage.manuals)
+    write_manual(body, manual, columns, coverage.with_results());
   return html_page("fieldproof: traceability", body);
 }
 

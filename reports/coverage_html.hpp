@@ -8,7 +8,8 @@
 
 namespace fieldproof {
 
-/// The page: what is covered, then each manual by section; a section opens to its statements, their vectors and verdicts.
+/// The page: what is covered, then each manual by section; a section opens to its statements, their
+/// vectors and verdicts.
 std::string coverage_html(const Coverage& coverage);
 
 /// Writes it; `path` appears whole or not at all.

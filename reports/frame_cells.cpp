@@ -21,8 +21,8 @@ std::optional<FrameCells> cells_of_hex(std::string_view hex) {
   return cells;
 }
 
-/// Marks what differs: each byte where the lengths are equal, else the first, since all that follow have moved.
-/// Where an answer breaks off, "--" stands for the byte that is missing.
+/// Marks what differs: each byte where the lengths are equal, else the first, since all that follow
+/// have moved. Where an answer breaks off, "--" stands for the byte that is missing.
 void mark_differences(const FrameCells& expected, FrameCells& received) {
   const std::size_t common = std::min(expected.size(), received.size());
   const bool moved = expected.size() != received.size();
@@ -31,7 +31,8 @@ void mark_differences(const FrameCells& expected, FrameCells& received) {
     if (received[i].marked && moved) return;
   }
   if (received.size() > common) received[common].marked = true;
-  if (received.size() == common && moved && common > 0) received.push_back({"--", true});  // here it broke off
+  if (received.size() == common && moved && common > 0)
+    received.push_back({"--", true});  // here it broke off
 }
 
 }  // namespace
@@ -44,8 +45,10 @@ FrameCells cells_of(ByteView bytes) {
 
 JudgedFrames judged_frames(const CaseResult& result) {
   JudgedFrames frames{cells_of_hex(result.expected_hex), cells_of(result.received_bytes)};
-  if (frames.expected && frames.expected->empty()) frames.expected = cells_of(result.expected_bytes);
-  if (frames.expected && !frames.expected->empty()) mark_differences(*frames.expected, frames.received);
+  if (frames.expected && frames.expected->empty())
+    frames.expected = cells_of(result.expected_bytes);
+  if (frames.expected && !frames.expected->empty())
+    mark_differences(*frames.expected, frames.received);
   return frames;
 }
 

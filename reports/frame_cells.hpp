@@ -1,4 +1,5 @@
-// The frames of a failing step byte by byte, with those marked that differ: for the console's dump and for HTML.
+// The frames of a failing step byte by byte, with those marked that differ: for the console's dump
+// and for HTML.
 #pragma once
 
 #include <optional>
@@ -19,8 +20,9 @@ using FrameCells = std::vector<FrameCell>;
 FrameCells cells_of(ByteView bytes);
 
 struct JudgedFrames {
-  std::optional<FrameCells> expected;  // nothing: the expectation is no list of bytes (alternatives in words, say)
-  FrameCells received;                 // marked: each byte that differs; the first alone where the lengths differ
+  std::optional<FrameCells>
+      expected;         // nothing: the expectation is no list of bytes (alternatives in words, say)
+  FrameCells received;  // marked: each byte that differs; the first alone where the lengths differ
 };
 JudgedFrames judged_frames(const CaseResult& result);
 

@@ -45,32 +45,45 @@ void write_contents(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate)
 void write_red(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
   const std::size_t count = survey.tally.gating(gate);
   if (count == 0) return;
-  out.element("h2", {{"id", "red"}}, fmt::format("{} case{} turn{} the gate red", count, count == 1 ? "" : "s", count == 1 ? "s" : ""));
+  out.element("h2", {{"id", "red"}},
+              fmt::format("{} case{} turn{} the gate red", count, count == 1 ? "" : "s",
+                          count == 1 ? "s" : ""));
   out.markup(survey.broken.str());
   out.markup(survey.red.str());
-  if (const std::size_t unjudged = gate.qualify ? survey.tally.of(Verdict::blocked) + survey.tally.of(Verdict::inconclusive) : 0; unjudged > 0) {
+  if (const std::size_t unjudged =
+          gate.qualify ? survey.tally.of(Verdict::blocked) + survey.tally.of(Verdict::inconclusive)
+                       : 0;
+      unjudged > 0) {
     out.element("p", {}, [&] {
-      out.text(fmt::format("{} could not be judged, which this gate does not let pass: ", unjudged));
+      out.text(
+          fmt::format("{} could not be judged, which this gate does not let pass: ", unjudged));
       out.element("a", {{"href", "#unexecuted"}}, "why");
     });
   }
   if (survey.red_unlisted > 0)
-    out.element("p", {{"class", "cut"}},
-                fmt::format("{} more are listed by their sections; `results.ndjson` has them in full.", survey.red_unlisted));
+    out.element(
+        "p", {{"class", "cut"}},
+        fmt::format("{} more are listed by their sections; `results.ndjson` has them in full.",
+                    survey.red_unlisted));
 }
 
 void write_table(HtmlWriter& out, std::string_view css, const HtmlWriter& rows) {
-  if (rows.size() > 0) out.element("table", {{"class", css}}, [&] { out.element("tbody", {}, [&] { out.markup(rows.str()); }); });
+  if (rows.size() > 0)
+    out.element("table", {{"class", css}},
+                [&] { out.element("tbody", {}, [&] { out.markup(rows.str()); }); });
 }
 
-void write_section(HtmlWriter& out, const SectionName& name, const SectionReport& section, const std::vector<Verdict>& columns) {
+void write_section(HtmlWriter& out, const SectionName& name, const SectionReport& section,
+                   const std::vector<Verdict>& columns) {
   out.element("details", {{"class", "section"}}, [&] {
     out.element("summary", {}, [&] {
-      out.element("span", {{"class", "name"}}, name.section.empty() ? "without a section" : name.section);
+      out.element("span", {{"class", "name"}},
+                  name.section.empty() ? "without a section" : name.section);
       for (Verdict verdict : columns) {
         const std::size_t count = section.tally.of(verdict);
         const std::string css = count == 0 ? "none" : verdict_class(verdict);
-        out.element("span", {{"class", css}, {"data-verdict", to_string(verdict)}}, count == 0 ? "\u00B7" : std::to_string(count));
+        out.element("span", {{"class", css}, {"data-verdict", to_string(verdict)}},
+                    count == 0 ? "\u00B7" : std::to_string(count));
       }
     });
     write_table(out, "lines", section.red);
@@ -78,7 +91,9 @@ void write_section(HtmlWriter& out, const SectionName& name, const SectionReport
     write_table(out, "lines", section.unjudged);
     write_table(out, "passes", section.passes);
     if (section.unlisted > 0)
-      out.element("p", {{"class", "cut"}}, fmt::format("{} more are counted, not listed; `results.ndjson` has them.", section.unlisted));
+      out.element("p", {{"class", "cut"}},
+                  fmt::format("{} more are counted, not listed; `results.ndjson` has them.",
+                              section.unlisted));
   });
   out.markup("\n");
 }
@@ -87,44 +102,54 @@ void write_section(HtmlWriter& out, const SectionName& name, const SectionReport
 void write_sections(HtmlWriter& out, const HtmlSurvey& survey) {
   const std::vector<Verdict> columns = occurring(survey.tally);
   out.element("h2", {{"id", "sections"}}, "Sections of the manuals");
-  out.element("div", {{"class", "matrix"}, {"style", fmt::format("--columns:{}", columns.size())}}, [&] {
-    const std::string* manual = nullptr;
-    for (const auto& [name, section] : survey.sections) {
-      if (manual == nullptr || *manual != name.manual) {
-        out.element("div", {{"class", "head"}}, [&] {
-          out.element("span", {{"class", "name"}}, name.manual.empty() ? "no manual" : name.manual);
-          for (Verdict verdict : columns) out.element("span", {}, to_string(verdict));
-        });
-      }
-      manual = &name.manual;
-      write_section(out, name, section, columns);
-    }
-  });
+  out.element("div", {{"class", "matrix"}, {"style", fmt::format("--columns:{}", columns.size())}},
+              [&] {
+                const std::string* manual = nullptr;
+                for (const auto& [name, section] : survey.sections) {
+                  if (manual == nullptr || *manual != name.manual) {
+                    out.element("div", {{"class", "head"}}, [&] {
+                      out.element("span", {{"class", "name"}},
+                                  name.manual.empty() ? "no manual" : name.manual);
+                      for (Verdict verdict : columns) out.element("span", {}, to_string(verdict));
+                    });
+                  }
+                  manual = &name.manual;
+                  write_section(out, name, section, columns);
+                }
+              });
 }
 
 double limit_of(const RunInfo& run) {
   const auto found = run.properties.find("response_max_ms");
-  return found == run.properties.end() ? 0 : std::max(0.0, std::strtod(found->second.c_str(), nullptr));
+  return found == run.properties.end() ? 0
+                                       : std::max(0.0, std::strtod(found->second.c_str(), nullptr));
 }
 
 void write_times(HtmlWriter& out, const HtmlSurvey& survey) {
   if (survey.response_ms.empty()) return;
   const double limit = limit_of(survey.log.run);
   out.element("h2", {{"id", "timing"}}, "Response times");
-  out.element("p", {}, fmt::format("From the request's last byte to the reply's first, in milliseconds on a logarithmic scale{}. Bars count "
-                                   "replies (by square root), the line below them spans the middle half, the tick is the median.",
-                                   limit > 0 ? fmt::format("; dashed: the profile's limit of {:g} ms", limit) : ""));
+  out.element(
+      "p", {},
+      fmt::format("From the request's last byte to the reply's first, in milliseconds on a "
+                  "logarithmic scale{}. Bars count "
+                  "replies (by square root), the line below them spans the middle half, the tick "
+                  "is the median.",
+                  limit > 0 ? fmt::format("; dashed: the profile's limit of {:g} ms", limit) : ""));
   write_timing(out, survey.response_ms, limit);
 }
 
 void write_soak(HtmlWriter& out, const HtmlSurvey& survey) {
   if (!survey.log.soak) return;
   out.element("h2", {{"id", "soak"}}, "Soak");
-  out.element("p", {}, "All repetitions. The cases above are the first of each and, as far as they are written, those that failed.");
+  out.element("p", {},
+              "All repetitions. The cases above are the first of each and, as far as they are "
+              "written, those that failed.");
   out.element("pre", {}, soak_text(*survey.log.soak));
 }
 
-void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate, const std::string& log_hash) {
+void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate,
+                 const std::string& log_hash) {
   out.element("section", {{"id", "sheet"}, {"class", gate.qualify ? "sheet" : "plain"}}, [&] {
     if (gate.qualify) {
       out.element("h1", {}, "Qualification sheet");

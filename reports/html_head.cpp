@@ -17,21 +17,26 @@ int exit_code_of(const HtmlSurvey& survey, const Gate& gate) {
 }
 
 std::string capitalised(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
 }
 
 std::string duration_text(double seconds) {
   if (seconds < 60) return fmt::format("{:.1f} s", seconds);
   const auto whole = static_cast<long long>(seconds);
-  return seconds < 3600 ? fmt::format("{} min {} s", whole / 60, whole % 60) : fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+  return seconds < 3600 ? fmt::format("{} min {} s", whole / 60, whole % 60)
+                        : fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
 
 void write_bar(HtmlWriter& out, const Tally& tally) {
   out.element("div", {{"class", "bar"}, {"role", "img"}, {"aria-label", to_string(tally)}}, [&] {
     for (Verdict verdict : Tally::verdicts) {
       if (tally.of(verdict) == 0) continue;
-      out.element("span", {{"class", verdict_class(verdict)}, {"style", fmt::format("flex-grow:{}", tally.of(verdict))}}, "");
+      out.element("span",
+                  {{"class", verdict_class(verdict)},
+                   {"style", fmt::format("flex-grow:{}", tally.of(verdict))}},
+                  "");
     }
   });
 }
@@ -74,7 +79,8 @@ void write_device(HtmlWriter& out, const RunInfo& run) {
   facts.row("endpoint", run.endpoint);
   facts.row("profile", run.profile);
   for (const char* name : {"device", "protocol", "station", "line"}) {
-    if (const auto found = run.properties.find(name); found != run.properties.end()) facts.row(name, found->second);
+    if (const auto found = run.properties.find(name); found != run.properties.end())
+      facts.row(name, found->second);
   }
   facts.row("bench entry", device.name);
   facts.row("operator", device.operator_name);
@@ -82,12 +88,16 @@ void write_device(HtmlWriter& out, const RunInfo& run) {
 }
 
 void write_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
-  constexpr std::array<std::string_view, 6> elsewhere{"device", "protocol", "station", "line", "gate", "response_max_ms"};
+  constexpr std::array<std::string_view, 6> elsewhere{"device", "protocol", "station",
+                                                      "line",   "gate",     "response_max_ms"};
   const RunInfo& run = survey.log.run;
   Facts facts(out);
   facts.row("date", run.started);
-  facts.row("duration", survey.log.end ? duration_text(survey.log.end->seconds) : "unknown: the run did not end");
-  const std::string moved = survey.transposed == 0 ? "" : fmt::format(", {} transposed to this device", survey.transposed);
+  facts.row("duration", survey.log.end ? duration_text(survey.log.end->seconds)
+                                       : "unknown: the run did not end");
+  const std::string moved = survey.transposed == 0
+                                ? ""
+                                : fmt::format(", {} transposed to this device", survey.transposed);
   facts.row("cases", fmt::format("{}{}", survey.tally.total(), moved));
   facts.row("gate", to_string(gate));
   facts.row("fieldproof", run.tool_version);
@@ -128,14 +138,20 @@ void write_verdict_of_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate&
   const int code = exit_code_of(survey, gate);
   const std::string why = early_end(survey.log);
   std::string detail = red_counts(survey.tally, gate);
-  // The gate was met, and the run still failed: `run --baseline` found it worse than the run before.
-  if (detail.empty() && code == 1) detail = "no case turns the gate red, but the comparison with the baseline did";
-  if (detail.empty() && survey.tally.total() > 0) detail = fmt::format("{} cases, none turns the gate red", survey.tally.total());
+  // The gate was met, and the run still failed: `run --baseline` found it worse than the run
+  // before.
+  if (detail.empty() && code == 1)
+    detail = "no case turns the gate red, but the comparison with the baseline did";
+  if (detail.empty() && survey.tally.total() > 0)
+    detail = fmt::format("{} cases, none turns the gate red", survey.tally.total());
   if (!why.empty()) detail += (detail.empty() ? "" : "; ") + why;
   out.element("header", {{"class", code == 0 ? "banner good" : "banner bad"}}, [&] {
     out.element("p", {{"class", "device"}}, "Conformance of " + device_title(survey.log.run));
-    out.element("h1", {}, (code == 0 ? "\u2713 " : "\u2717 ") + capitalised(survey.log.end ? exit_meaning(code) : "killed before its end"));
-    out.element("p", {{"class", "detail"}}, detail + (survey.log.end ? fmt::format(" (exit {})", code) : ""));
+    out.element("h1", {},
+                (code == 0 ? "\u2713 " : "\u2717 ") +
+                    capitalised(survey.log.end ? exit_meaning(code) : "killed before its end"));
+    out.element("p", {{"class", "detail"}},
+                detail + (survey.log.end ? fmt::format(" (exit {})", code) : ""));
   });
   write_bar(out, survey.tally);
   write_tiles(out, survey.tally, gate);
@@ -155,7 +171,8 @@ void write_legend(HtmlWriter& out, const Gate& gate) {
     for (Verdict verdict : Tally::verdicts) {
       out.element("li", {}, [&] {
         write_verdict(out, verdict);
-        out.text(" " + verdict_meaning(verdict) + (gates(verdict, gate) ? "; turns this gate red" : gate_hint(verdict, gate)));
+        out.text(" " + verdict_meaning(verdict) +
+                 (gates(verdict, gate) ? "; turns this gate red" : gate_hint(verdict, gate)));
       });
     }
   });

@@ -8,7 +8,8 @@ std::string html_page(std::string_view title, const HtmlWriter& body) {
   page.element("html", {{"xmlns", "http://www.w3.org/1999/xhtml"}, {"lang", "en"}}, [&] {
     page.element("head", {}, [&] {
       page.empty("meta", {{"charset", "utf-8"}});
-      page.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+      page.empty("meta",
+                 {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
       page.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
       page.element("title", {}, title);
       page.element("style", {}, [&] { page.markup(html_style); });
@@ -22,7 +23,8 @@ std::string html_page(std::string_view title, const HtmlWriter& body) {
 
 std::string verdict_class(Verdict verdict) {
   std::string name = "v-";
-  for (const char c : to_string(verdict)) name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const char c : to_string(verdict))
+    name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return name;
 }
 

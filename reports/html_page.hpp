@@ -12,7 +12,8 @@ namespace fieldproof {
 /// Doctype, head with the style sheet, and <body><main> around what `body` is.
 std::string html_page(std::string_view title, const HtmlWriter& body);
 
-/// The style sheet: colours of both schemes, tables, print. Classes are described in html_style.cpp.
+/// The style sheet: colours of both schemes, tables, print. Classes are described in
+/// html_style.cpp.
 extern const char* const html_style;
 
 /// The class of a verdict's colour: "v-pass", "v-non-strict".

@@ -26,7 +26,8 @@ std::string joined(const std::vector<std::string>& ids, std::size_t total) {
   return total > ids.size() ? fmt::format("{}, and {} more", text, total - ids.size()) : text;
 }
 
-std::string value_or(const std::map<std::string, std::string>& map, const std::string& key, const char* otherwise) {
+std::string value_or(const std::map<std::string, std::string>& map, const std::string& key,
+                     const char* otherwise) {
   const auto found = map.find(key);
   return found == map.end() ? otherwise : found->second;
 }
@@ -41,7 +42,8 @@ void write_unexecuted(HtmlWriter& out, const HtmlSurvey& survey) {
   }
   std::vector<const decltype(survey.unexecuted)::value_type*> reasons;
   for (const auto& one : survey.unexecuted) reasons.push_back(&one);
-  std::ranges::stable_sort(reasons, [](const auto* a, const auto* b) { return a->second.cases > b->second.cases; });
+  std::ranges::stable_sort(
+      reasons, [](const auto* a, const auto* b) { return a->second.cases > b->second.cases; });
   out.element("table", {{"class", "list"}}, [&] {
     write_head_row(out, {"verdict", "cases", "reason"});
     out.element("tbody", {}, [&] {
@@ -51,7 +53,9 @@ void write_unexecuted(HtmlWriter& out, const HtmlSurvey& survey) {
           out.element("td", {{"class", "num"}}, std::to_string(one->second.cases));
           out.element("td", {}, [&] {
             out.element("details", {}, [&] {
-              out.element("summary", {}, one->first.second.empty() ? "no reason given" : one->first.second.substr(0, 500));
+              out.element(
+                  "summary", {},
+                  one->first.second.empty() ? "no reason given" : one->first.second.substr(0, 500));
               out.element("p", {{"class", "ids"}}, joined(one->second.ids, one->second.cases));
             });
           });
@@ -59,7 +63,8 @@ void write_unexecuted(HtmlWriter& out, const HtmlSurvey& survey) {
       }
     });
   });
-  if (reasons.size() > reason_limit) out.element("p", {}, fmt::format("... {} more reasons", reasons.size() - reason_limit));
+  if (reasons.size() > reason_limit)
+    out.element("p", {}, fmt::format("... {} more reasons", reasons.size() - reason_limit));
 }
 
 void write_readings(HtmlWriter& out, const HtmlSurvey& survey) {
@@ -68,7 +73,9 @@ void write_readings(HtmlWriter& out, const HtmlSurvey& survey) {
     out.element("p", {}, "No case met a place where the manuals leave two readings.");
     return;
   }
-  out.element("p", {}, "Where the manuals can be read in more than one way, the device did this. A device that mixes readings is NON-STRICT.");
+  out.element("p", {},
+              "Where the manuals can be read in more than one way, the device did this. A device "
+              "that mixes readings is NON-STRICT.");
   out.element("table", {{"class", "list"}}, [&] {
     write_head_row(out, {"reading", "taken", "cases", "first seen in"});
     out.element("tbody", {}, [&] {
@@ -132,7 +139,9 @@ void write_hashes(HtmlWriter& out, const HtmlSurvey& survey, const std::string& 
 void write_fingerprint(HtmlWriter& out, const Identity& identity) {
   out.element("h2", {}, identity.name.empty() ? "Fingerprint" : "Fingerprint of " + identity.name);
   if (identity.fingerprint.empty() && identity.fingerprint_found.empty()) {
-    out.element("p", {}, "None was declared and none was read: the identity above is as the engineer entered it.");
+    out.element(
+        "p", {},
+        "None was declared and none was read: the identity above is as the engineer entered it.");
     return;
   }
   std::map<std::string, std::string> keys = identity.fingerprint;
@@ -146,7 +155,10 @@ void write_fingerprint(HtmlWriter& out, const Identity& identity) {
         out.element("tr", {}, [&] {
           out.element("th", {}, key);
           out.element("td", {}, declared);
-          out.element("td", {}, !identity.fingerprint.contains(key) || declared == found ? found : found + " (differs)");
+          out.element("td", {},
+                      !identity.fingerprint.contains(key) || declared == found
+                          ? found
+                          : found + " (differs)");
         });
       }
     });

@@ -1,5 +1,5 @@
-// The part of the report that is printed and signed: what was not judged and why, which readings the device takes,
-// which errata were met, and the hashes that say which files all this speaks of.
+// The part of the report that is printed and signed: what was not judged and why, which readings
+// the device takes, which errata were met, and the hashes that say which files all this speaks of.
 #pragma once
 
 #include <string>

@@ -2,7 +2,8 @@
 
 namespace fieldproof {
 
-// Colours are named once and mean a verdict everywhere: text in --c on its own tint. Neither '<' nor '&' may stand here.
+// Colours are named once and mean a verdict everywhere: text in --c on its own tint. Neither '<'
+// nor '&' may stand here.
 const char* const html_style = R"css(
 :root{color-scheme:light dark;--paper:#fff;--ink:#1b1f24;--soft:#59636e;--rule:#d8dee4;--tint:#f5f7f9;--link:#0757b3;
 --good:#17703a;--good-tint:#e6f4ea;--bad:#b3201b;--bad-tint:#fdecea;--warn:#8a5a00;--warn-tint:#fff4d6;--cool:#3b5b8c;--cool-tint:#e8eef8;--mark:#ffd9d6}

@@ -10,7 +10,7 @@
 namespace fieldproof {
 namespace {
 
-constexpr std::size_t open_blocks = 10;     // red cases that need no click
+constexpr std::size_t open_blocks = 10;  // red cases that need no click
 constexpr std::size_t ids_of_a_reason = 100;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -33,7 +33,8 @@ int compare_naturally(std::string_view a, std::string_view b) {
       if (x.size() != y.size()) return x.size() < y.size() ? -1 : 1;
       if (const int order = x.compare(y); order != 0) return order;
     } else {
-      if (a[i] != b[j]) return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]) ? -1 : 1;
+      if (a[i] != b[j])
+        return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]) ? -1 : 1;
       ++i, ++j;
     }
   }
@@ -58,16 +59,21 @@ class Collector {
     by_id_[result.id].add(result.verdict);
     SectionReport& section = survey_.sections[{result.manual, result.section}];
     section.tally.add(result.verdict);
-    if (result.verdict == Verdict::pass) add_line(section, section.passes, [&](HtmlWriter& out) { write_pass_line(out, result); });
-    else if (unexecuted(result.verdict)) add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
-    else if (gates(result.verdict, gate_) && !unjudged(result.verdict)) add_red(section, result);
-    else add_remarkable(section, result);
+    if (result.verdict == Verdict::pass)
+      add_line(section, section.passes, [&](HtmlWriter& out) { write_pass_line(out, result); });
+    else if (unexecuted(result.verdict))
+      add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
+    else if (gates(result.verdict, gate_) && !unjudged(result.verdict))
+      add_red(section, result);
+    else
+      add_remarkable(section, result);
     add_facts(result);
   }
 
   HtmlSurvey finish(RunLog log) {
     for (const ErratumInfo& erratum : log.run.errata) {
-      if (Tally met = executed(erratum.vector_id); met.total() > 0) survey_.errata.emplace_back(erratum, met);
+      if (Tally met = executed(erratum.vector_id); met.total() > 0)
+        survey_.errata.emplace_back(erratum, met);
     }
     survey_.log = std::move(log);
     return std::move(survey_);
@@ -91,7 +97,8 @@ class Collector {
     std::string anchor;
     if (fits(red_blocks_, html_block_limit)) {
       anchor = fmt::format("red-{}", red_blocks_);
-      write_case_block(gates(result.verdict, Gate{}) ? survey_.broken : survey_.red, result, red_blocks_ <= open_blocks, anchor);
+      write_case_block(gates(result.verdict, Gate{}) ? survey_.broken : survey_.red, result,
+                       red_blocks_ <= open_blocks, anchor);
     } else {
       ++survey_.red_unlisted;
     }
@@ -99,8 +106,10 @@ class Collector {
   }
 
   void add_remarkable(SectionReport& section, const CaseResult& result) {
-    if (fits(other_blocks_, html_block_limit)) write_case_block(section.remarkable, result, false);
-    else add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
+    if (fits(other_blocks_, html_block_limit))
+      write_case_block(section.remarkable, result, false);
+    else
+      add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
   }
 
   void add_facts(const CaseResult& result) {
@@ -110,7 +119,9 @@ class Collector {
     }
     for (const auto& [name, taken] : result.readings) {
       Reading& reading = survey_.readings[name][taken];
-      if (++reading.cases == 1) reading = {1, result.id, fmt::format("{}, {}", result.manual, result.section), result.title};
+      if (++reading.cases == 1)
+        reading = {1, result.id, fmt::format("{}, {}", result.manual, result.section),
+                   result.title};
     }
     if (unjudged(result.verdict)) {
       Unexecuted& reason = survey_.unexecuted[{result.verdict, result.message}];
@@ -120,10 +131,12 @@ class Collector {
     survey_.transposed += std::ranges::any_of(result.notes, moved) ? 1 : 0;
   }
 
-  /// Verdicts of the cases of a vector that were judged: "a/b" itself, and "a/b/..." that it expands to.
+  /// Verdicts of the cases of a vector that were judged: "a/b" itself, and "a/b/..." that it
+  /// expands to.
   Tally executed(const std::string& vector) const {
     Tally tally;
-    for (auto at = by_id_.lower_bound(vector); at != by_id_.end() && at->first.starts_with(vector); ++at) {
+    for (auto at = by_id_.lower_bound(vector); at != by_id_.end() && at->first.starts_with(vector);
+         ++at) {
       if (at->first.size() > vector.size() && at->first[vector.size()] != '/') continue;
       for (Verdict verdict : Tally::verdicts) {
         if (!unexecuted(verdict)) tally.add(verdict, at->second.of(verdict));

@@ -1,5 +1,6 @@
-// What the HTML report gathers from a file of results in one pass. Cases are rendered as they are read, so that memory
-// follows the size of the report and not that of the results; what a report cannot hold is counted, and said.
+// What the HTML report gathers from a file of results in one pass. Cases are rendered as they are
+// read, so that memory follows the size of the report and not that of the results; what a report
+// cannot hold is counted, and said.
 #pragma once
 
 #include <map>
@@ -47,11 +48,11 @@ struct HtmlSurvey {
   HtmlWriter red;     // blocks of what turns this gate red: NON-STRICT, MARGINAL
   std::size_t red_unlisted = 0;
   std::map<SectionName, SectionReport> sections;
-  std::map<std::string, std::vector<double>> response_ms;             // by group: "xgt_cnet/rss"
-  std::map<std::string, std::map<std::string, Reading>> readings;     // name: what was taken
-  std::map<std::pair<Verdict, std::string>, Unexecuted> unexecuted;   // by verdict and reason
-  std::vector<std::pair<ErratumInfo, Tally>> errata;                  // met by cases that were executed
-  std::size_t transposed = 0;                                         // cases moved to the device's station or addresses
+  std::map<std::string, std::vector<double>> response_ms;            // by group: "xgt_cnet/rss"
+  std::map<std::string, std::map<std::string, Reading>> readings;    // name: what was taken
+  std::map<std::pair<Verdict, std::string>, Unexecuted> unexecuted;  // by verdict and reason
+  std::vector<std::pair<ErratumInfo, Tally>> errata;  // met by cases that were executed
+  std::size_t transposed = 0;  // cases moved to the device's station or addresses
 };
 
 /// Blocks and lines that one report holds; more are only counted.

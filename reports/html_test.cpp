@@ -23,7 +23,9 @@ using testing::Not;
 CaseResult passed(std::size_t number) {
   CaseResult result = samples::failure();
   result.id = fmt::format("xgt_cnet/rss/a_case_with_an_id_of_usual_length/lower/number_{}", number);
-  result.title = "Read one word from M100 and one from P001 of station 1: ACK, two blocks of two bytes, 1234 and 5678";
+  result.title =
+      "Read one word from M100 and one from P001 of station 1: ACK, two blocks of two bytes, 1234 "
+      "and 5678";
   result.verdict = Verdict::pass;
   result.message = result.expected = result.expected_hex = result.received = "";
   result.expected_bytes = result.received_bytes = {};
@@ -34,12 +36,14 @@ CaseResult passed(std::size_t number) {
 
 class Html : public testing::Test {
  protected:
-  std::string report(const std::vector<CaseResult>& results, const Gate& gate = {}, bool end = true) {
+  std::string report(const std::vector<CaseResult>& results, const Gate& gate = {},
+                     bool end = true) {
     samples::write_results(results_, results, end);
     return render(gate);
   }
 
-  std::string report(const RunInfo& run, const std::vector<CaseResult>& results, const RunEnd& end, const Gate& gate = {}) {
+  std::string report(const RunInfo& run, const std::vector<CaseResult>& results, const RunEnd& end,
+                     const Gate& gate = {}) {
     {
       auto writer = NdjsonWriter::create(results_);
       EXPECT_TRUE(writer);
@@ -62,7 +66,8 @@ class Html : public testing::Test {
 };
 
 TEST_F(Html, TheVerdictOfTheGateStandsAtTheTop) {
-  const ParsedHtml page(report({samples::failure(), with(Verdict::pass, "a/one"), with(Verdict::skip, "a/two", "other model")}));
+  const ParsedHtml page(report({samples::failure(), with(Verdict::pass, "a/one"),
+                                with(Verdict::skip, "a/two", "other model")}));
   EXPECT_EQ("\u2717 Conformance failed", page.text("//body/main/*[1]/h1"));
   EXPECT_EQ("1 FAIL (exit 1)", page.text("//p[@class='detail']"));
   EXPECT_EQ(1u, page.tile("FAIL"));
@@ -73,7 +78,8 @@ TEST_F(Html, TheVerdictOfTheGateStandsAtTheTop) {
 }
 
 TEST_F(Html, AMetGateSaysSo) {
-  const ParsedHtml page(report(samples::run_info(), {with(Verdict::pass, "a/one")}, samples::run_end(0)));
+  const ParsedHtml page(
+      report(samples::run_info(), {with(Verdict::pass, "a/one")}, samples::run_end(0)));
   EXPECT_EQ("\u2713 Gate met", page.text("//h1"));
   EXPECT_EQ("1 cases, none turns the gate red (exit 0)", page.text("//p[@class='detail']"));
   EXPECT_EQ(0u, page.count("//h2[@id='red']"));
@@ -82,7 +88,8 @@ TEST_F(Html, AMetGateSaysSo) {
 TEST_F(Html, AKilledRunIsNoSuccess) {
   const ParsedHtml page(report({with(Verdict::pass, "a/one")}, {}, false));
   EXPECT_EQ("\u2717 Killed before its end", page.text("//h1"));
-  EXPECT_THAT(page.text("//p[@class='detail']"), HasSubstr("the run was killed: 1 results were written before"));
+  EXPECT_THAT(page.text("//p[@class='detail']"),
+              HasSubstr("the run was killed: 1 results were written before"));
 }
 
 TEST_F(Html, ARunWithoutAResultHasAReport) {
@@ -95,10 +102,14 @@ TEST_F(Html, ARunWithoutAResultHasAReport) {
 
 TEST_F(Html, IdentityAndRunAreNamed) {
   RunInfo run = samples::run_info();
-  run.identity = {"c41a", "LS ELECTRIC", "XBL-C41A", "2219-00417", "V1.41", "J. Kim", "port 2", {}, {}};
+  run.identity = {"c41a", "LS ELECTRIC", "XBL-C41A", "2219-00417", "V1.41", "J. Kim", "port 2", {},
+                  {}};
   const ParsedHtml page(report(run, {with(Verdict::pass, "a/one")}, samples::run_end(0)));
-  const auto fact = [&](const std::string& name) { return page.text("//table[@class='facts']//tr[th='" + name + "']/td"); };
-  EXPECT_EQ("Conformance of LS ELECTRIC XBL-C41A, firmware V1.41", page.text("//p[@class='device']"));
+  const auto fact = [&](const std::string& name) {
+    return page.text("//table[@class='facts']//tr[th='" + name + "']/td");
+  };
+  EXPECT_EQ("Conformance of LS ELECTRIC XBL-C41A, firmware V1.41",
+            page.text("//p[@class='device']"));
   EXPECT_EQ("LS ELECTRIC", fact("maker"));
   EXPECT_EQ("XBL-C41A", fact("model"));
   EXPECT_EQ("2219-00417", fact("serial number"));
@@ -120,18 +131,28 @@ TEST_F(Html, AFailureTellsItsWholeStory) {
   EXPECT_EQ("open", page.text(block).empty() ? "" : "open");
   EXPECT_EQ(1u, page.count("//details[@id='red-1' and @open='open']"));
   EXPECT_EQ("xgt_cnet/rss/one_word", page.text(block + "/summary/b"));
-  EXPECT_EQ("BCC: expected 0F, received 09 (the sum leaves out the header)", page.text(block + "/summary/span[@class='message']"));
+  EXPECT_EQ("BCC: expected 0F, received 09 (the sum leaves out the header)",
+            page.text(block + "/summary/span[@class='message']"));
   EXPECT_EQ("xgb-cnet-en-1.6, 7.1.5 (1)(e)", page.text(block + "/p[@class='clause']/b"));
   EXPECT_EQ("BCC is the low byte of the sum from ENQ to EOT", page.text(block + "//q"));
-  EXPECT_THAT(page.texts(block + "/table[@class='differences']/tbody/tr/td"), ElementsAre("BCC", "0F", "09", "the sum leaves out the header"));
-  EXPECT_THAT(page.texts(block + "/table[@class='monitor']/tbody/tr/@class/.."), testing::SizeIs(4));
-  EXPECT_EQ("ENQ '01rSS0106%MW100' EOT 'A3'", page.text(block + "//tr[@class='sent']//code[@class='notation']"));
-  EXPECT_EQ("[ACK st 'rSS' '01' '02' '1234' ETX BCC]", page.text(block + "//tr[@class='expected']//code[@class='notation']"));
-  EXPECT_THAT(page.texts(block + "//tr[@class='judged']/td[@class='num']"), ElementsAre("24.000", "4.208"));
+  EXPECT_THAT(page.texts(block + "/table[@class='differences']/tbody/tr/td"),
+              ElementsAre("BCC", "0F", "09", "the sum leaves out the header"));
+  EXPECT_THAT(page.texts(block + "/table[@class='monitor']/tbody/tr/@class/.."),
+              testing::SizeIs(4));
+  EXPECT_EQ("ENQ '01rSS0106%MW100' EOT 'A3'",
+            page.text(block + "//tr[@class='sent']//code[@class='notation']"));
+  EXPECT_EQ("[ACK st 'rSS' '01' '02' '1234' ETX BCC]",
+            page.text(block + "//tr[@class='expected']//code[@class='notation']"));
+  EXPECT_THAT(page.texts(block + "//tr[@class='judged']/td[@class='num']"),
+              ElementsAre("24.000", "4.208"));
   EXPECT_THAT(page.texts(block + "//tr[@class='judged']//mark"), ElementsAre("39"));
-  EXPECT_EQ("fieldproof run --filter xgt_cnet/rss/one_word --endpoint emulator:xbc-h", page.text(block + "/pre[@class='replay']"));
+  EXPECT_EQ("fieldproof run --filter xgt_cnet/rss/one_word --endpoint emulator:xbc-h",
+            page.text(block + "/pre[@class='replay']"));
   EXPECT_THAT(page.text(block + "/ul"), HasSubstr("reply after 4.208 ms"));
-  EXPECT_EQ("#red-1", std::string(page.count("//table[@class='lines']//a[@href='#red-1']") == 1 ? "#red-1" : "")) << "its section leads here";
+  EXPECT_EQ(
+      "#red-1",
+      std::string(page.count("//table[@class='lines']//a[@href='#red-1']") == 1 ? "#red-1" : ""))
+      << "its section leads here";
 }
 
 TEST_F(Html, NoAnswerIsShownWhereItWasExpected) {
@@ -140,14 +161,17 @@ TEST_F(Html, NoAnswerIsShownWhereItWasExpected) {
   silent.received_bytes = {};
   silent.exchange.resize(1);
   const ParsedHtml page(report({silent}));
-  EXPECT_THAT(page.texts("//table[@class='monitor']/tbody/tr/td[3]"), ElementsAre("\u2192", "expected", "\u2190"));
+  EXPECT_THAT(page.texts("//table[@class='monitor']/tbody/tr/td[3]"),
+              ElementsAre("\u2192", "expected", "\u2190"));
   EXPECT_EQ("nothing", page.text("//tr[@class='judged']//code"));
 }
 
 TEST_F(Html, APassIsOneLineWithItsBytes) {
   const ParsedHtml page(report({passed(1)}));
-  EXPECT_EQ("\u2192 05 30 31 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 33 \u2190 06 30 31 72 53 53 30 31 30 32 31 32 33 34 03 30 39",
-            page.text("//table[@class='passes']//td[1]"));
+  EXPECT_EQ(
+      "\u2192 05 30 31 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 33 \u2190 06 30 31 72 53 53 30 "
+      "31 30 32 31 32 33 34 03 30 39",
+      page.text("//table[@class='passes']//td[1]"));
   EXPECT_EQ("4.208", page.text("//table[@class='passes']//td[2]"));
 }
 
@@ -156,9 +180,12 @@ TEST_F(Html, SectionsCountByVerdict) {
   other.manual = "xgb-cnet-en-1.6";
   other.section = "7.1.10";
   const ParsedHtml page(report({other, samples::failure()}));
-  EXPECT_THAT(page.texts("//details[@class='section']/summary/span[@class='name']"), ElementsAre("7.1.5 (1)(e)", "7.1.10"));
-  EXPECT_THAT(page.texts("//details[@class='section'][1]/summary/span[@data-verdict]"), ElementsAre("\u00B7", "1"));
-  EXPECT_THAT(page.texts("//details[@class='section'][2]/summary/span[@data-verdict]"), ElementsAre("1", "\u00B7"));
+  EXPECT_THAT(page.texts("//details[@class='section']/summary/span[@class='name']"),
+              ElementsAre("7.1.5 (1)(e)", "7.1.10"));
+  EXPECT_THAT(page.texts("//details[@class='section'][1]/summary/span[@data-verdict]"),
+              ElementsAre("\u00B7", "1"));
+  EXPECT_THAT(page.texts("//details[@class='section'][2]/summary/span[@data-verdict]"),
+              ElementsAre("1", "\u00B7"));
   EXPECT_EQ("\u00B7", page.text("//details[@class='section'][2]/summary/span[@class='none']"));
 }
 
@@ -167,10 +194,12 @@ TEST_F(Html, TheQualificationSheetCanBeSigned) {
   run.identity.fingerprint = {{"areas", "PML"}};
   run.identity.fingerprint_found = {{"areas", "PM"}};
   run.hashes = {{"tool", "00ff"}, {"vectors", "11ee"}};
-  const ParsedHtml page(report(run, {with(Verdict::blocked, "a/one", "needs M")}, samples::run_end(1), {.qualify = true}));
+  const ParsedHtml page(report(run, {with(Verdict::blocked, "a/one", "needs M")},
+                               samples::run_end(1), {.qualify = true}));
   const std::string sheet = "//section[@class='sheet']";
   EXPECT_EQ(1u, page.count(sheet));
-  EXPECT_THAT(page.texts(sheet + "//div[@class='signatures']//p"), ElementsAre("Name", "Date", "Signature", "Name", "Date", "Signature"));
+  EXPECT_THAT(page.texts(sheet + "//div[@class='signatures']//p"),
+              ElementsAre("Name", "Date", "Signature", "Name", "Date", "Signature"));
   EXPECT_THAT(page.texts(sheet + "//tr[th='areas']/td"), ElementsAre("PML", "PM (differs)"));
   EXPECT_EQ("00ff", page.text(sheet + "//tr[th='SHA-256 of tool']/td"));
   EXPECT_EQ(*sha256_of_file(results_), page.text(sheet + "//tr[th='SHA-256 of the log']/td"));
@@ -187,14 +216,18 @@ TEST_F(Html, WithoutQualifyThereIsNothingToSign) {
 TEST_F(Html, EachVerdictIsExplained) {
   const ParsedHtml page(report({with(Verdict::pass, "a/one")}));
   EXPECT_EQ(Tally::verdicts.size(), page.count("//ul[@class='legend']/li"));
-  EXPECT_EQ("NON-STRICT an allowed alternative, or a SHOULD missed; red with --strict", page.text("//ul[@class='legend']/li[3]"));
+  EXPECT_EQ("NON-STRICT an allowed alternative, or a SHOULD missed; red with --strict",
+            page.text("//ul[@class='legend']/li[3]"));
 }
 
 TEST_F(Html, HostileBytesSurvive) {
-  const std::string hostile = "</td></script><script>alert(1)</script> ]]> <!-- &#5; \x05\x7F\xFF\xC3\x28 \xED\xA0\x80 \"'&\r\n";
+  const std::string hostile =
+      "</td></script><script>alert(1)</script> ]]> <!-- &#5; \x05\x7F\xFF\xC3\x28 \xED\xA0\x80 "
+      "\"'&\r\n";
   RunInfo run = samples::run_info();
   run.endpoint = run.command = run.profile = hostile;
-  run.identity = {hostile, hostile, hostile, hostile, hostile, hostile, hostile, {{hostile, hostile}}, {}};
+  run.identity = {
+      hostile, hostile, hostile, hostile, hostile, hostile, hostile, {{hostile, hostile}}, {}};
   run.hashes = {{hostile, hostile}};
   run.errata = {{"bad", hostile, hostile, hostile, hostile, hostile}};
   std::vector<CaseResult> results;
@@ -202,7 +235,8 @@ TEST_F(Html, HostileBytesSurvive) {
     CaseResult result = samples::failure();
     result.verdict = verdict;
     result.id = "bad/" + hostile + std::string(to_string(verdict));
-    result.protocol = result.title = result.level = result.basis = result.manual = result.section = result.quote = hostile;
+    result.protocol = result.title = result.level = result.basis = result.manual = result.section =
+        result.quote = hostile;
     result.message = result.expected = result.received = result.replay = hostile;
     result.notes = {hostile, "transposed: " + hostile};
     result.differences = {{hostile, hostile, hostile, hostile}};
@@ -211,7 +245,8 @@ TEST_F(Html, HostileBytesSurvive) {
     results.push_back(result);
   }
   for (const bool qualify : {false, true}) {
-    const std::string html = report(run, results, {hostile, 1, 3, false, hostile}, {.qualify = qualify});
+    const std::string html =
+        report(run, results, {hostile, 1, 3, false, hostile}, {.qualify = qualify});
     EXPECT_THAT(html, Not(HasSubstr("<script")));
     EXPECT_THAT(html, Not(HasSubstr("<!--")));
     const ParsedHtml page(html);
@@ -231,9 +266,11 @@ TEST_F(Html, AFrameOfAMebibyteIsCutAndSaysSo) {
   const std::string html = report({large, large_pass});
   EXPECT_LT(html.size(), 64u << 10);
   const ParsedHtml page(html);
-  EXPECT_EQ(fmt::format(" ... {} more bytes", (1 << 20) - block_frame_limit), page.text("//tr[@class='judged']//em"));
+  EXPECT_EQ(fmt::format(" ... {} more bytes", (1 << 20) - block_frame_limit),
+            page.text("//tr[@class='judged']//em"));
   const std::size_t request = large_pass.exchange[0].bytes.size();
-  EXPECT_EQ(fmt::format(" ... {} more bytes", (1 << 20) + request - line_bytes_limit), page.text("//table[@class='passes']//em"));
+  EXPECT_EQ(fmt::format(" ... {} more bytes", (1 << 20) + request - line_bytes_limit),
+            page.text("//table[@class='passes']//em"));
 }
 
 TEST_F(Html, ThreeThousandPassesStayBelowTwoMebibytes) {
@@ -251,18 +288,21 @@ TEST_F(Html, BeyondTheLimitOfLinesCasesAreCounted) {
   const ParsedHtml page(report(results));
   EXPECT_EQ(html_line_limit, page.count("//table[@class='passes']//tr"));
   EXPECT_EQ(html_line_limit + 5, page.tile("PASS"));
-  EXPECT_EQ("5 more are counted, not listed; `results.ndjson` has them.", page.text("//details[@class='section']/p[@class='cut']"));
+  EXPECT_EQ("5 more are counted, not listed; `results.ndjson` has them.",
+            page.text("//details[@class='section']/p[@class='cut']"));
 }
 
 TEST_F(Html, NothingIsLoadedFromElsewhere) {
   const std::string html = report({samples::failure()}, {.qualify = true});
-  for (const char* loads : {"src=", "url(", "@import", "<link", "http-equiv", "javascript:"}) EXPECT_THAT(html, Not(HasSubstr(loads))) << loads;
+  for (const char* loads : {"src=", "url(", "@import", "<link", "http-equiv", "javascript:"})
+    EXPECT_THAT(html, Not(HasSubstr(loads))) << loads;
 }
 
 TEST_F(Html, WhatCannotBeReadOrWrittenIsSaid) {
   EXPECT_THAT(write_html(folder_ / "none", report_, {}).error().message, HasSubstr("cannot read"));
   samples::write_results(results_, {with(Verdict::pass, "a/one")});
-  EXPECT_THAT(write_html(results_, folder_ / "none/report.html", {}).error().message, HasSubstr("cannot write"));
+  EXPECT_THAT(write_html(results_, folder_ / "none/report.html", {}).error().message,
+              HasSubstr("cannot write"));
   EXPECT_EQ(1u, folder_.files()) << "no half report is left";
 }
 

@@ -26,9 +26,12 @@ TEST(Percentile, IsTheNearestRank) {
 }
 
 TEST(HtmlTiming, ARowSaysCountLeastMedian99thAndGreatest) {
-  const samples::ParsedHtml page(timing({{"xgt_cnet/rss", {3, 1, 2}}, {"xgt_cnet/wss", {40}}}, 500));
-  EXPECT_THAT(page.texts("//tbody/tr[1]/td[not(@class='plot')]"), ElementsAre("xgt_cnet/rss", "3", "1.000", "2.000", "3.000", "3.000"));
-  EXPECT_THAT(page.texts("//tbody/tr[2]/td[not(@class='plot')]"), ElementsAre("xgt_cnet/wss", "1", "40.000", "40.000", "40.000", "40.000"));
+  const samples::ParsedHtml page(
+      timing({{"xgt_cnet/rss", {3, 1, 2}}, {"xgt_cnet/wss", {40}}}, 500));
+  EXPECT_THAT(page.texts("//tbody/tr[1]/td[not(@class='plot')]"),
+              ElementsAre("xgt_cnet/rss", "3", "1.000", "2.000", "3.000", "3.000"));
+  EXPECT_THAT(page.texts("//tbody/tr[2]/td[not(@class='plot')]"),
+              ElementsAre("xgt_cnet/wss", "1", "40.000", "40.000", "40.000", "40.000"));
   EXPECT_EQ(2u, page.count("//path[@class='limit']"));
 }
 
@@ -39,7 +42,9 @@ TEST(HtmlTiming, TheScaleIsLogarithmic) {
   EXPECT_THAT(html, HasSubstr("class=\"limit\" d=\"M264.0 "));
 }
 
-TEST(HtmlTiming, WithoutALimitThereIsNoLine) { EXPECT_EQ(std::string::npos, timing({{"a", {10}}}, 0).find("limit")); }
+TEST(HtmlTiming, WithoutALimitThereIsNoLine) {
+  EXPECT_EQ(std::string::npos, timing({{"a", {10}}}, 0).find("limit"));
+}
 
 TEST(HtmlTiming, ZeroNegativeAndAbsurdTimesStayInThePlot) {
   const std::string html = timing({{"a", {0, -1, 1e-9, 1e300}}, {"b", {0}}}, 1e300);
@@ -47,7 +52,8 @@ TEST(HtmlTiming, ZeroNegativeAndAbsurdTimesStayInThePlot) {
   EXPECT_EQ(2u, page.count("//tbody//svg"));
   EXPECT_EQ(std::string::npos, html.find("nan"));
   EXPECT_EQ(std::string::npos, html.find("inf"));
-  // The median of the first row is no positive time, its greatest and the limit are beyond any scale.
+  // The median of the first row is no positive time, its greatest and the limit are beyond any
+  // scale.
   EXPECT_THAT(html, HasSubstr("class=\"median\" d=\"M8.0 "));
   EXPECT_THAT(html, HasSubstr("class=\"limit\" d=\"M392.0 "));
 }

@@ -1,5 +1,6 @@
-// The one place that writes HTML. Well-formed by construction (every element that is opened is closed, every text is
-// escaped), in the syntax that HTML and XML share: an XML parser reads the page as a browser does.
+// The one place that writes HTML. Well-formed by construction (every element that is opened is
+// closed, every text is escaped), in the syntax that HTML and XML share: an XML parser reads the
+// page as a browser does.
 #pragma once
 
 #include <initializer_list>
@@ -18,8 +19,10 @@ class HtmlWriter {
   template <typename Body>
   void element(std::string_view tag, Attributes attributes, const Body& body) {
     open(tag, attributes);
-    if constexpr (std::is_invocable_v<const Body&>) body();
-    else text(body);
+    if constexpr (std::is_invocable_v<const Body&>)
+      body();
+    else
+      text(body);
     close(tag);
   }
   /// An element that HTML knows as empty (br, hr, meta) or a shape of SVG.

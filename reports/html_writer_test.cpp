@@ -28,7 +28,11 @@ TEST(HtmlWriter, AnEmptyElementIsClosedAsBrowsersWantIt) {
 TEST(HtmlWriter, TextAndAttributesAreEscaped) {
   HtmlWriter out;
   out.element("p", {{"title", "a\"b<c>&\n"}}, "</p><script>alert('1')</script>&amp;");
-  EXPECT_EQ("<p title=\"a&quot;b&lt;c&gt;&amp;[0A]\">&lt;/p&gt;&lt;script&gt;alert('1')&lt;/script&gt;&amp;amp;</p>", out.str());
+  EXPECT_EQ(
+      "<p "
+      "title=\"a&quot;b&lt;c&gt;&amp;[0A]\">&lt;/p&gt;&lt;script&gt;alert('1')&lt;/"
+      "script&gt;&amp;amp;</p>",
+      out.str());
 }
 
 TEST(HtmlWriter, LinesKeepTheirBreaks) {
@@ -40,7 +44,8 @@ TEST(HtmlWriter, LinesKeepTheirBreaks) {
 TEST(HtmlWriter, AnyBytesComeBackFromAParser) {
   std::string bytes;
   for (int first = 0; first < 256; ++first) {
-    for (const char* after : {"", "a", "\x80", "<", "&"}) bytes += static_cast<char>(first) + std::string(after);
+    for (const char* after : {"", "a", "\x80", "<", "&"})
+      bytes += static_cast<char>(first) + std::string(after);
   }
   HtmlWriter out;
   out.element("html", {{"title", bytes}}, bytes);

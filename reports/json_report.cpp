@@ -13,12 +13,15 @@ namespace {
 
 using nlohmann::json;
 
-std::string print(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string print(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 /// Total first, then in the order of the design's table (a json object would sort them).
 std::string counts(const Tally& tally) {
   std::string text = fmt::format("{{\"total\":{}", tally.total());
-  for (Verdict verdict : Tally::verdicts) text += fmt::format(",\"{}\":{}", to_string(verdict), tally.of(verdict));
+  for (Verdict verdict : Tally::verdicts)
+    text += fmt::format(",\"{}\":{}", to_string(verdict), tally.of(verdict));
   return text + '}';
 }
 
@@ -36,7 +39,8 @@ Result<Tally> write_json(const std::string& ndjson, const std::string& path) {
   if (!file) return file.error();
 
   std::ostream& out = file->out();
-  out << "{\"schema\":1,\n\"run\":" << print(log->run) << ",\n\"counts\":" << counts(tally) << ",\n\"timing\":" << print(timing.json());
+  out << "{\"schema\":1,\n\"run\":" << print(log->run) << ",\n\"counts\":" << counts(tally)
+      << ",\n\"timing\":" << print(timing.json());
   if (log->soak) out << ",\n\"soak\":" << print(*log->soak);
   if (!log->samples.empty()) out << ",\n\"samples\":" << print(log->samples);
   out << ",\n\"cases\":[";
@@ -47,7 +51,9 @@ Result<Tally> write_json(const std::string& ndjson, const std::string& path) {
   });
   if (!again) return again.error();
   if (written != tally) {
-    return fail(fmt::format("cannot report {}: it changed while it was read; wait for the run to end, then repeat", ndjson));
+    return fail(fmt::format(
+        "cannot report {}: it changed while it was read; wait for the run to end, then repeat",
+        ndjson));
   }
   out << "\n],\n\"end\":" << (log->end ? print(*log->end) : "null") << "}\n";
   if (Status done = file->commit(); !done) return done.error();

@@ -76,7 +76,9 @@ std::vector<CaseResult> uneven_results() {
   std::vector<CaseResult> results;
   for (std::size_t i = 0; i < Tally::verdicts.size(); ++i) {
     for (std::size_t n = 0; n <= i * 2; ++n) {
-      results.push_back(with(Tally::verdicts[i], "xgt_cnet/v" + std::to_string(i) + "/n" + std::to_string(n), "because"));
+      results.push_back(with(Tally::verdicts[i],
+                             "xgt_cnet/v" + std::to_string(i) + "/n" + std::to_string(n),
+                             "because"));
     }
   }
   return results;
@@ -97,15 +99,19 @@ TEST_F(JsonReport, AllReportsCountAlike) {
   pugi::xml_document junit;
   ASSERT_TRUE(junit.load_file(junit_path.c_str()));
   const pugi::xml_node root = junit.child("testsuites");
-  const auto count = [&](Verdict verdict) { return document["counts"].at(std::string(to_string(verdict))).get<unsigned>(); };
+  const auto count = [&](Verdict verdict) {
+    return document["counts"].at(std::string(to_string(verdict))).get<unsigned>();
+  };
   EXPECT_EQ(document["counts"]["total"].get<unsigned>(), root.attribute("tests").as_uint());
-  EXPECT_EQ(count(Verdict::fail) + count(Verdict::xpass) + count(Verdict::non_strict), root.attribute("failures").as_uint());
+  EXPECT_EQ(count(Verdict::fail) + count(Verdict::xpass) + count(Verdict::non_strict),
+            root.attribute("failures").as_uint());
   EXPECT_EQ(count(Verdict::error), root.attribute("errors").as_uint());
 
   const std::string text = run_summary({*tally, {}, {}, {}}, {.gate = gate});
   EXPECT_THAT(text, testing::HasSubstr("\n" + std::to_string(results.size()) + " cases in"));
   for (Verdict verdict : Tally::verdicts) {
-    EXPECT_THAT(text, testing::ContainsRegex(" " + std::to_string(count(verdict)) + "  " + std::string(to_string(verdict)) + " "));
+    EXPECT_THAT(text, testing::ContainsRegex(" " + std::to_string(count(verdict)) + "  " +
+                                             std::string(to_string(verdict)) + " "));
   }
 }
 

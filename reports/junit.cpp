@@ -37,7 +37,8 @@ struct Counts {
 Result<Survey> survey_results(const std::string& ndjson) {
   std::vector<Suite> suites;
   auto log = read_ndjson(ndjson, [&](const CaseResult& result) {
-    auto suite = std::find_if(suites.begin(), suites.end(), [&](const Suite& s) { return s.protocol == result.protocol; });
+    auto suite = std::find_if(suites.begin(), suites.end(),
+                              [&](const Suite& s) { return s.protocol == result.protocol; });
     if (suite == suites.end()) suite = suites.insert(suites.end(), {.protocol = result.protocol});
     suite->tally.add(result.verdict);
     suite->seconds += result.seconds;
@@ -72,7 +73,9 @@ void set(pugi::xml_node node, const char* name, const std::string& value) {
 void set(pugi::xml_node node, const char* name, std::size_t value) {
   node.append_attribute(name).set_value(static_cast<unsigned long long>(value));
 }
-void set_body(pugi::xml_node node, const std::string& body) { node.text().set(xml_text(body).c_str()); }
+void set_body(pugi::xml_node node, const std::string& body) {
+  node.text().set(xml_text(body).c_str());
+}
 
 std::string print(pugi::xml_node node, unsigned depth) {
   std::ostringstream out;
@@ -142,7 +145,8 @@ std::string properties(const Suite& suite, const RunLog& log, const Gate& gate) 
   if (log.end) add("exit_code", std::to_string(log.end->exit_code));
   if (const std::string why = early_end(log); !why.empty()) add("ended_early", why);
   if (log.soak) add("soak", soak_text(*log.soak));
-  for (const auto& [name, figures] : suite.timing.rows()) add("reply times " + name, to_string(figures));
+  for (const auto& [name, figures] : suite.timing.rows())
+    add("reply times " + name, to_string(figures));
   return print(list, 2);
 }
 
@@ -186,16 +190,19 @@ std::string testcase(const CaseResult& result, const Gate& gate) {
     case JunitOutcome::skipped: {
       pugi::xml_node skipped = node.append_child("skipped");
       set(skipped, "type", std::string(to_string(result.verdict)));
-      set(skipped, "message", fmt::format("{}: {}", to_string(result.verdict), case_message(result)));
+      set(skipped, "message",
+          fmt::format("{}: {}", to_string(result.verdict), case_message(result)));
       [[fallthrough]];
     }
     case JunitOutcome::plain:
-      if (const std::string text = remarks(result); !text.empty()) set_body(node.append_child("system-out"), text);
+      if (const std::string text = remarks(result); !text.empty())
+        set_body(node.append_child("system-out"), text);
   }
   return print(node, 2);
 }
 
-Status write_suite(std::ostream& out, const std::string& ndjson, const Suite& suite, const RunLog& log, const Gate& gate) {
+Status write_suite(std::ostream& out, const std::string& ndjson, const Suite& suite,
+                   const RunLog& log, const Gate& gate) {
   out << suite_tag(suite, log, gate) << properties(suite, log, gate);
   Tally written;
   auto again = read_ndjson(ndjson, [&](const CaseResult& result) {
@@ -205,7 +212,9 @@ Status write_suite(std::ostream& out, const std::string& ndjson, const Suite& su
   });
   if (!again) return again.error();
   if (written != suite.tally) {
-    return fail(fmt::format("cannot report {}: it changed while it was read; wait for the run to end, then repeat", ndjson));
+    return fail(fmt::format(
+        "cannot report {}: it changed while it was read; wait for the run to end, then repeat",
+        ndjson));
   }
   if (const std::string why = early_end(log); !why.empty()) {
     pugi::xml_document document;
@@ -242,7 +251,8 @@ Result<Tally> write_junit(const std::string& ndjson, const std::string& path, co
   file->out() << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" << root_tag(*survey, gate);
   Tally all;
   for (const Suite& suite : survey->suites) {
-    if (Status written = write_suite(file->out(), ndjson, suite, survey->log, gate); !written) return written.error();
+    if (Status written = write_suite(file->out(), ndjson, suite, survey->log, gate); !written)
+      return written.error();
     for (Verdict verdict : Tally::verdicts) all.add(verdict, suite.tally.of(verdict));
   }
   file->out() << "</testsuites>\n";

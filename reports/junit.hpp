@@ -17,10 +17,11 @@ struct JunitName {
 };
 JunitName junit_name(const CaseResult& result);
 
-/// Reads the results in `ndjson` (of a killed run too) and writes `path`: one <testsuite> a protocol, in the order in
-/// which they first appear. Memory does not grow with the number of cases; the file is read once to count and once a
-/// suite to write. Valid under the strict junit-10.xsd of Jenkins' xunit plugin.
-/// `path` appears whole or not at all. Returns the counts of what was written.
+/// Reads the results in `ndjson` (of a killed run too) and writes `path`: one <testsuite> a
+/// protocol, in the order in which they first appear. Memory does not grow with the number of
+/// cases; the file is read once to count and once a suite to write. Valid under the strict
+/// junit-10.xsd of Jenkins' xunit plugin. `path` appears whole or not at all. Returns the counts of
+/// what was written.
 Result<Tally> write_junit(const std::string& ndjson, const std::string& path, const Gate& gate);
 
 }  // namespace fieldproof

@@ -14,12 +14,18 @@ namespace {
 constexpr std::string_view own_prefix = "fieldproof.";
 
 void read_property(const std::string& name, const std::string& value, RunInfo& run) {
-  if (name == "fieldproof") run.tool_version = value;
-  else if (name == "endpoint") run.endpoint = value;
-  else if (name == "profile") run.profile = value;
-  else if (name == "command") run.command = value;
-  else if (name == "vectors") run.vectors_hash = value;
-  else run.properties[name] = value;
+  if (name == "fieldproof")
+    run.tool_version = value;
+  else if (name == "endpoint")
+    run.endpoint = value;
+  else if (name == "profile")
+    run.profile = value;
+  else if (name == "command")
+    run.command = value;
+  else if (name == "vectors")
+    run.vectors_hash = value;
+  else
+    run.properties[name] = value;
 }
 
 /// The reverse of junit_name() for our own, "class/name" for others.
@@ -37,7 +43,8 @@ void read_name(pugi::xml_node node, CaseResult& result) {
         result.id.resize(mark);
       }
     }
-    if (const std::size_t mark = result.id.rfind(" ["); mark != std::string::npos && result.id.ends_with(']')) {
+    if (const std::size_t mark = result.id.rfind(" [");
+        mark != std::string::npos && result.id.ends_with(']')) {
       result.line = result.id.substr(mark + 2, result.id.size() - mark - 3);
       result.id.resize(mark);
     }
@@ -56,7 +63,8 @@ std::string first_line(const char* text) {
 /// "NON-STRICT: allowed alternative", as our remarks begin; false where the line says no verdict.
 bool read_headline(const std::string& line, CaseResult& result) {
   const std::size_t colon = line.find(": ");
-  const auto verdict = parse_verdict(std::string_view(line).substr(0, std::min(colon, line.size())));
+  const auto verdict =
+      parse_verdict(std::string_view(line).substr(0, std::min(colon, line.size())));
   if (!verdict) return false;
   result.verdict = *verdict;
   result.message = colon == std::string::npos ? "" : line.substr(colon + 2);
@@ -64,7 +72,8 @@ bool read_headline(const std::string& line, CaseResult& result) {
 }
 
 void read_outcome(pugi::xml_node node, CaseResult& result) {
-  constexpr std::pair<const char*, Verdict> outcomes[] = {{"error", Verdict::error}, {"failure", Verdict::fail}, {"skipped", Verdict::skip}};
+  constexpr std::pair<const char*, Verdict> outcomes[] = {
+      {"error", Verdict::error}, {"failure", Verdict::fail}, {"skipped", Verdict::skip}};
   for (const auto& [element, verdict] : outcomes) {
     const pugi::xml_node outcome = node.child(element);
     if (!outcome) continue;
@@ -72,7 +81,8 @@ void read_outcome(pugi::xml_node node, CaseResult& result) {
     result.message = outcome.attribute("message").value();
     if (result.message.empty()) result.message = first_line(outcome.text().get());
     // A skipped case of ours repeats the verdict before the message.
-    if (CaseResult read; read_headline(result.message, read) && read.verdict == result.verdict) result.message = read.message;
+    if (CaseResult read; read_headline(result.message, read) && read.verdict == result.verdict)
+      result.message = read.message;
     return;
   }
   result.verdict = Verdict::pass;
@@ -83,24 +93,32 @@ void read_outcome(pugi::xml_node node, CaseResult& result) {
 
 Result<ResultFile> read_junit_text(const std::string& text, const std::string& path) {
   pugi::xml_document document;
-  if (const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size()); !parsed) {
-    const auto end = text.begin() + std::clamp<std::ptrdiff_t>(parsed.offset, 0, static_cast<std::ptrdiff_t>(text.size()));
-    return fail(fmt::format("cannot read {}, line {}: {}; is the file complete?", path, 1 + std::count(text.begin(), end, '\n'), parsed.description()));
+  if (const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
+      !parsed) {
+    const auto end = text.begin() + std::clamp<std::ptrdiff_t>(
+                                        parsed.offset, 0, static_cast<std::ptrdiff_t>(text.size()));
+    return fail(fmt::format("cannot read {}, line {}: {}; is the file complete?", path,
+                            1 + std::count(text.begin(), end, '\n'), parsed.description()));
   }
   const std::string root = document.document_element().name();
   if (root != "testsuites" && root != "testsuite")
-    return fail(fmt::format("cannot read {}: it is XML, but no JUnit (<{}> instead of <testsuites>)", path, root));
+    return fail(fmt::format(
+        "cannot read {}: it is XML, but no JUnit (<{}> instead of <testsuites>)", path, root));
   ResultFile file;
   file.path = path;
   for (const pugi::xpath_node& found : document.select_nodes("//testsuite/properties/property"))
-    read_property(found.node().attribute("name").value(), found.node().attribute("value").value(), file.run);
-  file.run.started = document.select_node("//testsuite[@timestamp]").node().attribute("timestamp").value();
+    read_property(found.node().attribute("name").value(), found.node().attribute("value").value(),
+                  file.run);
+  file.run.started =
+      document.select_node("//testsuite[@timestamp]").node().attribute("timestamp").value();
   std::map<std::tuple<std::string, std::string, int>, int> seen;
   for (const pugi::xpath_node& found : document.select_nodes("//testcase")) {
     CaseResult result;
     result.rev = 0;
     read_name(found.node(), result);
-    if (result.id.empty()) return fail(fmt::format("cannot read {}: test case {} has no name", path, file.results.size() + 1));
+    if (result.id.empty())
+      return fail(
+          fmt::format("cannot read {}: test case {} has no name", path, file.results.size() + 1));
     read_outcome(found.node(), result);
     result.seconds = found.node().attribute("time").as_double();
     result.repeat += seen[{result.id, result.line, result.repeat}]++;  // others may name two alike

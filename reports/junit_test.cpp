@@ -34,7 +34,8 @@ class Junit : public testing::Test {
   std::string xmllint() const {
     const std::string log = folder_ / "xmllint.txt";
     const std::string schema = FIELDPROOF_SOURCE_DIR "/reports/testdata/junit-10.xsd";
-    const std::string command = "xmllint --huge --noout --schema '" + schema + "' '" + report_ + "' >'" + log + "' 2>&1";
+    const std::string command =
+        "xmllint --huge --noout --schema '" + schema + "' '" + report_ + "' >'" + log + "' 2>&1";
     return std::system(command.c_str()) == 0 ? "" : samples::read_file(log);
   }
   static bool have_xmllint() { return std::system("xmllint --version >/dev/null 2>&1") == 0; }
@@ -45,7 +46,11 @@ class Junit : public testing::Test {
     return suite().find_child_by_attribute("testcase", "name", name.c_str());
   }
   std::string property(const char* name) const {
-    return suite().child("properties").find_child_by_attribute("name", name).attribute("value").value();
+    return suite()
+        .child("properties")
+        .find_child_by_attribute("name", name)
+        .attribute("value")
+        .value();
   }
 
   samples::Folder folder_;
@@ -57,7 +62,8 @@ class Junit : public testing::Test {
 std::vector<CaseResult> one_of_each() {
   std::vector<CaseResult> results;
   for (Verdict verdict : Tally::verdicts) {
-    results.push_back(with(verdict, "xgt_cnet/each/v" + std::to_string(static_cast<int>(verdict)), "because"));
+    results.push_back(
+        with(verdict, "xgt_cnet/each/v" + std::to_string(static_cast<int>(verdict)), "because"));
     results.back().seconds = 0.001;
   }
   return results;
@@ -80,7 +86,8 @@ void expect_counts_equal_children(pugi::xml_node root) {
       all[name] += found[name];
     }
   }
-  for (const char* name : {"tests", "failures", "errors"}) EXPECT_EQ(all[name], root.attribute(name).as_uint(99999)) << name;
+  for (const char* name : {"tests", "failures", "errors"})
+    EXPECT_EQ(all[name], root.attribute(name).as_uint(99999)) << name;
 }
 
 TEST(JunitNames, FolderAndGroupAreTheClass) {
@@ -101,13 +108,15 @@ TEST_F(Junit, AFailureIsComplete) {
   report({samples::failure()});
   const pugi::xml_node node = testcase("one_word").child("failure");
   EXPECT_STREQ("FAIL", node.attribute("type").value());
-  EXPECT_STREQ("BCC: expected 0F, received 09 (the sum leaves out the header)", node.attribute("message").value());
+  EXPECT_STREQ("BCC: expected 0F, received 09 (the sum leaves out the header)",
+               node.attribute("message").value());
   const std::string body = node.text().get();
-  for (const char* part : {"FAIL: BCC: expected 0F, received 09", "xgb-cnet-en-1.6, 7.1.5 (1)(e)", "BCC is the low byte of the sum",
-                           "sent      ENQ '01rSS0106%MW100' EOT 'A3'", "expected  [ACK st 'rSS'", "0010  46",
-                           "received  ACK '01rSS01021234' ETX '09'",
-                           "0010  39\n                ^^", "BCC    0F        09", "reply after 4.208 ms", "24.000      4.208  <--",
-                           "replay    fieldproof run --filter xgt_cnet/rss/one_word"}) {
+  for (const char* part :
+       {"FAIL: BCC: expected 0F, received 09", "xgb-cnet-en-1.6, 7.1.5 (1)(e)",
+        "BCC is the low byte of the sum", "sent      ENQ '01rSS0106%MW100' EOT 'A3'",
+        "expected  [ACK st 'rSS'", "0010  46", "received  ACK '01rSS01021234' ETX '09'",
+        "0010  39\n                ^^", "BCC    0F        09", "reply after 4.208 ms",
+        "24.000      4.208  <--", "replay    fieldproof run --filter xgt_cnet/rss/one_word"}) {
     EXPECT_THAT(body, HasSubstr(part));
   }
   EXPECT_STREQ("fieldproof.xgt_cnet.rss", testcase("one_word").attribute("classname").value());
@@ -121,10 +130,16 @@ TEST_F(Junit, EachVerdictHasItsElement) {
     const pugi::xml_node outcome = node.first_child();
     found[outcome.attribute("type").value()] += outcome.name();
   }
-  EXPECT_EQ((std::map<std::string, std::string>{{"", "system-outsystem-outsystem-out"},  // PASS is plain
-                                                {"FAIL", "failure"}, {"XPASS", "failure"}, {"ERROR", "error"}, {"XFAIL", "skipped"},
-                                                {"SKIP", "skipped"}, {"BLOCKED", "skipped"}, {"INCONCLUSIVE", "skipped"}}),
-            found);
+  EXPECT_EQ(
+      (std::map<std::string, std::string>{{"", "system-outsystem-outsystem-out"},  // PASS is plain
+                                          {"FAIL", "failure"},
+                                          {"XPASS", "failure"},
+                                          {"ERROR", "error"},
+                                          {"XFAIL", "skipped"},
+                                          {"SKIP", "skipped"},
+                                          {"BLOCKED", "skipped"},
+                                          {"INCONCLUSIVE", "skipped"}}),
+      found);
   EXPECT_FALSE(testcase("v0").first_child());
   EXPECT_THAT(testcase("v1").child("system-out").text().get(), HasSubstr("MARGINAL: because"));
   EXPECT_STREQ("BLOCKED: because", testcase("v8").child("skipped").attribute("message").value());
@@ -142,7 +157,9 @@ TEST_F(Junit, FailuresFollowTheGate) {
 
 TEST_F(Junit, CountsEqualTheChildren) {
   for (int bits = 0; bits < 8; ++bits) {
-    report(one_of_each(), {.strict = (bits & 1) != 0, .fail_on_marginal = (bits & 2) != 0, .qualify = (bits & 4) != 0});
+    report(one_of_each(), {.strict = (bits & 1) != 0,
+                           .fail_on_marginal = (bits & 2) != 0,
+                           .qualify = (bits & 4) != 0});
     EXPECT_EQ(11u, root().attribute("tests").as_uint());
     expect_counts_equal_children(root());
   }
@@ -155,7 +172,8 @@ TEST_F(Junit, OneSuiteAProtocolInOrderOfAppearance) {
   std::string layout;
   for (pugi::xml_node node : root().children("testsuite")) {
     layout += std::string(node.attribute("name").value()) + ":";
-    for (pugi::xml_node child : node.children("testcase")) layout += std::string(" ") + child.attribute("name").value();
+    for (pugi::xml_node child : node.children("testcase"))
+      layout += std::string(" ") + child.attribute("name").value();
     layout += "; ";
   }
   EXPECT_EQ("xgt-cnet: a b; modbus-rtu: one; ", layout);
@@ -180,7 +198,8 @@ TEST_F(Junit, RepetitionsHaveNamesOfTheirOwn) {
   results[2].repeat = 2;
   report(results);
   std::set<std::string> names;
-  for (pugi::xml_node node : suite().children("testcase")) names.insert(node.attribute("name").value());
+  for (pugi::xml_node node : suite().children("testcase"))
+    names.insert(node.attribute("name").value());
   EXPECT_EQ((std::set<std::string>{"a", "a #2", "a #3"}), names);
 }
 
@@ -203,7 +222,8 @@ TEST_F(Junit, NothingThatADeviceSendsBreaksTheFile) {
   EXPECT_STREQ("got [05]", testcase("one_word5").child("failure").attribute("message").value());
   EXPECT_THAT(testcase("one_word5").child("failure").text().get(),
               HasSubstr("received  got [05]\n          0000  05\n                ^^\n"));
-  EXPECT_THAT(testcase("one_word").child("failure").text().get(), HasSubstr("<script>alert(\"1\")</script> ]]> & &#5; "));
+  EXPECT_THAT(testcase("one_word").child("failure").text().get(),
+              HasSubstr("<script>alert(\"1\")</script> ]]> & &#5; "));
   EXPECT_EQ(std::string::npos, samples::read_file(report_).find("<script"));
   if (have_xmllint()) {
     EXPECT_EQ("", xmllint());
@@ -224,7 +244,8 @@ TEST_F(Junit, AFrameOfAMebibyteIsWhole) {
 TEST_F(Junit, LongIdsStayWhole) {
   const std::string part(4000, 'x');
   report({with(Verdict::fail, part + "/" + part + "/" + part)});
-  EXPECT_EQ("fieldproof." + part + "." + part, suite().child("testcase").attribute("classname").value());
+  EXPECT_EQ("fieldproof." + part + "." + part,
+            suite().child("testcase").attribute("classname").value());
   EXPECT_EQ(part, suite().child("testcase").attribute("name").value());
 }
 
@@ -251,11 +272,14 @@ TEST_F(Junit, TheSchemaRefusesWhatJenkinsAndGitLabRefuse) {
     std::ofstream(report_, std::ios::binary) << bad.replace(at, what.size(), with_this);
     return xmllint();
   };
-  EXPECT_THAT(complaint("<failure", "<properties/><failure"), HasSubstr("'properties': This element is not expected"));
-  EXPECT_THAT(complaint(" time=\"0.013\"", " time=\"0,013\""), HasSubstr("'0,013' is not accepted"));
+  EXPECT_THAT(complaint("<failure", "<properties/><failure"),
+              HasSubstr("'properties': This element is not expected"));
+  EXPECT_THAT(complaint(" time=\"0.013\"", " time=\"0,013\""),
+              HasSubstr("'0,013' is not accepted"));
   EXPECT_THAT(complaint("+00:00\">", "\">"), HasSubstr("timestamp"));
   EXPECT_THAT(complaint("<testcase ", "<testcase status=\"run\" "), HasSubstr("'status'"));
-  const std::string twin = "<testcase classname=\"fieldproof.xgt_cnet.rss\" name=\"one_word\" time=\"0.000\"/>";
+  const std::string twin =
+      "<testcase classname=\"fieldproof.xgt_cnet.rss\" name=\"one_word\" time=\"0.000\"/>";
   EXPECT_THAT(complaint("<testcase ", twin + "<testcase "), HasSubstr("Duplicate key-sequence"));
   EXPECT_THAT(complaint("FAIL: ", "\x05"), HasSubstr("PCDATA invalid Char value 5"));
 }
@@ -265,8 +289,10 @@ TEST_F(Junit, AKilledRunSaysSo) {
   std::ofstream(results_, std::ios::app | std::ios::binary) << "{\"case\":{\"id\":\"xgt";
   make();
   EXPECT_EQ("missing", property("end"));
-  EXPECT_EQ("the run was killed: 2 results were written before, and one incomplete", property("ended_early"));
-  EXPECT_STREQ("the run was killed: 2 results were written before, and one incomplete", suite().child("system-err").text().get());
+  EXPECT_EQ("the run was killed: 2 results were written before, and one incomplete",
+            property("ended_early"));
+  EXPECT_STREQ("the run was killed: 2 results were written before, and one incomplete",
+               suite().child("system-err").text().get());
   EXPECT_EQ(2u, suite().attribute("tests").as_uint());
   expect_counts_equal_children(root());
 }

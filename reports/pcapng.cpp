@@ -11,9 +11,10 @@ constexpr std::size_t rtac_header = 12;
 // Block types and option codes of the draft.
 constexpr std::uint32_t section_header = 0x0A0D0D0A, interface_description = 1, enhanced_packet = 6;
 constexpr std::uint16_t end_of_options = 0, comment_option = 1;
-constexpr std::uint16_t hardware_option = 2, application_option = 4;                         // of the section
-constexpr std::uint16_t name_option = 2, description_option = 3, resolution_option = 9;      // of an interface
-constexpr std::uint16_t flags_option = 2;                                                    // of a packet
+constexpr std::uint16_t hardware_option = 2, application_option = 4;  // of the section
+constexpr std::uint16_t name_option = 2, description_option = 3,
+                        resolution_option = 9;  // of an interface
+constexpr std::uint16_t flags_option = 2;       // of a packet
 constexpr std::uint32_t inbound = 1, outbound = 2;
 
 template <typename T>
@@ -73,7 +74,8 @@ std::string pcapng_section(std::string_view application, std::string_view hardwa
   return finish(section_header, std::move(body));
 }
 
-std::string pcapng_interface(std::uint16_t linktype, std::string_view name, std::string_view description) {
+std::string pcapng_interface(std::uint16_t linktype, std::string_view name,
+                             std::string_view description) {
   std::string body;
   put(body, linktype);
   put(body, std::uint16_t{0});

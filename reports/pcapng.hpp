@@ -1,5 +1,5 @@
-// Blocks of a pcapng file (draft-ietf-opsawg-pcapng), little-endian, each as the bytes to append. libpcap reads this
-// format, but cannot write it.
+// Blocks of a pcapng file (draft-ietf-opsawg-pcapng), little-endian, each as the bytes to append.
+// libpcap reads this format, but cannot write it.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,18 @@ inline constexpr std::uint16_t linktype_rtac_serial = 250;
 std::string pcapng_section(std::string_view application, std::string_view hardware);
 
 /// One interface; the first has number 0. Times of its packets are in nanoseconds.
-std::string pcapng_interface(std::uint16_t linktype, std::string_view name, std::string_view description);
+std::string pcapng_interface(std::uint16_t linktype, std::string_view name,
+                             std::string_view description);
 
 struct SerialPacket {
   std::uint32_t interface = 0;
-  std::uint64_t time = 0;   // ns since 1970: the end of the last stop bit
-  bool sent = false;        // by the bench, to the device
+  std::uint64_t time = 0;  // ns since 1970: the end of the last stop bit
+  bool sent = false;       // by the bench, to the device
   ByteView bytes;
   std::string_view comment;
 };
-/// A frame on an interface of linktype_rtac_serial. Readers refuse packets of more than 256 KiB: what is longer is cut
-/// there, as its two lengths then say.
+/// A frame on an interface of linktype_rtac_serial. Readers refuse packets of more than 256 KiB:
+/// what is longer is cut there, as its two lengths then say.
 std::string pcapng_packet(const SerialPacket& packet);
 
 }  // namespace fieldproof

@@ -20,10 +20,13 @@ bool written_in_place(const std::string& path) {
 }  // namespace
 
 ReportFile::ReportFile(std::string path, std::string temporary)
-    : path_(std::move(path)), temporary_(std::move(temporary)), stream_(std::make_unique<std::ofstream>()) {}
+    : path_(std::move(path)),
+      temporary_(std::move(temporary)),
+      stream_(std::make_unique<std::ofstream>()) {}
 
 Result<ReportFile> ReportFile::create(const std::string& path) {
-  ReportFile file(path, written_in_place(path) ? path : path + "." + std::to_string(::getpid()) + ".part");
+  ReportFile file(
+      path, written_in_place(path) ? path : path + "." + std::to_string(::getpid()) + ".part");
   errno = 0;
   file.stream_->open(file.temporary_, std::ios::binary | std::ios::trunc);
   if (!*file.stream_) return file_error("write", path, errno);
@@ -40,7 +43,8 @@ Status ReportFile::commit() {
   errno = 0;
   stream_->close();
   if (!*stream_) return file_error("write", path_, errno != 0 ? errno : EIO);
-  if (temporary_ != path_ && std::rename(temporary_.c_str(), path_.c_str()) != 0) return file_error("write", path_, errno);
+  if (temporary_ != path_ && std::rename(temporary_.c_str(), path_.c_str()) != 0)
+    return file_error("write", path_, errno);
   stream_.reset();
   return ok();
 }

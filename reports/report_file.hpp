@@ -11,8 +11,8 @@ namespace fieldproof {
 
 class ReportFile {
  public:
-  /// Opens a temporary file in the folder of `path`. Errors name `path`. What is no regular file (a pipe, /dev/null)
-  /// is written in place: renaming would put a file where a device was.
+  /// Opens a temporary file in the folder of `path`. Errors name `path`. What is no regular file (a
+  /// pipe, /dev/null) is written in place: renaming would put a file where a device was.
   static Result<ReportFile> create(const std::string& path);
 
   ReportFile(ReportFile&&) = default;

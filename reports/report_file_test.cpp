@@ -13,7 +13,8 @@ namespace {
 class ReportFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     path_ = (folder_ / "report.xml").string();
@@ -26,7 +27,8 @@ class ReportFileTest : public testing::Test {
     return text.str();
   }
   long files() const {
-    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+    return std::distance(std::filesystem::directory_iterator(folder_),
+                         std::filesystem::directory_iterator());
   }
 
   std::filesystem::path folder_;
@@ -57,8 +59,10 @@ TEST_F(ReportFileTest, AnOldReportStaysUntilTheNewIsWhole) {
 TEST_F(ReportFileTest, AFolderThatIsNotThereIsNamed) {
   auto file = ReportFile::create((folder_ / "none" / "r.xml").string());
   ASSERT_FALSE(file);
-  EXPECT_THAT(file.error().message,
-              testing::EndsWith("none/r.xml: no such file or directory; check the path, and that its folder exists"));
+  EXPECT_THAT(
+      file.error().message,
+      testing::EndsWith(
+          "none/r.xml: no such file or directory; check the path, and that its folder exists"));
 }
 
 TEST_F(ReportFileTest, ADeviceStaysADevice) {

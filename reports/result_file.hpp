@@ -13,8 +13,8 @@ namespace fieldproof {
 struct ResultFile {
   std::string path;
   RunInfo run;
-  std::optional<RunEnd> end;         // nothing: the run was killed, or the file does not say
-  std::vector<CaseResult> results;   // in the order of the file
+  std::optional<RunEnd> end;        // nothing: the run was killed, or the file does not say
+  std::vector<CaseResult> results;  // in the order of the file
 };
 
 /// Tells the kinds apart by their content. Errors name the file and the place (line, or case).

@@ -37,15 +37,22 @@ TEST_F(ResultFileTest, StoredResultsStillLoad) {
     ASSERT_EQ(file->results.size(), 6u) << kind;
     std::map<std::string, Verdict> verdicts;
     for (const CaseResult& result : file->results) verdicts[result.id] = result.verdict;
-    EXPECT_EQ(verdicts, (std::map<std::string, Verdict>{{"xgt_cnet/old/alternative", Verdict::non_strict}, {"xgt_cnet/old/fail", Verdict::fail},
-                                                        {"xgt_cnet/old/memory", Verdict::pass}, {"xgt_cnet/old/other_model", Verdict::skip},
-                                                        {"xgt_cnet/old/pass", Verdict::pass}, {"xgt_cnet/old/silent", Verdict::pass}})) << kind;
+    EXPECT_EQ(verdicts,
+              (std::map<std::string, Verdict>{{"xgt_cnet/old/alternative", Verdict::non_strict},
+                                              {"xgt_cnet/old/fail", Verdict::fail},
+                                              {"xgt_cnet/old/memory", Verdict::pass},
+                                              {"xgt_cnet/old/other_model", Verdict::skip},
+                                              {"xgt_cnet/old/pass", Verdict::pass},
+                                              {"xgt_cnet/old/silent", Verdict::pass}}))
+        << kind;
     EXPECT_EQ(file->run.endpoint, "emulator xbc-h") << kind;
     EXPECT_EQ(file->run.vectors_hash, "f46dafb82b94fcde") << kind;
     for (const CaseResult& result : file->results) {
-      const std::string said = result.verdict == Verdict::fail ? "data: expected 0001, got 0000"
-                               : result.verdict == Verdict::non_strict ? "allowed alternative: word = zero"
-                               : result.verdict == Verdict::skip ? "for xbm-s; the profile declares xbc-h" : "";
+      const std::string said =
+          result.verdict == Verdict::fail         ? "data: expected 0001, got 0000"
+          : result.verdict == Verdict::non_strict ? "allowed alternative: word = zero"
+          : result.verdict == Verdict::skip       ? "for xbm-s; the profile declares xbc-h"
+                                                  : "";
       EXPECT_EQ(result.message, said) << kind << ' ' << result.id;
     }
   }
@@ -53,7 +60,9 @@ TEST_F(ResultFileTest, StoredResultsStillLoad) {
 
 TEST_F(ResultFileTest, EveryVerdictAndRepetitionComesBackFromOurJunit) {
   std::vector<CaseResult> results;
-  for (Verdict verdict : Tally::verdicts) results.push_back(samples::with(verdict, "xgt_cnet/v/" + std::to_string(results.size()), "why: so"));
+  for (Verdict verdict : Tally::verdicts)
+    results.push_back(
+        samples::with(verdict, "xgt_cnet/v/" + std::to_string(results.size()), "why: so"));
   results.push_back(results.front());
   results.back().repeat = 2;
   samples::write_results(folder_ / "r.ndjson", results);
@@ -65,12 +74,14 @@ TEST_F(ResultFileTest, EveryVerdictAndRepetitionComesBackFromOurJunit) {
     EXPECT_EQ(file->results[i].id, results[i].id);
     EXPECT_EQ(file->results[i].repeat, results[i].repeat);
     EXPECT_EQ(file->results[i].verdict, results[i].verdict) << results[i].id;
-    EXPECT_EQ(file->results[i].message, results[i].verdict == Verdict::pass ? "" : "why: so") << to_string(results[i].verdict);
+    EXPECT_EQ(file->results[i].message, results[i].verdict == Verdict::pass ? "" : "why: so")
+        << to_string(results[i].verdict);
   }
 }
 
 TEST_F(ResultFileTest, JunitOfOthersIsRead) {
-  const std::string path = write("o.xml", R"(<?xml version="1.0"?><testsuite name="s"><testcase classname="a.B" name="c"/>
+  const std::string path = write(
+      "o.xml", R"(<?xml version="1.0"?><testsuite name="s"><testcase classname="a.B" name="c"/>
     <testcase classname="a.B" name="c"/><testcase name="d"><failure>
       assertion: x != y
       more</failure></testcase><testcase classname="a.B" name="e #2"><skipped/></testcase></testsuite>)");
@@ -96,22 +107,30 @@ TEST_F(ResultFileTest, AKilledRunLoadsWithoutItsEnd) {
 }
 
 TEST_F(ResultFileTest, WhatCannotBeReadIsNamedWithItsPlace) {
-  EXPECT_THAT(read_result_file(folder_ / "none").error().message, AllOf(HasSubstr("none"), HasSubstr("no such file")));
+  EXPECT_THAT(read_result_file(folder_ / "none").error().message,
+              AllOf(HasSubstr("none"), HasSubstr("no such file")));
   EXPECT_FALSE(read_result_file(folder_ / "")) << "a folder";
   EXPECT_THAT(error_of("empty", " \n"), HasSubstr("it is empty"));
-  EXPECT_THAT(error_of("noise", std::string("\xff\x00\x05", 3)), AllOf(HasSubstr("noise"), HasSubstr("line 1, column 1")));
+  EXPECT_THAT(error_of("noise", std::string("\xff\x00\x05", 3)),
+              AllOf(HasSubstr("noise"), HasSubstr("line 1, column 1")));
   EXPECT_THAT(error_of("list.json", "[1]"), HasSubstr("no result of a run"));
-  EXPECT_THAT(error_of("new.json", R"({"schema": 2, "run": {}, "cases": []})"), HasSubstr("its schema is 2, this version knows 1"));
-  EXPECT_THAT(error_of("half.xml", "<testsuites>\n<testsuite>\n<testcase name=\"a\""), HasSubstr("half.xml, line 3"));
+  EXPECT_THAT(error_of("new.json", R"({"schema": 2, "run": {}, "cases": []})"),
+              HasSubstr("its schema is 2, this version knows 1"));
+  EXPECT_THAT(error_of("half.xml", "<testsuites>\n<testsuite>\n<testcase name=\"a\""),
+              HasSubstr("half.xml, line 3"));
   EXPECT_THAT(error_of("page.xml", "<html/>"), HasSubstr("<html> instead of <testsuites>"));
-  EXPECT_THAT(error_of("bare.xml", "<testsuite><testcase/></testsuite>"), HasSubstr("test case 1 has no name"));
+  EXPECT_THAT(error_of("bare.xml", "<testsuite><testcase/></testsuite>"),
+              HasSubstr("test case 1 has no name"));
   const std::string whole = samples::read_file(stored + ".json");
-  EXPECT_THAT(error_of("cut.json", whole.substr(0, whole.size() / 2)), AllOf(HasSubstr("cut.json"), HasSubstr("line ")));
+  EXPECT_THAT(error_of("cut.json", whole.substr(0, whole.size() / 2)),
+              AllOf(HasSubstr("cut.json"), HasSubstr("line ")));
   std::string verdict = whole;
   verdict.replace(verdict.find("\"NON-STRICT\"}"), 12, "\"PERHAPS\"");
-  EXPECT_THAT(error_of("verdict.json", verdict), AllOf(HasSubstr("verdict.json, case 1"), HasSubstr("PERHAPS")));
+  EXPECT_THAT(error_of("verdict.json", verdict),
+              AllOf(HasSubstr("verdict.json, case 1"), HasSubstr("PERHAPS")));
   const std::string lines = samples::read_file(stored + ".ndjson");
-  EXPECT_THAT(error_of("lines.ndjson", lines.substr(0, lines.find('\n') + 1) + "{]\n"), HasSubstr("lines.ndjson, line 2"));
+  EXPECT_THAT(error_of("lines.ndjson", lines.substr(0, lines.find('\n') + 1) + "{]\n"),
+              HasSubstr("lines.ndjson, line 2"));
 }
 
 /// No prefix of a file may do worse than an error.

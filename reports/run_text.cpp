@@ -59,9 +59,11 @@ std::string early_end(const RunLog& log) {
   if (!log.end) {
     const char* incomplete = log.truncated ? ", and one incomplete" : "";
     const std::string soak = killed_soak_text(log.samples);
-    return fmt::format("the run was killed: {} results were written before{}{}{}", log.results, incomplete, soak.empty() ? "" : "; ", soak);
+    return fmt::format("the run was killed: {} results were written before{}{}{}", log.results,
+                       incomplete, soak.empty() ? "" : "; ", soak);
   }
-  if (log.end->interrupted) return "the run was interrupted" + (log.end->trouble.empty() ? "" : ": " + log.end->trouble);
+  if (log.end->interrupted)
+    return "the run was interrupted" + (log.end->trouble.empty() ? "" : ": " + log.end->trouble);
   return log.end->trouble;
 }
 

@@ -6,7 +6,9 @@
 
 namespace fieldproof {
 
-std::size_t Tally::total() const { return std::accumulate(counts_.begin(), counts_.end(), std::size_t{0}); }
+std::size_t Tally::total() const {
+  return std::accumulate(counts_.begin(), counts_.end(), std::size_t{0});
+}
 
 std::size_t Tally::gating(const Gate& gate) const {
   std::size_t count = 0;
@@ -38,7 +40,9 @@ int gate_exit_code(const Tally& tally, const Gate& gate, bool interrupted) {
   if (interrupted) return 130;
   if (tally.of(Verdict::error) > 0) return 3;
   if (tally.gating(gate) > 0) return 1;
-  if (tally.total() == tally.of(Verdict::skip) + tally.of(Verdict::blocked) + tally.of(Verdict::inconclusive)) return 4;
+  if (tally.total() ==
+      tally.of(Verdict::skip) + tally.of(Verdict::blocked) + tally.of(Verdict::inconclusive))
+    return 4;
   return 0;
 }
 
@@ -67,8 +71,12 @@ std::string to_string(const Gate& gate) {
 }
 
 Gate parse_gate(const std::string& text) {
-  const auto has = [&](const char* word) { return (", " + text + ",").find(fmt::format(", {},", word)) != std::string::npos; };
-  return {.strict = has("strict"), .fail_on_marginal = has("fail-on marginal"), .qualify = has("qualify")};
+  const auto has = [&](const char* word) {
+    return (", " + text + ",").find(fmt::format(", {},", word)) != std::string::npos;
+  };
+  return {.strict = has("strict"),
+          .fail_on_marginal = has("fail-on marginal"),
+          .qualify = has("qualify")};
 }
 
 }  // namespace fieldproof

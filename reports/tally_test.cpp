@@ -14,18 +14,21 @@ Tally tally_of(std::initializer_list<Verdict> verdicts) {
 }
 
 TEST(Tally, EachVerdictStandsOnceInItsList) {
-  for (std::size_t i = 0; i < Tally::verdicts.size(); ++i) EXPECT_EQ(i, static_cast<std::size_t>(Tally::verdicts[i]));
+  for (std::size_t i = 0; i < Tally::verdicts.size(); ++i)
+    EXPECT_EQ(i, static_cast<std::size_t>(Tally::verdicts[i]));
 }
 
 TEST(Tally, SaysWhatOccurs) {
   EXPECT_EQ("nothing", to_string(Tally{}));
-  EXPECT_EQ("2 PASS, 1 FAIL, 1 ERROR", to_string(tally_of({Verdict::error, Verdict::pass, Verdict::fail, Verdict::pass})));
+  EXPECT_EQ("2 PASS, 1 FAIL, 1 ERROR",
+            to_string(tally_of({Verdict::error, Verdict::pass, Verdict::fail, Verdict::pass})));
 }
 
 TEST(GateExitCode, ByPrecedence) {
   const Gate gate;
   EXPECT_EQ(130, gate_exit_code(tally_of({Verdict::error, Verdict::fail}), gate, true));
-  EXPECT_EQ(3, gate_exit_code(tally_of({Verdict::error, Verdict::fail, Verdict::pass}), gate, false));
+  EXPECT_EQ(3,
+            gate_exit_code(tally_of({Verdict::error, Verdict::fail, Verdict::pass}), gate, false));
   EXPECT_EQ(1, gate_exit_code(tally_of({Verdict::fail, Verdict::skip}), gate, false));
   EXPECT_EQ(1, gate_exit_code(tally_of({Verdict::xpass, Verdict::pass}), gate, false));
   EXPECT_EQ(4, gate_exit_code(tally_of({Verdict::skip, Verdict::blocked}), gate, false));
@@ -35,7 +38,9 @@ TEST(GateExitCode, ByPrecedence) {
 }
 
 TEST(GateExitCode, EachVerdictAlone) {
-  const auto code = [](Verdict verdict, const Gate& gate) { return gate_exit_code(tally_of({verdict}), gate, false); };
+  const auto code = [](Verdict verdict, const Gate& gate) {
+    return gate_exit_code(tally_of({verdict}), gate, false);
+  };
   EXPECT_EQ(0, code(Verdict::pass, {}));
   EXPECT_EQ(0, code(Verdict::info, {}));
   EXPECT_EQ(0, code(Verdict::marginal, {}));
@@ -68,7 +73,8 @@ TEST(JunitOutcome, FollowsTheGateExceptForWhatWasNotJudged) {
 
 TEST(GateText, ReadsBack) {
   for (int bits = 0; bits < 8; ++bits) {
-    const Gate gate{.strict = (bits & 1) != 0, .fail_on_marginal = (bits & 2) != 0, .qualify = (bits & 4) != 0};
+    const Gate gate{
+        .strict = (bits & 1) != 0, .fail_on_marginal = (bits & 2) != 0, .qualify = (bits & 4) != 0};
     const Gate again = parse_gate(to_string(gate));
     EXPECT_EQ(gate.strict, again.strict) << bits;
     EXPECT_EQ(gate.fail_on_marginal, again.fail_on_marginal) << bits;

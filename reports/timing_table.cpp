@@ -1,7 +1,7 @@
 #include "reports/timing_table.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "reports/case_text.hpp"
@@ -30,7 +30,12 @@ void TimingTable::add(const CaseResult& result) {
   const std::size_t first = result.id.find('/');
   const std::string line = result.line.empty() ? "" : " [" + result.line + "]";
   fieldproof::add(protocols_, result.id.substr(0, first), result);
-  fieldproof::add(groups_, (first == std::string::npos ? result.id : result.id.substr(0, result.id.find('/', first + 1))) + line, result);
+  fieldproof::add(
+      groups_,
+      (first == std::string::npos ? result.id
+                                  : result.id.substr(0, result.id.find('/', first + 1))) +
+          line,
+      result);
   if (too_many_) return;
   fieldproof::add(cases_, case_name(result), result);
   too_many_ = cases_.size() > case_limit;
@@ -57,10 +62,12 @@ std::string timing_text(const TimingTable::Rows& rows) {
   for (const auto& [name, figures] : rows) width = std::max(width, name.size());
   const std::string head = "reply times in ms";
   width = std::max(width + 2, head.size());
-  std::string text = fmt::format("{:<{}}  {:>8} {:>10} {:>10} {:>10} {:>10}\n", head, width, "replies", "min", "median", "p99", "max");
+  std::string text = fmt::format("{:<{}}  {:>8} {:>10} {:>10} {:>10} {:>10}\n", head, width,
+                                 "replies", "min", "median", "p99", "max");
   for (const auto& [name, figures] : rows)
-    text += fmt::format("  {:<{}}  {:>8} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f}\n", name, width - 2, figures.count, figures.least, figures.median,
-                        figures.p99, figures.greatest);
+    text +=
+        fmt::format("  {:<{}}  {:>8} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f}\n", name, width - 2,
+                    figures.count, figures.least, figures.median, figures.p99, figures.greatest);
   return text;
 }
 

@@ -1,5 +1,5 @@
-// Response times of a run in numbers: the same table on the console, in JUnit and in JSON. Its memory does not grow with
-// the repetitions.
+// Response times of a run in numbers: the same table on the console, in JUnit and in JSON. Its
+// memory does not grow with the repetitions.
 #pragma once
 
 #include <map>
@@ -18,7 +18,8 @@ class TimingTable {
   void add(const CaseResult& result);
 
   using Rows = std::vector<std::pair<std::string, ResponseFigures>>;
-  /// One row a case where there are at most `limit`, else a group of cases ("xgt_cnet/rss"), else a protocol.
+  /// One row a case where there are at most `limit`, else a group of cases ("xgt_cnet/rss"), else a
+  /// protocol.
   Rows rows(std::size_t limit = 20) const;
   /// {"cases": {...}, "groups": {...}}; without "cases" where there are more than `case_limit`.
   nlohmann::json json() const;

@@ -44,7 +44,8 @@ std::string show(std::string_view bytes, bool multi_line) {
     if (next.length != 0 && readable(next.code, multi_line)) {
       text += bytes.substr(0, length);
     } else {
-      for (char byte : bytes.substr(0, length)) text += '[' + hex_number(static_cast<Byte>(byte), 2) + ']';
+      for (char byte : bytes.substr(0, length))
+        text += '[' + hex_number(static_cast<Byte>(byte), 2) + ']';
     }
     bytes.remove_prefix(length);
   }

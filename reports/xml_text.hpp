@@ -6,9 +6,10 @@
 
 namespace fieldproof {
 
-/// UTF-8 of characters that XML 1.0 allows. What it forbids or discourages (control bytes other than tab and line feed,
-/// DEL, U+0080-U+009F, U+FFFE, U+FFFF) and bytes that are not UTF-8 are shown as hex, byte by byte: [05], [FF].
-/// A carriage return is shown too: readers of XML turn it into a line feed, and on a serial line it is data.
+/// UTF-8 of characters that XML 1.0 allows. What it forbids or discourages (control bytes other
+/// than tab and line feed, DEL, U+0080-U+009F, U+FFFE, U+FFFF) and bytes that are not UTF-8 are
+/// shown as hex, byte by byte: [05], [FF]. A carriage return is shown too: readers of XML turn it
+/// into a line feed, and on a serial line it is data.
 std::string xml_text(std::string_view bytes);
 
 /// The same in one line, for attributes: tab and line feed are shown as [09] and [0A].

@@ -14,17 +14,23 @@ TEST(XmlText, EachOfTheBytes) {
     const std::string byte(1, static_cast<char>(value));
     const bool kept = value == '\n' || value == '\t' || (value >= 0x20 && value <= 0x7E);
     EXPECT_EQ(kept ? byte : "[" + hex_number(value, 2) + "]", xml_text(byte)) << value;
-    EXPECT_EQ(kept && value >= 0x20 ? byte : "[" + hex_number(value, 2) + "]", xml_line(byte)) << value;
+    EXPECT_EQ(kept && value >= 0x20 ? byte : "[" + hex_number(value, 2) + "]", xml_line(byte))
+        << value;
   }
 }
 
-TEST(XmlText, AFrameReadsAsOne) { EXPECT_EQ("[05]00RSS0106%MW100[04]", xml_text("\x05" "00RSS0106%MW100" "\x04")); }
+TEST(XmlText, AFrameReadsAsOne) {
+  EXPECT_EQ("[05]00RSS0106%MW100[04]", xml_text("\x05"
+                                                "00RSS0106%MW100"
+                                                "\x04"));
+}
 
 TEST(XmlText, CarriageReturnIsDataNotALineBreak) { EXPECT_EQ("a[0D]\nb", xml_text("a\r\nb")); }
 
 TEST(XmlText, Utf8IsKept) {
-  for (const char* text : {"국번 \xC2\xB5s \xE2\x89\xA4", "\xF0\x9F\x98\x80", "\xED\x9F\xBF\xEE\x80\x80",
-                           "\xF4\x8F\xBF\xBD", "\xC2\xA0", "\xEF\xBF\xBD"}) {
+  for (const char* text :
+       {"국번 \xC2\xB5s \xE2\x89\xA4", "\xF0\x9F\x98\x80", "\xED\x9F\xBF\xEE\x80\x80",
+        "\xF4\x8F\xBF\xBD", "\xC2\xA0", "\xEF\xBF\xBD"}) {
     EXPECT_EQ(text, xml_text(text));
   }
 }

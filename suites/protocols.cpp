@@ -11,8 +11,9 @@
 namespace fieldproof {
 
 std::span<const Protocol* const> protocols() {
-  static const std::array table{&xgt_cnet::protocol(), &modbus::rtu(), &modbus::ascii(), &ls_bus::protocol(), &user_frames::protocol(),
-                                &udata::protocol()};
+  static const std::array table{&xgt_cnet::protocol(),    &modbus::rtu(),
+                                &modbus::ascii(),         &ls_bus::protocol(),
+                                &user_frames::protocol(), &udata::protocol()};
   return table;
 }
 

@@ -28,7 +28,8 @@ class P2pPair {
   std::vector<std::string> run(Duration time) {
     std::vector<std::string> said;
     for (const Time end = line_.now() + time; line_.now() < end;)
-      if (const Burst burst = line_.receive(end); !burst.bytes.empty()) said.push_back(to_hex(burst.bytes));
+      if (const Burst burst = line_.receive(end); !burst.bytes.empty())
+        said.push_back(to_hex(burst.bytes));
     return said;
   }
 
@@ -37,7 +38,8 @@ class P2pPair {
 
  private:
   static std::unique_ptr<EmulatedDevice> make(const Protocol& protocol, const Station& station) {
-    Result<std::unique_ptr<EmulatedDevice>> device = protocol.make_device(station.model, station.config);
+    Result<std::unique_ptr<EmulatedDevice>> device =
+        protocol.make_device(station.model, station.config);
     if (!device) throw std::runtime_error(device.error().message);
     return std::move(*device);
   }
@@ -51,16 +53,21 @@ inline void set(EmulatedDevice& device, const std::string& address, const std::s
   EXPECT_TRUE(status) << status.error().message;
 }
 /// What the device holds, or why it cannot be told.
-inline std::string get(const EmulatedDevice& device, const std::string& address, std::size_t digits = 0) {
+inline std::string get(const EmulatedDevice& device, const std::string& address,
+                       std::size_t digits = 0) {
   const Result<std::string> value = device.get(address, digits);
   return value ? *value : value.error().message;
 }
 
-/// NDR and ERR, STATUS, count and error count of a block of P2P parameter 1: "0001 0000 00000002 00000000".
+/// NDR and ERR, STATUS, count and error count of a block of P2P parameter 1: "0001 0000 00000002
+/// 00000000".
 inline std::string result_of(const EmulatedDevice& client, unsigned block) {
   const unsigned word = 512 + 6 * block;
-  const auto at = [&](char type, unsigned index) { return get(client, std::string("%L") + type + std::to_string(index)); };
-  return at('W', word) + ' ' + at('W', word + 1) + ' ' + at('D', (word + 2) / 2) + ' ' + at('D', (word + 4) / 2);
+  const auto at = [&](char type, unsigned index) {
+    return get(client, std::string("%L") + type + std::to_string(index));
+  };
+  return at('W', word) + ' ' + at('W', word + 1) + ' ' + at('D', (word + 2) / 2) + ' ' +
+         at('D', (word + 4) / 2);
 }
 
 }  // namespace fieldproof::test

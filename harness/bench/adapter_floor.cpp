@@ -1,13 +1,15 @@
 #include "harness/bench/adapter_floor.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace fieldproof {
 
 namespace {
 
-Duration from_measured_ms(double ms) { return Duration(static_cast<Duration::rep>(std::max(0.0, ms) * 1e6)); }
+Duration from_measured_ms(double ms) {
+  return Duration(static_cast<Duration::rep>(std::max(0.0, ms) * 1e6));
+}
 
 }  // namespace
 
@@ -20,14 +22,17 @@ Duration AdapterFloor::floor() const {
   return from_measured_ms(times.least());
 }
 
-Duration timing_floor(Duration declared, Duration response_max, const std::optional<AdapterFloor>& measured) {
-  if (!measured || measured->source != AdapterFloor::Source::device) return gap_floor(declared, measured);
+Duration timing_floor(Duration declared, Duration response_max,
+                      const std::optional<AdapterFloor>& measured) {
+  if (!measured || measured->source != AdapterFloor::Source::device)
+    return gap_floor(declared, measured);
   return std::max(declared, std::min(measured->floor(), response_max));
 }
 
 Duration gap_floor(Duration declared, const std::optional<AdapterFloor>& measured) {
   if (!measured || measured->source == AdapterFloor::Source::device) return declared;
-  return measured->source == AdapterFloor::Source::by_hand ? measured->given : std::max(declared, measured->floor());
+  return measured->source == AdapterFloor::Source::by_hand ? measured->given
+                                                           : std::max(declared, measured->floor());
 }
 
 std::string to_string(const AdapterFloor& measured, Duration floor) {
@@ -35,8 +40,11 @@ std::string to_string(const AdapterFloor& measured, Duration floor) {
   if (measured.source == AdapterFloor::Source::by_hand) return value + " (given by hand)";
   if (measured.times.count() == 0) return value + " (declared; no probe was answered)";
   const ResponseFigures figures = figures_of(measured.times);
-  const char* from = measured.source == AdapterFloor::Source::loop ? "over the loop" : "by the device, its own time included";
-  return fmt::format("{} ({} answers {}: min {:.3f}, median {:.3f}, p99 {:.3f} ms)", value, figures.count, from, figures.least, figures.median, figures.p99);
+  const char* from = measured.source == AdapterFloor::Source::loop
+                         ? "over the loop"
+                         : "by the device, its own time included";
+  return fmt::format("{} ({} answers {}: min {:.3f}, median {:.3f}, p99 {:.3f} ms)", value,
+                     figures.count, from, figures.least, figures.median, figures.p99);
 }
 
 }  // namespace fieldproof

@@ -12,8 +12,10 @@ namespace fieldproof {
 /// Answers to the probe, measured before the first case.
 struct AdapterFloor {
   enum class Source {
-    device,  // its fastest answer: the device's own time is in it, so that it bounds no silence inside a reply
-    loop,    // an emulator answers at once over the same kind of link (--loop): 99 of 100 answers are no slower
+    device,  // its fastest answer: the device's own time is in it, so that it bounds no silence
+             // inside a reply
+    loop,  // an emulator answers at once over the same kind of link (--loop): 99 of 100 answers are
+           // no slower
     by_hand  // --floor
   };
   Source source = Source::device;
@@ -27,13 +29,16 @@ struct AdapterFloor {
 inline constexpr int floor_probes = 20;
 inline constexpr Duration floor_budget = 2s;
 
-/// What is below cannot be judged: what was given by hand; else the greatest of what is declared (profile, endpoint)
-/// and what was measured. A device's fastest answer never excuses it from the limit of its own answers.
-Duration timing_floor(Duration declared, Duration response_max, const std::optional<AdapterFloor>& measured);
+/// What is below cannot be judged: what was given by hand; else the greatest of what is declared
+/// (profile, endpoint) and what was measured. A device's fastest answer never excuses it from the
+/// limit of its own answers.
+Duration timing_floor(Duration declared, Duration response_max,
+                      const std::optional<AdapterFloor>& measured);
 /// The same for silence inside a reply, which the answer time of a device says nothing about.
 Duration gap_floor(Duration declared, const std::optional<AdapterFloor>& measured);
 
-/// "20.0 ms (the device's fastest of 20 answers took 0.412 ms, its own time included: median 0.5, p99 1.2 ms)"
+/// "20.0 ms (the device's fastest of 20 answers took 0.412 ms, its own time included: median 0.5,
+/// p99 1.2 ms)"
 std::string to_string(const AdapterFloor& measured, Duration floor);
 
 }  // namespace fieldproof

@@ -17,7 +17,8 @@ TEST(AdapterFloor, TheGreatestOfDeclaredAndMeasured) {
   EXPECT_EQ(20ms, timing_floor(20ms, 500ms, std::nullopt));
   EXPECT_EQ(25ms, timing_floor(20ms, 500ms, measured(AdapterFloor::Source::device)));
   EXPECT_EQ(40ms, timing_floor(40ms, 500ms, measured(AdapterFloor::Source::device)));
-  EXPECT_EQ(30ms, timing_floor(20ms, 500ms, measured(AdapterFloor::Source::loop))) << "the 99th percentile of 101 answers";
+  EXPECT_EQ(30ms, timing_floor(20ms, 500ms, measured(AdapterFloor::Source::loop)))
+      << "the 99th percentile of 101 answers";
 }
 
 TEST(AdapterFloor, ByHandBeatsWhatIsDeclared) {
@@ -26,7 +27,8 @@ TEST(AdapterFloor, ByHandBeatsWhatIsDeclared) {
 }
 
 TEST(AdapterFloor, ASlowDeviceIsNotExcusedFromItsLimit) {
-  EXPECT_EQ(10ms, timing_floor(1ms, 10ms, measured(AdapterFloor::Source::device))) << "answers of 25 ms are late, not inconclusive";
+  EXPECT_EQ(10ms, timing_floor(1ms, 10ms, measured(AdapterFloor::Source::device)))
+      << "answers of 25 ms are late, not inconclusive";
 }
 
 TEST(AdapterFloor, AnswerTimeOfTheDeviceLoosensNoGap) {
@@ -35,9 +37,12 @@ TEST(AdapterFloor, AnswerTimeOfTheDeviceLoosensNoGap) {
 }
 
 TEST(AdapterFloor, InWords) {
-  EXPECT_EQ("25.0 ms (101 answers by the device, its own time included: min 25.000, median 30.000, p99 30.000 ms)",
-            to_string(measured(AdapterFloor::Source::device), 25ms));
-  EXPECT_EQ("30.0 ms (101 answers over the loop: min 25.000, median 30.000, p99 30.000 ms)", to_string(measured(AdapterFloor::Source::loop), 30ms));
+  EXPECT_EQ(
+      "25.0 ms (101 answers by the device, its own time included: min 25.000, median 30.000, p99 "
+      "30.000 ms)",
+      to_string(measured(AdapterFloor::Source::device), 25ms));
+  EXPECT_EQ("30.0 ms (101 answers over the loop: min 25.000, median 30.000, p99 30.000 ms)",
+            to_string(measured(AdapterFloor::Source::loop), 30ms));
   EXPECT_EQ("2.0 ms (given by hand)", to_string(measured(AdapterFloor::Source::by_hand), 2ms));
   EXPECT_EQ("20.0 ms (declared; no probe was answered)", to_string(AdapterFloor{}, 20ms));
 }

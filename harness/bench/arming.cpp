@@ -1,7 +1,7 @@
 #include "harness/bench/arming.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "harness/bench/p2p_blocks.hpp"
 
@@ -13,7 +13,10 @@ using nlohmann::json;
 
 bool is_on(const std::string& digits) { return digits.find_first_not_of('0') != std::string::npos; }
 
-bool same_place(const json& a, const json& b) { return a.value("parameter", json()) == b.value("parameter", json()) && a.value("block", json()) == b.value("block", json()); }
+bool same_place(const json& a, const json& b) {
+  return a.value("parameter", json()) == b.value("parameter", json()) &&
+         a.value("block", json()) == b.value("block", json());
+}
 
 }  // namespace
 
@@ -37,7 +40,8 @@ Result<Arming::Image> Arming::image() const {
     for (const std::string& address : addresses) {
       Result<std::string> one = shadow_->get(address, 0);
       const bool run = address != flag_of(block) && block.value("command", "") == "continuous";
-      if (one && run) one = shadow_->get(address, one->size() * block.value("size", std::size_t{1}));
+      if (one && run)
+        one = shadow_->get(address, one->size() * block.value("size", std::size_t{1}));
       if (!one) return one.error();
       image[address] = *one;
     }
@@ -64,7 +68,8 @@ std::string Arming::missing_block() const {
 /// A prepared block that asks whether the case wants it or not.
 std::string Arming::foreign_clock() const {
   for (const json& one : ways_.prepared) {
-    const bool wanted = std::ranges::any_of(blocks_, [&](const json& block) { return same_place(block, one); });
+    const bool wanted =
+        std::ranges::any_of(blocks_, [&](const json& block) { return same_place(block, one); });
     if (!wanted && runs_by_clock(one)) return in_words(one, protocol_.name());
   }
   return {};
@@ -74,7 +79,8 @@ std::string Arming::foreign_clock() const {
 Result<std::string> Arming::needs_memory(const Case& source) {
   Result<Image> before = image();
   if (!before) return before.error();
-  const auto matters = [&](const std::vector<std::pair<std::string, std::string>>& memory) -> Result<std::string> {
+  const auto matters =
+      [&](const std::vector<std::pair<std::string, std::string>>& memory) -> Result<std::string> {
     for (const auto& [address, hex] : memory) {
       if (const Status set = shadow_->set(address, hex); !set) return set.error();
       const Result<Image> after = image();
@@ -99,14 +105,21 @@ std::string Arming::objection(const Case& source, const json& config) const {
   if (trial.blocks_.empty()) return "has no P2P blocks, which alone a bench can prepare";
   const std::string set_up = "set up in XG5000 and list in \"prepared_blocks\" of the profile: ";
   if (ways_.prepared.empty())
-    return "nothing makes the device ask: give --stimulus COMMAND, or " + set_up + trial.missing_block();
-  if (const std::string missing = trial.missing_block(); !missing.empty()) return "the module does not ask this: " + set_up + missing;
-  if (const std::string other = trial.foreign_clock(); !other.empty()) return "another block asks all the time; take its link enable away: " + other;
+    return "nothing makes the device ask: give --stimulus COMMAND, or " + set_up +
+           trial.missing_block();
+  if (const std::string missing = trial.missing_block(); !missing.empty())
+    return "the module does not ask this: " + set_up + missing;
+  if (const std::string other = trial.foreign_clock(); !other.empty())
+    return "another block asks all the time; take its link enable away: " + other;
   if (ways_.aux) return {};
   if (const Status loaded = trial.load(source, config); !loaded) return loaded.error().message;
   const Result<std::string> needed = trial.needs_memory(source);
   if (!needed) return needed.error().message;
-  return needed->empty() ? "" : fmt::format("needs {} in the module, which only a second channel can set: give --aux ENDPOINT", *needed);
+  return needed->empty() ? ""
+                         : fmt::format(
+                               "needs {} in the module, which only a second channel can set: give "
+                               "--aux ENDPOINT",
+                               *needed);
 }
 
 Status Arming::ask_for(const json& block) const {

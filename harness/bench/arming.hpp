@@ -1,5 +1,6 @@
-// What makes a real device ask (client role): the program of --stimulus, or P2P blocks that an engineer has prepared in
-// the module. An emulator needs neither: its blocks are set up by `given.config`.
+// What makes a real device ask (client role): the program of --stimulus, or P2P blocks that an
+// engineer has prepared in the module. An emulator needs neither: its blocks are set up by
+// `given.config`.
 #pragma once
 
 #include <map>
@@ -15,15 +16,15 @@ namespace fieldproof {
 class Arming {
  public:
   struct Ways {
-    TellStimulus stimulus;                  // empty: none
-    std::vector<nlohmann::json> prepared;   // complete_blocks() of the profile
-    bool aux = false;                       // memory can be set and read over a second channel
+    TellStimulus stimulus;                 // empty: none
+    std::vector<nlohmann::json> prepared;  // complete_blocks() of the profile
+    bool aux = false;                      // memory can be set and read over a second channel
   };
   /// Refers to `protocol`.
   Arming(const Protocol& protocol, Ways ways) : protocol_(protocol), ways_(std::move(ways)) {}
 
-  /// Why the device cannot be made to ask as the case needs it, for the engineer; empty where it can. `config` is that
-  /// of the case with "model".
+  /// Why the device cannot be made to ask as the case needs it, for the engineer; empty where it
+  /// can. `config` is that of the case with "model".
   std::string objection(const Case& source, const nlohmann::json& config) const;
 
   /// Starts a case: blocks that run by a clock are asked for at once.

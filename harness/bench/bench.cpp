@@ -1,9 +1,9 @@
 #include "harness/bench/bench.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <fmt/format.h>
 
 #include "harness/bench/p2p_blocks.hpp"
 #include "harness/bench/recording.hpp"
@@ -17,20 +17,27 @@ namespace {
 
 using nlohmann::json;
 
-constexpr Duration start_patience = 10s;    // a device that is started by the bench needs time to open its port
+constexpr Duration start_patience =
+    10s;  // a device that is started by the bench needs time to open its port
 constexpr Duration revive_patience = 10s;
-constexpr int errors_to_stop = 5;           // then it is no longer the vectors, it is the bench
-/// Behind a pty or a socket writes can arrive milliseconds apart, and the emulator's inter-character time has a floor
-/// of 20 ms: shorter times than this prove nothing there.
+constexpr int errors_to_stop = 5;  // then it is no longer the vectors, it is the bench
+/// Behind a pty or a socket writes can arrive milliseconds apart, and the emulator's
+/// inter-character time has a floor of 20 ms: shorter times than this prove nothing there.
 constexpr Duration shortest_judged = 100ms;
 
 /// What a device has that declares nothing.
 const json& default_config() {
-  static const json config{{"role", "server"}, {"mode", "run"}, {"inter_character_ms", 0}, {"delay_ms", 0}, {"rs485", false}};
+  static const json config{{"role", "server"},
+                           {"mode", "run"},
+                           {"inter_character_ms", 0},
+                           {"delay_ms", 0},
+                           {"rs485", false}};
   return config;
 }
 
-std::string plain(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+std::string plain(const json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
 
 }  // namespace
 
@@ -38,11 +45,16 @@ Bench::Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
     : endpoint_(endpoint),
       protocol_(protocol),
       options_(std::move(options)),
-      arming_(protocol, {options_.endpoint_is_stimulus ? [&endpoint](const std::string& line) { return endpoint.tell(line); } : options_.stimulus, complete_blocks(options_.profile.prepared_blocks), options_.aux.endpoint != nullptr}),
+      arming_(protocol, {options_.endpoint_is_stimulus
+                             ? [&endpoint](const std::string& line) { return endpoint.tell(line); }
+                             : options_.stimulus,
+                         complete_blocks(options_.profile.prepared_blocks),
+                         options_.aux.endpoint != nullptr}),
       memory_(endpoint, protocol, options_.profile.response_max, options_.aux, &arming_),
       exchange_(endpoint, protocol, timing(), options_.aux, &arming_),
       saved_(endpoint, protocol, options_.profile.response_max, options_.device, options_.journal),
-      saved_over_aux_(options_.aux.endpoint ? *options_.aux.endpoint : endpoint, options_.aux.protocol ? *options_.aux.protocol : protocol,
+      saved_over_aux_(options_.aux.endpoint ? *options_.aux.endpoint : endpoint,
+                      options_.aux.protocol ? *options_.aux.protocol : protocol,
                       options_.profile.response_max, options_.aux_device, options_.journal) {}
 
 ExchangeTiming Bench::timing() const {
@@ -65,7 +77,9 @@ JudgeRules Bench::rules() const {
   if (can.simulated) rules.period_tolerance = endpoint_.character_time();
   // 003 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
-  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap : can.wire ? std::max(wire_gap, rules.link_floor) : shortest_judged;
+  rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap
+                  : can.wire                     ? std::max(wire_gap, rules.link_floor)
+                                                 : shortest_judged;
   return rules;
 }
 
@@ -76,21 +90,28 @@ Status Bench::start() {
   if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
   if (Status begun = endpoint_.begin(config); !begun) return begun;
   const bool listens = endpoint_.capabilities().real_device && !options_.client_cases.empty();
-  const Result<bool> alive = listens ? wait_for_request() : exchange_.anything_answers(station, start_patience);
+  const Result<bool> alive =
+      listens ? wait_for_request() : exchange_.anything_answers(station, start_patience);
   port_failed_ = !alive;
   if (!alive) return alive.error();
   answers_ = *alive && !listens;
   if (*alive) return ok();
   if (listens)
-    return fail(fmt::format("nothing is asked on {}: check that the PLC is in RUN, that P2P has its link enable (000 11.2.2), that the block's condition "
-                            "flag rises, that speed, data bits, parity and stop bits are the same on both sides and that A and B are not swapped",
-                            endpoint_.describe()));
-  return fail(fmt::format("nothing answers on {} at station {}: check that the device has power, that speed, data bits, parity and stop bits are "
-                          "its own, that its station number is {} and that A and B are not swapped",
-                          endpoint_.describe(), station, station));
+    return fail(
+        fmt::format("nothing is asked on {}: check that the PLC is in RUN, that P2P has its link "
+                    "enable (000 11.2.2), that the block's condition "
+                    "flag rises, that speed, data bits, parity and stop bits are the same on both "
+                    "sides and that A and B are not swapped",
+                    endpoint_.describe()));
+  return fail(
+      fmt::format("nothing answers on {} at station {}: check that the device has power, that "
+                  "speed, data bits, parity and stop bits are "
+                  "its own, that its station number is {} and that A and B are not swapped",
+                  endpoint_.describe(), station, station));
 }
 
-/// Clocks of a stimulus stop with their case; what they asked last is given up before the next one begins.
+/// Clocks of a stimulus stop with their case; what they asked last is given up before the next one
+/// begins.
 Status Bench::end_asking(const PreparedCase& prepared) {
   if (!endpoint_.capabilities().real_device || !prepared.runs_by_clock()) return ok();
   const Result<bool> stopped = arming_.end();
@@ -98,17 +119,22 @@ Status Bench::end_asking(const PreparedCase& prepared) {
   return *stopped ? exchange_.settle(prepared.client_time_out() + 100ms) : ok();
 }
 
-/// The first case that can run shows whether the device asks at all. True as well where none can: each says why.
+/// The first case that can run shows whether the device asks at all. True as well where none can:
+/// each says why.
 Result<bool> Bench::wait_for_request() {
   for (const Case* one : options_.client_cases) {
     if (outside_profile(*one).verdict != Verdict::pass) continue;
     const Result<PreparedCase> prepared = prepare(*one, options_.station, protocol_);
-    if (!prepared || !prepared->expects_requests() || blocked(*one, *prepared).verdict != Verdict::pass || below_floor(*prepared).verdict != Verdict::pass) continue;
+    if (!prepared || !prepared->expects_requests() ||
+        blocked(*one, *prepared).verdict != Verdict::pass ||
+        below_floor(*prepared).verdict != Verdict::pass)
+      continue;
     CaseResult given;
     if (!save_memory(*prepared, given) || !begin_case(*prepared, given)) return fail(given.message);
     const Result<bool> asked = exchange_.anything_is_asked(*prepared, start_patience);
     if (const Status over = end_asking(*prepared); !over) return over.error();
-    [[maybe_unused]] const std::string problem = saved_for(*prepared).restore();  // told at the end, where it lasts
+    [[maybe_unused]] const std::string problem =
+        saved_for(*prepared).restore();  // told at the end, where it lasts
     return asked;
   }
   return true;
@@ -134,19 +160,26 @@ int Bench::station_for(const Case& source) const {
 json Bench::device_config(const Case& source) const {
   json config = source.config;
   config["station"] = station_for(source);
-  if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
-  else config["model"] = source.models.empty() ? protocol_.models().front() : source.models.front();
+  if (!options_.profile.model.empty())
+    config["model"] = options_.profile.model;
+  else
+    config["model"] = source.models.empty() ? protocol_.models().front() : source.models.front();
   return config;
 }
 
 Bench::Eligibility Bench::outside_profile(const Case& source) const {
   const Profile& profile = options_.profile;
-  if (std::ranges::find(profile.protocols, source.protocol) == profile.protocols.end() || source.protocol != protocol_.name())
-    return {Verdict::skip, fmt::format("{} is not what this endpoint speaks ({})", source.protocol, protocol_.name())};
-  if (!profile.model.empty() && !source.models.empty() && std::ranges::find(source.models, profile.model) == source.models.end())
-    return {Verdict::skip, fmt::format("for {}; the profile declares {}", fmt::join(source.models, ", "), profile.model)};
+  if (std::ranges::find(profile.protocols, source.protocol) == profile.protocols.end() ||
+      source.protocol != protocol_.name())
+    return {Verdict::skip, fmt::format("{} is not what this endpoint speaks ({})", source.protocol,
+                                       protocol_.name())};
+  if (!profile.model.empty() && !source.models.empty() &&
+      std::ranges::find(source.models, profile.model) == source.models.end())
+    return {Verdict::skip, fmt::format("for {}; the profile declares {}",
+                                       fmt::join(source.models, ", "), profile.model)};
   for (const auto& [pattern, reason] : profile.exclude)
-    if (matches_filter(source.id, pattern)) return {Verdict::skip, "excluded by the profile: " + reason};
+    if (matches_filter(source.id, pattern))
+      return {Verdict::skip, "excluded by the profile: " + reason};
   return {};
 }
 
@@ -159,12 +192,14 @@ std::string Bench::undeclared(const json& config) const {
     const json fallback = default_config().value(key, json());
     const json has = declared.value(key, fallback);
     if (!has.is_null() && plain(has) == plain(value)) continue;
-    return fmt::format("needs {} = {}; the profile declares {}", key, plain(value), has.is_null() ? "nothing" : plain(has));
+    return fmt::format("needs {} = {}; the profile declares {}", key, plain(value),
+                       has.is_null() ? "nothing" : plain(has));
   }
   return {};
 }
 
-/// What the bench sends to a client are answers; what it sets goes over the second channel. An error: it cannot be set.
+/// What the bench sends to a client are answers; what it sets goes over the second channel. An
+/// error: it cannot be set.
 Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCase& prepared) const {
   std::vector<Protocol::Written> written;
   const AuxLink& aux = options_.aux;
@@ -173,11 +208,15 @@ Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCas
   for (const nlohmann::json& block : p2p_blocks(prepared.source->config))
     if (!flag_of(block).empty() && !runs_by_clock(block)) memory.emplace_back(flag_of(block), "00");
   for (const PreparedStep& step : prepared.steps)
-    if (step.step->kind == Step::Kind::set) memory.insert(memory.end(), step.step->memory.begin(), step.step->memory.end());
+    if (step.step->kind == Step::Kind::set)
+      memory.insert(memory.end(), step.step->memory.begin(), step.step->memory.end());
   for (const auto& [address, hex] : memory) {
-    const Result<std::vector<Bytes>> requests = aux.protocol->write_requests(aux.station, address, hex);
-    if (!requests) return fail(fmt::format("cannot set {} over --aux: {}", address, requests.error().message));
-    for (const Bytes& request : *requests) std::ranges::move(aux.protocol->written_by(request), std::back_inserter(written));
+    const Result<std::vector<Bytes>> requests =
+        aux.protocol->write_requests(aux.station, address, hex);
+    if (!requests)
+      return fail(fmt::format("cannot set {} over --aux: {}", address, requests.error().message));
+    for (const Bytes& request : *requests)
+      std::ranges::move(aux.protocol->written_by(request), std::back_inserter(written));
   }
   return written;
 }
@@ -188,9 +227,12 @@ std::string Bench::fence_objection(const PreparedCase& prepared) const {
     if (!written) return written.error().message;
     return written->empty() ? "" : options_.fence.objection(*written, *options_.aux.protocol);
   }
-  const auto unsettable = [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
+  const auto unsettable =
+      [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
     for (const auto& [address, hex] : memory)
-      if (const Result<std::vector<Bytes>> requests = protocol_.write_requests(prepared.station, address, hex); !requests)
+      if (const Result<std::vector<Bytes>> requests =
+              protocol_.write_requests(prepared.station, address, hex);
+          !requests)
         return fmt::format("cannot set {}: {}", address, requests.error().message);
     return {};
   };
@@ -205,10 +247,14 @@ std::string Bench::fence_objection(const PreparedCase& prepared) const {
 std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) const {
   if (prepared.is_client()) return *written_over_aux(prepared);  // the fence has let it pass
   std::vector<Protocol::Written> written;
-  const auto add = [&](ByteView request) { std::ranges::move(protocol_.written_by(request), std::back_inserter(written)); };
+  const auto add = [&](ByteView request) {
+    std::ranges::move(protocol_.written_by(request), std::back_inserter(written));
+  };
   const auto add_memory = [&](const std::vector<std::pair<std::string, std::string>>& memory) {
     for (const auto& [address, hex] : memory)
-      if (const Result<std::vector<Bytes>> requests = protocol_.write_requests(prepared.station, address, hex); requests)
+      if (const Result<std::vector<Bytes>> requests =
+              protocol_.write_requests(prepared.station, address, hex);
+          requests)
         for (const Bytes& request : *requests) add(request);
   };
   add_memory(prepared.source->memory);
@@ -223,11 +269,16 @@ Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepar
   const Capabilities& can = endpoint_.capabilities();
   if (!can.real_device) return {};
   if (prepared.is_client()) {
-    if (std::string why = arming_.objection(source, device_config(source)); !why.empty()) return {Verdict::blocked, why};
-  } else if (!source.transpose && config_station(source.config, options_.station) != options_.station)
-    return {Verdict::blocked, fmt::format("is about station {}; the device is station {}", *config_station(source.config, 1), options_.station)};
+    if (std::string why = arming_.objection(source, device_config(source)); !why.empty())
+      return {Verdict::blocked, why};
+  } else if (!source.transpose &&
+             config_station(source.config, options_.station) != options_.station)
+    return {Verdict::blocked, fmt::format("is about station {}; the device is station {}",
+                                          *config_station(source.config, 1), options_.station)};
   if (std::string why = undeclared(source.config); !why.empty()) return {Verdict::blocked, why};
-  if (prepared.looks_at_counters() && !prepared.is_client()) return {Verdict::blocked, "looks at the status counters, which no command reads; see XG5000, status by service"};
+  if (prepared.looks_at_counters() && !prepared.is_client())
+    return {Verdict::blocked,
+            "looks at the status counters, which no command reads; see XG5000, status by service"};
   if (source.fresh && !can.can_power_cycle && options_.power_cycle_command.empty())
     return {Verdict::blocked, "needs a device fresh from power-on; give --power-cycle COMMAND"};
   return {};
@@ -238,10 +289,15 @@ Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
   if (can.wire) return {};
   const json& config = prepared.source->config;
   if (config.contains("line") || config.contains("bench_line"))
-    return {Verdict::inconclusive, "is about speed and character format, which a pty or socket does not carry"};
+    return {Verdict::inconclusive,
+            "is about speed and character format, which a pty or socket does not carry"};
   const Duration pause = prepared.shortest_pause(endpoint_.character_time());
   if (pause > 0ns && pause < shortest_judged)
-    return {Verdict::inconclusive, fmt::format("needs a time of {:.1f} ms; below {:.0f} ms nothing is certain behind a pty or socket", to_ms(pause), to_ms(shortest_judged))};
+    return {
+        Verdict::inconclusive,
+        fmt::format(
+            "needs a time of {:.1f} ms; below {:.0f} ms nothing is certain behind a pty or socket",
+            to_ms(pause), to_ms(shortest_judged))};
   return {};
 }
 
@@ -253,15 +309,18 @@ CaseResult Bench::run(const Case& source) {
     result.message = why.reason;
     return result;
   };
-  if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass) return decline(outside);
+  if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass)
+    return decline(outside);
   const Result<PreparedCase> as_printed = prepare(source, station_for(source), protocol_);
   if (!as_printed) return decline({Verdict::error, as_printed.error().message});
-  if (const Eligibility why = blocked(source, *as_printed); why.verdict != Verdict::pass) return decline(why);
+  if (const Eligibility why = blocked(source, *as_printed); why.verdict != Verdict::pass)
+    return decline(why);
   // A real device is written only where it is allowed.
   std::optional<Case> elsewhere;
   std::vector<Move> moves;
   if (endpoint_.capabilities().real_device && !as_printed->is_client()) {
-    const Result<std::vector<Move>> planned = plan_moves(source, station_for(source), options_.fence, protocol_);
+    const Result<std::vector<Move>> planned =
+        plan_moves(source, station_for(source), options_.fence, protocol_);
     if (!planned) return decline({Verdict::blocked, planned.error().message});
     moves = *planned;
   }
@@ -270,17 +329,21 @@ CaseResult Bench::run(const Case& source) {
     if (!moved) return decline({Verdict::blocked, moved.error().message});
     elsewhere = std::move(*moved);
   }
-  const Result<PreparedCase> prepared = elsewhere ? prepare(*elsewhere, station_for(source), protocol_) : as_printed;
+  const Result<PreparedCase> prepared =
+      elsewhere ? prepare(*elsewhere, station_for(source), protocol_) : as_printed;
   if (!prepared) return decline({Verdict::error, prepared.error().message});
   if (endpoint_.capabilities().real_device)
-    if (std::string why = fence_objection(*prepared); !why.empty()) return decline({Verdict::blocked, why});
-  if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass) return decline(why);
+    if (std::string why = fence_objection(*prepared); !why.empty())
+      return decline({Verdict::blocked, why});
+  if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass)
+    return decline(why);
   if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
   for (const Move& move : moves) result.notes.push_back(note_of(move, protocol_));
   execute(*prepared, result);
   if (!result.recording.stimulus.empty()) result.recording.moves = moves;
   errors_in_a_row_ = result.verdict == Verdict::error ? errors_in_a_row_ + 1 : 0;
-  if (errors_in_a_row_ == errors_to_stop && stopped_.empty()) stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));
+  if (errors_in_a_row_ == errors_to_stop && stopped_.empty())
+    stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));
   return result;
 }
 
@@ -290,7 +353,8 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   if (real && !save_memory(prepared, result)) return;
   if (prepare_device(prepared, result)) exchange(prepared, result);
   if (!real) return;
-  if (const std::string problem = saved_for(prepared).restore(); !problem.empty()) result.notes.push_back("not put back what it wrote: " + problem);
+  if (const std::string problem = saved_for(prepared).restore(); !problem.empty())
+    result.notes.push_back("not put back what it wrote: " + problem);
 }
 
 void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
@@ -306,20 +370,25 @@ void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
 bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
   const std::vector<Protocol::Written> written = written_by(prepared);
   if (std::ranges::any_of(written, &Protocol::Written::unknown))
-    result.notes.push_back("not saved before: nobody can tell where a damaged write request would write");
+    result.notes.push_back(
+        "not saved before: nobody can tell where a damaged write request would write");
   SavedMemory& memory = saved_for(prepared);
   const Status saved = memory.save(written);
   if (saved) return true;
-  // A device that the bench starts itself forgets all with its process: there the case may name the fault.
-  if (endpoint_.capabilities().can_power_cycle && !memory.port_failed() && !prepared.is_client() && options_.journal) {
+  // A device that the bench starts itself forgets all with its process: there the case may name the
+  // fault.
+  if (endpoint_.capabilities().can_power_cycle && !memory.port_failed() && !prepared.is_client() &&
+      options_.journal) {
     result.notes.push_back(saved.error().message);
     // An answer that is only late must not be taken for one to what is tested.
     return !memory.silent() || exchange_.settle(timing().late_watch);
   }
   result.verdict = memory.port_failed() ? Verdict::error : Verdict::blocked;
   result.message = (prepared.is_client() ? "--aux: " : "") + saved.error().message;
-  if (memory.port_failed()) stop("the port failed before " + result.id + ": " + result.message, &saved.error());
-  else if (memory.silent()) prepared.is_client() ? stop(result.message) : look_for_device(result);
+  if (memory.port_failed())
+    stop("the port failed before " + result.id + ": " + result.message, &saved.error());
+  else if (memory.silent())
+    prepared.is_client() ? stop(result.message) : look_for_device(result);
   return false;
 }
 
@@ -328,7 +397,8 @@ std::string Bench::put_back() {
   std::string open;
   for (SavedMemory* memory : {&saved_, &saved_over_aux_}) {
     [[maybe_unused]] const std::string problem = memory->restore();
-    if (const std::string places = memory->open_places(); !places.empty()) open += (open.empty() ? "" : ", ") + places;
+    if (const std::string places = memory->open_places(); !places.empty())
+      open += (open.empty() ? "" : ", ") + places;
   }
   return open;
 }
@@ -338,15 +408,21 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   const auto give_up = [&](Verdict verdict, const Error& error) {
     result.verdict = verdict;
     result.message = error.message;
-    if (error.interrupted) stop("interrupted", &error);
-    else if (real && verdict == Verdict::error) stop("the port failed in " + result.id + ": " + error.message, &error);
+    if (error.interrupted)
+      stop("interrupted", &error);
+    else if (real && verdict == Verdict::error)
+      stop("the port failed in " + result.id + ": " + error.message, &error);
     return false;
   };
-  if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun) return give_up(Verdict::error, begun.error());
-  if (prepared.source->fresh && real && !power_cycle(result)) return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
-  // What a clock asked between the cases is no part of this one. It waits for its answer before it asks again.
+  if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun)
+    return give_up(Verdict::error, begun.error());
+  if (prepared.source->fresh && real && !power_cycle(result))
+    return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
+  // What a clock asked between the cases is no part of this one. It waits for its answer before it
+  // asks again.
   if (real && prepared.runs_by_clock())
-    if (Status quiet = exchange_.settle(50ms); !quiet) return give_up(Verdict::error, quiet.error());
+    if (Status quiet = exchange_.settle(50ms); !quiet)
+      return give_up(Verdict::error, quiet.error());
   if (begin_case(prepared, result)) return true;
   if (!real || prepared.is_client() || interrupted_) return false;
   if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
@@ -364,40 +440,57 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   };
   const auto set = [&](const std::string& address, const std::string& hex) {
     const Status done = memory_.set(prepared, address, hex);
-    if (done) result.exchange.push_back({Event::Kind::note, endpoint_.now(), endpoint_.now(), {}, fmt::format("given {} = {}", address, hex)});
+    if (done)
+      result.exchange.push_back({Event::Kind::note,
+                                 endpoint_.now(),
+                                 endpoint_.now(),
+                                 {},
+                                 fmt::format("given {} = {}", address, hex)});
     return done;
   };
   const bool asks = prepared.is_client() && endpoint_.capabilities().real_device;
   if (asks) {
-    if (const Status begun = arming_.begin(*prepared.source, device_config(*prepared.source)); !begun) return give_up(Verdict::error, begun.error());
+    if (const Status begun = arming_.begin(*prepared.source, device_config(*prepared.source));
+        !begun)
+      return give_up(Verdict::error, begun.error());
     // A flag that an earlier case left on would have no rising edge.
     if (arming_.aux())
       for (const std::string& flag : arming_.flags())
-        if (const Status reset = set(flag, "00"); !reset) return give_up(Verdict::error, reset.error());
+        if (const Status reset = set(flag, "00"); !reset)
+          return give_up(Verdict::error, reset.error());
   }
   for (const auto& [address, hex] : prepared.source->memory)
-    if (const Status done = set(address, hex); !done) return give_up(memory_.refused() ? Verdict::fail : Verdict::error, done.error());
+    if (const Status done = set(address, hex); !done)
+      return give_up(memory_.refused() ? Verdict::fail : Verdict::error, done.error());
   return true;
 }
 
-void Bench::judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result) {
+void Bench::judge_exchange(const PreparedCase& prepared, const Transcript& transcript,
+                           CaseResult& result) {
   take_judgement(judge(prepared, transcript, rules(), protocol_), result);
   result.recording = make_recording(prepared, transcript, rules());
   for (Event& event : recorded_events(transcript)) {
     if (event.kind != Event::Kind::note) event.text = print_bytes(event.bytes);
     result.exchange.push_back(std::move(event));
   }
-  if (const std::string errors = endpoint_.line_errors(); !errors.empty()) result.notes.push_back("the driver counted " + errors);
+  if (const std::string errors = endpoint_.line_errors(); !errors.empty())
+    result.notes.push_back("the driver counted " + errors);
 }
 
 void Bench::after(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result) {
-  if (transcript.trouble) return stop("the port failed in " + result.id + ": " + transcript.trouble->message, &*transcript.trouble);
+  if (transcript.trouble)
+    return stop("the port failed in " + result.id + ": " + transcript.trouble->message,
+                &*transcript.trouble);
   bool dead = !transcript.dead.empty();
-  // In simulated time the sanity exchange after a negative case is made here; in real time closing the case was one.
+  // In simulated time the sanity exchange after a negative case is made here; in real time closing
+  // the case was one.
   const bool negative = prepared.listens_for_silence() || result.verdict == Verdict::fail;
   if (endpoint_.capabilities().simulated && negative && prepared.answers_probes()) {
-    const Result<bool> alive = exchange_.anything_answers(prepared.station, 3 * options_.profile.response_max, prepared.reply_delay());
-    if (!alive) return stop("the port failed after " + result.id + ": " + alive.error().message, &alive.error());
+    const Result<bool> alive = exchange_.anything_answers(
+        prepared.station, 3 * options_.profile.response_max, prepared.reply_delay());
+    if (!alive)
+      return stop("the port failed after " + result.id + ": " + alive.error().message,
+                  &alive.error());
     dead = !*alive;
     if (dead) result.recording.dead = "nothing answers any more";
     if (dead && result.verdict != Verdict::fail) {
@@ -411,15 +504,20 @@ void Bench::after(const PreparedCase& prepared, const Transcript& transcript, Ca
 
 /// It did not answer when its memory was read or set for a case: does it still answer anything?
 void Bench::look_for_device(CaseResult& result) {
-  const Result<bool> alive = exchange_.anything_answers(options_.station, 3 * options_.profile.response_max);
-  if (!alive) return stop("the port failed in " + result.id + ": " + alive.error().message, &alive.error());
+  const Result<bool> alive =
+      exchange_.anything_answers(options_.station, 3 * options_.profile.response_max);
+  if (!alive)
+    return stop("the port failed in " + result.id + ": " + alive.error().message, &alive.error());
   if (*alive) return;
   result.message += "; nothing answers any more";
   revive(result);
 }
 
 void Bench::revive(CaseResult& result) {
-  if (!power_cycle(result)) stop(fmt::format("the link is dead since {}; power-cycle the device, or give --power-cycle COMMAND", result.id));
+  if (!power_cycle(result))
+    stop(fmt::format(
+        "the link is dead since {}; power-cycle the device, or give --power-cycle COMMAND",
+        result.id));
 }
 
 bool Bench::power_cycle(CaseResult& result) {
@@ -428,7 +526,8 @@ bool Bench::power_cycle(CaseResult& result) {
     result.notes.push_back("the --power-cycle command failed");
     return false;
   }
-  if (!hook && (!endpoint_.capabilities().can_power_cycle || !endpoint_.act("power_cycle"))) return false;
+  if (!hook && (!endpoint_.capabilities().can_power_cycle || !endpoint_.act("power_cycle")))
+    return false;
   result.notes.push_back("power-cycled the device");
   const Result<bool> alive = exchange_.anything_answers(options_.station, revive_patience);
   return alive && *alive;

@@ -1,4 +1,5 @@
-// Runs one case after another against one endpoint: eligibility, starting state, exchange, judgement, recovery.
+// Runs one case after another against one endpoint: eligibility, starting state, exchange,
+// judgement, recovery.
 #pragma once
 
 #include <map>
@@ -23,15 +24,16 @@ namespace fieldproof {
 struct BenchOptions {
   Profile profile;
   WriteFence fence;
-  int station = 1;                 // the device's, where the endpoint cannot become another station
-  std::string power_cycle_command; // --power-cycle: what switches a real device off and on
-  std::string replay;              // command line that the id of the case completes
-  AuxLink aux;                     // --aux: a second channel of the PLC under test
-  TellStimulus stimulus;           // --stimulus: what makes the device ask; empty: none
+  int station = 1;  // the device's, where the endpoint cannot become another station
+  std::string power_cycle_command;    // --power-cycle: what switches a real device off and on
+  std::string replay;                 // command line that the id of the case completes
+  AuxLink aux;                        // --aux: a second channel of the PLC under test
+  TellStimulus stimulus;              // --stimulus: what makes the device ask; empty: none
   bool endpoint_is_stimulus = false;  // --stimulus -: the endpoint's own program is told
-  std::vector<const Case*> client_cases;  // all that are selected, where every one of them is of a device that asks
-  JournalDevice device;            // for the journal of a real device
-  JournalDevice aux_device;        // of `aux`
+  std::vector<const Case*>
+      client_cases;      // all that are selected, where every one of them is of a device that asks
+  JournalDevice device;  // for the journal of a real device
+  JournalDevice aux_device;          // of `aux`
   std::shared_ptr<Journal> journal;  // without one nothing is written to a real device
 };
 
@@ -39,10 +41,12 @@ class Bench {
  public:
   Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options);
 
-  /// The first sanity exchange: does anything answer at all? The error tells the engineer what to check.
+  /// The first sanity exchange: does anything answer at all? The error tells the engineer what to
+  /// check.
   Status start();
 
-  /// How fast this device answers; none on simulated time, which has no floor, and where start() found no answer.
+  /// How fast this device answers; none on simulated time, which has no floor, and where start()
+  /// found no answer.
   Result<std::optional<AdapterFloor>> measure_floor();
   void use_floor(AdapterFloor floor) { floor_ = std::move(floor); }
   /// A limit below it is INCONCLUSIVE.
@@ -56,7 +60,8 @@ class Bench {
   /// Never throws; whatever goes wrong is in the result.
   CaseResult run(const Case& source);
 
-  /// After the last case: tries again to put back what could not be. Empty, or what a real device does not hold as before.
+  /// After the last case: tries again to put back what could not be. Empty, or what a real device
+  /// does not hold as before.
   std::string put_back();
 
   /// Why no further case can run: the port failed, or the link is dead. Empty while all is well.
@@ -87,11 +92,14 @@ class Bench {
   bool begin_case(const PreparedCase& prepared, CaseResult& result);
   void execute(const PreparedCase& prepared, CaseResult& result);
   std::vector<Protocol::Written> written_by(const PreparedCase& prepared) const;
-  SavedMemory& saved_for(const PreparedCase& prepared) { return prepared.is_client() ? saved_over_aux_ : saved_; }
+  SavedMemory& saved_for(const PreparedCase& prepared) {
+    return prepared.is_client() ? saved_over_aux_ : saved_;
+  }
   bool save_memory(const PreparedCase& prepared, CaseResult& result);
   void exchange(const PreparedCase& prepared, CaseResult& result);
   bool prepare_device(const PreparedCase& prepared, CaseResult& result);
-  void judge_exchange(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
+  void judge_exchange(const PreparedCase& prepared, const Transcript& transcript,
+                      CaseResult& result);
   void look_for_device(CaseResult& result);
   void revive(CaseResult& result);
   bool power_cycle(CaseResult& result);

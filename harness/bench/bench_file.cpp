@@ -1,10 +1,10 @@
 #include "harness/bench/bench_file.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -24,18 +24,23 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 11> device_keys{"endpoint", "profile",     "station",  "line", "identity",
-                                                      "fingerprint", "allow_write", "operator", "notes", "stimulus", "aux"};
+constexpr std::array<std::string_view, 11> device_keys{
+    "endpoint",    "profile",  "station", "line",     "identity", "fingerprint",
+    "allow_write", "operator", "notes",   "stimulus", "aux"};
 constexpr std::array<std::string_view, 4> identity_keys{"maker", "model", "serial", "firmware"};
 
-[[noreturn]] void refuse(const std::string& where, const std::string& why) { throw std::runtime_error(where + ": " + why); }
+[[noreturn]] void refuse(const std::string& where, const std::string& why) {
+  throw std::runtime_error(where + ": " + why);
+}
 
 /// `where`.`key`, with `value` an object of no other keys.
-void check_object(const json& value, const std::string& where, std::span<const std::string_view> keys) {
+void check_object(const json& value, const std::string& where,
+                  std::span<const std::string_view> keys) {
   if (!value.is_object()) refuse(where, "must be an object: {...}");
   for (const auto& [key, ignored] : value.items()) {
     if (std::ranges::find(keys, key) == keys.end())
-      refuse(where, fmt::format("unknown key '{}'{}; the keys are {}", key, suggestion(key, keys), fmt::join(keys, ", ")));
+      refuse(where, fmt::format("unknown key '{}'{}; the keys are {}", key, suggestion(key, keys),
+                                fmt::join(keys, ", ")));
   }
 }
 
@@ -49,7 +54,8 @@ std::string read_text(const json& object, std::string_view key, const std::strin
 std::optional<int> read_station(const json& object, const std::string& where) {
   const auto found = object.find("station");
   if (found == object.end()) return std::nullopt;
-  if (!found->is_number_integer() || *found < 0 || *found > 255) refuse(where + ".station", "must be a number from 0 to 255, without quotes");
+  if (!found->is_number_integer() || *found < 0 || *found > 255)
+    refuse(where + ".station", "must be a number from 0 to 255, without quotes");
   return found->get<int>();
 }
 
@@ -59,9 +65,11 @@ std::vector<std::string> read_allow_write(const json& object, const std::string&
   if (found == object.end()) return ranges;
   if (!found->is_array()) refuse(where + ".allow_write", "must be a list: [\"M100-M199\"]");
   for (const json& range : *found) {
-    if (!range.is_string()) refuse(where + ".allow_write", "must be a list of texts: [\"M100-M199\"]");
+    if (!range.is_string())
+      refuse(where + ".allow_write", "must be a list of texts: [\"M100-M199\"]");
     ranges.push_back(range);
-    if (const Status allowed = WriteFence().allow(ranges.back()); !allowed) refuse(where + ".allow_write", allowed.error().message);
+    if (const Status allowed = WriteFence().allow(ranges.back()); !allowed)
+      refuse(where + ".allow_write", allowed.error().message);
   }
   return ranges;
 }
@@ -70,8 +78,10 @@ std::map<std::string, std::string> read_fingerprint(const json& object, const st
   std::map<std::string, std::string> fingerprint;
   const auto found = object.find("fingerprint");
   if (found == object.end()) return fingerprint;
-  if (!found->is_object()) refuse(where + ".fingerprint", "must be an object: {\"NAME\": \"what is found\"}");
-  for (const auto& [key, value] : found->items()) fingerprint[key] = read_text(*found, key, where + ".fingerprint");
+  if (!found->is_object())
+    refuse(where + ".fingerprint", "must be an object: {\"NAME\": \"what is found\"}");
+  for (const auto& [key, value] : found->items())
+    fingerprint[key] = read_text(*found, key, where + ".fingerprint");
   return fingerprint;
 }
 
@@ -94,19 +104,26 @@ Identity read_identity(const json& object, const std::string& where) {
 /// A path starts at the bench file's folder; a name is one of the profiles folder.
 std::string resolve_profile(const std::string& profile, const fs::path& folder) {
   const bool is_path = profile_path(profile, "") == profile;
-  return is_path && fs::path(profile).is_relative() ? (folder / profile).lexically_normal().string() : profile;
+  return is_path && fs::path(profile).is_relative() ? (folder / profile).lexically_normal().string()
+                                                    : profile;
 }
 
 /// The endpoint may say station and line itself, but not otherwise than the keys.
 void check_endpoint(const BenchDevice& device, const std::string& where) {
-  if (device.endpoint.empty()) refuse(where, "has no \"endpoint\"; write how it is reached: \"serial:/dev/ttyUSB0?baud=38400\"");
+  if (device.endpoint.empty())
+    refuse(where,
+           "has no \"endpoint\"; write how it is reached: \"serial:/dev/ttyUSB0?baud=38400\"");
   const Result<EndpointName> name = parse_endpoint(device.endpoint);
   if (!name) refuse(where + ".endpoint", name.error().message);
-  if (device.station && name->options.contains("station")) refuse(where + ".station", "the endpoint says a station, too; leave one of the two");
+  if (device.station && name->options.contains("station"))
+    refuse(where + ".station", "the endpoint says a station, too; leave one of the two");
   if (device.line.empty()) return;
-  if (const auto line = parse_line_settings(device.line); !line) refuse(where + ".line", line.error().message);
+  if (const auto line = parse_line_settings(device.line); !line)
+    refuse(where + ".line", line.error().message);
   for (const char* option : {"line", "baud", "frame"})
-    if (name->options.contains(option)) refuse(where + ".line", fmt::format("the endpoint says '{}', too; leave one of the two", option));
+    if (name->options.contains(option))
+      refuse(where + ".line",
+             fmt::format("the endpoint says '{}', too; leave one of the two", option));
 }
 
 BenchDevice read_device(const json& object, const std::string& name, const fs::path& folder) {
@@ -119,7 +136,8 @@ BenchDevice read_device(const json& object, const std::string& name, const fs::p
   device.line = read_text(object, "line", where);
   device.stimulus = read_text(object, "stimulus", where);
   device.aux = read_text(object, "aux", where);
-  if (const auto aux = parse_endpoint(device.aux); !aux && !device.aux.empty()) refuse(where + ".aux", aux.error().message);
+  if (const auto aux = parse_endpoint(device.aux); !aux && !device.aux.empty())
+    refuse(where + ".aux", aux.error().message);
   device.allow_write = read_allow_write(object, where);
   device.identity = read_identity(object, where);
   device.identity.name = name;
@@ -127,14 +145,17 @@ BenchDevice read_device(const json& object, const std::string& name, const fs::p
   return device;
 }
 
-/// JSON keeps the last of two equal keys in silence: a copied device would hide the one it was copied from.
+/// JSON keeps the last of two equal keys in silence: a copied device would hide the one it was
+/// copied from.
 json parse_without_twins(const std::string& text) {
   std::vector<std::set<std::string>> keys;
   return json::parse(text, [&](int, json::parse_event_t event, json& value) {
     if (event == json::parse_event_t::object_start) keys.emplace_back();
     if (event == json::parse_event_t::object_end) keys.pop_back();
     if (event == json::parse_event_t::key && !keys.back().insert(value).second)
-      throw std::runtime_error(fmt::format("key '{}' stands twice in the same object; rename or remove one", value.get<std::string>()));
+      throw std::runtime_error(
+          fmt::format("key '{}' stands twice in the same object; rename or remove one",
+                      value.get<std::string>()));
     return true;
   });
 }
@@ -147,8 +168,10 @@ Result<BenchFile> parse_bench_file(const std::string& text, const std::string& p
     const json root = parse_without_twins(text);
     constexpr std::array<std::string_view, 1> root_keys{"devices"};
     check_object(root, "the file", root_keys);
-    if (!root.contains("devices") || !root["devices"].is_object()) refuse("the file", "has no \"devices\": {...}");
-    for (const auto& [name, object] : root["devices"].items()) file.devices[name] = read_device(object, name, fs::path(path).parent_path());
+    if (!root.contains("devices") || !root["devices"].is_object())
+      refuse("the file", "has no \"devices\": {...}");
+    for (const auto& [name, object] : root["devices"].items())
+      file.devices[name] = read_device(object, name, fs::path(path).parent_path());
   } catch (const std::exception& error) {
     return fail(fmt::format("cannot read bench file {}: {}", path, error.what()));
   }
@@ -165,20 +188,24 @@ Result<BenchDevice> find_device(const BenchFile& file, const std::string& name) 
   if (const auto found = file.devices.find(name); found != file.devices.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& [known, ignored] : file.devices) names.push_back(known);
-  return fail(fmt::format("no device '{}' in bench file {}{}; there is {}", name, file.path, suggestion(name, names),
+  return fail(fmt::format("no device '{}' in bench file {}{}; there is {}", name, file.path,
+                          suggestion(name, names),
                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 std::string endpoint_of(const BenchDevice& device) {
   std::string options;
-  const auto add = [&](const std::string& option) { options += (options.empty() ? "" : "&") + option; };
+  const auto add = [&](const std::string& option) {
+    options += (options.empty() ? "" : "&") + option;
+  };
   const Result<EndpointName> name = parse_endpoint(device.endpoint);
   if (!name) return device.endpoint;
   if (device.station) add(fmt::format("station={}", *device.station));
   if (const auto line = parse_line_settings(device.line); line && !device.line.empty()) {
     const std::string text = to_string(*line);
     const std::size_t dash = text.find('-');
-    if (name->kind == "serial") add(fmt::format("baud={}&frame={}", text.substr(0, dash), text.substr(dash + 1)));
+    if (name->kind == "serial")
+      add(fmt::format("baud={}&frame={}", text.substr(0, dash), text.substr(dash + 1)));
     if (name->kind == "emulator" || name->kind == "pty") add("line=" + text);
   }
   if (options.empty()) return device.endpoint;

@@ -1,9 +1,11 @@
-// The bench file: which devices hang on this bench, how each is reached, and what it is. One JSON file, kept by hand:
+// The bench file: which devices hang on this bench, how each is reached, and what it is. One JSON
+// file, kept by hand:
 //   {"devices": {"c41a": {
-//     "endpoint": "serial:/dev/serial/by-id/usb-FTDI...?rs485=1", "profile": "xbc-dxxxh", "station": 3, "line": "38400-8N1",
-//     "identity": {"maker": "LS ELECTRIC", "model": "XBL-C41A", "serial": "2219-00417", "firmware": "V1.41"},
-//     "fingerprint": {"areas": "CDFKLMNPTU", "M": "0-255"}, "allow_write": ["M100-M199", "D0"],
-//     "operator": "J. Kim", "notes": "port 2, terminated both ends"}}}
+//     "endpoint": "serial:/dev/serial/by-id/usb-FTDI...?rs485=1", "profile": "xbc-dxxxh",
+//     "station": 3, "line": "38400-8N1", "identity": {"maker": "LS ELECTRIC", "model": "XBL-C41A",
+//     "serial": "2219-00417", "firmware": "V1.41"}, "fingerprint": {"areas": "CDFKLMNPTU", "M":
+//     "0-255"}, "allow_write": ["M100-M199", "D0"], "operator": "J. Kim", "notes": "port 2,
+//     terminated both ends"}}}
 #pragma once
 
 #include <map>
@@ -17,8 +19,9 @@
 namespace fieldproof {
 
 struct BenchDevice {
-  std::string endpoint;                  // as written; endpoint_of() adds station and line
-  std::string profile;                   // a name, or a path (relative ones start at the bench file's folder); empty: none named
+  std::string endpoint;  // as written; endpoint_of() adds station and line
+  std::string profile;   // a name, or a path (relative ones start at the bench file's folder);
+                         // empty: none named
   std::optional<int> station;            // 0 to 255
   std::string line;                      // "38400-8N1"; empty: what the endpoint says
   std::string stimulus, aux;             // as --stimulus and --aux take them
@@ -31,7 +34,8 @@ struct BenchFile {
   std::map<std::string, BenchDevice> devices;
 };
 
-/// Errors name the file, the line or the key ("devices.c41a.station"), what is wrong and the nearest right word.
+/// Errors name the file, the line or the key ("devices.c41a.station"), what is wrong and the
+/// nearest right word.
 Result<BenchFile> load_bench_file(const std::string& path);
 /// The text of a bench file; `path` is for messages, and for the folder of relative profiles.
 Result<BenchFile> parse_bench_file(const std::string& text, const std::string& path);
@@ -39,8 +43,9 @@ Result<BenchFile> parse_bench_file(const std::string& text, const std::string& p
 /// The device of that name; the error says which there are.
 Result<BenchDevice> find_device(const BenchFile& file, const std::string& name);
 
-/// The endpoint with station and line as its options: "serial:/dev/ttyUSB0?station=3&baud=38400&frame=8N1". A kind that
-/// sets no line (tcp, exec) takes the station alone.
+/// The endpoint with station and line as its options:
+/// "serial:/dev/ttyUSB0?station=3&baud=38400&frame=8N1". A kind that sets no line (tcp, exec) takes
+/// the station alone.
 std::string endpoint_of(const BenchDevice& device);
 
 }  // namespace fieldproof

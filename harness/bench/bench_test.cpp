@@ -28,15 +28,18 @@ class BenchTest : public testing::Test {
     endpoint.answers["<probe>"] = Pieces{{1ms, "<alive>"}};
     endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
     options.device.endpoint = "serial:/dev/scripted";
-    const std::string path = testing::TempDir() + "fieldproof_bench_test_" + std::to_string(::getpid()) + ".ndjson";
+    const std::string path =
+        testing::TempDir() + "fieldproof_bench_test_" + std::to_string(::getpid()) + ".ndjson";
     Result<Journal> journal = Journal::open(path);
     options.journal = std::make_shared<Journal>(std::move(*journal));
     std::filesystem::remove(path);  // the open file stays
   }
 
   static std::string vector(const std::string& steps, const std::string& more = "") {
-    return R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed", )j" + more +
-           R"j("source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "steps": [)j" + steps + "]}";
+    return R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed", )j" +
+           more +
+           R"j("source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "steps": [)j" +
+           steps + "]}";
   }
   static std::string ask() { return R"({"send": "'<ask>'"}, {"expect": "'<answer>'"})"; }
 
@@ -85,8 +88,12 @@ TEST_F(BenchTest, ALimitBelowTheMeasuredFloorIsInconclusive) {
   endpoint.answers["<probe>"] = Pieces{{30ms, "<alive>"}};
   ASSERT_TRUE(bench().start());
   bench().use_floor(**bench().measure_floor());
-  EXPECT_EQ(run(vector(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "29ms"})")).verdict, Verdict::inconclusive);
-  EXPECT_EQ(run(vector(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "31ms"})")).verdict, Verdict::pass);
+  EXPECT_EQ(
+      run(vector(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "29ms"})")).verdict,
+      Verdict::inconclusive);
+  EXPECT_EQ(
+      run(vector(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "31ms"})")).verdict,
+      Verdict::pass);
 }
 
 TEST_F(BenchTest, StartAsksOnlyWhetherAnythingAnswers) {
@@ -98,8 +105,11 @@ TEST_F(BenchTest, SilenceAtTheStartSaysWhatToCheck) {
   endpoint.answers.clear();
   const Status started = bench().start();
   ASSERT_FALSE(started);
-  EXPECT_THAT(started.error().message, HasSubstr("nothing answers on scripted at station 1: check that the device has power"));
-  EXPECT_GT(endpoint.sent.size(), 3u) << "a device that is still starting gets more than one chance";
+  EXPECT_THAT(
+      started.error().message,
+      HasSubstr("nothing answers on scripted at station 1: check that the device has power"));
+  EXPECT_GT(endpoint.sent.size(), 3u)
+      << "a device that is still starting gets more than one chance";
 }
 
 TEST_F(BenchTest, WhatTheProfileDoesNotDeclareIsSkipped) {
@@ -130,11 +140,13 @@ TEST_F(BenchTest, WhatACaseWritesIsReadBeforeAndPutBackAfter) {
   endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
   const std::string text = vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )");
   EXPECT_EQ(run(text).verdict, Verdict::pass);
-  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<r%MW1>", "<w%MW1=1234>", "<ask>", "<probe>", "<r%MW1>"));
+  EXPECT_THAT(endpoint.sent,
+              testing::ElementsAre("<r%MW1>", "<w%MW1=1234>", "<ask>", "<probe>", "<r%MW1>"));
   EXPECT_THAT(options.journal->open_entries(), IsEmpty());
   endpoint.sent.clear();
   EXPECT_EQ(run(text).verdict, Verdict::pass);
-  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<w%MW1=1234>", "<ask>", "<probe>", "<r%MW1>")) << "each place is read once a run before it is written";
+  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<w%MW1=1234>", "<ask>", "<probe>", "<r%MW1>"))
+      << "each place is read once a run before it is written";
 }
 
 TEST_F(BenchTest, WhatCannotBePutBackStaysInTheJournal) {
@@ -156,7 +168,8 @@ TEST_F(BenchTest, WhatCannotBeReadIsNotWritten) {
   const CaseResult result = run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )"));
   EXPECT_EQ(result.verdict, Verdict::blocked);
   EXPECT_THAT(result.message, HasSubstr("cannot save what it writes: cannot read %MW1"));
-  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<r%MW1>", "<probe>")) << "silence: is it still there?";
+  EXPECT_THAT(endpoint.sent, testing::ElementsAre("<r%MW1>", "<probe>"))
+      << "silence: is it still there?";
 }
 
 /// It answers the read that saves the word, and then nothing: neither the write nor the probe.
@@ -175,7 +188,10 @@ TEST_F(BenchTest, ADeviceThatFallsSilentBeforeACaseEndsTheRun) {
 
 TEST_F(BenchTest, EmulatorsBecomeWhatACaseGives) {
   endpoint.can.back_door = true;
-  EXPECT_EQ(run(vector(ask(), R"("given": {"config": {"station": 32}, "memory": {"%MW1": "1234"}}, )")).verdict, Verdict::pass);
+  EXPECT_EQ(
+      run(vector(ask(), R"("given": {"config": {"station": 32}, "memory": {"%MW1": "1234"}}, )"))
+          .verdict,
+      Verdict::pass);
   EXPECT_EQ(endpoint.begun.back().at("station"), 32);
   EXPECT_EQ(endpoint.begun.back().at("model"), "xbc-h");
   EXPECT_EQ(endpoint.memory.at("%MW1"), "1234");
@@ -185,14 +201,17 @@ TEST_F(BenchTest, OnARealDeviceTheStationIsTransposedAndTheReportSaysSo) {
   on_real_device();
   options.station = 5;
   endpoint.answers["05"] = Pieces{{1ms, "<05>"}};
-  const CaseResult result = run(vector(R"({"send": "st"}, {"expect": "'<' st '>'"})", R"("given": {"config": {"station": 32}}, )"));
+  const CaseResult result = run(vector(R"({"send": "st"}, {"expect": "'<' st '>'"})",
+                                       R"("given": {"config": {"station": 32}}, )"));
   EXPECT_EQ(result.verdict, Verdict::pass) << result.message;
   EXPECT_THAT(result.notes, Contains("transposed: station 32 to 5"));
 }
 
 TEST_F(BenchTest, WhereTheStationIsWhatIsTestedItIsBlocked) {
   on_real_device();
-  EXPECT_EQ(run(vector(ask(), R"("transpose": false, "given": {"config": {"station": 32}}, )")).verdict, Verdict::blocked);
+  EXPECT_EQ(
+      run(vector(ask(), R"("transpose": false, "given": {"config": {"station": 32}}, )")).verdict,
+      Verdict::blocked);
 }
 
 TEST_F(BenchTest, OnARealDeviceTheConfigurationMustBeDeclared) {
@@ -204,7 +223,8 @@ TEST_F(BenchTest, OnARealDeviceTheConfigurationMustBeDeclared) {
 TEST_F(BenchTest, ADeclaredConfigurationRuns) {
   on_real_device();
   options.profile.config["delay_ms"] = "50";
-  EXPECT_EQ(run(vector(ask(), R"("given": {"config": {"delay_ms": 50}}, )")).verdict, Verdict::pass);
+  EXPECT_EQ(run(vector(ask(), R"("given": {"config": {"delay_ms": 50}}, )")).verdict,
+            Verdict::pass);
 }
 
 TEST_F(BenchTest, NothingIsWrittenOutsideTheFence) {
@@ -219,7 +239,8 @@ TEST_F(BenchTest, NothingIsWrittenOutsideTheFence) {
 
 TEST_F(BenchTest, GivenMemoryIsBehindTheFenceToo) {
   on_real_device();
-  EXPECT_EQ(run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )")).verdict, Verdict::blocked);
+  EXPECT_EQ(run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )")).verdict,
+            Verdict::blocked);
 }
 
 TEST_F(BenchTest, InsideTheFenceItIsWrittenThroughTheProtocol) {
@@ -227,7 +248,8 @@ TEST_F(BenchTest, InsideTheFenceItIsWrittenThroughTheProtocol) {
   ASSERT_TRUE(options.fence.allow("M"));
   endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<0000>"}};
   endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
-  EXPECT_EQ(run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )")).verdict, Verdict::pass);
+  EXPECT_EQ(run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )")).verdict,
+            Verdict::pass);
 }
 
 TEST_F(BenchTest, AFreshStateNeedsAPowerCycle) {
@@ -245,9 +267,13 @@ TEST_F(BenchTest, AnEndpointThatCanPowerCyclesForAFreshState) {
 
 TEST_F(BenchTest, BehindAPtyShortTimesAndFormatsAreInconclusive) {
   endpoint.can = {.back_door = true};
-  EXPECT_EQ(run(vector(R"({"send": "'<a' ~50ms 'sk>'"}, {"silence": true})")).verdict, Verdict::inconclusive);
-  EXPECT_EQ(run(vector(R"({"send": "'<ask>'"}, {"wait": "9ms"}, {"expect": "'<answer>'"})")).verdict, Verdict::inconclusive);
-  EXPECT_EQ(run(vector(ask(), R"("given": {"config": {"line": "1200-7E1"}}, )")).verdict, Verdict::inconclusive);
+  EXPECT_EQ(run(vector(R"({"send": "'<a' ~50ms 'sk>'"}, {"silence": true})")).verdict,
+            Verdict::inconclusive);
+  EXPECT_EQ(
+      run(vector(R"({"send": "'<ask>'"}, {"wait": "9ms"}, {"expect": "'<answer>'"})")).verdict,
+      Verdict::inconclusive);
+  EXPECT_EQ(run(vector(ask(), R"("given": {"config": {"line": "1200-7E1"}}, )")).verdict,
+            Verdict::inconclusive);
   EXPECT_EQ(run(vector(ask())).verdict, Verdict::pass);
 }
 
@@ -275,13 +301,15 @@ TEST_F(BenchTest, AFailedPortIsAnErrorAndStopsTheBench) {
 }
 
 TEST_F(BenchTest, MixedReadingsAreNonStrict) {
-  const std::string steps = R"({"send": "'<ask>'"}, {"expect": {"reading": "echo", "lower": "'<ss>'", "upper": "'<SS>'"}})";
+  const std::string steps =
+      R"({"send": "'<ask>'"}, {"expect": {"reading": "echo", "lower": "'<ss>'", "upper": "'<SS>'"}})";
   endpoint.answers["<ask>"] = Pieces{{1ms, "<SS>"}};
   EXPECT_EQ(run(vector(steps)).verdict, Verdict::non_strict);
   endpoint.answers["<ask>"] = Pieces{{1ms, "<ss>"}};
   const CaseResult second = run(vector(steps));
   EXPECT_EQ(second.verdict, Verdict::non_strict);
-  EXPECT_THAT(second.message, HasSubstr("mixes readings: echo = lower here, upper in xgt_cnet/a/b"));
+  EXPECT_THAT(second.message,
+              HasSubstr("mixes readings: echo = lower here, upper in xgt_cnet/a/b"));
 }
 
 TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
@@ -297,7 +325,8 @@ TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
   EXPECT_EQ(result.exchange[0].text, "'<ask>'");
 }
 
-// ---- fence, profile ------------------------------------------------------------------------------------------------
+// ---- fence, profile
+// ------------------------------------------------------------------------------------------------
 
 struct FenceProtocol : TestProtocol {
   std::string_view output_areas() const override { return "PQU"; }
@@ -336,7 +365,8 @@ TEST(WriteFence, RangesThatMeetAreOne) {
 
 TEST(WriteFence, ParametersAreNamedByTheirHexAddress) {
   const Protocol::Written parameter{"H", 0x1230, 0x1231, "1230"};
-  for (const char* range : {"h1230-h1231", "1230-1231", "H1200-H12FF", "H"}) EXPECT_EQ(objection(range, parameter), "") << range;
+  for (const char* range : {"h1230-h1231", "1230-1231", "H1200-H12FF", "H"})
+    EXPECT_EQ(objection(range, parameter), "") << range;
   EXPECT_NE(objection("h1231-h1232", parameter), "");
 }
 

@@ -4,7 +4,9 @@
 
 namespace fieldproof {
 
-Result<Benches> Benches::open(const EndpointName& name, const std::vector<const Protocol*>& protocols, const BenchOptions& options) {
+Result<Benches> Benches::open(const EndpointName& name,
+                              const std::vector<const Protocol*>& protocols,
+                              const BenchOptions& options) {
   Benches benches;
   for (const Protocol* protocol : protocols) {
     EndpointName own = name;
@@ -13,14 +15,18 @@ Result<Benches> Benches::open(const EndpointName& name, const std::vector<const 
     if (!endpoint) return endpoint.error();
     std::unique_ptr<Protocol> configured;
     if ((*endpoint)->capabilities().real_device) {
-      Result<std::unique_ptr<Protocol>> declared = protocol->configured(options.profile.model, options.profile.config);
-      if (!declared) return fail("cannot use profile " + options.profile.name + ": " + declared.error().message);
+      Result<std::unique_ptr<Protocol>> declared =
+          protocol->configured(options.profile.model, options.profile.config);
+      if (!declared)
+        return fail("cannot use profile " + options.profile.name + ": " + declared.error().message);
       configured = std::move(*declared);
     }
     BenchOptions one = options;
     one.device.protocol = protocol->name();
-    auto bench = std::make_unique<Bench>(**endpoint, configured ? *configured : *protocol, std::move(one));
-    benches.members_.push_back({protocol, std::move(*endpoint), std::move(configured), std::move(bench)});
+    auto bench =
+        std::make_unique<Bench>(**endpoint, configured ? *configured : *protocol, std::move(one));
+    benches.members_.push_back(
+        {protocol, std::move(*endpoint), std::move(configured), std::move(bench)});
   }
   return benches;
 }
@@ -34,7 +40,8 @@ Status Benches::start() {
 }
 
 CaseResult Benches::run(const Case& source) {
-  const auto own = std::ranges::find_if(members_, [&](const Member& member) { return member.protocol->name() == source.protocol; });
+  const auto own = std::ranges::find_if(
+      members_, [&](const Member& member) { return member.protocol->name() == source.protocol; });
   return (own == members_.end() ? members_.front() : *own).bench->run(source);
 }
 
@@ -46,7 +53,9 @@ Result<std::string> Benches::measure_floor() {
     if (!*measured) continue;
     member.bench->use_floor(**measured);
     const std::string own = to_string(**measured, member.bench->floor());
-    text += members_.size() == 1 ? own : (text.empty() ? "" : "; ") + std::string(member.protocol->name()) + ' ' + own;
+    text += members_.size() == 1
+                ? own
+                : (text.empty() ? "" : "; ") + std::string(member.protocol->name()) + ' ' + own;
   }
   return text;
 }
@@ -68,23 +77,28 @@ Status Benches::start_those_that_answer() {
 
 std::string Benches::stopped() const {
   const auto can_run = [](const Member& member) { return member.bench->stopped().empty(); };
-  return members_.empty() || std::ranges::any_of(members_, can_run) ? "" : members_.front().bench->stopped();
+  return members_.empty() || std::ranges::any_of(members_, can_run)
+             ? ""
+             : members_.front().bench->stopped();
 }
 
 std::string Benches::put_back() {
   std::string open;
   for (Member& member : members_)
-    if (const std::string one = member.bench->put_back(); !one.empty()) open += (open.empty() ? "" : ", ") + one;
+    if (const std::string one = member.bench->put_back(); !one.empty())
+      open += (open.empty() ? "" : ", ") + one;
   return open;
 }
 
 bool Benches::interrupted() const {
-  return std::ranges::any_of(members_, [](const Member& member) { return member.bench->interrupted(); });
+  return std::ranges::any_of(members_,
+                             [](const Member& member) { return member.bench->interrupted(); });
 }
 
 std::string Benches::protocol_names() const {
   std::string names;
-  for (const Member& member : members_) names += (names.empty() ? "" : ", ") + std::string(member.protocol->name());
+  for (const Member& member : members_)
+    names += (names.empty() ? "" : ", ") + std::string(member.protocol->name());
   return names;
 }
 

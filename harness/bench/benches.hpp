@@ -1,4 +1,5 @@
-// One bench a protocol. A real endpoint speaks one; emulators become whatever protocol a case is of.
+// One bench a protocol. A real endpoint speaks one; emulators become whatever protocol a case is
+// of.
 #pragma once
 
 #include <memory>
@@ -11,20 +12,27 @@ namespace fieldproof {
 
 class Benches {
  public:
-  /// Opens one endpoint for each of `protocols` (at least one). Errors are those of `open_endpoint`.
-  static Result<Benches> open(const EndpointName& name, const std::vector<const Protocol*>& protocols, const BenchOptions& options);
+  /// Opens one endpoint for each of `protocols` (at least one). Errors are those of
+  /// `open_endpoint`.
+  static Result<Benches> open(const EndpointName& name,
+                              const std::vector<const Protocol*>& protocols,
+                              const BenchOptions& options);
 
   /// The sanity exchange of each; of those that have not stopped.
   Status start();
 
-  /// Measures what the link of each can show, before its first case; what it comes to, empty on simulated time.
+  /// Measures what the link of each can show, before its first case; what it comes to, empty on
+  /// simulated time.
   Result<std::string> measure_floor();
   /// The same of the first alone, without using it.
-  Result<std::optional<AdapterFloor>> measured_floor() { return members_.front().bench->measure_floor(); }
+  Result<std::optional<AdapterFloor>> measured_floor() {
+    return members_.front().bench->measure_floor();
+  }
   /// Instead of measuring: given by hand, or measured over a loop.
   std::string use_floor(const AdapterFloor& floor);
 
-  /// The sanity exchange of each; who does not answer is set aside. Nothing: at least one answers. An error: the port.
+  /// The sanity exchange of each; who does not answer is set aside. Nothing: at least one answers.
+  /// An error: the port.
   Status start_those_that_answer();
 
   /// On the bench of the case's protocol; a case of another protocol is SKIP.

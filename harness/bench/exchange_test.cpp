@@ -29,9 +29,12 @@ class ExchangeTest : public testing::Test {
   }
 
   /// What was sent, with the silence before it in ms: "<ask>", "4 <ask>".
-  std::vector<std::string> exchange(const Protocol& protocol, const std::string& steps, const std::string& config = "{}") {
-    const std::string text = R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed",
-      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "given": {"config": )j" + config + R"j(}, "steps": [)j" + steps + "]}";
+  std::vector<std::string> exchange(const Protocol& protocol, const std::string& steps,
+                                    const std::string& config = "{}") {
+    const std::string text =
+        R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed",
+      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "given": {"config": )j" +
+        config + R"j(}, "steps": [)j" + steps + "]}";
     load_vector_text(text, "f.json", set_);
     const Result<PreparedCase> prepared = prepare(set_.cases.at(0), 1, protocol);
     EXPECT_TRUE(prepared);
@@ -43,7 +46,8 @@ class ExchangeTest : public testing::Test {
     for (const Event& event : transcript.events) {
       if (event.kind == Event::Kind::note) continue;
       const auto gap = static_cast<int>(to_ms(event.start - quiet_since));
-      if (event.kind == Event::Kind::sent) sent.push_back((gap ? std::to_string(gap) + ' ' : "") + to_text(event.bytes));
+      if (event.kind == Event::Kind::sent)
+        sent.push_back((gap ? std::to_string(gap) + ' ' : "") + to_text(event.bytes));
       quiet_since = event.end;
     }
     return sent;
@@ -55,7 +59,8 @@ class ExchangeTest : public testing::Test {
   VectorSet set_;
 };
 
-constexpr const char* two_requests = R"({"send": "'<ask>'"}, {"expect": "'<answer>'"}, {"send": "'<ask>'"}, {"expect": "'<answer>'"})";
+constexpr const char* two_requests =
+    R"({"send": "'<ask>'"}, {"expect": "'<answer>'"}, {"send": "'<ask>'"}, {"expect": "'<answer>'"})";
 
 TEST_F(ExchangeTest, ProbesAreTimed) {
   endpoint.answers["<probe>"] = Pieces{{3ms, "<alive>"}};
@@ -89,12 +94,14 @@ TEST_F(ExchangeTest, ARequestComesAfterTheSilenceThatEndsAFrame) {
 }
 
 TEST_F(ExchangeTest, UnansweredRequestsAreKeptApart) {
-  EXPECT_THAT(exchange(GapProtocol(), R"({"send": "'<a>'"}, {"send": "'<b>'"})"), ElementsAre("4 <a>", "4 <b>"));
+  EXPECT_THAT(exchange(GapProtocol(), R"({"send": "'<a>'"}, {"send": "'<b>'"})"),
+              ElementsAre("4 <a>", "4 <b>"));
 }
 
 TEST_F(ExchangeTest, TheProbeOfASilenceIsNoPartOfTheFrameBefore) {
   endpoint.can = {.wire = true, .real_device = true};
-  EXPECT_THAT(exchange(GapProtocol(), R"({"send": "'<a>'"}, {"silence": true})"), ElementsAre("4 <a>", "4 <probe>", "4 <probe>"));
+  EXPECT_THAT(exchange(GapProtocol(), R"({"send": "'<a>'"}, {"silence": true})"),
+              ElementsAre("4 <a>", "4 <probe>", "4 <probe>"));
 }
 
 TEST_F(ExchangeTest, WithoutAWireAnAnswerSaysThatTheFrameHasEnded) {
@@ -104,17 +111,20 @@ TEST_F(ExchangeTest, WithoutAWireAnAnswerSaysThatTheFrameHasEnded) {
 
 TEST_F(ExchangeTest, WithoutAWireNeighboursNeedToSeeTheEndOfAnAnswer) {
   endpoint.can = {.back_door = true};
-  EXPECT_THAT(exchange(GapProtocol(), two_requests, R"({"neighbours": [2]})"), ElementsAre("100 <ask>", "100 <ask>", "100 <probe>"));
+  EXPECT_THAT(exchange(GapProtocol(), two_requests, R"({"neighbours": [2]})"),
+              ElementsAre("100 <ask>", "100 <ask>", "100 <probe>"));
 }
 
 TEST_F(ExchangeTest, WithoutAWireAnUnansweredFrameEndsLater) {
   endpoint.can = {.back_door = true};
-  EXPECT_THAT(exchange(GapProtocol(), R"({"send": "'<a>'"}, {"silence": true})"), ElementsAre("<a>", "100 <probe>", "<probe>"));
+  EXPECT_THAT(exchange(GapProtocol(), R"({"send": "'<a>'"}, {"silence": true})"),
+              ElementsAre("<a>", "100 <probe>", "<probe>"));
 }
 
 TEST_F(ExchangeTest, WithoutAProbeASilenceIsWaitedOut) {
   endpoint.can = {.wire = true, .real_device = true};
-  EXPECT_THAT(exchange(MuteProtocol(), R"({"send": "'<a>'"}, {"silence": true})"), ElementsAre("<a>"));
+  EXPECT_THAT(exchange(MuteProtocol(), R"({"send": "'<a>'"}, {"silence": true})"),
+              ElementsAre("<a>"));
   EXPECT_GE(endpoint.now(), Time(500ms));
 }
 

@@ -1,4 +1,5 @@
-// The write fence: on a real device nothing is written outside the ranges that the engineer allowed.
+// The write fence: on a real device nothing is written outside the ranges that the engineer
+// allowed.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +13,17 @@ namespace fieldproof {
 
 class WriteFence {
  public:
-  /// Adds "M", "M100-M199", "%MW100-%MW199", "D0", "h1230-h12FF" (parameters by hex address, area H), or "all"; several
-  /// separated by commas. Words, whole areas, or every area but physical outputs, which are written only when named.
-  /// Errors name the part that is wrong.
+  /// Adds "M", "M100-M199", "%MW100-%MW199", "D0", "h1230-h12FF" (parameters by hex address, area
+  /// H), or "all"; several separated by commas. Words, whole areas, or every area but physical
+  /// outputs, which are written only when named. Errors name the part that is wrong.
   Status allow(const std::string& ranges);
 
   bool empty() const { return ranges_.empty(); }
 
-  /// Empty when all of it is allowed; else what must be allowed: "writes %MW100; allow it with --allow-write M100".
-  std::string objection(const std::vector<Protocol::Written>& written, const Protocol& protocol) const;
+  /// Empty when all of it is allowed; else what must be allowed: "writes %MW100; allow it with
+  /// --allow-write M100".
+  std::string objection(const std::vector<Protocol::Written>& written,
+                        const Protocol& protocol) const;
 
   struct Words {
     std::uint32_t first = 0, last = 0;

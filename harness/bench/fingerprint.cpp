@@ -16,7 +16,9 @@ constexpr const char* areas_key = "areas";
 constexpr std::uint32_t word_limit = 1u << 20;  // more than any name of these protocols can say
 constexpr int attempts = 3;                     // at one word, before the answer counts as none
 
-std::string address_of(const std::string& area, std::uint32_t word) { return fmt::format("%{}W{}", area, word); }
+std::string address_of(const std::string& area, std::uint32_t word) {
+  return fmt::format("%{}W{}", area, word);
+}
 
 class Reader {
  public:
@@ -40,7 +42,8 @@ class Reader {
         if (word > there && word < beyond)
           if (const Status looked = look(word); !looked) return looked.error();
     while (beyond - there > 1) {
-      const std::uint32_t middle = beyond == word_limit ? std::min(there * 2 + 1, word_limit - 1) : there + (beyond - there) / 2;
+      const std::uint32_t middle = beyond == word_limit ? std::min(there * 2 + 1, word_limit - 1)
+                                                        : there + (beyond - there) / 2;
       if (const Status looked = look(middle); !looked) return looked.error();
     }
     return std::optional(there);
@@ -49,7 +52,8 @@ class Reader {
  private:
   /// Does the device have this word? A name that the protocol cannot form lies beyond every device.
   Result<bool> has(const std::string& area, std::uint32_t word) {
-    const Result<std::vector<Bytes>> requests = protocol_.read_requests(station_, address_of(area, word), 4);
+    const Result<std::vector<Bytes>> requests =
+        protocol_.read_requests(station_, address_of(area, word), 4);
     if (!requests) return false;
     Bytes reply;
     for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -58,8 +62,9 @@ class Reader {
       reply = std::move(*came);
       if (protocol_.frame_length(reply) == reply.size()) return bool(protocol_.read_reply(reply));
     }
-    return fail(fmt::format("cannot take the fingerprint: a read of {} gets {}", address_of(area, word),
-                            reply.empty() ? "no answer" : "what is no reply: " + print_bytes(reply)));
+    return fail(
+        fmt::format("cannot take the fingerprint: a read of {} gets {}", address_of(area, word),
+                    reply.empty() ? "no answer" : "what is no reply: " + print_bytes(reply)));
   }
 
   const Protocol& protocol_;
@@ -69,9 +74,13 @@ class Reader {
 
 }  // namespace
 
-Result<Fingerprint> read_fingerprint(Endpoint& endpoint, const Protocol& protocol, int station, Duration patience) {
+Result<Fingerprint> read_fingerprint(Endpoint& endpoint, const Protocol& protocol, int station,
+                                     Duration patience) {
   const std::vector<Protocol::Area> areas = protocol.areas();
-  if (areas.empty()) return fail(fmt::format("cannot take a fingerprint by {}: it has no areas whose ends tell devices apart", protocol.name()));
+  if (areas.empty())
+    return fail(fmt::format(
+        "cannot take a fingerprint by {}: it has no areas whose ends tell devices apart",
+        protocol.name()));
   Reader reader(endpoint, protocol, station, patience);
   Fingerprint found{{areas_key, ""}};
   for (const Protocol::Area& area : areas) {
@@ -90,8 +99,11 @@ Status check_fingerprint(const Fingerprint& declared, const Protocol& protocol) 
   for (const Protocol::Area& area : areas) keys.push_back(area.name);
   for (const auto& [key, value] : declared)
     if (std::ranges::find(keys, key) == keys.end())
-      return fail(fmt::format("fingerprint.{} is nothing that reads by {} find{}; take it with fieldproof probe ENDPOINT --fingerprint: {}", key,
-                              protocol.name(), suggestion(key, keys), areas.empty() ? "this protocol has none" : fmt::format("{}", fmt::join(keys, ", "))));
+      return fail(fmt::format(
+          "fingerprint.{} is nothing that reads by {} find{}; take it with fieldproof probe "
+          "ENDPOINT --fingerprint: {}",
+          key, protocol.name(), suggestion(key, keys),
+          areas.empty() ? "this protocol has none" : fmt::format("{}", fmt::join(keys, ", "))));
   return ok();
 }
 
@@ -101,7 +113,8 @@ std::string fingerprint_difference(const Fingerprint& declared, const Fingerprin
     const auto is = found.find(key);
     const std::string came = is == found.end() ? "none" : is->second;
     if (came == value) continue;
-    text += fmt::format("{}{} {} declared, {} found", text.empty() ? "" : "; ", key == areas_key ? "areas" : "area " + key + ':', value, came);
+    text += fmt::format("{}{} {} declared, {} found", text.empty() ? "" : "; ",
+                        key == areas_key ? "areas" : "area " + key + ':', value, came);
   }
   return text;
 }

@@ -1,5 +1,5 @@
-// Which device is it? No command of these protocols reads model or serial number, but the areas and their ends tell models
-// apart. Only reads are sent.
+// Which device is it? No command of these protocols reads model or serial number, but the areas and
+// their ends tell models apart. Only reads are sent.
 #pragma once
 
 #include <map>
@@ -9,12 +9,15 @@
 
 namespace fieldproof {
 
-/// {"areas": "PMKFTCLNDUR", "P": "0-1023", ...}: the areas that answer, and the first and last word of each.
+/// {"areas": "PMKFTCLNDUR", "P": "0-1023", ...}: the areas that answer, and the first and last word
+/// of each.
 using Fingerprint = std::map<std::string, std::string>;
 
-/// Asks for the ends that the known models declare and for the word past each; where a device ends elsewhere, the end is
-/// searched by halves. Errors: the protocol has no areas, the port failed, or a read gets no answer that can be read.
-Result<Fingerprint> read_fingerprint(Endpoint& endpoint, const Protocol& protocol, int station, Duration patience);
+/// Asks for the ends that the known models declare and for the word past each; where a device ends
+/// elsewhere, the end is searched by halves. Errors: the protocol has no areas, the port failed, or
+/// a read gets no answer that can be read.
+Result<Fingerprint> read_fingerprint(Endpoint& endpoint, const Protocol& protocol, int station,
+                                     Duration patience);
 
 /// What a bench file declares must be what can be found; the error names the key that is not.
 Status check_fingerprint(const Fingerprint& declared, const Protocol& protocol);

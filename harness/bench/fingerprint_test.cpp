@@ -53,12 +53,14 @@ TEST(Fingerprint, FindsDeclaredEndsInFewReads) {
   const Look one = look({{'M', 200}, {'D', 10}});
   ASSERT_TRUE(one.found) << one.found.error().message;
   EXPECT_EQ(*one.found, (Fingerprint{{"areas", "MD"}, {"M", "0-199"}, {"D", "0-9"}}));
-  EXPECT_THAT(one.sent, SizeIs(5 + 3 + 1)) << "the first word, the ends and one past, and the first word of R";
+  EXPECT_THAT(one.sent, SizeIs(5 + 3 + 1))
+      << "the first word, the ends and one past, and the first word of R";
   EXPECT_THAT(one.sent, Each(StartsWith("<r")));
 }
 
 TEST(Fingerprint, FindsEveryOtherEnd) {
-  for (const std::uint32_t words : {1u, 2u, 9u, 99u, 100u, 101u, 150u, 199u, 201u, 5000u, 65'536u}) {
+  for (const std::uint32_t words :
+       {1u, 2u, 9u, 99u, 100u, 101u, 150u, 199u, 201u, 5000u, 65'536u}) {
     const Look one = look({{'M', words}});
     ASSERT_TRUE(one.found) << one.found.error().message;
     EXPECT_EQ(one.found->at("M"), "0-" + std::to_string(words - 1));
@@ -67,8 +69,10 @@ TEST(Fingerprint, FindsEveryOtherEnd) {
 }
 
 TEST(Fingerprint, SilenceAndRubbishAreNoRefusal) {
-  EXPECT_EQ(look({{'M', 200}}, "").found.error().message, "cannot take the fingerprint: a read of %MW200 gets no answer");
-  EXPECT_THAT(look({{'M', 200}}, "<<").found.error().message, HasSubstr("a read of %MW200 gets what is no reply: '<<'"));
+  EXPECT_EQ(look({{'M', 200}}, "").found.error().message,
+            "cannot take the fingerprint: a read of %MW200 gets no answer");
+  EXPECT_THAT(look({{'M', 200}}, "<<").found.error().message,
+              HasSubstr("a read of %MW200 gets what is no reply: '<<'"));
   AreaDevice gone;
   gone.fails_after = 2;
   gone.words = {{'M', 200}};
@@ -78,15 +82,20 @@ TEST(Fingerprint, SilenceAndRubbishAreNoRefusal) {
 TEST(Fingerprint, DifferencesNameTheArea) {
   const Fingerprint found{{"areas", "MD"}, {"M", "0-199"}, {"D", "0-9"}};
   EXPECT_EQ(fingerprint_difference({}, found), "");
-  EXPECT_EQ(fingerprint_difference({{"M", "0-199"}}, found), "") << "what is not declared is not compared";
+  EXPECT_EQ(fingerprint_difference({{"M", "0-199"}}, found), "")
+      << "what is not declared is not compared";
   EXPECT_EQ(fingerprint_difference({{"areas", "MDR"}, {"M", "0-99"}, {"R", "0-9"}}, found),
-            "area M: 0-99 declared, 0-199 found; area R: 0-9 declared, none found; areas MDR declared, MD found");
+            "area M: 0-99 declared, 0-199 found; area R: 0-9 declared, none found; areas MDR "
+            "declared, MD found");
 }
 
 TEST(Fingerprint, OnlyWhatCanBeFoundMayBeDeclared) {
   EXPECT_TRUE(check_fingerprint({{"areas", "M"}, {"D", "0-9"}}, AreaProtocol()));
-  EXPECT_THAT(check_fingerprint({{"area", "M"}}, AreaProtocol()).error().message, HasSubstr("fingerprint.area is nothing that reads by xgt-cnet find; did you mean 'areas'?"));
-  EXPECT_THAT(check_fingerprint({{"areas", "M"}, {"M", ""}}, TestProtocol()).error().message, HasSubstr("this protocol has none"));
+  EXPECT_THAT(
+      check_fingerprint({{"area", "M"}}, AreaProtocol()).error().message,
+      HasSubstr("fingerprint.area is nothing that reads by xgt-cnet find; did you mean 'areas'?"));
+  EXPECT_THAT(check_fingerprint({{"areas", "M"}, {"M", ""}}, TestProtocol()).error().message,
+              HasSubstr("this protocol has none"));
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "harness/bench/journal.hpp"
 
-#include <algorithm>
-#include <cerrno>
 #include <fcntl.h>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <sys/file.h>
 #include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
 
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/results/file_error.hpp"
@@ -30,13 +30,15 @@ std::string port_of(const std::string& endpoint) {
 
 json to_json(const OpenEntry& entry) {
   const JournalDevice& device = entry.device;
-  return {{"number", entry.number},     {"endpoint", device.endpoint}, {"station", device.station}, {"protocol", device.protocol},
-          {"model", device.model},      {"config", device.config},     {"address", entry.address},  {"value", entry.value}};
+  return {{"number", entry.number},      {"endpoint", device.endpoint}, {"station", device.station},
+          {"protocol", device.protocol}, {"model", device.model},       {"config", device.config},
+          {"address", entry.address},    {"value", entry.value}};
 }
 
 OpenEntry entry_from(const json& value) {
   return {value.at("number"),
-          {value.at("endpoint"), value.at("station"), value.at("protocol"), value.at("model"), value.at("config")},
+          {value.at("endpoint"), value.at("station"), value.at("protocol"), value.at("model"),
+           value.at("config")},
           value.at("address"),
           value.at("value")};
 }
@@ -70,8 +72,10 @@ Result<Contents> read(const std::string& path) {
     try {
       take(json::parse(text), contents);
     } catch (const json::exception& error) {
-      return fail(fmt::format("cannot read journal {}, line {}: {}; repair the line, it may be all that is known of a device's values", path,
-                              number, error.what()));
+      return fail(
+          fmt::format("cannot read journal {}, line {}: {}; repair the line, it may be all that is "
+                      "known of a device's values",
+                      path, number, error.what()));
     }
     contents.size += text.size() + 1;
   }
@@ -102,7 +106,8 @@ Result<Journal> Journal::open(const std::string& path) {
   const auto keep = static_cast<off_t>(contents->open.empty() ? 0 : contents->size);
   if (::ftruncate(fd.get(), keep) != 0) return file_error("write", path, errno);
   // The name of a new file must be on the disk, too.
-  const UniqueFd directory(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const UniqueFd directory(
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory) ::fsync(directory.get());
   Journal journal(path, std::move(fd));
   journal.open_ = std::move(contents->open);
@@ -117,7 +122,8 @@ Status Journal::append(const std::string& lines) {
     if (count < 0) return file_error("write", path_, errno);
     done += static_cast<std::size_t>(count);
   }
-  if (::fdatasync(fd_.get()) != 0 && errno != EINVAL && errno != EROFS) return file_error("write", path_, errno);
+  if (::fdatasync(fd_.get()) != 0 && errno != EINVAL && errno != EROFS)
+    return file_error("write", path_, errno);
   return ok();
 }
 
@@ -135,7 +141,8 @@ Status Journal::save(std::span<OpenEntry> entries) {
 
 Status Journal::restored(const OpenEntry& entry) {
   std::erase_if(open_, [&entry](const OpenEntry& one) { return one.number == entry.number; });
-  return append(json{{"restored", {{"number", entry.number}, {"address", entry.address}}}}.dump() + '\n');
+  return append(json{{"restored", {{"number", entry.number}, {"address", entry.address}}}}.dump() +
+                '\n');
 }
 
 Status Journal::discard(const JournalDevice& device) {

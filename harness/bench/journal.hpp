@@ -1,4 +1,5 @@
-// The journal of what a real device held before a run wrote there, so that a run that was killed can be undone
+// The journal of what a real device held before a run wrote there, so that a run that was killed
+// can be undone
 // (`fieldproof restore`). One JSON object a line, on the disk before the write goes out:
 //   {"saved":{"number":7,"endpoint":"serial:/dev/ttyUSB0?station=1","station":1,"protocol":"xgt-cnet","model":"xbc-h",
 //             "config":{},"address":"%MW100","value":"00E2"}}
@@ -42,7 +43,8 @@ Result<std::vector<OpenEntry>> read_journal(const std::string& path);
 
 class Journal {
  public:
-  /// Makes the file, or goes on with it; it is locked as long as this object lives. A file with nothing open begins anew.
+  /// Makes the file, or goes on with it; it is locked as long as this object lives. A file with
+  /// nothing open begins anew.
   static Result<Journal> open(const std::string& path);
 
   /// On the disk when this returns. The entries get their numbers.

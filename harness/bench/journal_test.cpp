@@ -24,7 +24,8 @@ class JournalTest : public testing::Test {
   ~JournalTest() override { std::filesystem::remove_all(folder_); }
 
   static std::vector<OpenEntry> two() {
-    const JournalDevice device{"serial:/dev/ttyUSB0?station=3", 3, "modbus-rtu", "xbc-h", {{"word_write_base", "D100"}}};
+    const JournalDevice device{
+        "serial:/dev/ttyUSB0?station=3", 3, "modbus-rtu", "xbc-h", {{"word_write_base", "D100"}}};
     return {{0, device, "%MW100", "00E2"}, {0, device, "%MW101", "1234"}};
   }
   void append(const std::string& text) const { std::ofstream(path_, std::ios::app) << text; }

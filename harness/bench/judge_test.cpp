@@ -1,4 +1,5 @@
-// Exchange and judge together, over a scripted endpoint: what happened on the line, and the verdict that follows.
+// Exchange and judge together, over a scripted endpoint: what happened on the line, and the verdict
+// that follows.
 #include "harness/bench/judge.hpp"
 
 #include <gmock/gmock.h>
@@ -17,11 +18,16 @@ using Pieces = std::vector<ScriptedEndpoint::Piece>;
 
 class JudgeTest : public testing::Test {
  protected:
-  /// Loads a case with these steps and attributes, runs it against `endpoint`, judges it by `rules`.
-  Judgement judged(const std::string& steps, const std::string& level = "must", const std::string& basis = "printed") {
+  /// Loads a case with these steps and attributes, runs it against `endpoint`, judges it by
+  /// `rules`.
+  Judgement judged(const std::string& steps, const std::string& level = "must",
+                   const std::string& basis = "printed") {
     set_ = {};
-    load_vector_text(R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": ")j" + level + R"j(", "basis": ")j" + basis + R"j(", "why": "because we say so",
-      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "steps": [)j" + steps + "]}]", "f.json", set_);
+    load_vector_text(R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": ")j" + level +
+                         R"j(", "basis": ")j" + basis + R"j(", "why": "because we say so",
+      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "steps": [)j" +
+                         steps + "]}]",
+                     "f.json", set_);
     EXPECT_THAT(set_.problems, testing::IsEmpty());
     Result<PreparedCase> prepared = prepare(set_.cases.at(0), 1, protocol_);
     EXPECT_TRUE(prepared);
@@ -40,7 +46,8 @@ class JudgeTest : public testing::Test {
     recorded.id = "xgt_cnet/a/b";
     recorded.exchange = recorded_events(transcript);
     recorded.recording = make_recording(prepared_, transcript, rules);
-    EXPECT_EQ(recorded.recording.stimulus.empty(), transcript.trouble.has_value()) << "trouble of the bench cannot be judged";
+    EXPECT_EQ(recorded.recording.stimulus.empty(), transcript.trouble.has_value())
+        << "trouble of the bench cannot be judged";
     if (transcript.trouble) return;
     const auto loaded = nlohmann::json::parse(nlohmann::json(recorded).dump()).get<CaseResult>();
     const Result<Transcript> again = replay(loaded, prepared_, 500ms);
@@ -81,7 +88,8 @@ TEST_F(JudgeTest, TurnaroundHasALeastTime) {
     return judged(ask());
   };
   EXPECT_EQ(verdict(3999us).verdict, Verdict::fail);
-  EXPECT_EQ(verdict(3999us).message, "early answer: 3.999 ms after the request, the turnaround is 4.000 ms at least");
+  EXPECT_EQ(verdict(3999us).message,
+            "early answer: 3.999 ms after the request, the turnaround is 4.000 ms at least");
   EXPECT_EQ(verdict(4ms).verdict, Verdict::marginal);
   EXPECT_EQ(verdict(4399us).verdict, Verdict::marginal);
   EXPECT_EQ(verdict(4400us).verdict, Verdict::pass);
@@ -136,7 +144,8 @@ TEST_F(JudgeTest, BytesBeforeTheNextSendBelongToWhatWasOpen) {
 
 TEST_F(JudgeTest, TwoRepliesInOneBurstAnswerTwoExpectations) {
   endpoint.answers["<ask><ask>"] = Pieces{{1ms, "<answer><other>"}};
-  const Judgement result = judged(R"({"send": "'<ask>'*2"}, {"expect": "'<answer>'"}, {"expect": "'<other>'"})");
+  const Judgement result =
+      judged(R"({"send": "'<ask>'*2"}, {"expect": "'<answer>'"}, {"expect": "'<other>'"})");
   EXPECT_EQ(result.verdict, Verdict::pass) << result.message;
 }
 
@@ -147,7 +156,8 @@ TEST_F(JudgeTest, OurOwnRequestIsNamedEcho) {
 
 TEST_F(JudgeTest, ALateAnswerFailsWhereTimingBindsAndIsNeverCreditedToTheNextRequest) {
   endpoint.answers["<ask>"] = Pieces{{600ms, "<answer>"}};
-  EXPECT_THAT(judged(ask()).message, HasSubstr("late answer: 600.0 ms after the request, the limit is 500 ms"));
+  EXPECT_THAT(judged(ask()).message,
+              HasSubstr("late answer: 600.0 ms after the request, the limit is 500 ms"));
   rules.binding_timing = false;
   EXPECT_EQ(judged(ask()).verdict, Verdict::non_strict);
 }
@@ -155,7 +165,8 @@ TEST_F(JudgeTest, ALateAnswerFailsWhereTimingBindsAndIsNeverCreditedToTheNextReq
 TEST_F(JudgeTest, ALateAnswerToAnEarlierRequestIsSurplusThere) {
   endpoint.answers["<ask>"] = Pieces{{600ms, "<answer>"}};
   endpoint.answers["<next>"] = Pieces{{10ms, "<answer>"}};
-  const Judgement result = judged(R"({"send": "'<ask>'"}, {"wait": "100ms"}, {"send": "'<next>'"}, {"expect": "'<answer>'"})");
+  const Judgement result = judged(
+      R"({"send": "'<ask>'"}, {"wait": "100ms"}, {"send": "'<next>'"}, {"expect": "'<answer>'"})");
   EXPECT_EQ(result.verdict, Verdict::fail);
 }
 
@@ -167,19 +178,22 @@ TEST_F(JudgeTest, TheGuardBandIsMarginal) {
 TEST_F(JudgeTest, ALimitOfTheVectorBindsAlways) {
   endpoint.answers["<ask>"] = Pieces{{60ms, "<answer>"}};
   rules.binding_timing = false;
-  EXPECT_EQ(judged(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "50ms"})").verdict, Verdict::fail);
+  EXPECT_EQ(judged(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "50ms"})").verdict,
+            Verdict::fail);
 }
 
 TEST_F(JudgeTest, ALimitBelowTheFloorOfTheLinkIsInconclusive) {
   endpoint.answers["<ask>"] = Pieces{{3ms, "<answer>"}};
   rules.timing_floor = 20ms;
-  EXPECT_EQ(judged(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "5ms"})").verdict, Verdict::inconclusive);
+  EXPECT_EQ(judged(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "5ms"})").verdict,
+            Verdict::inconclusive);
 }
 
 TEST_F(JudgeTest, ASplitAnswerFailsAtTheGap) {
   endpoint.answers["<ask>"] = Pieces{{1ms, "<ans"}, {25ms, "wer>"}};
   const Judgement result = judged(ask());
-  EXPECT_EQ(result.message, "split answer: 20.0 ms of silence before byte 4 of the reply, the limit is 4.0 ms");
+  EXPECT_EQ(result.message,
+            "split answer: 20.0 ms of silence before byte 4 of the reply, the limit is 4.0 ms");
 }
 
 TEST_F(JudgeTest, ABytePerSecondIsNoReply) {
@@ -242,7 +256,8 @@ TEST_F(JudgeTest, MemoryIsComparedWhateverTheCase) {
 TEST_F(JudgeTest, WithoutABackDoorMemoryGoesThroughTheProtocol) {
   endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
   endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<1234>"}};
-  EXPECT_EQ(judged(R"({"set": {"%MW1": "1234"}}, {"check": {"%MW1": "1234"}})").verdict, Verdict::pass);
+  EXPECT_EQ(judged(R"({"set": {"%MW1": "1234"}}, {"check": {"%MW1": "1234"}})").verdict,
+            Verdict::pass);
 }
 
 TEST_F(JudgeTest, AWriteThatTheDeviceRefusesFails) {
@@ -258,7 +273,8 @@ TEST_F(JudgeTest, WhatTheEndpointCannotDoIsBlocked) {
 }
 
 TEST_F(JudgeTest, AnAllowedAlternativeIsNonStrictAndItsReadingIsNoted) {
-  const std::string steps = R"({"send": "'<ask>'"}, {"expect": {"reading": "echo", "as_sent": "'<ss>'", "upper": "'<SS>'"}})";
+  const std::string steps =
+      R"({"send": "'<ask>'"}, {"expect": {"reading": "echo", "as_sent": "'<ss>'", "upper": "'<SS>'"}})";
   endpoint.answers["<ask>"] = Pieces{{1ms, "<ss>"}};
   EXPECT_EQ(judged(steps).verdict, Verdict::pass);
   endpoint.answers["<ask>"] = Pieces{{1ms, "<SS>"}};
@@ -272,7 +288,11 @@ TEST_F(JudgeTest, AnAllowedAlternativeIsNonStrictAndItsReadingIsNoted) {
 TEST_F(JudgeTest, CapturesTieStepsTogether) {
   endpoint.answers["<ask>"] = Pieces{{1ms, "<1234>"}};
   endpoint.answers["<1234!>"] = Pieces{{1ms, "<1234>"}};
-  EXPECT_EQ(judged(R"({"send": "'<ask>'"}, {"expect": "'<' {id:4} '>'"}, {"send": "'<' {id} '!>'"}, {"expect": "'<' {id} '>'"})").verdict, Verdict::pass);
+  EXPECT_EQ(
+      judged(
+          R"({"send": "'<ask>'"}, {"expect": "'<' {id:4} '>'"}, {"send": "'<' {id} '!>'"}, {"expect": "'<' {id} '>'"})")
+          .verdict,
+      Verdict::pass);
 }
 
 TEST_F(JudgeTest, LevelAndBasisDecideWhatAMissMeans) {
@@ -301,7 +321,8 @@ TEST_F(JudgeTest, NothingPassesByDefault) {
 
 TEST_F(JudgeTest, ACadenceIsMeasured) {
   endpoint.answers["<go>"] = Pieces{{100ms, "<tick>"}, {300ms, "<tick>"}, {500ms, "<tick>"}};
-  const std::string steps = R"({"send": "'<go>'"}, {"expect": "'<tick>'", "times": 3, "every": "200ms"})";
+  const std::string steps =
+      R"({"send": "'<go>'"}, {"expect": "'<tick>'", "times": 3, "every": "200ms"})";
   EXPECT_EQ(judged(steps).verdict, Verdict::pass);
   endpoint.answers["<go>"][2].after = 450ms;
   EXPECT_THAT(judged(steps).message, HasSubstr("came after 150.0 ms instead of every 200.0 ms"));

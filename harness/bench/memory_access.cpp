@@ -4,8 +4,10 @@ namespace fieldproof {
 
 Result<Bytes> MemoryAccess::ask(const Server& server, ByteView request) {
   Endpoint& endpoint = server.endpoint;
-  if (const Duration gap = server.protocol.frame_gap(endpoint.character_time()); gap > 0ns && endpoint.capabilities().wire)
-    if (const Result<Burst> quiet = endpoint.receive(endpoint.now() + gap); !quiet) return quiet.error();
+  if (const Duration gap = server.protocol.frame_gap(endpoint.character_time());
+      gap > 0ns && endpoint.capabilities().wire)
+    if (const Result<Burst> quiet = endpoint.receive(endpoint.now() + gap); !quiet)
+      return quiet.error();
   const Result<Sent> sent = endpoint.send(request);
   if (!sent) return sent.error();
   Bytes reply;
@@ -19,8 +21,10 @@ Result<Bytes> MemoryAccess::ask(const Server& server, ByteView request) {
   return reply;
 }
 
-Status MemoryAccess::write(const Server& server, const std::string& address, const std::string& hex) {
-  const Result<std::vector<Bytes>> requests = server.protocol.write_requests(server.station, address, hex);
+Status MemoryAccess::write(const Server& server, const std::string& address,
+                           const std::string& hex) {
+  const Result<std::vector<Bytes>> requests =
+      server.protocol.write_requests(server.station, address, hex);
   if (!requests) return requests.error();
   for (const Bytes& request : *requests) {
     const Result<Bytes> reply = ask(server, request);
@@ -32,8 +36,10 @@ Status MemoryAccess::write(const Server& server, const std::string& address, con
   return ok();
 }
 
-Result<std::string> MemoryAccess::read(const Server& server, const std::string& address, std::size_t digits) {
-  const Result<std::vector<Bytes>> requests = server.protocol.read_requests(server.station, address, digits);
+Result<std::string> MemoryAccess::read(const Server& server, const std::string& address,
+                                       std::size_t digits) {
+  const Result<std::vector<Bytes>> requests =
+      server.protocol.read_requests(server.station, address, digits);
   if (!requests) return requests.error();
   std::string value;
   for (const Bytes& request : *requests) {
@@ -57,11 +63,13 @@ Result<std::string> MemoryAccess::get(int station, const std::string& address, s
   return read({endpoint_, protocol_, station}, address, digits);
 }
 
-Status MemoryAccess::set(const PreparedCase& prepared, const std::string& address, const std::string& hex) {
+Status MemoryAccess::set(const PreparedCase& prepared, const std::string& address,
+                         const std::string& hex) {
   refused_ = false;
   if (endpoint_.capabilities().back_door) return endpoint_.set(address, hex);
   if (!prepared.is_client()) {
-    if (!aux_.endpoint || protocol_.write_requests(prepared.station, address, hex)) return write(own(prepared), address, hex);
+    if (!aux_.endpoint || protocol_.write_requests(prepared.station, address, hex))
+      return write(own(prepared), address, hex);
     return write(aux(), address, hex);
   }
   if (aux_.endpoint) {
@@ -77,11 +85,15 @@ bool MemoryAccess::can_read(const PreparedCase& prepared, const std::string& add
   return aux_.endpoint && !address.starts_with('@');
 }
 
-Result<std::string> MemoryAccess::get(const PreparedCase& prepared, const std::string& address, std::size_t digits) {
+Result<std::string> MemoryAccess::get(const PreparedCase& prepared, const std::string& address,
+                                      std::size_t digits) {
   refused_ = false;
   if (endpoint_.capabilities().back_door) return endpoint_.get(address, digits);
-  const bool by_itself = !prepared.is_client() && (!aux_.endpoint || protocol_.read_requests(prepared.station, address, digits));
-  Result<std::string> value = by_itself ? read(own(prepared), address, digits) : read(aux(), address, digits);
+  const bool by_itself =
+      !prepared.is_client() &&
+      (!aux_.endpoint || protocol_.read_requests(prepared.station, address, digits));
+  Result<std::string> value =
+      by_itself ? read(own(prepared), address, digits) : read(aux(), address, digits);
   if (by_itself) return value;
   refused_ = false;
   return value ? value : Result<std::string>(fail("--aux: " + value.error().message));

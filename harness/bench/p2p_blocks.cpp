@@ -15,7 +15,8 @@ using nlohmann::json;
 json plain_value(const json& value) {
   if (!value.is_string()) return value;
   const std::string& text = value.get_ref<const std::string&>();
-  const bool number = !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
+  const bool number =
+      !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
   return number ? json(std::stoi(text)) : value;
 }
 
@@ -24,7 +25,9 @@ void make_list(json& block, const char* key) {
 }
 
 std::string list_of(const json& block, const char* key) {
-  return block.contains(key) ? fmt::format("{}", fmt::join(block[key].get<std::vector<std::string>>(), ", ")) : "?";
+  return block.contains(key)
+             ? fmt::format("{}", fmt::join(block[key].get<std::vector<std::string>>(), ", "))
+             : "?";
 }
 
 std::string text_of(const json& block, const char* key) {
@@ -38,9 +41,13 @@ std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
   std::vector<json> result;
   if (!blocks.is_array()) return result;
   for (const json& given : blocks) {
-    json block{{"parameter", p2p.value("parameter", json(1))}, {"block", result.size()}, {"channel", p2p.value("channel", json(1))}, {"function", "read"}};
+    json block{{"parameter", p2p.value("parameter", json(1))},
+               {"block", result.size()},
+               {"channel", p2p.value("channel", json(1))},
+               {"function", "read"}};
     const std::string function = given.is_object() ? given.value("function", "read") : "";
-    if (function == "read" || function == "write") block.update({{"command", "single"}, {"type", "word"}, {"size", 1}});
+    if (function == "read" || function == "write")
+      block.update({{"command", "single"}, {"type", "word"}, {"size", 1}});
     block.update(given);
     for (json& value : block) value = plain_value(value);
     if (block.contains("flag")) block["flag"] = upper(block["flag"].get<std::string>());
@@ -71,17 +78,24 @@ std::vector<std::string> sent_addresses(const json& block) {
 
 std::string in_words(const json& block, std::string_view protocol) {
   const std::string function = block.value("function", "read");
-  std::string text = fmt::format("P2P {} block {}: {} client, channel {}, {}", text_of(block, "parameter"), text_of(block, "block"), protocol,
-                                 text_of(block, "channel"), function);
+  std::string text =
+      fmt::format("P2P {} block {}: {} client, channel {}, {}", text_of(block, "parameter"),
+                  text_of(block, "block"), protocol, text_of(block, "channel"), function);
   if (block.contains("frame")) text += " " + text_of(block, "frame");
   if (block.contains("command")) {
     text += fmt::format(", {}", text_of(block, "command"));
-    text += block["command"] == "continuous" ? fmt::format(", {} x {}", text_of(block, "size"), text_of(block, "type")) : ", " + text_of(block, "type");
+    text += block["command"] == "continuous"
+                ? fmt::format(", {} x {}", text_of(block, "size"), text_of(block, "type"))
+                : ", " + text_of(block, "type");
   }
   if (block.contains("flag")) text += ", on " + flag_of(block);
   const std::string station = " of station " + text_of(block, "station");
-  if (function == "read") text += fmt::format(", from {}{}, into {}", list_of(block, "read"), station, list_of(block, "save"));
-  if (function == "write") text += fmt::format(", from {}, into {}{}", list_of(block, "read"), list_of(block, "save"), station);
+  if (function == "read")
+    text += fmt::format(", from {}{}, into {}", list_of(block, "read"), station,
+                        list_of(block, "save"));
+  if (function == "write")
+    text += fmt::format(", from {}, into {}{}", list_of(block, "read"), list_of(block, "save"),
+                        station);
   return text;
 }
 

@@ -1,7 +1,7 @@
 #include "harness/bench/partner.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <optional>
 
 #include "harness/notation/checks.hpp"
@@ -20,34 +20,41 @@ std::optional<CheckKind> check_kind(std::string_view field) {
 }
 
 bool is_hex(ByteView bytes) {
-  return !bytes.empty() && std::ranges::all_of(bytes, [](Byte b) { return hex_digit(static_cast<char>(b)) >= 0; });
+  return !bytes.empty() &&
+         std::ranges::all_of(bytes, [](Byte b) { return hex_digit(static_cast<char>(b)) >= 0; });
 }
 
-/// Stations that are written with two digits tell that the whole frame is text; else a byte is a byte.
+/// Stations that are written with two digits tell that the whole frame is text; else a byte is a
+/// byte.
 bool is_text(const Protocol& protocol) { return protocol.station_bytes(0).size() == 2; }
 
 /// A frame that can be changed field by field; its check follows.
 class Editor {
  public:
-  Editor(ByteView frame, const Protocol& protocol) : bytes_(frame.begin(), frame.end()), fields_(protocol.explain(frame)) {}
+  Editor(ByteView frame, const Protocol& protocol)
+      : bytes_(frame.begin(), frame.end()), fields_(protocol.explain(frame)) {}
 
   const Field* find(std::string_view name) const {
     const auto found = std::ranges::find(fields_, name, &Field::name);
     return found == fields_.end() ? nullptr : &*found;
   }
   const Field* check() const {
-    const auto found = std::ranges::find_if(fields_, [](const Field& field) { return check_kind(field.name).has_value(); });
+    const auto found = std::ranges::find_if(
+        fields_, [](const Field& field) { return check_kind(field.name).has_value(); });
     return found == fields_.end() ? nullptr : &*found;
   }
   /// The last field that carries something: no frame part and no station.
   const Field* content() const {
     const auto carries = [](const Field& field) {
-      return field.size > 0 && field.name != "header" && field.name != "station" && field.name != "tail" && !check_kind(field.name);
+      return field.size > 0 && field.name != "header" && field.name != "station" &&
+             field.name != "tail" && !check_kind(field.name);
     };
     const auto found = std::find_if(fields_.rbegin(), fields_.rend(), carries);
     return found == fields_.rend() ? nullptr : &*found;
   }
-  ByteView part(const Field& field) const { return ByteView(bytes_).subspan(field.offset, field.size); }
+  ByteView part(const Field& field) const {
+    return ByteView(bytes_).subspan(field.offset, field.size);
+  }
   std::vector<Field>& fields() { return fields_; }
 
   void replace(std::size_t at, std::size_t size, ByteView with) {
@@ -60,7 +67,8 @@ class Editor {
 
   Bytes finish() {
     if (const Field* found = check()) {
-      const Bytes right = compute_check(*check_kind(found->name), ByteView(bytes_).first(found->offset));
+      const Bytes right =
+          compute_check(*check_kind(found->name), ByteView(bytes_).first(found->offset));
       std::ranges::copy(right, bytes_.begin() + static_cast<std::ptrdiff_t>(found->offset));
     }
     return std::move(bytes_);
@@ -71,7 +79,9 @@ class Editor {
   std::vector<Field> fields_;
 };
 
-Error lacks(std::string_view fault, const std::string& what) { return fail(fmt::format("cannot answer with {}: {}", fault, what)); }
+Error lacks(std::string_view fault, const std::string& what) {
+  return fail(fmt::format("cannot answer with {}: {}", fault, what));
+}
 
 /// A byte of the content less or more: two digits where it is written so.
 Result<Bytes> resized(std::string_view fault, Editor frame, const Protocol& protocol) {
@@ -79,27 +89,34 @@ Result<Bytes> resized(std::string_view fault, Editor frame, const Protocol& prot
   if (!content) return lacks(fault, "the answer has no content");
   const std::size_t byte = is_text(protocol) ? 2 : 1;
   const std::size_t end = content->offset + content->size;
-  if (fault == "long") frame.replace(end, 0, is_text(protocol) ? Bytes{'0', '0'} : Bytes{0});
-  else frame.replace(end - std::min(byte, content->size), std::min(byte, content->size), {});
+  if (fault == "long")
+    frame.replace(end, 0, is_text(protocol) ? Bytes{'0', '0'} : Bytes{0});
+  else
+    frame.replace(end - std::min(byte, content->size), std::min(byte, content->size), {});
   return frame.finish();
 }
 
 Result<Bytes> without_hex(Editor frame, const Protocol& protocol) {
   const Field* content = frame.content();
-  if (!is_text(protocol)) return lacks("not_hex", fmt::format("the frames of {} are binary", protocol.name()));
-  if (!content || !is_hex(frame.part(*content))) return lacks("not_hex", "the answer has no hex digits but its station");
+  if (!is_text(protocol))
+    return lacks("not_hex", fmt::format("the frames of {} are binary", protocol.name()));
+  if (!content || !is_hex(frame.part(*content)))
+    return lacks("not_hex", "the answer has no hex digits but its station");
   frame.replace(content->offset, 1, Bytes{'G'});
   return frame.finish();
 }
 
-/// The request with addresses that no device has: it is refused in the form that the client waits for.
+/// The request with addresses that no device has: it is refused in the form that the client waits
+/// for.
 Result<Bytes> unanswerable(ByteView request, const Protocol& protocol) {
   Editor frame(request, protocol);
   bool found = false;
   for (const Field& field : frame.fields()) {
-    const bool name = field.name == "name" || (field.name.starts_with("name ") && !field.name.starts_with("name length"));
+    const bool name = field.name == "name" ||
+                      (field.name.starts_with("name ") && !field.name.starts_with("name length"));
     if (!name && field.name != "address") continue;
-    frame.replace(field.offset, field.size, Bytes(field.size, is_text(protocol) ? Byte{'F'} : Byte{0xFF}));
+    frame.replace(field.offset, field.size,
+                  Bytes(field.size, is_text(protocol) ? Byte{'F'} : Byte{0xFF}));
     found = true;
   }
   if (!found) return lacks("nak", "the request has no address that could be refused");
@@ -121,7 +138,8 @@ Partner::Answer ask(EmulatedDevice& device, const Burst& request) {
 
 }  // namespace
 
-Result<Bytes> damaged(std::string_view fault, ByteView answer, int station, const Protocol& protocol) {
+Result<Bytes> damaged(std::string_view fault, ByteView answer, int station,
+                      const Protocol& protocol) {
   Editor frame(answer, protocol);
   if (fault == "short" || fault == "long") return resized(fault, std::move(frame), protocol);
   if (fault == "not_hex") return without_hex(std::move(frame), protocol);
@@ -133,10 +151,13 @@ Result<Bytes> damaged(std::string_view fault, ByteView answer, int station, cons
     std::ranges::copy(wrong, bytes.begin() + static_cast<std::ptrdiff_t>(check->offset));
     return bytes;
   }
-  const std::string name = fault == "wrong_head" ? "header" : fault == "wrong_tail" ? "tail" : "station";
+  const std::string name = fault == "wrong_head"   ? "header"
+                           : fault == "wrong_tail" ? "tail"
+                                                   : "station";
   const Field* field = frame.find(name);
   if (!field) return lacks(fault, fmt::format("the answer has no {}", name));
-  const Bytes other = name == "station" ? protocol.station_bytes((station + 1) % 256) : Bytes(field->size, foreign);
+  const Bytes other =
+      name == "station" ? protocol.station_bytes((station + 1) % 256) : Bytes(field->size, foreign);
   frame.replace(field->offset, field->size, other);
   return frame.finish();
 }
@@ -150,11 +171,13 @@ Result<EmulatedDevice*> Partner::device_for(const PartnerSpec& spec) {
     device = std::move(*made);
   }
   for (const auto& [address, hex] : spec.memory)
-    if (const Status set = device->set(address, hex); !set) return fail("cannot make the partner: " + set.error().message);
+    if (const Status set = device->set(address, hex); !set)
+      return fail("cannot make the partner: " + set.error().message);
   return device.get();
 }
 
-Result<Bytes> Partner::faulty(const PartnerSpec& spec, EmulatedDevice& device, const Burst& request, const Bytes& answer) const {
+Result<Bytes> Partner::faulty(const PartnerSpec& spec, EmulatedDevice& device, const Burst& request,
+                              const Bytes& answer) const {
   if (spec.fault == "never") return Bytes{};
   if (spec.fault == "echo") return request.bytes;
   if (spec.fault == "garbage") return Bytes(std::max<std::size_t>(answer.size(), 1), foreign);
@@ -163,8 +186,11 @@ Result<Bytes> Partner::faulty(const PartnerSpec& spec, EmulatedDevice& device, c
     return exchanged_.back().answer;
   }
   if (spec.fault == "other_block") {
-    const auto other = std::find_if(exchanged_.rbegin(), exchanged_.rend(), [&](const Exchanged& one) { return one.request != request.bytes; });
-    if (other == exchanged_.rend()) return lacks(spec.fault, "no other block has asked before in this case");
+    const auto other =
+        std::find_if(exchanged_.rbegin(), exchanged_.rend(),
+                     [&](const Exchanged& one) { return one.request != request.bytes; });
+    if (other == exchanged_.rend())
+      return lacks(spec.fault, "no other block has asked before in this case");
     return other->answer;
   }
   if (spec.fault == "nak") {
@@ -176,7 +202,8 @@ Result<Bytes> Partner::faulty(const PartnerSpec& spec, EmulatedDevice& device, c
   return damaged(spec.fault, answer, config_station(spec.config, 1).value_or(1), protocol_);
 }
 
-Result<Partner::Answer> Partner::answer(const PartnerSpec& spec, const Burst& request, Time too_late) {
+Result<Partner::Answer> Partner::answer(const PartnerSpec& spec, const Burst& request,
+                                        Time too_late) {
   const Result<EmulatedDevice*> device = device_for(spec);
   if (!device) return device.error();
   Answer answer = ask(**device, request);

@@ -1,4 +1,5 @@
-// The partner's chair: one of our own devices answers what a client under test asks, and a fault may befall the answer.
+// The partner's chair: one of our own devices answers what a client under test asks, and a fault
+// may befall the answer.
 #pragma once
 
 #include <map>
@@ -14,9 +15,11 @@
 
 namespace fieldproof {
 
-/// `answer` with a fault of its bytes: wrong_station, wrong_check, wrong_head, wrong_tail, short, long, not_hex. But for
-/// wrong_check its check is right again. `station` is the partner's. Errors say what the answer lacks for the fault.
-Result<Bytes> damaged(std::string_view fault, ByteView answer, int station, const Protocol& protocol);
+/// `answer` with a fault of its bytes: wrong_station, wrong_check, wrong_head, wrong_tail, short,
+/// long, not_hex. But for wrong_check its check is right again. `station` is the partner's. Errors
+/// say what the answer lacks for the fault.
+Result<Bytes> damaged(std::string_view fault, ByteView answer, int station,
+                      const Protocol& protocol);
 
 /// Lives as long as a case: devices keep their memory, and what was asked is remembered.
 class Partner {
@@ -27,13 +30,14 @@ class Partner {
     Bytes bytes;    // empty: none
     Time moment{};  // when its first byte is due
   };
-  /// What comes back for `request`. `too_late` is the moment at which the fault `late` begins to answer.
-  /// Errors name the fault, or the key of the partner.
+  /// What comes back for `request`. `too_late` is the moment at which the fault `late` begins to
+  /// answer. Errors name the fault, or the key of the partner.
   Result<Answer> answer(const PartnerSpec& spec, const Burst& request, Time too_late);
 
  private:
   Result<EmulatedDevice*> device_for(const PartnerSpec& spec);
-  Result<Bytes> faulty(const PartnerSpec& spec, EmulatedDevice& device, const Burst& request, const Bytes& answer) const;
+  Result<Bytes> faulty(const PartnerSpec& spec, EmulatedDevice& device, const Burst& request,
+                       const Bytes& answer) const;
 
   struct Exchanged {
     Bytes request, answer;

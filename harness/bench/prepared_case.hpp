@@ -11,24 +11,24 @@
 namespace fieldproof {
 
 struct PreparedFrame {
-  std::string reading;                          // named alternative of the step, empty where there is one alone
+  std::string reading;  // named alternative of the step, empty where there is one alone
   const Frame* source = nullptr;
   FrameTemplate frame;
 };
 
 struct PreparedStep {
   const Step* step = nullptr;
-  std::vector<PreparedFrame> frames;            // send: one; expect: every alternative, the preferred first
+  std::vector<PreparedFrame> frames;  // send: one; expect: every alternative, the preferred first
 };
 
 /// Points into the Case, which must outlive it.
 struct PreparedCase {
   const Case* source = nullptr;
   int station = 1;
-  bool has_probe = true;                        // the protocol has a request that anything healthy answers
+  bool has_probe = true;  // the protocol has a request that anything healthy answers
   std::vector<PreparedStep> steps;
 
-  bool is_client() const;                       // the module asks, the bench answers
+  bool is_client() const;  // the module asks, the bench answers
   /// A block asks at the pace of a clock: there is always one more request.
   bool runs_by_clock() const;
   /// A device that asks, or one whose line settings differ from the bench's, answers no probe.
@@ -37,9 +37,9 @@ struct PreparedCase {
   Duration client_time_out() const;
   /// The configured delay of every reply (delay_ms).
   Duration reply_delay() const;
-  bool expects_requests() const;                // in the partner's chair: an expect or partner step
+  bool expects_requests() const;  // in the partner's chair: an expect or partner step
   bool listens_for_silence() const;
-  bool looks_at_counters() const;               // a check of @status, @errors or @services
+  bool looks_at_counters() const;  // a check of @status, @errors or @services
   /// The shortest pause or wait, or 0 when there is none.
   Duration shortest_pause(Duration character_time) const;
 };

@@ -1,9 +1,9 @@
 #include "harness/bench/profile.hpp"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -18,10 +18,12 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 11> profile_keys{"name",      "title",  "extends", "model",           "protocols", "decisions",
-                                                         "config", "timing", "exclude", "prepared_blocks", "notes"};
-constexpr std::array<std::string_view, 9> timing_keys{"response_max", "turnaround_min", "floor", "max_gap", "guard_band",
-                                                      "response_max_ms", "turnaround_min_ms", "floor_ms", "max_gap_ms"};
+constexpr std::array<std::string_view, 11> profile_keys{
+    "name",   "title",  "extends", "model",           "protocols", "decisions",
+    "config", "timing", "exclude", "prepared_blocks", "notes"};
+constexpr std::array<std::string_view, 9> timing_keys{
+    "response_max",    "turnaround_min",    "floor",    "max_gap",   "guard_band",
+    "response_max_ms", "turnaround_min_ms", "floor_ms", "max_gap_ms"};
 
 Duration from_ms(double ms) { return Duration(static_cast<Duration::rep>(ms * 1e6)); }
 
@@ -32,15 +34,18 @@ Duration duration_of(const std::string& key, const json& value) {
     if (number < 0) throw std::runtime_error(fmt::format("timing.{} is negative", key));
     return from_ms(number);
   }
-  const Result<Duration> duration = parse_duration(value.is_string() ? value.get<std::string>() : value.dump());
-  if (!duration) throw std::runtime_error(fmt::format("timing.{}: {}", key, duration.error().message));
+  const Result<Duration> duration =
+      parse_duration(value.is_string() ? value.get<std::string>() : value.dump());
+  if (!duration)
+    throw std::runtime_error(fmt::format("timing.{}: {}", key, duration.error().message));
   return *duration;
 }
 
 void read_timing(const json& timing, Profile& profile) {
   for (const auto& [key, value] : timing.items()) {
     if (std::ranges::find(timing_keys, key) == timing_keys.end())
-      throw std::runtime_error(fmt::format("unknown key timing.{}{}", key, suggestion(key, timing_keys)));
+      throw std::runtime_error(
+          fmt::format("unknown key timing.{}{}", key, suggestion(key, timing_keys)));
     if (key == "guard_band") {
       profile.guard_band = value.get<double>();
       if (profile.guard_band < 0) throw std::runtime_error("timing.guard_band is negative");
@@ -55,27 +60,41 @@ void read_timing(const json& timing, Profile& profile) {
 }
 
 void read_exclude(const json& exclude, Profile& profile) {
-  for (const json& entry : exclude) profile.exclude.emplace_back(entry.at("id"), entry.at("reason"));
+  for (const json& entry : exclude)
+    profile.exclude.emplace_back(entry.at("id"), entry.at("reason"));
 }
 
 json read_blocks(const json& value) {
-  if (!value.is_array() || !std::ranges::all_of(value, [](const json& one) { return one.is_object(); }))
-    throw std::runtime_error("prepared_blocks is a list of P2P blocks: [{\"flag\": \"%MX00000\", \"read\": \"%MW100\", ...}]");
+  if (!value.is_array() ||
+      !std::ranges::all_of(value, [](const json& one) { return one.is_object(); }))
+    throw std::runtime_error(
+        "prepared_blocks is a list of P2P blocks: [{\"flag\": \"%MX00000\", \"read\": \"%MW100\", "
+        "...}]");
   return value;
 }
 
 void read_key(const std::string& key, const json& value, Profile& profile) {
-  if (key == "name") profile.name = value;
-  else if (key == "title") profile.title = value;
-  else if (key == "model") profile.model = value;
-  else if (key == "protocols") profile.protocols = value.get<std::vector<std::string>>();
-  else if (key == "config") profile.config.update(value);
-  else if (key == "timing") read_timing(value, profile);
-  else if (key == "exclude") read_exclude(value, profile);
-  else if (key == "prepared_blocks") profile.prepared_blocks = read_blocks(value);
-  else if (key == "notes") profile.notes = value;
+  if (key == "name")
+    profile.name = value;
+  else if (key == "title")
+    profile.title = value;
+  else if (key == "model")
+    profile.model = value;
+  else if (key == "protocols")
+    profile.protocols = value.get<std::vector<std::string>>();
+  else if (key == "config")
+    profile.config.update(value);
+  else if (key == "timing")
+    read_timing(value, profile);
+  else if (key == "exclude")
+    read_exclude(value, profile);
+  else if (key == "prepared_blocks")
+    profile.prepared_blocks = read_blocks(value);
+  else if (key == "notes")
+    profile.notes = value;
   else if (key == "decisions") {
-    if (value != "binding" && value != "advisory") throw std::runtime_error("decisions is 'binding' or 'advisory'");
+    if (value != "binding" && value != "advisory")
+      throw std::runtime_error("decisions is 'binding' or 'advisory'");
     profile.binding_decisions = value == "binding";
   } else if (key != "extends") {
     throw std::runtime_error(fmt::format("unknown key '{}'{}", key, suggestion(key, profile_keys)));
@@ -84,7 +103,8 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
 
 Result<std::string> read_text(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) return fail(fmt::format("cannot read profile {}; is it there and readable?", path.string()));
+  if (!in)
+    return fail(fmt::format("cannot read profile {}; is it there and readable?", path.string()));
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
@@ -98,32 +118,43 @@ std::string known_profiles(const std::string& name, const fs::path& folder) {
   return fmt::format("{}; there are {}", suggestion(name, views), fmt::join(names, ", "));
 }
 
-bool names_a_path(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(".json"); }
+bool names_a_path(const std::string& name) {
+  return name.find('/') != std::string::npos || name.ends_with(".json");
+}
 
 /// What `path` extends, or nothing; what is no name is an error of its own.
 Result<std::optional<std::string>> extended_by(const std::string& text, const fs::path& path) {
   const json value = json::parse(text, nullptr, false);
   if (!value.is_object() || !value.contains("extends")) return std::optional<std::string>();
-  if (!value["extends"].is_string()) return fail(fmt::format("cannot read profile {}: \"extends\" is the name of another profile", path.string()));
+  if (!value["extends"].is_string())
+    return fail(fmt::format("cannot read profile {}: \"extends\" is the name of another profile",
+                            path.string()));
   return std::optional<std::string>(value["extends"]);
 }
 
 /// `chain`: the files that extend this one, the first first.
-Result<Profile> load(const std::string& name, const fs::path& folder, std::vector<std::string> chain) {
+Result<Profile> load(const std::string& name, const fs::path& folder,
+                     std::vector<std::string> chain) {
   const fs::path path = profile_path(name, folder);
-  if (!fs::exists(path)) return fail(fmt::format("no profile '{}'{}", name, known_profiles(name, folder)));
+  if (!fs::exists(path))
+    return fail(fmt::format("no profile '{}'{}", name, known_profiles(name, folder)));
   const bool circle = std::ranges::find(chain, path.string()) != chain.end();
   chain.push_back(path.string());
-  if (circle) return fail(fmt::format("cannot read profile {}: it extends itself: {}", path.string(), fmt::join(chain, " extends ")));
+  if (circle)
+    return fail(fmt::format("cannot read profile {}: it extends itself: {}", path.string(),
+                            fmt::join(chain, " extends ")));
   const Result<std::string> text = read_text(path);
   if (!text) return text.error();
   const Result<std::optional<std::string>> extends = extended_by(*text, path);
   if (!extends) return extends.error();
   Profile base;
   if (*extends) {
-    const bool beside = names_a_path(name) && fs::exists(profile_path(**extends, path.parent_path()));
-    Result<Profile> extended = load(beside ? profile_path(**extends, path.parent_path()).string() : **extends, folder, chain);
-    if (!extended && chain.size() == 1) return fail(fmt::format("{} (extended by {})", extended.error().message, path.string()));
+    const bool beside =
+        names_a_path(name) && fs::exists(profile_path(**extends, path.parent_path()));
+    Result<Profile> extended = load(
+        beside ? profile_path(**extends, path.parent_path()).string() : **extends, folder, chain);
+    if (!extended && chain.size() == 1)
+      return fail(fmt::format("{} (extended by {})", extended.error().message, path.string()));
     if (!extended) return extended.error();
     base = std::move(*extended);
     base.name.clear();  // a name is not inherited
@@ -145,8 +176,10 @@ Result<Profile> parse_profile(const std::string& text, const std::string& file, 
   } catch (const std::exception& error) {
     return fail(fmt::format("cannot read profile {}: {}", file, error.what()));
   }
-  if (base.name.empty()) return fail(fmt::format("cannot read profile {}: it has no \"name\"", file));
-  if (base.protocols.empty()) return fail(fmt::format("cannot read profile {}: it has no \"protocols\"", file));
+  if (base.name.empty())
+    return fail(fmt::format("cannot read profile {}: it has no \"name\"", file));
+  if (base.protocols.empty())
+    return fail(fmt::format("cannot read profile {}: it has no \"protocols\"", file));
   return base;
 }
 
@@ -154,6 +187,8 @@ fs::path profile_path(const std::string& name_or_path, const fs::path& folder) {
   return names_a_path(name_or_path) ? fs::path(name_or_path) : folder / (name_or_path + ".json");
 }
 
-Result<Profile> load_profile(const std::string& name_or_path, const fs::path& folder) { return load(name_or_path, folder, {}); }
+Result<Profile> load_profile(const std::string& name_or_path, const fs::path& folder) {
+  return load(name_or_path, folder, {});
+}
 
 }  // namespace fieldproof

@@ -1,4 +1,5 @@
-// Where a manual allows two readings, one name ties the vectors together: a device must keep to its choice.
+// Where a manual allows two readings, one name ties the vectors together: a device must keep to its
+// choice.
 #pragma once
 
 #include <map>
@@ -15,7 +16,8 @@ class Readings {
   void note(CaseResult& result);
 
  private:
-  std::map<std::string, std::pair<std::string, std::string>> first_;  // name: first choice and the case that made it
+  std::map<std::string, std::pair<std::string, std::string>>
+      first_;  // name: first choice and the case that made it
 };
 
 }  // namespace fieldproof

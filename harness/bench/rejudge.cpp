@@ -1,7 +1,7 @@
 #include "harness/bench/rejudge.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "harness/bench/recording.hpp"
 #include "harness/bench/transposition.hpp"
@@ -13,11 +13,14 @@ namespace {
 bool is_frame(const Event& event) { return event.kind != Event::Kind::note; }
 
 /// A result that was waived is judged by what it was before.
-Verdict before_waiver(Verdict verdict) { return verdict == Verdict::xfail ? Verdict::fail : verdict; }
+Verdict before_waiver(Verdict verdict) {
+  return verdict == Verdict::xfail ? Verdict::fail : verdict;
+}
 
 Rejudge::Outcome not_judged(const CaseResult& recorded, const std::string& why) {
   Rejudge::Outcome outcome{recorded, why};
-  const bool exchanged = std::ranges::any_of(recorded.exchange, is_frame) && recorded.verdict != Verdict::error;
+  const bool exchanged =
+      std::ranges::any_of(recorded.exchange, is_frame) && recorded.verdict != Verdict::error;
   outcome.result.verdict = exchanged ? Verdict::inconclusive : before_waiver(recorded.verdict);
   if (exchanged) outcome.result.message = "cannot be judged again: " + why;
   return outcome;
@@ -33,11 +36,15 @@ Rejudge::Outcome Rejudge::judge(const CaseResult& recorded) {
   const auto source = cases_.find(recorded.id);
   if (source == cases_.end()) return not_judged(recorded, "the vector is gone");
   const Protocol* protocol = find_protocol(source->second->protocol);
-  if (!protocol) return not_judged(recorded, fmt::format("there is no protocol '{}'", source->second->protocol));
-  // On a real device the case may have been moved, by addresses that its configuration gives a meaning.
-  const Result<std::unique_ptr<Protocol>> configured = protocol->configured(profile_.model, profile_.config);
+  if (!protocol)
+    return not_judged(recorded, fmt::format("there is no protocol '{}'", source->second->protocol));
+  // On a real device the case may have been moved, by addresses that its configuration gives a
+  // meaning.
+  const Result<std::unique_ptr<Protocol>> configured =
+      protocol->configured(profile_.model, profile_.config);
   const Protocol& declared = configured && *configured ? **configured : *protocol;
-  const Result<Case> moved = moved_case(*source->second, recorded.recording.station, recorded.recording.moves, declared);
+  const Result<Case> moved =
+      moved_case(*source->second, recorded.recording.station, recorded.recording.moves, declared);
   if (!moved) return not_judged(recorded, moved.error().message);
   const Result<PreparedCase> prepared = prepare(*moved, recorded.recording.station, *protocol);
   if (!prepared) return not_judged(recorded, prepared.error().message);

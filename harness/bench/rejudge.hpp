@@ -20,8 +20,8 @@ class Rejudge {
     CaseResult result;
     std::string why_not;  // why the exchange was not judged again; empty: it was
   };
-  /// What was recorded without an exchange (SKIP, BLOCKED, trouble) keeps its verdict. An exchange that cannot be judged
-  /// by today's vector is INCONCLUSIVE.
+  /// What was recorded without an exchange (SKIP, BLOCKED, trouble) keeps its verdict. An exchange
+  /// that cannot be judged by today's vector is INCONCLUSIVE.
   Outcome judge(const CaseResult& recorded);
 
  private:

@@ -35,7 +35,8 @@ class Repetitions : public testing::EmptyTestEventListener {
   explicit Repetitions(Context& context) : context_(context) {}
   void OnTestIterationStart(const testing::UnitTest&, int iteration) override {
     context_.repeat = iteration;
-    // GoogleTest has no way to end its repetitions early; an exception of a listener ends RUN_ALL_TESTS, and is caught there.
+    // GoogleTest has no way to end its repetitions early; an exception of a listener ends
+    // RUN_ALL_TESTS, and is caught there.
     if (context_.stopped) throw std::runtime_error("stopped");
   }
 
@@ -44,12 +45,20 @@ class Repetitions : public testing::EmptyTestEventListener {
 };
 
 void initialize(const RunnerOptions& options) {
-  // Selection, repetition and reports are ours, whatever GTEST_FILTER and its like say in the environment.
-  std::vector<std::string> arguments{"fieldproof", "--gtest_color=no", "--gtest_filter=*", "--gtest_output=", "--gtest_fail_fast=0",
-                                     "--gtest_also_run_disabled_tests=1", "--gtest_catch_exceptions=1", fmt::format("--gtest_repeat={}", options.repeat)};
+  // Selection, repetition and reports are ours, whatever GTEST_FILTER and its like say in the
+  // environment.
+  std::vector<std::string> arguments{"fieldproof",
+                                     "--gtest_color=no",
+                                     "--gtest_filter=*",
+                                     "--gtest_output=",
+                                     "--gtest_fail_fast=0",
+                                     "--gtest_also_run_disabled_tests=1",
+                                     "--gtest_catch_exceptions=1",
+                                     fmt::format("--gtest_repeat={}", options.repeat)};
   if (options.shuffle) {
     arguments.push_back("--gtest_shuffle");
-    arguments.push_back(fmt::format("--gtest_random_seed={}", options.seed % 100'000));  // what GoogleTest takes
+    arguments.push_back(
+        fmt::format("--gtest_random_seed={}", options.seed % 100'000));  // what GoogleTest takes
   }
   arguments.insert(arguments.end(), options.gtest_arguments.begin(), options.gtest_arguments.end());
   std::vector<char*> argv;
@@ -69,13 +78,15 @@ std::pair<std::string, std::string> split_id(const std::string& id) {
 
 }  // namespace
 
-std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOptions& options, const RunCase& run) {
+std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOptions& options,
+                           const RunCase& run) {
   initialize(options);
   Context context{&run};
   for (const Case* source : cases) {
     const auto [suite, name] = split_id(source->id);
-    testing::RegisterTest(suite.c_str(), name.c_str(), nullptr, nullptr, source->file.c_str(), 1,
-                          [source, &context]() -> testing::Test* { return new CaseTest(*source, context); });
+    testing::RegisterTest(
+        suite.c_str(), name.c_str(), nullptr, nullptr, source->file.c_str(), 1,
+        [source, &context]() -> testing::Test* { return new CaseTest(*source, context); });
   }
   testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
   delete listeners.Release(listeners.default_result_printer());

@@ -1,5 +1,6 @@
-// GoogleTest as the runner: each selected case is registered as a test, so that shuffle, seed, sharding and IDEs work.
-// Its own XML and exit code are not ours: GoogleTest deletes control bytes and can report green for tests that never ran.
+// GoogleTest as the runner: each selected case is registered as a test, so that shuffle, seed,
+// sharding and IDEs work. Its own XML and exit code are not ours: GoogleTest deletes control bytes
+// and can report green for tests that never ran.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,7 @@
 namespace fieldproof {
 
 struct RunnerOptions {
-  int repeat = 1;                            // -1: until `run` stops it
+  int repeat = 1;  // -1: until `run` stops it
   bool shuffle = false;
   int seed = 0;
   std::vector<std::string> gtest_arguments;  // what the user gave as --gtest_...
@@ -22,6 +23,7 @@ struct RunnerOptions {
 using RunCase = std::function<bool(const Case& source, int repeat)>;
 
 /// Registers the cases and runs them. Returns how many were handed to `run`; a shard may get none.
-std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOptions& options, const RunCase& run);
+std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOptions& options,
+                           const RunCase& run);
 
 }  // namespace fieldproof

@@ -1,7 +1,7 @@
 #include "harness/bench/saved_memory.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <tuple>
 
 namespace fieldproof {
@@ -12,29 +12,37 @@ constexpr std::size_t word_digits = 4;
 
 std::vector<Protocol::Written> joined(std::vector<Protocol::Written> written) {
   std::erase_if(written, [](const Protocol::Written& one) { return one.unknown(); });
-  std::ranges::sort(written, {}, [](const Protocol::Written& one) { return std::tuple(one.area, one.contacts, one.first_word); });
+  std::ranges::sort(written, {}, [](const Protocol::Written& one) {
+    return std::tuple(one.area, one.contacts, one.first_word);
+  });
   std::vector<Protocol::Written> result;
   for (Protocol::Written& one : written) {
-    const bool meets = !result.empty() && result.back().area == one.area && result.back().contacts == one.contacts &&
+    const bool meets = !result.empty() && result.back().area == one.area &&
+                       result.back().contacts == one.contacts &&
                        one.first_word <= result.back().last_word + 1;
-    if (meets) result.back().last_word = std::max(result.back().last_word, one.last_word);
-    else result.push_back(std::move(one));
+    if (meets)
+      result.back().last_word = std::max(result.back().last_word, one.last_word);
+    else
+      result.push_back(std::move(one));
   }
   return result;
 }
 
 bool SavedMemory::is_open(const Key& key) const {
   return std::ranges::any_of(journal_->open_entries(), [&](const OpenEntry& one) {
-    return one.address == key.first && one.value.size() == key.second && is_same_device(one.device, device_);
+    return one.address == key.first && one.value.size() == key.second &&
+           is_same_device(one.device, device_);
   });
 }
 
 /// The same memory, a word a place; empty where there are no such names.
-std::vector<Protocol::Place> SavedMemory::words_of(const std::string& address, std::size_t digits) const {
+std::vector<Protocol::Place> SavedMemory::words_of(const std::string& address,
+                                                   std::size_t digits) const {
   const std::optional<Protocol::Written> all = protocol_.named(address, digits);
   std::vector<Protocol::Place> words;
   for (std::uint32_t word = 0; all && !all->contacts && word < digits / word_digits; ++word)
-    for (Protocol::Place& place : protocol_.places({all->area, all->first_word + word, all->first_word + word, address}))
+    for (Protocol::Place& place :
+         protocol_.places({all->area, all->first_word + word, all->first_word + word, address}))
       words.push_back(std::move(place));
   return words;
 }
@@ -52,9 +60,13 @@ Result<std::string> SavedMemory::word_by_word(const Protocol::Place& place) {
 
 Result<std::string> SavedMemory::read(const Protocol::Place& place) {
   Result<std::string> value = memory_.get(device_.station, place.address, place.digits);
-  endpoint_failed_ = !value && !memory_.refused() && protocol_.read_requests(device_.station, place.address, place.digits);
-  if (!value && memory_.refused() && place.declared && place.digits > word_digits) value = word_by_word(place);
-  if (value && value->size() != place.digits) return fail(fmt::format("cannot read {}: {} digits came, {} are due", place.address, value->size(), place.digits));
+  endpoint_failed_ = !value && !memory_.refused() &&
+                     protocol_.read_requests(device_.station, place.address, place.digits);
+  if (!value && memory_.refused() && place.declared && place.digits > word_digits)
+    value = word_by_word(place);
+  if (value && value->size() != place.digits)
+    return fail(fmt::format("cannot read {}: {} digits came, {} are due", place.address,
+                            value->size(), place.digits));
   return value;
 }
 
@@ -71,13 +83,15 @@ Status SavedMemory::save(const std::vector<Protocol::Written>& written) {
         const bool absent = !value && memory_.refused() && !place.declared;
         if (!value && !absent) {
           port_failed_ = endpoint_failed_;
-          unreadable = Error{fmt::format("cannot save what it writes: {}", value.error().message), value.error().interrupted};
+          unreadable = Error{fmt::format("cannot save what it writes: {}", value.error().message),
+                             value.error().interrupted};
           if (port_failed_) return *unreadable;
           continue;
         }
         known_[key] = value ? *value : "";
       }
-      if (!known_[key].empty() && !is_open(key)) entries.push_back({0, device_, place.address, known_[key]});
+      if (!known_[key].empty() && !is_open(key))
+        entries.push_back({0, device_, place.address, known_[key]});
     }
   }
   if (Status kept = journal_->save(entries); !kept) return kept;
@@ -113,7 +127,8 @@ std::string SavedMemory::open_places() const {
   std::string text;
   if (!journal_) return text;
   for (const OpenEntry& one : journal_->open_entries())
-    if (is_same_device(one.device, device_)) text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", one.address, one.value);
+    if (is_same_device(one.device, device_))
+      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", one.address, one.value);
   return text;
 }
 

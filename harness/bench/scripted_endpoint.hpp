@@ -1,4 +1,5 @@
-// An endpoint for tests: answers each transmission by a table, in simulated time, with bursts at given moments.
+// An endpoint for tests: answers each transmission by a table, in simulated time, with bursts at
+// given moments.
 #pragma once
 
 #include <deque>
@@ -14,7 +15,7 @@ namespace fieldproof {
 class ScriptedEndpoint : public Endpoint {
  public:
   struct Piece {
-    Duration after;    // the end of the transmission
+    Duration after;  // the end of the transmission
     std::string text;
   };
 
@@ -23,9 +24,9 @@ class ScriptedEndpoint : public Endpoint {
   std::map<std::string, std::string> memory;          // back door
   std::vector<std::string> sent;
   std::vector<nlohmann::json> begun;
-  int fails_after = -1;                               // transmissions until the port fails
+  int fails_after = -1;  // transmissions until the port fails
   int power_cycles = 0;
-  std::string forgets;                                // answered once, then never again
+  std::string forgets;  // answered once, then never again
 
   const Capabilities& capabilities() const override { return can; }
   std::string describe() const override { return "scripted"; }
@@ -37,11 +38,13 @@ class ScriptedEndpoint : public Endpoint {
   }
 
   Result<Sent> send(ByteView bytes) override {
-    if (fails_after >= 0 && static_cast<int>(sent.size()) >= fails_after) return fail("the port is gone");
+    if (fails_after >= 0 && static_cast<int>(sent.size()) >= fails_after)
+      return fail("the port is gone");
     sent.push_back(to_text(bytes));
     const Sent when{now_, now_ + character_time() * static_cast<Duration::rep>(bytes.size())};
     now_ = when.end;
-    for (const Piece& piece : answers[sent.back()]) coming_.push_back({to_bytes(piece.text), now_ + piece.after, character_time()});
+    for (const Piece& piece : answers[sent.back()])
+      coming_.push_back({to_bytes(piece.text), now_ + piece.after, character_time()});
     if (sent.back() == forgets) answers.erase(forgets);
     return when;
   }
@@ -61,7 +64,9 @@ class ScriptedEndpoint : public Endpoint {
     memory[std::string(address)] = hex;
     return ok();
   }
-  Result<std::string> get(std::string_view address, std::size_t) override { return memory[std::string(address)]; }
+  Result<std::string> get(std::string_view address, std::size_t) override {
+    return memory[std::string(address)];
+  }
   Status act(std::string_view action) override {
     if (action != "power_cycle") return fail("no such action");
     ++power_cycles;

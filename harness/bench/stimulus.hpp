@@ -1,4 +1,5 @@
-// --stimulus: the program that makes a device under test ask. It is told by lines on its standard input.
+// --stimulus: the program that makes a device under test ask. It is told by lines on its standard
+// input.
 #pragma once
 
 #include <functional>

@@ -34,7 +34,8 @@ Received Received::take(std::size_t count) {
   // A burst that is cut in two: its later part came no later than the burst ended.
   if (rest.empty() || rest.front().offset > 0) {
     const Arrival& cut = taken.arrivals.back();
-    rest.insert(rest.begin(), {0, cut.end, cut.end, cut.event, cut.event_offset + count - cut.offset});
+    rest.insert(rest.begin(),
+                {0, cut.end, cut.end, cut.event, cut.event_offset + count - cut.offset});
   }
   arrivals = std::move(rest);
   return taken;

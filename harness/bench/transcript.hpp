@@ -17,7 +17,8 @@ struct Received {
     std::size_t offset = 0;  // of its first byte
     Time start{};
     Time end{};
-    std::size_t event = 0;   // which of the transcript's events it stands in, and its first byte there
+    std::size_t event =
+        0;  // which of the transcript's events it stands in, and its first byte there
     std::size_t event_offset = 0;
   };
   Bytes bytes;
@@ -30,11 +31,12 @@ struct Received {
 };
 
 struct StepRecord {
-  Sent sent;            // send: when
-  Time stimulus{};      // expect: the end of what it answers (a transmission, the reply before it, a set or do)
-  Bytes sent_bytes;     // send
-  Received received;    // expect, silence, wait: what came
-  Time deadline{};      // expect: the limit for the first byte
+  Sent sent;          // send: when
+  Time stimulus{};    // expect: the end of what it answers (a transmission, the reply before it, a
+                      // set or do)
+  Bytes sent_bytes;   // send
+  Received received;  // expect, silence, wait: what came
+  Time deadline{};    // expect: the limit for the first byte
   Time listened_until{};
   std::vector<std::pair<std::string, std::string>> memory;  // check: address and what it held
   std::string refused;  // set, check, do: why it could not be done
@@ -42,13 +44,13 @@ struct StepRecord {
 };
 
 struct Transcript {
-  std::vector<StepRecord> steps;   // one a step as far as the case went
-  Received surplus;                // bytes that no step was waiting for
-  std::size_t surplus_after = 0;   // the step they followed
+  std::vector<StepRecord> steps;  // one a step as far as the case went
+  Received surplus;               // bytes that no step was waiting for
+  std::size_t surplus_after = 0;  // the step they followed
   bool flooded = false;
-  std::string dead;                // set when the link was silent after the case
-  std::optional<Error> trouble;    // the port failed, or Ctrl-C
-  std::vector<Event> events;       // frame monitor
+  std::string dead;              // set when the link was silent after the case
+  std::optional<Error> trouble;  // the port failed, or Ctrl-C
+  std::vector<Event> events;     // frame monitor
 };
 
 }  // namespace fieldproof

@@ -1,10 +1,10 @@
 #include "harness/bench/waivers.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
-#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -21,7 +21,8 @@ using nlohmann::json;
 template <std::size_t n>
 void refuse_unknown_keys(const json& object, const std::array<std::string_view, n>& keys) {
   for (const auto& [key, entry] : object.items())
-    if (std::ranges::find(keys, key) == keys.end()) throw std::runtime_error(fmt::format("unknown key '{}'{}", key, suggestion(key, keys)));
+    if (std::ranges::find(keys, key) == keys.end())
+      throw std::runtime_error(fmt::format("unknown key '{}'{}", key, suggestion(key, keys)));
 }
 
 /// A day that exists, as 2027-01-31.
@@ -34,26 +35,33 @@ bool is_date(const std::string& text) {
   };
   if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
   if (!number(0, 4, year) || !number(5, 2, month) || !number(8, 2, day)) return false;
-  return std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)).ok();
+  return std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(month),
+                                     std::chrono::day(day))
+      .ok();
 }
 
 std::string required(const json& object, const char* key, const char* what) {
   const auto found = object.find(key);
-  if (found == object.end()) throw std::runtime_error(fmt::format("'{}' is missing: {}", key, what));
+  if (found == object.end())
+    throw std::runtime_error(fmt::format("'{}' is missing: {}", key, what));
   const auto value = found->get<std::string>();
-  if (value.find_first_not_of(' ') == std::string::npos) throw std::runtime_error(fmt::format("'{}' is empty: {}", key, what));
+  if (value.find_first_not_of(' ') == std::string::npos)
+    throw std::runtime_error(fmt::format("'{}' is empty: {}", key, what));
   return value;
 }
 
 std::string version(const json& range, const char* key) {
   std::string value = range.value(key, "");
-  if (range.contains(key) && std::ranges::none_of(value, [](char c) { return c >= '0' && c <= '9'; }))
-    throw std::runtime_error(fmt::format("firmware.{} '{}' has no number; write it as the device's label does, 1.20", key, value));
+  if (range.contains(key) &&
+      std::ranges::none_of(value, [](char c) { return c >= '0' && c <= '9'; }))
+    throw std::runtime_error(fmt::format(
+        "firmware.{} '{}' has no number; write it as the device's label does, 1.20", key, value));
   return value;
 }
 
 Waiver read_waiver(const json& value) {
-  constexpr std::array<std::string_view, 6> keys{"id", "reason", "owner", "text", "expires", "firmware"};
+  constexpr std::array<std::string_view, 6> keys{"id",   "reason",  "owner",
+                                                 "text", "expires", "firmware"};
   constexpr std::array<std::string_view, 2> range_keys{"from", "to"};
   if (!value.is_object()) throw std::runtime_error("it is not an object {\"id\": ...}");
   refuse_unknown_keys(value, keys);
@@ -61,9 +69,12 @@ Waiver read_waiver(const json& value) {
   waiver.id = required(value, "id", "a case, or a glob");
   waiver.reason = required(value, "reason", "why the failure is accepted");
   waiver.owner = required(value, "owner", "who answers for it");
-  waiver.text = required(value, "text", "part of the failure's message, so that another failure is not hidden");
+  waiver.text = required(value, "text",
+                         "part of the failure's message, so that another failure is not hidden");
   waiver.expires = required(value, "expires", "the last day on which it holds, 2027-01-31");
-  if (!is_date(waiver.expires)) throw std::runtime_error(fmt::format("expires '{}' is no date; write 2027-01-31", waiver.expires));
+  if (!is_date(waiver.expires))
+    throw std::runtime_error(
+        fmt::format("expires '{}' is no date; write 2027-01-31", waiver.expires));
   if (const json range = value.value("firmware", json::object()); !range.empty()) {
     refuse_unknown_keys(range, range_keys);
     waiver.firmware_from = version(range, "from");
@@ -72,7 +83,9 @@ Waiver read_waiver(const json& value) {
   return waiver;
 }
 
-bool is_glob(const Waiver& waiver) { return waiver.id.find_first_of("*?:") != std::string::npos || waiver.id.starts_with('-'); }
+bool is_glob(const Waiver& waiver) {
+  return waiver.id.find_first_of("*?:") != std::string::npos || waiver.id.starts_with('-');
+}
 
 std::string firmware_range(const Waiver& waiver) {
   if (waiver.firmware_to.empty()) return waiver.firmware_from + " and later";
@@ -80,7 +93,9 @@ std::string firmware_range(const Waiver& waiver) {
   return waiver.firmware_from + " to " + waiver.firmware_to;
 }
 
-std::string by_whom(const Waiver& waiver) { return fmt::format("{} ({})", waiver.reason, waiver.owner); }
+std::string by_whom(const Waiver& waiver) {
+  return fmt::format("{} ({})", waiver.reason, waiver.owner);
+}
 
 }  // namespace
 
@@ -89,14 +104,18 @@ Result<std::vector<Waiver>> parse_waivers(const std::string& text, const std::st
   std::string place;
   try {
     const json entries = json::parse(text);
-    if (!entries.is_array()) return fail(fmt::format("cannot read waivers {}: it is not an array; write [{{\"id\": ...}}]", file));
+    if (!entries.is_array())
+      return fail(
+          fmt::format("cannot read waivers {}: it is not an array; write [{{\"id\": ...}}]", file));
     for (const json& value : entries) {
       place = fmt::format("entry {}: ", waivers.size());
       Waiver waiver = read_waiver(value);
       const auto twin = std::ranges::find_if(waivers, [&](const Waiver& one) {
-        return one.id == waiver.id && one.firmware_from == waiver.firmware_from && one.firmware_to == waiver.firmware_to;
+        return one.id == waiver.id && one.firmware_from == waiver.firmware_from &&
+               one.firmware_to == waiver.firmware_to;
       });
-      if (twin != waivers.end()) throw std::runtime_error(fmt::format("'{}' is waived twice; remove one", waiver.id));
+      if (twin != waivers.end())
+        throw std::runtime_error(fmt::format("'{}' is waived twice; remove one", waiver.id));
       waivers.push_back(std::move(waiver));
     }
   } catch (const std::exception& error) {
@@ -112,10 +131,13 @@ Result<std::vector<Waiver>> load_waivers(const std::string& path) {
   return parse_waivers(std::string(std::istreambuf_iterator<char>(in), {}), path);
 }
 
-std::vector<std::string> unknown_targets(const std::vector<Waiver>& waivers, const std::vector<std::string>& ids) {
+std::vector<std::string> unknown_targets(const std::vector<Waiver>& waivers,
+                                         const std::vector<std::string>& ids) {
   std::vector<std::string> result;
   for (const Waiver& waiver : waivers) {
-    if (std::ranges::any_of(ids, [&](const std::string& id) { return matches_filter(id, waiver.id); })) continue;
+    if (std::ranges::any_of(ids,
+                            [&](const std::string& id) { return matches_filter(id, waiver.id); }))
+      continue;
     const std::vector<std::string_view> candidates(ids.begin(), ids.end());
     result.push_back(fmt::format("no case '{}'{}", waiver.id, suggestion(waiver.id, candidates)));
   }
@@ -140,15 +162,20 @@ int compare_versions(std::string_view a, std::string_view b) {
 Waivers::Firmware Waivers::firmware_of(const Waiver& waiver) const {
   if (waiver.firmware_from.empty() && waiver.firmware_to.empty()) return Firmware::covered;
   if (firmware_.find_first_of("0123456789") == std::string::npos) return Firmware::unknown;
-  const bool below = !waiver.firmware_from.empty() && compare_versions(firmware_, waiver.firmware_from) < 0;
-  const bool above = !waiver.firmware_to.empty() && compare_versions(firmware_, waiver.firmware_to) > 0;
+  const bool below =
+      !waiver.firmware_from.empty() && compare_versions(firmware_, waiver.firmware_from) < 0;
+  const bool above =
+      !waiver.firmware_to.empty() && compare_versions(firmware_, waiver.firmware_to) > 0;
   return below || above ? Firmware::other : Firmware::covered;
 }
 
-/// The waiver of a case: one for this firmware before others, one that names the case before a glob.
+/// The waiver of a case: one for this firmware before others, one that names the case before a
+/// glob.
 const Waiver* Waivers::find(const std::string& id) const {
   const Waiver* best = nullptr;
-  const auto rank = [&](const Waiver& one) { return std::pair(firmware_of(one) != Firmware::covered, is_glob(one)); };
+  const auto rank = [&](const Waiver& one) {
+    return std::pair(firmware_of(one) != Firmware::covered, is_glob(one));
+  };
   for (const Waiver& one : waivers_)
     if (matches_filter(id, one.id) && (!best || rank(one) < rank(*best))) best = &one;
   return best;
@@ -161,17 +188,31 @@ void Waivers::apply(CaseResult& result) {
   failed_[result.id] |= result.verdict == Verdict::fail;
   const auto note = [&](std::string text) { result.notes.push_back(std::move(text)); };
   if (result.verdict != Verdict::fail) {
-    if (is_glob(*waiver) || firmware != Firmware::covered) return;  // a glob may cover cases that pass: see superfluous()
-    result.message = fmt::format("is {}, but waived as failing until {}: {}; remove the waiver", to_string(result.verdict), waiver->expires, by_whom(*waiver));
+    if (is_glob(*waiver) || firmware != Firmware::covered)
+      return;  // a glob may cover cases that pass: see superfluous()
+    result.message = fmt::format("is {}, but waived as failing until {}: {}; remove the waiver",
+                                 to_string(result.verdict), waiver->expires, by_whom(*waiver));
     result.verdict = Verdict::xpass;
   } else if (firmware == Firmware::unknown) {
-    note(fmt::format("not waived: the waiver is for firmware {}, and the device's is not known; enter it in the bench file", firmware_range(*waiver)));
+    note(
+        fmt::format("not waived: the waiver is for firmware {}, and the device's is not known; "
+                    "enter it in the bench file",
+                    firmware_range(*waiver)));
   } else if (firmware == Firmware::other) {
-    note(fmt::format("not waived: the waiver is for firmware {}, the device has {}; correct the fault or the waiver", firmware_range(*waiver), firmware_));
+    note(
+        fmt::format("not waived: the waiver is for firmware {}, the device has {}; correct the "
+                    "fault or the waiver",
+                    firmware_range(*waiver), firmware_));
   } else if (today_ > waiver->expires) {
-    note(fmt::format("not waived: the waiver expired on {}: {}; correct the fault, or have its owner set a new date", waiver->expires, by_whom(*waiver)));
+    note(
+        fmt::format("not waived: the waiver expired on {}: {}; correct the fault, or have its "
+                    "owner set a new date",
+                    waiver->expires, by_whom(*waiver)));
   } else if (result.message.find(waiver->text) == std::string::npos) {
-    note(fmt::format("not waived: the waiver is for another failure, '{}'; correct the fault, or the waiver's text", waiver->text));
+    note(
+        fmt::format("not waived: the waiver is for another failure, '{}'; correct the fault, or "
+                    "the waiver's text",
+                    waiver->text));
   } else {
     result.verdict = Verdict::xfail;
     note(fmt::format("waived until {}: {}", waiver->expires, by_whom(*waiver)));
@@ -194,8 +235,10 @@ std::vector<CaseResult> Waivers::superfluous(const std::vector<std::string>& ids
     result.id = std::string(waiver_result) + waiver.id;
     result.title = fmt::format("The waiver for {} is still needed", waiver.id);
     result.verdict = Verdict::xpass;
-    result.message = fmt::format("none of the {} cases that {} covers fails any more, but they are waived until {}: {}; remove the waiver",
-                                 covered, waiver.id, waiver.expires, by_whom(waiver));
+    result.message = fmt::format(
+        "none of the {} cases that {} covers fails any more, but they are waived until {}: {}; "
+        "remove the waiver",
+        covered, waiver.id, waiver.expires, by_whom(waiver));
     results.push_back(std::move(result));
   }
   return results;

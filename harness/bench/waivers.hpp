@@ -1,4 +1,5 @@
-// Known failures that the team accepts for a while. A waiver that no longer does what it says turns the gate red.
+// Known failures that the team accepts for a while. A waiver that no longer does what it says turns
+// the gate red.
 #pragma once
 
 #include <map>
@@ -11,14 +12,16 @@
 namespace fieldproof {
 
 struct Waiver {
-  std::string id;       // of a case, or a glob
+  std::string id;  // of a case, or a glob
   std::string reason, owner;
   std::string text;     // must be part of the failure's message
   std::string expires;  // ISO date, the last day on which it holds
-  std::string firmware_from, firmware_to;  // holds for these versions alone, both included; empty: open on this side
+  std::string firmware_from,
+      firmware_to;  // holds for these versions alone, both included; empty: open on this side
 };
 
-/// Reads [{"id","reason","owner","text","expires","firmware":{"from"?,"to"?}?}]. Errors name file and entry.
+/// Reads [{"id","reason","owner","text","expires","firmware":{"from"?,"to"?}?}]. Errors name file
+/// and entry.
 Result<std::vector<Waiver>> parse_waivers(const std::string& text, const std::string& file);
 /// An empty path: there are none.
 Result<std::vector<Waiver>> load_waivers(const std::string& path);
@@ -26,7 +29,8 @@ Result<std::vector<Waiver>> load_waivers(const std::string& path);
 /// Begins the id of a result that speaks of a waiver, not of a case: "waiver/xgt_cnet/*".
 inline constexpr std::string_view waiver_result = "waiver/";
 
-/// What a run does with its waivers: each failure that one covers, and at the end those that cover none.
+/// What a run does with its waivers: each failure that one covers, and at the end those that cover
+/// none.
 class Waivers {
  public:
   /// `today` is an ISO date; `firmware` is the device's as entered, empty where nobody did.
@@ -34,11 +38,12 @@ class Waivers {
       : waivers_(std::move(waivers)), today_(std::move(today)), firmware_(std::move(firmware)) {}
   Waivers() = default;
 
-  /// FAIL becomes XFAIL while a waiver holds; otherwise the failure stays and a note says what became of the waiver.
-  /// A case that is waived by its own id and no longer fails is XPASS.
+  /// FAIL becomes XFAIL while a waiver holds; otherwise the failure stays and a note says what
+  /// became of the waiver. A case that is waived by its own id and no longer fails is XPASS.
   void apply(CaseResult& result);
 
-  /// One XPASS for each glob whose cases, `ids` being all there are, were all judged and none failed.
+  /// One XPASS for each glob whose cases, `ids` being all there are, were all judged and none
+  /// failed.
   std::vector<CaseResult> superfluous(const std::vector<std::string>& ids) const;
 
  private:
@@ -48,11 +53,13 @@ class Waivers {
 
   std::vector<Waiver> waivers_;
   std::string today_, firmware_;
-  std::map<std::string, bool> failed_;  // judged cases that a waiver selects: did any repetition fail?
+  std::map<std::string, bool>
+      failed_;  // judged cases that a waiver selects: did any repetition fail?
 };
 
 /// "no case 'xgt_cnet/rss/two_wrds'; did you mean ..." for each waiver that selects none of `ids`.
-std::vector<std::string> unknown_targets(const std::vector<Waiver>& waivers, const std::vector<std::string>& ids);
+std::vector<std::string> unknown_targets(const std::vector<Waiver>& waivers,
+                                         const std::vector<std::string>& ids);
 
 /// Compares versions by their numbers: "V1.10" is newer than "1.9". Negative, 0, positive.
 int compare_versions(std::string_view a, std::string_view b);

@@ -18,10 +18,14 @@ CaseResult result_of(const std::string& id, Verdict verdict, const std::string& 
   return result;
 }
 
-CaseResult failed(const std::string& message) { return result_of("xgt_cnet/a/b", Verdict::fail, message); }
+CaseResult failed(const std::string& message) {
+  return result_of("xgt_cnet/a/b", Verdict::fail, message);
+}
 
 std::string entry(const std::string& id, const std::string& more = "") {
-  return R"({"id": ")" + id + R"(", "reason": "sums the wrong bytes", "owner": "kim", "text": "BCC:", "expires": "2026-12-31")" + more + "}";
+  return R"({"id": ")" + id +
+         R"(", "reason": "sums the wrong bytes", "owner": "kim", "text": "BCC:", "expires": "2026-12-31")" +
+         more + "}";
 }
 
 std::vector<Waiver> parsed(const std::string& entries) {
@@ -30,17 +34,20 @@ std::vector<Waiver> parsed(const std::string& entries) {
   return waivers ? *waivers : std::vector<Waiver>();
 }
 
-CaseResult applied(CaseResult result, const std::string& entries, const std::string& today = "2026-11-21", const std::string& firmware = "") {
+CaseResult applied(CaseResult result, const std::string& entries,
+                   const std::string& today = "2026-11-21", const std::string& firmware = "") {
   Waivers waivers(parsed(entries), today, firmware);
   waivers.apply(result);
   return result;
 }
 
 TEST(Waivers, HoldUntilTheirLastDay) {
-  const CaseResult last_day = applied(failed("BCC: expected D6, got D7"), entry("xgt_cnet/a/b"), "2026-12-31");
+  const CaseResult last_day =
+      applied(failed("BCC: expected D6, got D7"), entry("xgt_cnet/a/b"), "2026-12-31");
   EXPECT_EQ(last_day.verdict, Verdict::xfail);
   EXPECT_THAT(last_day.notes, Contains("waived until 2026-12-31: sums the wrong bytes (kim)"));
-  const CaseResult after = applied(failed("BCC: expected D6, got D7"), entry("xgt_cnet/a/b"), "2027-01-01");
+  const CaseResult after =
+      applied(failed("BCC: expected D6, got D7"), entry("xgt_cnet/a/b"), "2027-01-01");
   EXPECT_EQ(after.verdict, Verdict::fail);
   EXPECT_THAT(after.notes, Contains(HasSubstr("expired on 2026-12-31")));
   EXPECT_THAT(after.notes, Contains(HasSubstr("have its owner set a new date")));
@@ -66,7 +73,8 @@ TEST(Waivers, HoldForTheirFirmwareAlone) {
 }
 
 TEST(Waivers, OneForThisFirmwareGoesBeforeOneForAnother) {
-  const std::string both = entry("xgt_cnet/a/b", R"(, "firmware": {"to": "1.1"})") + "," + entry("xgt_cnet/a/*", R"(, "firmware": {"from": "1.2"})");
+  const std::string both = entry("xgt_cnet/a/b", R"(, "firmware": {"to": "1.1"})") + "," +
+                           entry("xgt_cnet/a/*", R"(, "firmware": {"from": "1.2"})");
   EXPECT_EQ(applied(failed("BCC: x"), both, "2026-11-21", "1.2").verdict, Verdict::xfail);
 }
 
@@ -77,7 +85,9 @@ TEST(Waivers, WhatNoLongerFailsIsXpass) {
     EXPECT_THAT(result.message, HasSubstr("remove the waiver"));
   }
   const std::string old_firmware = entry("xgt_cnet/a/b", R"(, "firmware": {"to": "1.1"})");
-  EXPECT_EQ(applied(result_of("xgt_cnet/a/b", Verdict::pass), old_firmware, "2026-11-21", "1.2").verdict, Verdict::pass);
+  EXPECT_EQ(
+      applied(result_of("xgt_cnet/a/b", Verdict::pass), old_firmware, "2026-11-21", "1.2").verdict,
+      Verdict::pass);
 }
 
 TEST(Waivers, WhatWasNotJudgedIsLeftAsItIs) {
@@ -95,7 +105,8 @@ TEST(Waivers, AGlobThatCoversNoFailureIsRedAtTheEnd) {
     }
     return waivers.superfluous(ids);
   };
-  const CaseResult b = result_of("xgt_cnet/a/b", Verdict::pass), c = result_of("xgt_cnet/a/c", Verdict::pass);
+  const CaseResult b = result_of("xgt_cnet/a/b", Verdict::pass),
+                   c = result_of("xgt_cnet/a/c", Verdict::pass);
   const std::vector<CaseResult> red = at_the_end({b, c});
   ASSERT_EQ(red.size(), 1u);
   EXPECT_EQ(red[0].verdict, Verdict::xpass);
@@ -109,7 +120,8 @@ TEST(Waivers, AGlobThatCoversNoFailureIsRedAtTheEnd) {
 
 TEST(Waivers, UnknownTargetsGetASuggestion) {
   EXPECT_THAT(unknown_targets(parsed(entry("xgt_cnet/a/b")), {"xgt_cnet/a/b"}), IsEmpty());
-  EXPECT_THAT(unknown_targets(parsed(entry("xgt_cnet/a/two_wrds")), {"xgt_cnet/a/b", "xgt_cnet/a/two_words"}),
+  EXPECT_THAT(unknown_targets(parsed(entry("xgt_cnet/a/two_wrds")),
+                              {"xgt_cnet/a/b", "xgt_cnet/a/two_words"}),
               ElementsAre("no case 'xgt_cnet/a/two_wrds'; did you mean 'xgt_cnet/a/two_words'?"));
 }
 
@@ -121,14 +133,26 @@ TEST(Waivers, BadEntriesAreNamed) {
   EXPECT_THAT(message("[{]"), HasSubstr("cannot read waivers w.json: "));
   EXPECT_THAT(message("{}"), HasSubstr("not an array"));
   EXPECT_THAT(message("[3]"), HasSubstr("entry 0: it is not an object"));
-  EXPECT_THAT(message("[" + entry("a") + "," + entry("b", R"(, "ownr": "x")") + "]"), HasSubstr("entry 1: unknown key 'ownr'; did you mean 'owner'?"));
-  EXPECT_THAT(message(R"([{"id": "a", "reason": "r", "owner": "o", "text": "t", "expires": "2026-02-30"}])"), HasSubstr("expires '2026-02-30' is no date"));
-  EXPECT_THAT(message(R"([{"id": "a", "reason": " ", "owner": "o", "text": "t", "expires": "2026-02-01"}])"), HasSubstr("'reason' is empty"));
-  EXPECT_THAT(message(R"([{"id": "a", "reason": "r", "text": "t", "expires": "2026-02-01"}])"), HasSubstr("'owner' is missing"));
-  EXPECT_THAT(message(R"([{"id": "a", "reason": "r", "owner": "o", "expires": "2026-02-01"}])"), HasSubstr("'text' is missing"));
-  EXPECT_THAT(message("[" + entry("a", R"(, "firmware": {"till": "1"})") + "]"), HasSubstr("unknown key 'till'"));
-  EXPECT_THAT(message("[" + entry("a", R"(, "firmware": {"to": "latest"})") + "]"), HasSubstr("firmware.to 'latest' has no number"));
-  EXPECT_THAT(message("[" + entry("a") + "," + entry("a") + "]"), HasSubstr("entry 1: 'a' is waived twice"));
+  EXPECT_THAT(message("[" + entry("a") + "," + entry("b", R"(, "ownr": "x")") + "]"),
+              HasSubstr("entry 1: unknown key 'ownr'; did you mean 'owner'?"));
+  EXPECT_THAT(
+      message(
+          R"([{"id": "a", "reason": "r", "owner": "o", "text": "t", "expires": "2026-02-30"}])"),
+      HasSubstr("expires '2026-02-30' is no date"));
+  EXPECT_THAT(
+      message(
+          R"([{"id": "a", "reason": " ", "owner": "o", "text": "t", "expires": "2026-02-01"}])"),
+      HasSubstr("'reason' is empty"));
+  EXPECT_THAT(message(R"([{"id": "a", "reason": "r", "text": "t", "expires": "2026-02-01"}])"),
+              HasSubstr("'owner' is missing"));
+  EXPECT_THAT(message(R"([{"id": "a", "reason": "r", "owner": "o", "expires": "2026-02-01"}])"),
+              HasSubstr("'text' is missing"));
+  EXPECT_THAT(message("[" + entry("a", R"(, "firmware": {"till": "1"})") + "]"),
+              HasSubstr("unknown key 'till'"));
+  EXPECT_THAT(message("[" + entry("a", R"(, "firmware": {"to": "latest"})") + "]"),
+              HasSubstr("firmware.to 'latest' has no number"));
+  EXPECT_THAT(message("[" + entry("a") + "," + entry("a") + "]"),
+              HasSubstr("entry 1: 'a' is waived twice"));
 }
 
 TEST(Versions, AreComparedByTheirNumbers) {

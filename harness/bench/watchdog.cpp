@@ -28,7 +28,8 @@ bool Watchdog::done() {
   return bit_;
 }
 
-/// Looks once a limit, not once a case: watching costs a case no wake-up. A case is ended between one and two limits.
+/// Looks once a limit, not once a case: watching costs a case no wake-up. A case is ended between
+/// one and two limits.
 void Watchdog::guard() {
   std::unique_lock lock(mutex_);
   unsigned long seen = 0;

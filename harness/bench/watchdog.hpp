@@ -1,4 +1,5 @@
-// Ends a case in which the bench itself hangs: no case of these protocols takes a minute between two results.
+// Ends a case in which the bench itself hangs: no case of these protocols takes a minute between
+// two results.
 #pragma once
 
 #include <condition_variable>
@@ -12,7 +13,8 @@ namespace fieldproof {
 
 class Watchdog {
  public:
-  /// After `limit` the watched case's waits end as if Ctrl-C had been pressed (harness/endpoints/interrupt.hpp).
+  /// After `limit` the watched case's waits end as if Ctrl-C had been pressed
+  /// (harness/endpoints/interrupt.hpp).
   explicit Watchdog(Duration limit = 60s);
   ~Watchdog();
 

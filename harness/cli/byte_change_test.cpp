@@ -53,7 +53,8 @@ std::vector<std::size_t> notation_offsets(const std::string& text) {
 std::vector<std::size_t> wire_offsets(const std::string& text) {
   std::vector<std::size_t> offsets;
   for (std::size_t i = 0; i < text.size(); ++i)
-    if (std::isxdigit(static_cast<unsigned char>(text[i])) && !inside(text, i, '{', '}')) offsets.push_back(i);
+    if (std::isxdigit(static_cast<unsigned char>(text[i])) && !inside(text, i, '{', '}'))
+      offsets.push_back(i);
   return offsets;
 }
 
@@ -62,7 +63,9 @@ bool is_wire(const std::string& text) {
   constexpr std::size_t shortest = 8;
   if (text.size() < 3 * shortest - 1) return false;
   for (std::size_t i = 0; i < text.size(); ++i)
-    if (i % 3 == 2 ? text[i] != ' ' : text[i] != '?' && !std::isxdigit(static_cast<unsigned char>(text[i]))) return false;
+    if (i % 3 == 2 ? text[i] != ' '
+                   : text[i] != '?' && !std::isxdigit(static_cast<unsigned char>(text[i])))
+      return false;
   return true;
 }
 
@@ -95,7 +98,9 @@ class Vectors {
     fs::copy(FIELDPROOF_SOURCE_DIR "/vectors", folder_ / "vectors", fs::copy_options::recursive);
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path())) {
       const std::string name = fs::relative(entry.path(), path()).string();
-      if (entry.path().extension() != ".json" || name == "schema.json" || name == "manuals.json" || name.starts_with("statements/")) continue;
+      if (entry.path().extension() != ".json" || name == "schema.json" || name == "manuals.json" ||
+          name.starts_with("statements/"))
+        continue;
       files_[name] = ordered_json::parse(read_text(entry.path()));
     }
   }
@@ -140,7 +145,8 @@ class Vectors {
         for (auto& [key, value] : row.items())
           if (is_wire(value.get_ref<const std::string&>())) add_places(value, wire_offsets, places);
   }
-  static void add_second_entry(ordered_json& document, const std::string& id, std::vector<Place>& places) {
+  static void add_second_entry(ordered_json& document, const std::string& id,
+                               std::vector<Place>& places) {
     for (auto& [one, steps] : document.items()) {
       if (one != id && !one.starts_with(id + '/')) continue;
       for (auto& [index, wire] : steps.items()) add_places(wire, wire_offsets, places);
@@ -156,10 +162,12 @@ struct Change {
 };
 
 /// Changes one byte in each vector of a seeded sample, where `places` finds one.
-std::vector<Change> change_sample(Vectors& vectors, const std::function<std::vector<Place>(ordered_json&)>& places_of) {
+std::vector<Change> change_sample(
+    Vectors& vectors, const std::function<std::vector<Place>(ordered_json&)>& places_of) {
   std::mt19937 random(seed);
   std::vector<ordered_json*> all = vectors.must();
-  for (std::size_t i = all.size(); i > 1; --i) std::swap(all[i - 1], all[random() % i]);  // std::shuffle differs by library
+  for (std::size_t i = all.size(); i > 1; --i)
+    std::swap(all[i - 1], all[random() % i]);  // std::shuffle differs by library
   std::vector<Change> changes;
   for (ordered_json* vector : all) {
     if (changes.size() == sample) break;
@@ -199,7 +207,9 @@ void expect_each_named(Vectors& vectors, const std::vector<Change>& changes) {
   std::set<std::string> fresh;
   for (const std::string& line : lint(vectors.path()))
     if (!before.contains(line)) fresh.insert(line);
-  for (const Change& one : changes) EXPECT_TRUE(names(fresh, one.id)) << one.id << " is not named; changed\n  " << one.before << "\nto\n  " << one.after;
+  for (const Change& one : changes)
+    EXPECT_TRUE(names(fresh, one.id))
+        << one.id << " is not named; changed\n  " << one.before << "\nto\n  " << one.after;
 }
 
 TEST(ByteChange, in_the_notation_is_found) {
@@ -209,7 +219,8 @@ TEST(ByteChange, in_the_notation_is_found) {
 
 TEST(ByteChange, in_the_literal_bytes_is_found) {
   Vectors vectors;
-  expect_each_named(vectors, change_sample(vectors, [&](ordered_json& vector) { return vectors.wire(vector); }));
+  expect_each_named(
+      vectors, change_sample(vectors, [&](ordered_json& vector) { return vectors.wire(vector); }));
 }
 
 /// The other half of the proof: the vectors as they are have no problem at all.
@@ -218,13 +229,15 @@ TEST(ByteChange, none_and_lint_is_green) {
   EXPECT_EQ(finished.code, 0) << finished.out.substr(0, 2000) << finished.err;
 }
 
-/// Without literal bytes the run itself is the witness: an emulator answers as the manual says, not as the vector does.
+/// Without literal bytes the run itself is the witness: an emulator answers as the manual says, not
+/// as the vector does.
 TEST(ByteChange, in_an_expected_frame_turns_the_run_red) {
   Vectors vectors;
   const std::vector<Change> changes = change_sample(vectors, [](ordered_json& vector) {
     std::vector<Place> places;
     for (ordered_json& step : vector["steps"])
-      if (step.contains("expect") && step["expect"].is_string()) add_places(step["expect"], notation_offsets, places);
+      if (step.contains("expect") && step["expect"].is_string())
+        add_places(step["expect"], notation_offsets, places);
     return places;
   });
   ASSERT_EQ(changes.size(), sample);
@@ -232,15 +245,18 @@ TEST(ByteChange, in_an_expected_frame_turns_the_run_red) {
   const TestFolder folder;
   std::string filter;
   for (const Change& one : changes) filter += one.id + ':' + one.id + "/*:";
-  const Finished finished = run_tool({"run", "--vectors", vectors.path(), "--filter", filter, "--out", folder / "out"});
+  const Finished finished =
+      run_tool({"run", "--vectors", vectors.path(), "--filter", filter, "--out", folder / "out"});
   ASSERT_TRUE(finished.code == 1 || finished.code == 3) << finished.out << finished.err;
   const Results results = read_results(folder / "out/results.ndjson");
   for (const Change& one : changes) {
     const bool red = std::ranges::any_of(results.cases, [&](const nlohmann::json& result) {
       const std::string id = result.at("id");
-      return (id == one.id || id.starts_with(one.id + '/')) && (result.at("verdict") == "FAIL" || result.at("verdict") == "ERROR");
+      return (id == one.id || id.starts_with(one.id + '/')) &&
+             (result.at("verdict") == "FAIL" || result.at("verdict") == "ERROR");
     });
-    EXPECT_TRUE(red) << one.id << " is not red; changed\n  " << one.before << "\nto\n  " << one.after;
+    EXPECT_TRUE(red) << one.id << " is not red; changed\n  " << one.before << "\nto\n  "
+                     << one.after;
   }
 }
 

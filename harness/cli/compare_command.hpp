@@ -9,6 +9,7 @@
 namespace fieldproof {
 
 /// Prints the comparison and writes the reports that are named; empty: not.
-Status report_comparison(const ComparisonSet& set, const std::string& html, const std::string& junit);
+Status report_comparison(const ComparisonSet& set, const std::string& html,
+                         const std::string& junit);
 
 }  // namespace fieldproof

@@ -1,7 +1,7 @@
 #include "harness/cli/coverage.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <set>
@@ -12,8 +12,8 @@ namespace fieldproof {
 
 namespace {
 
-using Vectors = std::map<std::string, CoverageVector>;     // by id
-using VectorOf = std::map<std::string, CoverageVector*>;   // by id of the case
+using Vectors = std::map<std::string, CoverageVector>;    // by id
+using VectorOf = std::map<std::string, CoverageVector*>;  // by id of the case
 
 void add_results(const ResultFile& file, const VectorOf& vector_of) {
   for (const CaseResult& result : file.results) {
@@ -21,7 +21,8 @@ void add_results(const ResultFile& file, const VectorOf& vector_of) {
     if (found == vector_of.end()) continue;  // of a vector that is gone, or said about a waiver
     CoverageVector& vector = *found->second;
     vector.verdicts.add(result.verdict);
-    if (!is_judged(result.verdict) && vector.why_not.empty()) vector.why_not = fmt::format("{}: {}", to_string(result.verdict), result.message);
+    if (!is_judged(result.verdict) && vector.why_not.empty())
+      vector.why_not = fmt::format("{}: {}", to_string(result.verdict), result.message);
   }
 }
 
@@ -33,10 +34,16 @@ Coverage trace(const VectorSet& set, const std::optional<ResultFile>& results) {
   std::map<std::string, std::set<std::string>> citing;  // ids of vectors by statement
   for (const std::vector<Case>* cases : {&set.cases, &set.tables})
     for (const Case& one : *cases) {
-      CoverageVector& vector = vectors.try_emplace(one.vector_id, CoverageVector{one.vector_id, one.title, cases == &set.tables, 0, {}, {}}).first->second;
+      CoverageVector& vector =
+          vectors
+              .try_emplace(
+                  one.vector_id,
+                  CoverageVector{one.vector_id, one.title, cases == &set.tables, 0, {}, {}})
+              .first->second;
       ++vector.cases;
       vector_of[one.id] = &vector;
-      for (const std::string& statement : one.source.statements) citing[statement].insert(one.vector_id);
+      for (const std::string& statement : one.source.statements)
+        citing[statement].insert(one.vector_id);
     }
   if (results) add_results(*results, vector_of);
 
@@ -45,13 +52,17 @@ Coverage trace(const VectorSet& set, const std::optional<ResultFile>& results) {
   if (results) coverage.results = results->path;
   if (results) coverage.endpoint = results->run.endpoint;
   for (const Manual& manual : set.manuals) {
-    CoverageManual& traced = coverage.manuals.emplace_back(CoverageManual{manual.id, manual.title, {}});
+    CoverageManual& traced =
+        coverage.manuals.emplace_back(CoverageManual{manual.id, manual.title, {}});
     for (const Statement& one : set.statements) {
       if (one.manual != manual.id) continue;
-      CoverageStatement& statement = traced.statements.emplace_back(CoverageStatement{one.id, one.section, one.quote, one.reason, {}});
+      CoverageStatement& statement = traced.statements.emplace_back(
+          CoverageStatement{one.id, one.section, one.quote, one.reason, {}});
       for (const std::string& id : citing[one.id]) statement.vectors.push_back(vectors.at(id));
     }
-    std::ranges::stable_sort(traced.statements, std::less<>{}, [&](const CoverageStatement& one) { return SectionName{manual.id, one.section}; });
+    std::ranges::stable_sort(traced.statements, std::less<>{}, [&](const CoverageStatement& one) {
+      return SectionName{manual.id, one.section};
+    });
   }
   return coverage;
 }

@@ -9,7 +9,8 @@
 
 namespace fieldproof {
 
-/// Every manual with its statements, and the vectors that cite them. With `results`: what their cases came to.
+/// Every manual with its statements, and the vectors that cite them. With `results`: what their
+/// cases came to.
 Coverage trace(const VectorSet& set, const std::optional<ResultFile>& results);
 
 }  // namespace fieldproof

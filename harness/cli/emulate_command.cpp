@@ -1,5 +1,5 @@
-#include <cstdio>
 #include <fmt/format.h>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/commands.hpp"
@@ -8,8 +8,8 @@
 #include "harness/endpoints/device_host.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/endpoints/interrupt.hpp"
-#include "harness/notation/notation.hpp"
 #include "harness/monitored_device.hpp"
+#include "harness/notation/notation.hpp"
 #include "harness/protocol.hpp"
 #include "src/plc/multi_drop.hpp"
 
@@ -22,13 +22,17 @@ void print_traffic(const Traffic& traffic) {
   std::fflush(stdout);
 }
 
-/// The device, whose frames are recorded, and its `neighbours` on the same line: stations, or objects of config keys.
-Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol, nlohmann::json config, const FrameMonitor::Record& record) {
+/// The device, whose frames are recorded, and its `neighbours` on the same line: stations, or
+/// objects of config keys.
+Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol,
+                                                      nlohmann::json config,
+                                                      const FrameMonitor::Record& record) {
   const std::string model = config.value("model", protocol.models().front());
   const nlohmann::json neighbours = config.value("neighbours", nlohmann::json::array());
   config.erase("model");
   config.erase("neighbours");
-  Result<std::unique_ptr<EmulatedDevice>> first = make_monitored_device(protocol, model, config, record);
+  Result<std::unique_ptr<EmulatedDevice>> first =
+      make_monitored_device(protocol, model, config, record);
   if (!first || neighbours.empty()) return first;
   std::vector<std::unique_ptr<EmulatedDevice>> devices;
   devices.push_back(std::move(*first));
@@ -48,8 +52,11 @@ Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol, 
 int emulate_command(const EmulateOptions& options) {
   const Result<EndpointName> name = parse_endpoint("emulator:" + options.model);
   if (!name) return complain(name.error().message, exit_code::usage);
-  const Result<const Protocol*> protocol = choose_protocol(name->option("protocol", ""), name->target);
-  if (!protocol) return complain("cannot emulate " + options.model + ": " + protocol.error().message, exit_code::usage);
+  const Result<const Protocol*> protocol =
+      choose_protocol(name->option("protocol", ""), name->target);
+  if (!protocol)
+    return complain("cannot emulate " + options.model + ": " + protocol.error().message,
+                    exit_code::usage);
 
   HostOptions host;
   host.model = name->target;
@@ -66,8 +73,13 @@ int emulate_command(const EmulateOptions& options) {
     if (!opened) return complain(opened.error().message, exit_code::usage);
     record = std::move(*opened);
   }
-  host.make_device = [protocol = *protocol, record](const nlohmann::json& config) { return make_stations(*protocol, config, record); };
-  if (!options.p2p.empty()) host.make_device = naming_file(std::move(host.make_device), fmt::format("{}, as {} (MODEL?protocol=... for another)", options.p2p, (*protocol)->name()));
+  host.make_device = [protocol = *protocol, record](const nlohmann::json& config) {
+    return make_stations(*protocol, config, record);
+  };
+  if (!options.p2p.empty())
+    host.make_device = naming_file(std::move(host.make_device),
+                                   fmt::format("{}, as {} (MODEL?protocol=... for another)",
+                                               options.p2p, (*protocol)->name()));
   host.tcp = options.tcp;
   host.tty = options.tty.empty() ? options.pty : options.tty;
   host.control = options.control;

@@ -63,17 +63,20 @@ TEST_F(DefaultRun, counts_of_junit_are_those_of_the_results) {
   EXPECT_EQ(junit.failures, junit.with("failure"));
   EXPECT_EQ(junit.errors, count("ERROR"));
   EXPECT_EQ(junit.errors, junit.with("error"));
-  EXPECT_EQ(junit.skipped, count("SKIP") + count("BLOCKED") + count("INCONCLUSIVE") + count("XFAIL"));
+  EXPECT_EQ(junit.skipped,
+            count("SKIP") + count("BLOCKED") + count("INCONCLUSIVE") + count("XFAIL"));
   EXPECT_EQ(junit.skipped, junit.with("skipped"));
 }
 
 TEST_F(DefaultRun, counts_of_json_and_console_are_those_of_the_results) {
-  nlohmann::json counts = nlohmann::json::parse(read_text(*folder_ / "out/results.json")).at("counts");
+  nlohmann::json counts =
+      nlohmann::json::parse(read_text(*folder_ / "out/results.json")).at("counts");
   EXPECT_EQ(counts["total"], results_.cases.size());
   counts.erase("total");
   std::map<std::string, std::size_t> console;
   std::istringstream lines(finished_.out);
-  for (std::string line; std::getline(lines, line);) {  // "  2199  PASS          as the manual says"
+  for (std::string line;
+       std::getline(lines, line);) {  // "  2199  PASS          as the manual says"
     std::istringstream words(line);
     std::size_t number = 0;
     std::string verdict;
@@ -81,15 +84,18 @@ TEST_F(DefaultRun, counts_of_json_and_console_are_those_of_the_results) {
   }
   EXPECT_EQ(console, results_.counts());
   for (const auto& [verdict, number] : counts.items()) EXPECT_EQ(number, count(verdict)) << verdict;
-  EXPECT_THAT(finished_.out, HasSubstr("\n" + std::to_string(results_.cases.size()) + " cases in "));
+  EXPECT_THAT(finished_.out,
+              HasSubstr("\n" + std::to_string(results_.cases.size()) + " cases in "));
 }
 
 /// What steers a run does not ask how many cases there are: sixty are quick.
 constexpr int some = 60;
 
-std::vector<std::string> order(const std::vector<std::string>& more, const ProcessOptions& options = {}) {
+std::vector<std::string> order(const std::vector<std::string>& more,
+                               const ProcessOptions& options = {}) {
   const TestFolder folder;
-  std::vector<std::string> arguments{"run", "--vectors", write_vectors(folder, many_vectors(some)), "--out", folder / "out"};
+  std::vector<std::string> arguments{"run", "--vectors", write_vectors(folder, many_vectors(some)),
+                                     "--out", folder / "out"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Finished finished = run_tool(arguments, options);
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
@@ -109,7 +115,10 @@ TEST(EmulatorRun, seed_settles_the_order) {
 TEST(EmulatorRun, shards_are_a_partition) {
   std::vector<std::string> all;
   for (int shard = 0; shard < 3; ++shard) {
-    const std::vector<std::string> part = order({}, {.environment = {{"GTEST_TOTAL_SHARDS", "3"}, {"GTEST_SHARD_INDEX", std::to_string(shard)}}, .folder = ""});
+    const std::vector<std::string> part = order(
+        {},
+        {.environment = {{"GTEST_TOTAL_SHARDS", "3"}, {"GTEST_SHARD_INDEX", std::to_string(shard)}},
+         .folder = ""});
     EXPECT_FALSE(part.empty());
     all.insert(all.end(), part.begin(), part.end());
   }
@@ -122,8 +131,9 @@ TEST(EmulatorRun, empty_shard_is_green_with_reports) {
   std::size_t sum = 0;
   for (const std::string& shard : {std::string("0"), std::string("1")}) {
     const std::string out = folder / ("out" + shard);
-    const Finished finished = run_tool({"run", "--vectors", vectors, "--out", out},
-                                       {.environment = {{"GTEST_TOTAL_SHARDS", "2"}, {"GTEST_SHARD_INDEX", shard}}, .folder = ""});
+    const Finished finished = run_tool(
+        {"run", "--vectors", vectors, "--out", out},
+        {.environment = {{"GTEST_TOTAL_SHARDS", "2"}, {"GTEST_SHARD_INDEX", shard}}, .folder = ""});
     EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
     expect_reports(out);
     sum += read_results(out + "/results.ndjson").cases.size();
@@ -131,11 +141,14 @@ TEST(EmulatorRun, empty_shard_is_green_with_reports) {
   EXPECT_EQ(sum, 1u);
 }
 
-/// GoogleTest would take its filter from the environment, and a job that runs nothing would be green.
+/// GoogleTest would take its filter from the environment, and a job that runs nothing would be
+/// green.
 TEST(EmulatorRun, environment_cannot_empty_the_selection) {
   const TestFolder folder;
   const std::string vectors = write_vectors(folder, {small_vector("one/alone")});
-  const Finished finished = run_tool({"run", "--vectors", vectors, "--out", folder / "out"}, {.environment = {{"GTEST_FILTER", "no_such_test"}}, .folder = ""});
+  const Finished finished =
+      run_tool({"run", "--vectors", vectors, "--out", folder / "out"},
+               {.environment = {{"GTEST_FILTER", "no_such_test"}}, .folder = ""});
   const bool executed = read_results(folder / "out/results.ndjson").cases.size() == 1;
   EXPECT_TRUE(executed || finished.code != 0) << "exit 0 with nothing executed\n" << finished.out;
 }
@@ -143,11 +156,13 @@ TEST(EmulatorRun, environment_cannot_empty_the_selection) {
 TEST(EmulatorRun, repeat_judges_each_case_so_often) {
   const TestFolder folder;
   const std::vector<std::string> once = order({});
-  const Finished finished = run_tool({"run", "--vectors", write_vectors(folder, many_vectors(some)), "--repeat", "3", "--out", folder / "out"});
+  const Finished finished = run_tool({"run", "--vectors", write_vectors(folder, many_vectors(some)),
+                                      "--repeat", "3", "--out", folder / "out"});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   std::map<std::string, std::set<int>> repeats;
   const Results results = read_results(folder / "out/results.ndjson");
-  for (const nlohmann::json& one : results.cases) repeats[one.at("id")].insert(one.value("repeat", 0));
+  for (const nlohmann::json& one : results.cases)
+    repeats[one.at("id")].insert(one.value("repeat", 0));
   EXPECT_EQ(results.cases.size(), 3 * once.size());
   for (const std::string& id : once) EXPECT_EQ(repeats[id], (std::set<int>{0, 1, 2})) << id;
   expect_reports(folder / "out");
@@ -158,30 +173,36 @@ TEST(EmulatorRun, repeat_judges_each_case_so_often) {
 
 TEST(EmulatorRun, fail_fast_stops_at_the_first_red_case) {
   const TestFolder folder;
-  const std::string vectors = write_vectors(folder, {small_vector("fast/a"), small_vector("fast/b", wrong_word), small_vector("fast/c")});
+  const std::string vectors = write_vectors(
+      folder, {small_vector("fast/a"), small_vector("fast/b", wrong_word), small_vector("fast/c")});
   const Finished all = run_tool({"run", "--vectors", vectors, "--out", folder / "all"});
-  const Finished fast = run_tool({"run", "--vectors", vectors, "--out", folder / "fast", "--fail-fast"});
+  const Finished fast =
+      run_tool({"run", "--vectors", vectors, "--out", folder / "fast", "--fail-fast"});
   EXPECT_EQ(all.code, 1);
   EXPECT_EQ(fast.code, 1);
   EXPECT_THAT(read_results(folder / "all/results.ndjson").ids(), testing::SizeIs(3));
-  EXPECT_THAT(read_results(folder / "fast/results.ndjson").ids(), testing::ElementsAre("xgt_cnet/fast/a", "xgt_cnet/fast/b"));
+  EXPECT_THAT(read_results(folder / "fast/results.ndjson").ids(),
+              testing::ElementsAre("xgt_cnet/fast/a", "xgt_cnet/fast/b"));
   expect_reports(folder / "fast");
 }
 
 TEST(EmulatorRun, dry_run_starts_and_writes_nothing) {
   const TestFolder folder;
   const std::string vectors = write_vectors(folder, many_vectors(5));
-  const Finished finished = run_tool({"run", "--endpoint", "exec:touch " + quoted(folder / "started") + "; cat", "--profile", "xbc-h", "--vectors", vectors,
-                                      "--out", folder / "out", "--dry-run"});
+  const Finished finished =
+      run_tool({"run", "--endpoint", "exec:touch " + quoted(folder / "started") + "; cat",
+                "--profile", "xbc-h", "--vectors", vectors, "--out", folder / "out", "--dry-run"});
   EXPECT_EQ(finished.code, 0) << finished.err;
-  for (int i = 0; i < 5; ++i) EXPECT_THAT(finished.out, HasSubstr("xgt_cnet/many/n100" + std::to_string(i)));
+  for (int i = 0; i < 5; ++i)
+    EXPECT_THAT(finished.out, HasSubstr("xgt_cnet/many/n100" + std::to_string(i)));
   EXPECT_FALSE(std::filesystem::exists(folder / "started"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(EmulatorRun, filter_without_a_match_is_an_error) {
   const TestFolder folder;
-  const Finished finished = run_tool({"run", "--filter", "xgt_cnet/nonsense*", "--out", folder / "out"});
+  const Finished finished =
+      run_tool({"run", "--filter", "xgt_cnet/nonsense*", "--out", folder / "out"});
   EXPECT_EQ(finished.code, 4);
   EXPECT_THAT(finished.err, HasSubstr("no case matches --filter 'xgt_cnet/nonsense*'"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));

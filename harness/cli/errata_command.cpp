@@ -11,7 +11,9 @@ int errata_command(const ErrataOptions& options) {
   std::vector<ErratumInfo> errata;
   for (const Erratum& one : set->errata) errata.push_back(erratum_info(one));
   sort_errata(errata);
-  print(options.json ? errata_json(errata) : options.markdown ? errata_markdown(errata) : errata_text(errata));
+  print(options.json       ? errata_json(errata)
+        : options.markdown ? errata_markdown(errata)
+                           : errata_text(errata));
   return exit_code::ok;
 }
 

@@ -1,4 +1,5 @@
-// fieldproof_bench: the figures of the README. Times are measured here and never asserted in a test.
+// fieldproof_bench: the figures of the README. Times are measured here and never asserted in a
+// test.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -13,8 +14,8 @@
 #include <stdexcept>
 
 #include "harness/bench/bench.hpp"
-#include "harness/paths.hpp"
 #include "harness/endpoints/pty_pair.hpp"
+#include "harness/paths.hpp"
 #include "harness/vectors/loader.hpp"
 #include "src/line/line.hpp"
 #include "src/p2p/p2p_plc.hpp"
@@ -35,7 +36,8 @@ std::unique_ptr<Endpoint> open(const std::string& text) {
 }
 
 /// A one-word RSS and its ACK.
-const char* one_word = R"j([{"id": "xgt_cnet/bench/one_word", "rev": 1, "title": "one word", "level": "must", "basis": "printed",
+const char* one_word =
+    R"j([{"id": "xgt_cnet/bench/one_word", "rev": 1, "title": "one word", "level": "must", "basis": "printed",
   "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"},
   "steps": [{"send": "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]"}, {"expect": "[ACK st 'rSS' '01' '02' '0000' ETX BCC]"}]}])j";
 
@@ -49,7 +51,8 @@ struct OneWord {
 };
 
 double median(std::vector<double>& samples) {
-  std::ranges::nth_element(samples, samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2));
+  std::ranges::nth_element(samples,
+                           samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2));
   return samples[samples.size() / 2];
 }
 
@@ -93,7 +96,8 @@ void load_all_vectors(benchmark::State& state) {
 }
 BENCHMARK(load_all_vectors)->Unit(benchmark::kMillisecond);
 
-/// Another process on the slave that answers `request` bytes with `reply` bytes: what no harness could beat.
+/// Another process on the slave that answers `request` bytes with `reply` bytes: what no harness
+/// could beat.
 class BareEcho {
  public:
   BareEcho(int slave, std::size_t request, std::size_t reply) : child_(fork()) {
@@ -124,8 +128,11 @@ class BareEcho {
 double bare_round_trip_us(int master, const Bytes& request, std::size_t reply) {
   Bytes buffer(256);
   const auto started = Clock::now();
-  if (write(master, request.data(), request.size()) < 0) throw std::runtime_error("bare write failed");
-  for (std::size_t have = 0; have < reply;) have += static_cast<std::size_t>(std::max<ssize_t>(0, read(master, buffer.data(), buffer.size())));
+  if (write(master, request.data(), request.size()) < 0)
+    throw std::runtime_error("bare write failed");
+  for (std::size_t have = 0; have < reply;)
+    have +=
+        static_cast<std::size_t>(std::max<ssize_t>(0, read(master, buffer.data(), buffer.size())));
   return std::chrono::duration<double, std::micro>(Clock::now() - started).count();
 }
 
@@ -156,15 +163,22 @@ void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
 }
 BENCHMARK(pty_exchange_against_bare_ping_pong)->Unit(benchmark::kMicrosecond)->Iterations(20'000);
 
-/// 16 blocks on each of two channels, all on the 20 ms clock: more than a line carries, so that both are always busy.
+/// 16 blocks on each of two channels, all on the 20 ms clock: more than a line carries, so that
+/// both are always busy.
 nlohmann::json saturating_p2p() {
   nlohmann::json blocks = nlohmann::json::array();
   for (unsigned channel : {1u, 2u})
     for (unsigned i = 0; i < p2p_blocks / 2; ++i) {
-      const std::string here = "%MW" + std::to_string(100 * channel + 4 * i), there = "%DW" + std::to_string(4 * i);
+      const std::string here = "%MW" + std::to_string(100 * channel + 4 * i),
+                        there = "%DW" + std::to_string(4 * i);
       const bool run = i % 4 >= 2, write = i % 2 == 1;
-      blocks.push_back({{"channel", channel}, {"flag", "F90"}, {"station", 2}, {"function", write ? "write" : "read"},
-                        {"command", run ? "continuous" : "single"}, {"read", write ? here : there}, {"save", write ? there : here}});
+      blocks.push_back({{"channel", channel},
+                        {"flag", "F90"},
+                        {"station", 2},
+                        {"function", write ? "write" : "read"},
+                        {"command", run ? "continuous" : "single"},
+                        {"read", write ? here : there},
+                        {"save", write ? there : here}});
       if (run) blocks.back()["size"] = 4;
     }
   return {{"line", "115200-8N1"}, {"p2p", {{"blocks", blocks}}}};
@@ -178,7 +192,9 @@ void p2p_hour_on_two_channels(benchmark::State& state) {
   std::uint64_t services = 0, errors = 0;
   for (auto _ : state) {
     (void)_;
-    const auto client = make_p2p_plc("xbc-h", saturating_p2p(), [](const PortConfig& port) { return std::make_unique<XgtP2pDriver>(port.gap()); });
+    const auto client = make_p2p_plc("xbc-h", saturating_p2p(), [](const PortConfig& port) {
+      return std::make_unique<XgtP2pDriver>(port.gap());
+    });
     if (!client) throw std::runtime_error(client.error().message);
     const auto first = make_plc(partner), second = make_plc(partner);
     SimulatedLine lines[] = {SimulatedLine(settings), SimulatedLine(settings)};
@@ -195,15 +211,19 @@ void p2p_hour_on_two_channels(benchmark::State& state) {
     }
   }
   if (errors > 0) throw std::runtime_error("a P2P service failed");
-  state.counters["services"] = static_cast<double>(services) / static_cast<double>(state.iterations());
+  state.counters["services"] =
+      static_cast<double>(services) / static_cast<double>(state.iterations());
 }
 BENCHMARK(p2p_hour_on_two_channels)->Unit(benchmark::kSecond)->Iterations(1);
 
-/// The whole tool for one case: start, load, one exchange, reports. `repeat` shows what does not grow with the run.
+/// The whole tool for one case: start, load, one exchange, reports. `repeat` shows what does not
+/// grow with the run.
 void tool_run(benchmark::State& state) {
   const std::filesystem::path out = std::filesystem::temp_directory_path() / "fieldproof_bench";
-  const std::string command = (own_executable().parent_path() / "fieldproof").string() + " run --filter 'xgt_cnet/rss/two_words/*' --repeat " +
-                              std::to_string(state.range(0)) + " --out " + out.string() + " >/dev/null";
+  const std::string command = (own_executable().parent_path() / "fieldproof").string() +
+                              " run --filter 'xgt_cnet/rss/two_words/*' --repeat " +
+                              std::to_string(state.range(0)) + " --out " + out.string() +
+                              " >/dev/null";
   for (auto _ : state) {
     (void)_;
     if (std::system(command.c_str()) != 0) throw std::runtime_error("the tool failed: " + command);

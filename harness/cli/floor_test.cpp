@@ -14,7 +14,13 @@ class Floor : public testing::Test {
   Finished run(const std::string& endpoint, const std::vector<std::string>& more = {}) {
     nlohmann::ordered_json brief = small_vector("v/brief");
     brief["steps"][1]["within"] = "10ms";
-    std::vector<std::string> command{"run", "--endpoint", endpoint, "--vectors", write_vectors(folder_, {small_vector("v/usual"), brief}), "--out", out_};
+    std::vector<std::string> command{"run",
+                                     "--endpoint",
+                                     endpoint,
+                                     "--vectors",
+                                     write_vectors(folder_, {small_vector("v/usual"), brief}),
+                                     "--out",
+                                     out_};
     command.insert(command.end(), more.begin(), more.end());
     return run_tool(command);
   }
@@ -43,15 +49,19 @@ TEST_F(Floor, SimulatedTimeHasNone) {
 }
 
 TEST_F(Floor, IsTakenFromALoop) {
-  EXPECT_THAT(run("emulator:xbc-h", {"--loop", "pty:xbc-h"}).out, HasSubstr("answers over the loop"));
+  EXPECT_THAT(run("emulator:xbc-h", {"--loop", "pty:xbc-h"}).out,
+              HasSubstr("answers over the loop"));
   EXPECT_THAT(results().run["properties"]["floor"], HasSubstr("over the loop: min "));
-  EXPECT_THAT(run("pty:xbc-h", {"--loop", "emulator:xbc-h"}).err, HasSubstr("--loop: simulated time has no floor"));
+  EXPECT_THAT(run("pty:xbc-h", {"--loop", "emulator:xbc-h"}).err,
+              HasSubstr("--loop: simulated time has no floor"));
 }
 
 TEST_F(Floor, IsGivenByHand) {
   EXPECT_THAT(run("pty:xbc-h", {"--floor", "2ms"}).out, HasSubstr("floor=2.0 ms (given by hand)"));
   EXPECT_EQ(results().of("xgt_cnet/v/brief")["recording"]["timing_floor_ms"], 2);
-  EXPECT_THAT(run("emulator:xbc-h", {"--floor", "30"}).out, HasSubstr("floor=30.0 ms (given by hand)")) << "milliseconds without a unit";
+  EXPECT_THAT(run("emulator:xbc-h", {"--floor", "30"}).out,
+              HasSubstr("floor=30.0 ms (given by hand)"))
+      << "milliseconds without a unit";
   EXPECT_EQ(run("emulator:xbc-h", {"--floor", "soon"}).code, 2);
 }
 

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fmt/format.h>
 #include <optional>
 
 #include "harness/cli/commands.hpp"
@@ -18,7 +18,9 @@ Bytes read_monitor_text(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char close = text[i] == '[' ? ']' : text[i] == '<' ? '>' : '\0';
     const std::size_t end = close ? text.find(close, i) : std::string::npos;
-    const Result<Notation> word = end == std::string::npos ? Result<Notation>(fail("")) : parse_notation(text.substr(i + 1, end - i - 1));
+    const Result<Notation> word = end == std::string::npos
+                                      ? Result<Notation>(fail(""))
+                                      : parse_notation(text.substr(i + 1, end - i - 1));
     if (word && word->size() == 1 && word->front().bytes.size() == 1) {
       bytes.push_back(word->front().bytes.front());
       i = end;
@@ -30,7 +32,8 @@ Bytes read_monitor_text(const std::string& text) {
 }
 
 bool looks_like_hex(const std::string& text) {
-  return std::ranges::all_of(text, [](char c) { return c == ' ' || hex_digit(c) >= 0; }) && from_hex(text).has_value();
+  return std::ranges::all_of(text, [](char c) { return c == ' ' || hex_digit(c) >= 0; }) &&
+         from_hex(text).has_value();
 }
 
 /// Notation, hex or raw, in this order of likelihood.
@@ -38,8 +41,10 @@ Result<Bytes> read_frame_text(const std::string& text, const Stations& stations)
   if (looks_like_hex(text)) return *from_hex(text);
   const Result<Notation> notation = parse_notation(text);
   if (!notation) {
-    const bool raw = !text.empty() && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == '[' || text[0] == '<');
-    const bool monitor = raw && text.find('\'') == std::string::npos && text.find("] ") == std::string::npos;
+    const bool raw = !text.empty() && (static_cast<unsigned char>(text[0]) < 0x20 ||
+                                       text[0] == '[' || text[0] == '<');
+    const bool monitor =
+        raw && text.find('\'') == std::string::npos && text.find("] ") == std::string::npos;
     if (monitor) return read_monitor_text(text);
     return notation.error();
   }
@@ -53,18 +58,22 @@ struct FrameReading {
   Bytes bytes;
   std::vector<Field> fields;
 
-  auto problems() const { return std::ranges::count_if(fields, [](const Field& field) { return !field.problem.empty(); }); }
+  auto problems() const {
+    return std::ranges::count_if(fields, [](const Field& field) { return !field.problem.empty(); });
+  }
 };
 
 Result<FrameReading> read_as(const Protocol& protocol, const FrameOptions& options) {
-  const Stations stations{protocol.station_bytes(options.station), protocol.station_bytes((options.station + 1) % 256)};
+  const Stations stations{protocol.station_bytes(options.station),
+                          protocol.station_bytes((options.station + 1) % 256)};
   Result<Bytes> bytes = read_frame_text(options.frame, stations);
   if (!bytes) return bytes.error();
   std::vector<Field> fields = protocol.explain(*bytes);
   return FrameReading{&protocol, std::move(*bytes), std::move(fields)};
 }
 
-/// As the protocol that was named, else as the one with the fewest problems. One part alone explains nothing.
+/// As the protocol that was named, else as the one with the fewest problems. One part alone
+/// explains nothing.
 Result<FrameReading> best_reading(const FrameOptions& options) {
   if (!options.protocol.empty()) {
     const Result<const Protocol*> protocol = choose_protocol(options.protocol, "");
@@ -74,7 +83,8 @@ Result<FrameReading> best_reading(const FrameOptions& options) {
   Result<FrameReading> best = read_as(*protocols().front(), options);
   for (const Protocol* protocol : protocols().subspan(1)) {
     Result<FrameReading> other = read_as(*protocol, options);
-    if (best && other && other->fields.size() > 1 && other->problems() < best->problems()) best = std::move(other);
+    if (best && other && other->fields.size() > 1 && other->problems() < best->problems())
+      best = std::move(other);
   }
   return best;
 }
@@ -85,10 +95,12 @@ int frame_command(const FrameOptions& options) {
   const Result<FrameReading> reading = best_reading(options);
   if (!reading) return complain(reading.error().message, exit_code::usage);
   const ByteView bytes = reading->bytes;
-  fmt::print("{}\n{}\n{}, {} bytes\n\n", print_bytes(bytes), to_hex(bytes), reading->protocol->name(), bytes.size());
+  fmt::print("{}\n{}\n{}, {} bytes\n\n", print_bytes(bytes), to_hex(bytes),
+             reading->protocol->name(), bytes.size());
   for (const Field& field : reading->fields) {
     const std::string hex = to_hex(bytes.subspan(field.offset, field.size));
-    fmt::print("{:>4}  {:<22} {:<30} {}\n", field.offset, field.name, field.text, hex.size() > 47 ? hex.substr(0, 44) + "..." : hex);
+    fmt::print("{:>4}  {:<22} {:<30} {}\n", field.offset, field.name, field.text,
+               hex.size() > 47 ? hex.substr(0, 44) + "..." : hex);
     if (!field.problem.empty()) fmt::print("      {:<22} ! {}\n", "", field.problem);
   }
   return reading->problems() == 0 ? exit_code::ok : exit_code::failed;

@@ -1,13 +1,13 @@
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "harness/bench/rejudge.hpp"
 #include "harness/bench/waivers.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/paths.hpp"
 #include "harness/cli/run_report.hpp"
 #include "harness/cli/timestamp.hpp"
 #include "harness/cli/tool_vectors.hpp"
+#include "harness/paths.hpp"
 #include "reports/case_text.hpp"
 #include "reports/result_file.hpp"
 #include "reports/xml_text.hpp"
@@ -41,9 +41,13 @@ Result<JudgePlan> make_judge_plan(const JudgeOptions& options) {
   Result<ResultFile> recorded = read_result_file(options.file);
   if (!recorded) return recorded.error();
   plan.recorded = std::move(*recorded);
-  const std::string profile_name = options.profile.empty() ? plan.recorded.run.profile : options.profile;
+  const std::string profile_name =
+      options.profile.empty() ? plan.recorded.run.profile : options.profile;
   Result<Profile> profile = load_profile(profile_name, find_data().profiles);
-  if (!profile) return fail(fmt::format("cannot judge {} by the profile it was recorded with: {}; name one with --profile", options.file, profile.error().message));
+  if (!profile)
+    return fail(fmt::format(
+        "cannot judge {} by the profile it was recorded with: {}; name one with --profile",
+        options.file, profile.error().message));
   plan.profile = std::move(*profile);
   Result<VectorSet> vectors = load_sound_vectors(options.vectors);
   if (!vectors) return vectors.error();
@@ -53,7 +57,8 @@ Result<JudgePlan> make_judge_plan(const JudgeOptions& options) {
   plan.waivers = std::move(*waivers);
   // What a run said about its waivers is said anew.
   for (const CaseResult& one : plan.recorded.results)
-    if (!one.id.starts_with(waiver_result) && matches_filter(one.id, options.filter)) plan.selected.push_back(&one);
+    if (!one.id.starts_with(waiver_result) && matches_filter(one.id, options.filter))
+      plan.selected.push_back(&one);
   plan.gate = gate_of(options, plan.recorded.run);
   return plan;
 }
@@ -87,7 +92,9 @@ struct News {
 };
 
 /// Was never sent: there is nothing to judge again, and nothing to say about it.
-bool not_executed(Verdict verdict) { return verdict == Verdict::skip || verdict == Verdict::blocked; }
+bool not_executed(Verdict verdict) {
+  return verdict == Verdict::skip || verdict == Verdict::blocked;
+}
 
 std::string list(const std::string& heading, const std::vector<std::string>& lines) {
   constexpr std::size_t most = 50;
@@ -106,9 +113,13 @@ News judge_all(const JudgeOptions& options, const JudgePlan& plan, RunReport& re
     result.replay = replay_command(options) + "'" + result.id + "'";
     waivers.apply(result);
     const std::string label = case_label(result);
-    if (!why_not.empty() && not_executed(result.verdict)) ++news.not_executed;
-    else if (!why_not.empty()) news.not_judged.push_back(fmt::format("{}: {}", label, xml_line(why_not)));
-    else if (result.verdict != one->verdict) news.changed.push_back(fmt::format("{}  {} -> {}  {}", label, to_string(one->verdict), to_string(result.verdict), xml_line(result.message)));
+    if (!why_not.empty() && not_executed(result.verdict))
+      ++news.not_executed;
+    else if (!why_not.empty())
+      news.not_judged.push_back(fmt::format("{}: {}", label, xml_line(why_not)));
+    else if (result.verdict != one->verdict)
+      news.changed.push_back(fmt::format("{}  {} -> {}  {}", label, to_string(one->verdict),
+                                         to_string(result.verdict), xml_line(result.message)));
     if (!report.add(result)) return news;
   }
   for (const CaseResult& result : waivers.superfluous(case_ids(plan.vectors))) report.add(result);
@@ -120,19 +131,29 @@ News judge_all(const JudgeOptions& options, const JudgePlan& plan, RunReport& re
 int judge_command(const JudgeOptions& options) {
   const Result<JudgePlan> plan = make_judge_plan(options);
   if (!plan) return complain(plan.error().message, exit_code::usage);
-  if (plan->selected.empty()) return complain(fmt::format("no result in {} matches --filter '{}'", options.file, options.filter), exit_code::nothing);
-  Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
+  if (plan->selected.empty())
+    return complain(
+        fmt::format("no result in {} matches --filter '{}'", options.file, options.filter),
+        exit_code::nothing);
+  Result<ReportPaths> paths =
+      make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return complain(paths.error().message, exit_code::trouble);
   std::error_code ignored;
   if (std::filesystem::equivalent(paths->front().second, options.file, ignored))
-    return complain(fmt::format("the results would overwrite {}; name another folder with --out", options.file), exit_code::usage);
-  Result<RunReport> report = RunReport::create(std::move(*paths), console_options(plan->gate, options.verbose));
+    return complain(
+        fmt::format("the results would overwrite {}; name another folder with --out", options.file),
+        exit_code::usage);
+  Result<RunReport> report =
+      RunReport::create(std::move(*paths), console_options(plan->gate, options.verbose));
   if (!report) return complain(report.error().message, exit_code::trouble);
-  if (const Status begun = report->begin(info_of(options, *plan)); !begun) return complain(begun.error().message, exit_code::trouble);
+  if (const Status begun = report->begin(info_of(options, *plan)); !begun)
+    return complain(begun.error().message, exit_code::trouble);
   const News news = judge_all(options, *plan, *report);
   print(list("\nverdicts that changed", news.changed));
   if (!news.not_judged.empty()) print(list("\nnot judged again", news.not_judged));
-  if (news.not_executed > 0) print(fmt::format("\nnot executed when this was recorded: {} SKIP or BLOCKED\n", news.not_executed));
+  if (news.not_executed > 0)
+    print(fmt::format("\nnot executed when this was recorded: {} SKIP or BLOCKED\n",
+                      news.not_executed));
   return report->finish({});
 }
 

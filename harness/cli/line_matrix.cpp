@@ -1,7 +1,7 @@
 #include "harness/cli/line_matrix.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 namespace fieldproof {
 
@@ -31,7 +31,10 @@ std::vector<std::string_view> parts_of(std::string_view list, std::string_view a
 
 Result<std::vector<LineSettings>> parse_line_matrix(std::string_view text) {
   const auto wrong = [&](const std::string& why) {
-    return fail(fmt::format("cannot read --matrix '{}': {}; write SPEEDS x FRAMES such as \"38400,115200 x 8N1,8E1\", or all", text, why));
+    return fail(
+        fmt::format("cannot read --matrix '{}': {}; write SPEEDS x FRAMES such as \"38400,115200 x "
+                    "8N1,8E1\", or all",
+                    text, why));
   };
   const std::string_view whole = trimmed(text) == "all" ? "all x all" : text;
   const std::size_t cross = whole.find('x');
@@ -41,7 +44,8 @@ Result<std::vector<LineSettings>> parse_line_matrix(std::string_view text) {
     for (const std::string_view frame : parts_of(whole.substr(cross + 1), all_frames)) {
       const Result<LineSettings> step = parse_line_settings(fmt::format("{}-{}", speed, frame));
       if (!step) return wrong(step.error().message);
-      if (std::ranges::find(steps, *step) != steps.end()) return wrong(to_string(*step) + " stands there twice");
+      if (std::ranges::find(steps, *step) != steps.end())
+        return wrong(to_string(*step) + " stands there twice");
       steps.push_back(*step);
     }
   }
@@ -63,6 +67,8 @@ EndpointName at_line(EndpointName endpoint, const LineSettings& step) {
   return endpoint;
 }
 
-bool sets_device(const EndpointName& endpoint) { return endpoint.kind == "emulator" || endpoint.kind == "pty"; }
+bool sets_device(const EndpointName& endpoint) {
+  return endpoint.kind == "emulator" || endpoint.kind == "pty";
+}
 
 }  // namespace fieldproof

@@ -26,8 +26,10 @@ TEST(LineMatrix, AllIsWhatTheManualLists) {
 }
 
 TEST(LineMatrix, ErrorsNameThePart) {
-  for (const char* text : {"", "9600", "9600 x", "x 8N1", "9600,, x 8N1", "300 x 8N1", "9600 x 9N1", "9600 x 8N1,8N1", "8N1 x 9600"})
-    EXPECT_THAT(steps(text), testing::StartsWith("cannot read --matrix '" + std::string(text) + "': "));
+  for (const char* text : {"", "9600", "9600 x", "x 8N1", "9600,, x 8N1", "300 x 8N1", "9600 x 9N1",
+                           "9600 x 8N1,8N1", "8N1 x 9600"})
+    EXPECT_THAT(steps(text),
+                testing::StartsWith("cannot read --matrix '" + std::string(text) + "': "));
   EXPECT_THAT(steps("9600 x 8N1,8n1"), testing::HasSubstr("9600-8N1 stands there twice"));
 }
 

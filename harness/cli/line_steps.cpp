@@ -1,7 +1,7 @@
 #include "harness/cli/line_steps.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/line_matrix.hpp"
@@ -15,12 +15,14 @@ constexpr std::string_view filter_option = " --filter ";
 
 /// The replay command of the run, for one step of its matrix.
 std::string replay_of_step(std::string replay, const LineSettings& step) {
-  return replay.insert(replay.size() - filter_option.size(), " --matrix " + shell_word(matrix_text(step)));
+  return replay.insert(replay.size() - filter_option.size(),
+                       " --matrix " + shell_word(matrix_text(step)));
 }
 
 }  // namespace
 
-Status LineSteps::enter(std::size_t step, const std::function<Result<std::string>(Benches&)>& measure_floor) {
+Status LineSteps::enter(std::size_t step,
+                        const std::function<Result<std::string>(Benches&)>& measure_floor) {
   current_ = step;
   const LineSettings& line = plan_.matrix[step];
   const Result<std::string> why = reconfigure(line, step + 1);
@@ -48,16 +50,20 @@ Result<std::string> LineSteps::reconfigure(const LineSettings& step, std::size_t
   const std::string text = to_string(step);
   const std::string speed = text.substr(0, text.find('-')), frame = text.substr(text.find('-') + 1);
   if (!command_.empty()) {
-    const Status done = run_hook(command_, {speed, frame}, {{"FIELDPROOF_SPEED", speed}, {"FIELDPROOF_FRAME", frame}});
+    const Status done = run_hook(command_, {speed, frame},
+                                 {{"FIELDPROOF_SPEED", speed}, {"FIELDPROOF_FRAME", frame}});
     if (!done && done.error().interrupted) return done.error();
     return done ? std::string() : "not reachable: " + done.error().message;
   }
-  const Result<std::string> answer = ask(fmt::format("\nstep {} of {}: set the device to {} bit/s, {}, and let it take the setting over.\n"
-                                                     "Enter = done, s = skip this step, q = quit the matrix: ",
-                                                     number, plan_.matrix.size(), speed, frame));
+  const Result<std::string> answer = ask(fmt::format(
+      "\nstep {} of {}: set the device to {} bit/s, {}, and let it take the setting over.\n"
+      "Enter = done, s = skip this step, q = quit the matrix: ",
+      number, plan_.matrix.size(), speed, frame));
   if (!answer && answer.error().interrupted) return answer.error();
-  if (!answer || answer->starts_with('q')) return quit_ = fmt::format("not run: the engineer ended the matrix before {}", text);
-  return answer->starts_with('s') ? fmt::format("skipped by the engineer: {}", text) : std::string();
+  if (!answer || answer->starts_with('q'))
+    return quit_ = fmt::format("not run: the engineer ended the matrix before {}", text);
+  return answer->starts_with('s') ? fmt::format("skipped by the engineer: {}", text)
+                                  : std::string();
 }
 
 /// The port is closed before it is opened with other settings.
@@ -76,21 +82,29 @@ Status LineSteps::open(const LineSettings& step) {
 std::string LineSteps::names_other_line(const Case& source) const {
   const auto line = source.config.find("line");
   if (line == source.config.end() || !line->is_string() || *line == name()) return {};
-  const bool has_step = std::ranges::any_of(plan_.matrix, [&](const LineSettings& one) { return to_string(one) == *line; });
-  if (has_step || sets_device(plan_.endpoint)) return fmt::format("names its own line, {}; this step is {}", line->get<std::string>(), name());
+  const bool has_step = std::ranges::any_of(
+      plan_.matrix, [&](const LineSettings& one) { return to_string(one) == *line; });
+  if (has_step || sets_device(plan_.endpoint))
+    return fmt::format("names its own line, {}; this step is {}", line->get<std::string>(), name());
   return {};
 }
 
 CaseResult LineSteps::run(const Case& source) {
-  if (const std::string why = names_other_line(source); !why.empty()) return decline(source, Verdict::skip, why);
+  if (const std::string why = names_other_line(source); !why.empty())
+    return decline(source, Verdict::skip, why);
   if (!blocked_.empty()) return decline(source, Verdict::blocked, blocked_);
   CaseResult result = benches_.run(source);
   result.line = name();
-  const bool judged_well = result.verdict == Verdict::pass || result.verdict == Verdict::marginal || result.verdict == Verdict::non_strict;
+  const bool judged_well = result.verdict == Verdict::pass || result.verdict == Verdict::marginal ||
+                           result.verdict == Verdict::non_strict;
   if (benches_.wire() || !judged_well) return result;
-  result.notes.push_back(fmt::format("{} but for the line: {}", to_string(result.verdict), result.message.empty() ? "as written" : result.message));
+  result.notes.push_back(fmt::format("{} but for the line: {}", to_string(result.verdict),
+                                     result.message.empty() ? "as written" : result.message));
   result.verdict = Verdict::inconclusive;
-  result.message = fmt::format("this link has no wire: it carries no speed and no character format, and proves nothing about {}", name());
+  result.message = fmt::format(
+      "this link has no wire: it carries no speed and no character format, and proves nothing "
+      "about {}",
+      name());
   return result;
 }
 

@@ -1,4 +1,5 @@
-// A run over a line matrix: at each step the device is reconfigured, the endpoint opened anew and the cases run again.
+// A run over a line matrix: at each step the device is reconfigured, the endpoint opened anew and
+// the cases run again.
 #pragma once
 
 #include <functional>
@@ -13,10 +14,13 @@ namespace fieldproof {
 
 class LineSteps {
  public:
-  /// `benches` are open, set for the first step. `command`: of --reconfigure; empty: the engineer is asked.
-  LineSteps(const RunPlan& plan, Benches& benches, std::string command) : plan_(plan), benches_(benches), command_(std::move(command)) {}
+  /// `benches` are open, set for the first step. `command`: of --reconfigure; empty: the engineer
+  /// is asked.
+  LineSteps(const RunPlan& plan, Benches& benches, std::string command)
+      : plan_(plan), benches_(benches), command_(std::move(command)) {}
 
-  /// Makes the device and the bench ready for a step. What it is not ready for is BLOCKED then; an error ends the run.
+  /// Makes the device and the bench ready for a step. What it is not ready for is BLOCKED then; an
+  /// error ends the run.
   Status enter(std::size_t step, const std::function<Result<std::string>(Benches&)>& measure_floor);
   std::optional<std::size_t> current() const { return current_; }
   /// Is there anything to talk to at this step?

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 
@@ -18,21 +18,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void add(std::vector<std::string>& all, std::vector<std::string> more) { all.insert(all.end(), more.begin(), more.end()); }
+void add(std::vector<std::string>& all, std::vector<std::string> more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
-/// What stands in a profile and means nothing to protocols and vectors. `whole`: the set is the one profiles are made for.
+/// What stands in a profile and means nothing to protocols and vectors. `whole`: the set is the one
+/// profiles are made for.
 std::vector<std::string> lint_profile(const Profile& profile, const VectorSet& set, bool whole) {
   std::vector<std::string> problems;
   bool emulated = profile.model.empty();
   for (const std::string& name : profile.protocols) {
     const Result<const Protocol*> protocol = choose_protocol(name, "");
-    if (!protocol) problems.push_back(protocol.error().message);
-    else emulated = emulated || (*protocol)->has_model(profile.model);
+    if (!protocol)
+      problems.push_back(protocol.error().message);
+    else
+      emulated = emulated || (*protocol)->has_model(profile.model);
   }
   if (!emulated && profile.notes.empty())
-    problems.push_back(fmt::format("no case is for the model '{}'; write in \"notes\" why, or correct it", profile.model));
+    problems.push_back(fmt::format(
+        "no case is for the model '{}'; write in \"notes\" why, or correct it", profile.model));
   for (const auto& [pattern, reason] : profile.exclude)
-    if (whole && std::ranges::none_of(set.cases, [&](const Case& one) { return matches_filter(one.id, pattern); }))
+    if (whole && std::ranges::none_of(
+                     set.cases, [&](const Case& one) { return matches_filter(one.id, pattern); }))
       problems.push_back(fmt::format("excludes '{}', which is no case", pattern));
   return problems;
 }
@@ -47,8 +54,10 @@ std::vector<std::string> lint_profiles(const fs::path& folder, const VectorSet& 
       problems.push_back(profile.error().message);
       continue;
     }
-    if (profile->name != name) problems.push_back(fmt::format("{}: its name is '{}'", file, profile->name));
-    for (const std::string& problem : lint_profile(*profile, set, whole)) problems.push_back(fmt::format("{}: {}", file, problem));
+    if (profile->name != name)
+      problems.push_back(fmt::format("{}: its name is '{}'", file, profile->name));
+    for (const std::string& problem : lint_profile(*profile, set, whole))
+      problems.push_back(fmt::format("{}: {}", file, problem));
   }
   std::ranges::sort(problems);
   return problems;
@@ -71,14 +80,19 @@ int lint_command(const LintOptions& options) {
   add(problems, lint_statements(set));
   add(problems, lint_readings(set));
   add(problems, lint_tables(set, find_protocol));
-  if (fs::is_directory(data.profiles)) add(problems, lint_profiles(data.profiles, set, options.vectors.empty()));
-  const std::vector<std::string> quotes = options.manuals.empty() ? lint_lock(set, read_lock(folder)) : lint_quotes(set, options.manuals);
+  if (fs::is_directory(data.profiles))
+    add(problems, lint_profiles(data.profiles, set, options.vectors.empty()));
+  const std::vector<std::string> quotes = options.manuals.empty()
+                                              ? lint_lock(set, read_lock(folder))
+                                              : lint_quotes(set, options.manuals);
   add(problems, quotes);
-  if (options.lock && options.manuals.empty()) return complain("--lock needs --manuals DIR: only verified quotes are locked", exit_code::usage);
+  if (options.lock && options.manuals.empty())
+    return complain("--lock needs --manuals DIR: only verified quotes are locked",
+                    exit_code::usage);
   if (options.lock && quotes.empty()) std::ofstream(folder / "quotes.lock") << quotes_lock(set);
   for (const std::string& problem : problems) fmt::print("{}\n", problem);
-  fmt::print("{} cases, {} tables, {} statements, {} errata: {} problems\n", set.cases.size(), set.tables.size(), set.statements.size(), set.errata.size(),
-             problems.size());
+  fmt::print("{} cases, {} tables, {} statements, {} errata: {} problems\n", set.cases.size(),
+             set.tables.size(), set.statements.size(), set.errata.size(), problems.size());
   return problems.empty() ? exit_code::ok : exit_code::usage;
 }
 

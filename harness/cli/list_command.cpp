@@ -1,5 +1,5 @@
-#include <cstdio>
 #include <fmt/format.h>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "harness/bench/prepared_case.hpp"
@@ -32,13 +32,18 @@ ordered_json partner_json(const PartnerSpec& partner) {
 ordered_json kind_json(const PreparedStep& step) {
   const Step& source = *step.step;
   switch (source.kind) {
-    case Step::Kind::send: return {{"send", to_hex_with_holes(step.frames.front().frame)}, {"notation", source.frames.front().text}};
+    case Step::Kind::send:
+      return {{"send", to_hex_with_holes(step.frames.front().frame)},
+              {"notation", source.frames.front().text}};
     case Step::Kind::expect: {
-      ordered_json result{{"expect", to_hex_with_holes(step.frames.front().frame)}, {"notation", source.frames.front().text}};
+      ordered_json result{{"expect", to_hex_with_holes(step.frames.front().frame)},
+                          {"notation", source.frames.front().text}};
       if (step.frames.size() == 1) return result;
       result["alternatives"] = ordered_json::array();
       for (const PreparedFrame& one : step.frames)
-        result["alternatives"].push_back({{"reading", source.reading}, {"name", one.reading}, {"expect", to_hex_with_holes(one.frame)}});
+        result["alternatives"].push_back({{"reading", source.reading},
+                                          {"name", one.reading},
+                                          {"expect", to_hex_with_holes(one.frame)}});
       return result;
     }
     case Step::Kind::silence: return {{"silence", true}};
@@ -64,13 +69,25 @@ ordered_json step_json(const PreparedStep& step) {
 }
 
 ordered_json case_json(const Case& one) {
-  ordered_json result{{"id", one.id}, {"rev", one.rev}, {"title", one.title}, {"level", one.level}, {"basis", one.basis},
-                      {"source", {{"manual", one.source.manual}, {"section", one.source.section}, {"statement", one.source.statements}, {"quote", one.source.quote}}},
-                      {"protocol", one.protocol}, {"models", one.models}, {"config", one.config}, {"memory", memory_json(one.memory)}};
+  ordered_json result{{"id", one.id},
+                      {"rev", one.rev},
+                      {"title", one.title},
+                      {"level", one.level},
+                      {"basis", one.basis},
+                      {"source",
+                       {{"manual", one.source.manual},
+                        {"section", one.source.section},
+                        {"statement", one.source.statements},
+                        {"quote", one.source.quote}}},
+                      {"protocol", one.protocol},
+                      {"models", one.models},
+                      {"config", one.config},
+                      {"memory", memory_json(one.memory)}};
   result["steps"] = ordered_json::array();
   const Protocol* protocol = find_protocol(one.protocol);
   if (!protocol) return result;
-  const Result<PreparedCase> prepared = prepare(one, config_station(one.config, 1).value_or(1), *protocol);
+  const Result<PreparedCase> prepared =
+      prepare(one, config_station(one.config, 1).value_or(1), *protocol);
   if (!prepared) return result;
   for (const PreparedStep& step : prepared->steps) result["steps"].push_back(step_json(step));
   return result;
@@ -85,21 +102,30 @@ int list_coverage(const ListOptions& options, const VectorSet& set) {
   }
   const Coverage coverage = trace(set, results);
   if (!options.html.empty())
-    if (const Status written = write_coverage_html(coverage, options.html); !written) return complain(written.error().message, exit_code::trouble);
-  print(options.json ? coverage_json(coverage) : options.markdown ? coverage_markdown(coverage) : coverage_text(coverage));
+    if (const Status written = write_coverage_html(coverage, options.html); !written)
+      return complain(written.error().message, exit_code::trouble);
+  print(options.json       ? coverage_json(coverage)
+        : options.markdown ? coverage_markdown(coverage)
+                           : coverage_text(coverage));
   const CoverageCounts counts = count_statements(coverage);
   const double percent = counts.percent(coverage.with_results());
   if (percent < options.min_coverage)
-    return complain(fmt::format("coverage is {:.1f} %, below --min-coverage {:g}", percent, options.min_coverage), exit_code::failed);
+    return complain(fmt::format("coverage is {:.1f} %, below --min-coverage {:g}", percent,
+                                options.min_coverage),
+                    exit_code::failed);
   return counts.count(Traced::open) == 0 ? exit_code::ok : exit_code::failed;
 }
 
 }  // namespace
 
 int list_command(const ListOptions& options) {
-  if (!options.coverage && (options.markdown || !options.html.empty() || !options.results.empty() || options.min_coverage > 0))
-    return complain("--results, --markdown, --html and --min-coverage are about --coverage; add it", exit_code::usage);
-  if (options.coverage && !(options.filter + options.role).empty()) return complain("--filter and --role select cases; --coverage is of all statements", exit_code::usage);
+  if (!options.coverage && (options.markdown || !options.html.empty() || !options.results.empty() ||
+                            options.min_coverage > 0))
+    return complain("--results, --markdown, --html and --min-coverage are about --coverage; add it",
+                    exit_code::usage);
+  if (options.coverage && !(options.filter + options.role).empty())
+    return complain("--filter and --role select cases; --coverage is of all statements",
+                    exit_code::usage);
   const Result<VectorSet> loaded = load_sound_vectors(options.vectors);
   if (!loaded) return complain(loaded.error().message, exit_code::usage);
   const VectorSet& set = *loaded;
@@ -109,11 +135,18 @@ int list_command(const ListOptions& options) {
   for (const Case& one : set.cases) {
     if (!matches_filter(one.id, options.filter) || !has_role(one, options.role)) continue;
     ++count;
-    if (options.json) all.push_back(case_json(one));
-    else fmt::print("{:<58} {:<6} {:<8} {}\n", one.id, one.level, one.basis, one.title);
+    if (options.json)
+      all.push_back(case_json(one));
+    else
+      fmt::print("{:<58} {:<6} {:<8} {}\n", one.id, one.level, one.basis, one.title);
   }
-  if (options.json) fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
-  if (count == 0) return complain(fmt::format("no case{} matches '{}'; `fieldproof list` shows them all", options.role.empty() ? "" : " of role " + options.role, options.filter), exit_code::nothing);
+  if (options.json)
+    fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  if (count == 0)
+    return complain(
+        fmt::format("no case{} matches '{}'; `fieldproof list` shows them all",
+                    options.role.empty() ? "" : " of role " + options.role, options.filter),
+        exit_code::nothing);
   if (!options.json) fmt::print("{} cases\n", count);
   return exit_code::ok;
 }

@@ -1,6 +1,6 @@
-#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <filesystem>
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/run_report.hpp"
@@ -15,7 +15,9 @@ Result<MergedRun> read_and_merge(const MergeOptions& options, const std::string&
   std::vector<ResultFile> files;
   for (const std::string& path : options.files) {
     std::error_code ignored;
-    if (std::filesystem::equivalent(path, out, ignored)) return fail(fmt::format("the results would overwrite {}; name another folder with --out", path));
+    if (std::filesystem::equivalent(path, out, ignored))
+      return fail(
+          fmt::format("the results would overwrite {}; name another folder with --out", path));
     Result<ResultFile> file = read_result_file(path);
     if (!file) return file.error();
     files.push_back(std::move(*file));
@@ -35,11 +37,14 @@ int merge_command(const MergeOptions& options) {
   Result<MergedRun> merged = read_and_merge(options, ndjson);
   if (!merged) return complain(merged.error().message, exit_code::usage);
   merged->run.command = options.command;
-  Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
+  Result<ReportPaths> paths =
+      make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return complain(paths.error().message, exit_code::trouble);
-  Result<RunReport> report = RunReport::create(std::move(*paths), console_options(gate_of(merged->run), false));
+  Result<RunReport> report =
+      RunReport::create(std::move(*paths), console_options(gate_of(merged->run), false));
   if (!report) return complain(report.error().message, exit_code::trouble);
-  if (const Status begun = report->begin(merged->run); !begun) return complain(begun.error().message, exit_code::trouble);
+  if (const Status begun = report->begin(merged->run); !begun)
+    return complain(begun.error().message, exit_code::trouble);
   for (const CaseResult& result : merged->results)
     if (!report->add(result)) break;
   RunReport::End end;

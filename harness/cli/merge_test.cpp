@@ -14,11 +14,15 @@ constexpr int shard_count = 3;
 class MergeCommand : public testing::Test {
  protected:
   std::string shard(int index, const std::string& name, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{"run", "--endpoint", "emulator:xbm-s", "--out", folder_ / name};
-    if (more.empty()) arguments.insert(arguments.end(), {"--vectors", write_vectors(folder_, many_vectors(9))});
+    std::vector<std::string> arguments{"run", "--endpoint", "emulator:xbm-s", "--out",
+                                       folder_ / name};
+    if (more.empty())
+      arguments.insert(arguments.end(), {"--vectors", write_vectors(folder_, many_vectors(9))});
     arguments.insert(arguments.end(), more.begin(), more.end());
     ProcessOptions options;
-    if (index >= 0) options.environment = {{"GTEST_TOTAL_SHARDS", std::to_string(shard_count)}, {"GTEST_SHARD_INDEX", std::to_string(index)}};
+    if (index >= 0)
+      options.environment = {{"GTEST_TOTAL_SHARDS", std::to_string(shard_count)},
+                             {"GTEST_SHARD_INDEX", std::to_string(index)}};
     const Finished finished = run_tool(arguments, options);
     EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
     return folder_ / name + "/results.json";
@@ -32,12 +36,15 @@ class MergeCommand : public testing::Test {
 
   /// What stands in each report of a folder.
   void expect_alike(const std::string& one, const std::string& other) {
-    const auto counts_of = [&](const std::string& out) { return nlohmann::json::parse(read_text(out + "/results.json")); };
+    const auto counts_of = [&](const std::string& out) {
+      return nlohmann::json::parse(read_text(out + "/results.json"));
+    };
     EXPECT_EQ(counts_of(one)["counts"], counts_of(other)["counts"]);
     Junit a, b;
     read_junit(one + "/junit.xml", a);
     read_junit(other + "/junit.xml", b);
-    EXPECT_EQ(std::tie(a.tests, a.failures, a.errors, a.skipped, a.children), std::tie(b.tests, b.failures, b.errors, b.skipped, b.children));
+    EXPECT_EQ(std::tie(a.tests, a.failures, a.errors, a.skipped, a.children),
+              std::tie(b.tests, b.failures, b.errors, b.skipped, b.children));
     const auto tiles = [](const std::string& out) {
       const std::string html = read_text(out + "/report.html");
       const std::size_t start = html.find("<ul class=\"tiles\">");
@@ -54,7 +61,8 @@ TEST_F(MergeCommand, ShardsAddUpToTheWholeRun) {
   const std::vector<std::string> real{"--filter", "xgt_cnet/rss/*"};
   shard(-1, "whole", real);
   for (int index = 0; index < shard_count; ++index) shard(index, std::to_string(index), real);
-  const Finished merged = merge({folder_ / "2/results.json", folder_ / "0/results.json", folder_ / "1/results.ndjson"});
+  const Finished merged =
+      merge({folder_ / "2/results.json", folder_ / "0/results.json", folder_ / "1/results.ndjson"});
   EXPECT_EQ(merged.code, 0) << merged.out << merged.err;
   expect_reports(folder_ / "merged");
   expect_alike(folder_ / "whole", folder_ / "merged");
@@ -83,9 +91,11 @@ TEST_F(MergeCommand, OtherSelectionsAndTheSameShardTwiceAreRefused) {
   const Finished twice = merge({a, shard(0, "again")});
   EXPECT_EQ(twice.code, 2);
   EXPECT_THAT(twice.err, HasSubstr("both are shard 1/3"));
-  const Finished other = merge({a, shard(1, "b", {"--vectors", folder_ / "vectors", "--filter", "*/n1000:*/n1001"})});
+  const Finished other =
+      merge({a, shard(1, "b", {"--vectors", folder_ / "vectors", "--filter", "*/n1000:*/n1001"})});
   EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, AllOf(HasSubstr("the selection differs"), HasSubstr("b/results.json with")));
+  EXPECT_THAT(other.err,
+              AllOf(HasSubstr("the selection differs"), HasSubstr("b/results.json with")));
 }
 
 TEST_F(MergeCommand, OtherVectorsAreRefused) {
@@ -99,7 +109,8 @@ TEST_F(MergeCommand, OtherVectorsAreRefused) {
 
 TEST_F(MergeCommand, NothingIsOverwritten) {
   const std::string a = shard(0, "a");
-  const Finished finished = run_tool({"merge", folder_ / "a/results.ndjson", "--out", folder_ / "a"});
+  const Finished finished =
+      run_tool({"merge", folder_ / "a/results.ndjson", "--out", folder_ / "a"});
   EXPECT_EQ(finished.code, 2);
   EXPECT_THAT(finished.err, HasSubstr("would overwrite"));
 }

@@ -18,22 +18,29 @@ std::string clock_text() {
   using namespace std::chrono;
   const auto now = system_clock::now();
   const auto ms = duration_cast<milliseconds>(now.time_since_epoch()) % 1s;
-  return fmt::format("{:%Y/%m/%d %H:%M:%S}.{:03}", fmt::localtime(system_clock::to_time_t(now)), ms.count());
+  return fmt::format("{:%Y/%m/%d %H:%M:%S}.{:03}", fmt::localtime(system_clock::to_time_t(now)),
+                     ms.count());
 }
 
-std::string elapsed_text(Duration elapsed) { return fmt::format("{:.3f} s", to_ms(elapsed) / 1000); }
+std::string elapsed_text(Duration elapsed) {
+  return fmt::format("{:.3f} s", to_ms(elapsed) / 1000);
+}
 
 }  // namespace
 
 Result<FrameMonitor::Record> open_monitor_file(const std::string& path, std::string_view model) {
   const auto file = std::make_shared<std::ofstream>(path, std::ios::binary);
   if (!(*file << csv_header() << std::flush))
-    return fail(fmt::format("cannot write {}: {}; give --monitor a file in a folder that you may write", path, std::strerror(errno)));
+    return fail(
+        fmt::format("cannot write {}: {}; give --monitor a file in a folder that you may write",
+                    path, std::strerror(errno)));
   const bool has_clock = model != "xbm-s";
-  return FrameMonitor::Record([file, has_clock, first = std::optional<Time>()](const MonitoredFrame& frame) mutable {
-    if (!first) first = frame.time;
-    *file << csv_row(frame, has_clock ? clock_text() : elapsed_text(frame.time - *first)) << std::flush;
-  });
+  return FrameMonitor::Record(
+      [file, has_clock, first = std::optional<Time>()](const MonitoredFrame& frame) mutable {
+        if (!first) first = frame.time;
+        *file << csv_row(frame, has_clock ? clock_text() : elapsed_text(frame.time - *first))
+              << std::flush;
+      });
 }
 
 }  // namespace fieldproof

@@ -22,9 +22,10 @@ std::vector<std::string> lines_of(const std::string& path) {
 std::vector<std::string> monitored(const std::string& model) {
   const TestFolder folder;
   const std::string file = folder / "frames.csv";
-  const Finished finished =
-      run_tool({"run", "--endpoint", "exec:" FIELDPROOF_TOOL " emulate " + model + " --pty {tty} --monitor " + file, "--profile", model,
-                "--vectors", write_vectors(folder, many_vectors(1)), "--out", folder / "out"});
+  const Finished finished = run_tool(
+      {"run", "--endpoint",
+       "exec:" FIELDPROOF_TOOL " emulate " + model + " --pty {tty} --monitor " + file, "--profile",
+       model, "--vectors", write_vectors(folder, many_vectors(1)), "--out", folder / "out"});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   return lines_of(file);
 }
@@ -33,7 +34,9 @@ TEST(Monitor, WritesEachFrameWithItsResult) {
   const std::vector<std::string> lines = monitored("xbc-h");
   ASSERT_GE(lines.size(), 3u);
   EXPECT_EQ(lines[0], "Form,Result,Size,Time,Frame data (HEX),Frame data (ASCII)\r");
-  EXPECT_THAT(lines, testing::Contains(testing::MatchesRegex("Reception,XGT server,19,[0-9/]+ [0-9:.]+,05 30 31 72 53 53 .*,\"\\[ENQ\\]01rSS0106%MW100\\[EOT\\]..\"\r")));
+  EXPECT_THAT(lines, testing::Contains(testing::MatchesRegex(
+                         "Reception,XGT server,19,[0-9/]+ [0-9:.]+,05 30 31 72 53 53 "
+                         ".*,\"\\[ENQ\\]01rSS0106%MW100\\[EOT\\]..\"\r")));
   EXPECT_THAT(lines, testing::Contains(testing::StartsWith("Transmission,XGT server,17,")));
 }
 
@@ -46,7 +49,8 @@ TEST(Monitor, XbmCountsFromTheFirstFrame) {
 TEST(Monitor, SaysWhichFileItCannotWrite) {
   const Finished finished = run_tool({"emulate", "xbc-h", "--monitor", "/nowhere/frames.csv"});
   EXPECT_EQ(finished.code, 2);
-  EXPECT_THAT(finished.err, HasSubstr("cannot write /nowhere/frames.csv: No such file or directory"));
+  EXPECT_THAT(finished.err,
+              HasSubstr("cannot write /nowhere/frames.csv: No such file or directory"));
 }
 
 }  // namespace

@@ -19,14 +19,19 @@ Result<nlohmann::json> read_p2p_file(const std::string& path) {
     return fail(fmt::format("cannot read {}: it is no JSON: {}", path, error.what()));
   }
   if (!config.is_object() || !config.contains("p2p"))
-    return fail(fmt::format("cannot read {}: there is no \"p2p\"; give {{\"p2p\": {{\"blocks\": [...]}}}} as vectors/README.md says", path));
+    return fail(
+        fmt::format("cannot read {}: there is no \"p2p\"; give {{\"p2p\": {{\"blocks\": [...]}}}} "
+                    "as vectors/README.md says",
+                    path));
   if (config.emplace("role", "client").first.value() != "client")
-    return fail(fmt::format("cannot use {}: role is {}; P2P is of role client, remove the key", path, config["role"].dump()));
+    return fail(fmt::format("cannot use {}: role is {}; P2P is of role client, remove the key",
+                            path, config["role"].dump()));
   return config;
 }
 
 HostedFactory naming_file(HostedFactory make_device, std::string path) {
-  return [make_device = std::move(make_device), path = std::move(path)](const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
+  return [make_device = std::move(make_device), path = std::move(path)](
+             const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
     Result<std::unique_ptr<EmulatedDevice>> device = make_device(config);
     if (!device) return fail(path + ": " + device.error().message);
     return device;

@@ -8,7 +8,8 @@
 
 namespace fieldproof {
 
-/// The configuration in a file, as in `given.config` (vectors/README.md); its role is client. Errors name the file.
+/// The configuration in a file, as in `given.config` (vectors/README.md); its role is client.
+/// Errors name the file.
 Result<nlohmann::json> read_p2p_file(const std::string& path);
 
 /// The same factory, whose errors name the file.

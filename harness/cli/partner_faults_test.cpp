@@ -1,4 +1,5 @@
-// The faults of a partner in every protocol that reads words: told apart by the protocol's own explanation of the frame.
+// The faults of a partner in every protocol that reads words: told apart by the protocol's own
+// explanation of the frame.
 #include <gmock/gmock.h>
 
 #include "harness/bench/partner.hpp"
@@ -45,7 +46,9 @@ TEST_P(PartnerFaults, TheRightAnswerIsRead) {
   EXPECT_EQ(*protocol().read_reply(right->bytes), "5ABC");
 }
 
-TEST_P(PartnerFaults, OfTheStationLeavesTheCheckRight) { EXPECT_EQ(seen(answer("wrong_station")->bytes), "station=03"); }
+TEST_P(PartnerFaults, OfTheStationLeavesTheCheckRight) {
+  EXPECT_EQ(seen(answer("wrong_station")->bytes), "station=03");
+}
 
 TEST_P(PartnerFaults, OfTheCheckLeavesTheRestRight) {
   EXPECT_THAT(seen(answer("wrong_check")->bytes), testing::MatchesRegex("station=02 [A-Z]+!"));
@@ -72,13 +75,19 @@ TEST_P(PartnerFaults, WhatIsNoAnswerAtAll) {
 
 TEST_P(PartnerFaults, WhatTheFramesLackIsSaid) {
   const bool binary = protocol().station_bytes(2).size() == 1;
-  for (const char* fault : {"not_hex", "wrong_head", "wrong_tail"}) EXPECT_EQ(static_cast<bool>(answer(fault)), !binary) << fault;
+  for (const char* fault : {"not_hex", "wrong_head", "wrong_tail"})
+    EXPECT_EQ(static_cast<bool>(answer(fault)), !binary) << fault;
   EXPECT_FALSE(answer("previous"));
   EXPECT_FALSE(answer("other_block"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Protocols, PartnerFaults,
-                         testing::Values(Asked{"xgt-cnet", "xbc-h", "%MW100", "\x05" "02rSS0106%MW100\x04" "A4"}, Asked{"modbus-rtu", "xbc-h", "%MW100"}, Asked{"modbus-ascii", "xbc-h", "%MW100"},
+                         testing::Values(Asked{"xgt-cnet", "xbc-h", "%MW100",
+                                               "\x05"
+                                               "02rSS0106%MW100\x04"
+                                               "A4"},
+                                         Asked{"modbus-rtu", "xbc-h", "%MW100"},
+                                         Asked{"modbus-ascii", "xbc-h", "%MW100"},
                                          Asked{"ls-bus", "inverter", "1230"}));
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Another client on the line of an emulated XGT PLC: fills its memory, and reads all of it back, without the bench. For tests.
+// Another client on the line of an emulated XGT PLC: fills its memory, and reads all of it back,
+// without the bench. For tests.
 #pragma once
 
 #include <fcntl.h>
@@ -18,7 +19,8 @@ namespace fieldproof {
 class PlcClient {
  public:
   /// The free end of the line; closed again with this object, so that the bench can have it.
-  explicit PlcClient(const std::string& port) : fd_(::open(port.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+  explicit PlcClient(const std::string& port)
+      : fd_(::open(port.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)) {
     EXPECT_GE(fd_, 0) << port;
     termios raw{};
     ::tcgetattr(fd_, &raw);
@@ -30,15 +32,21 @@ class PlcClient {
   PlcClient(const PlcClient&) = delete;
   PlcClient& operator=(const PlcClient&) = delete;
 
-  /// Every word that may be written gets a value of its own, and every second contact of T and C is on.
+  /// Every word that may be written gets a value of its own, and every second contact of T and C is
+  /// on.
   void fill(const PlcModel& model) {
     for_each_block(model, [this](const DeviceArea& area, std::uint32_t first, std::uint32_t count) {
       std::string data;
-      for (std::uint32_t word = first; word < first + count; ++word) data += fmt::format("{:04X}", (word * 7919u + static_cast<unsigned>(area.letter) * 257u + 1) & 0xFFFF);
-      EXPECT_EQ(ask(fmt::format("WSB{}{:02X}{}", name(area, 'W', first), count, data)).substr(0, 1), "\x06");
+      for (std::uint32_t word = first; word < first + count; ++word)
+        data += fmt::format(
+            "{:04X}", (word * 7919u + static_cast<unsigned>(area.letter) * 257u + 1) & 0xFFFF);
+      EXPECT_EQ(ask(fmt::format("WSB{}{:02X}{}", name(area, 'W', first), count, data)).substr(0, 1),
+                "\x06");
     });
     for_each_contact(model, [this](const DeviceArea& area, std::uint32_t contact) {
-      EXPECT_EQ(ask(fmt::format("WSS01{}{:02X}", name(area, 'X', contact), contact % 2)).substr(0, 1), "\x06");
+      EXPECT_EQ(
+          ask(fmt::format("WSS01{}{:02X}", name(area, 'X', contact), contact % 2)).substr(0, 1),
+          "\x06");
     });
   }
 
@@ -48,7 +56,9 @@ class PlcClient {
     for_each_block(model, [&](const DeviceArea& area, std::uint32_t first, std::uint32_t count) {
       all[name(area, 'W', first)] = ask(fmt::format("RSB{}{:02X}", name(area, 'W', first), count));
     });
-    for_each_contact(model, [&](const DeviceArea& area, std::uint32_t contact) { all[name(area, 'X', contact)] = ask("RSS01" + name(area, 'X', contact)); });
+    for_each_contact(model, [&](const DeviceArea& area, std::uint32_t contact) {
+      all[name(area, 'X', contact)] = ask("RSS01" + name(area, 'X', contact));
+    });
     return all;
   }
 
@@ -60,7 +70,8 @@ class PlcClient {
   static void for_each_block(const PlcModel& model, const auto& visit) {
     constexpr std::uint32_t most = 60;
     for (const DeviceArea& area : model.areas)
-      for (std::uint32_t first = 0; area.write && first < area.words; first += most) visit(area, first, std::min(most, area.words - first));
+      for (std::uint32_t first = 0; area.write && first < area.words; first += most)
+        visit(area, first, std::min(most, area.words - first));
   }
   static void for_each_contact(const PlcModel& model, const auto& visit) {
     for (const DeviceArea& area : model.areas)
@@ -69,7 +80,10 @@ class PlcClient {
 
   /// Upper-case commands need no BCC, and neither do their replies.
   std::string ask(const std::string& body) {
-    const std::string request = "\x05" "01" + body + "\x04";
+    const std::string request =
+        "\x05"
+        "01" +
+        body + "\x04";
     EXPECT_EQ(::write(fd_, request.data(), request.size()), static_cast<ssize_t>(request.size()));
     std::string reply;
     pollfd ready{fd_, POLLIN, 0};

@@ -1,4 +1,5 @@
-// What a run talks to: one port for each device, and what stands beside it: a second channel, a stimulus.
+// What a run talks to: one port for each device, and what stands beside it: a second channel, a
+// stimulus.
 #pragma once
 
 #include <memory>
@@ -21,13 +22,15 @@ class Fixtures {
   Status open_aux(const EndpointName& name, const JournalDevice& device);
 
   std::unique_ptr<Endpoint> aux_;
-  std::unique_ptr<Protocol> aux_configured_;  // as the profile declares it; nullptr: nothing to declare
+  std::unique_ptr<Protocol>
+      aux_configured_;  // as the profile declares it; nullptr: nothing to declare
   const Protocol* aux_protocol_ = nullptr;
   int aux_station_ = 1;
   std::unique_ptr<Stimulus> stimulus_;
 };
 
-/// Opens the journal of each device that may be written. The error says what an earlier run left, and what to type.
+/// Opens the journal of each device that may be written. The error says what an earlier run left,
+/// and what to type.
 Status open_journals(const RunOptions& options, RunPlan& plan);
 
 /// Opens what stands beside each device of the plan, and gives it to its bench.
@@ -36,7 +39,8 @@ Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan);
 /// One port a device; the error is that of the first that cannot be opened.
 Result<std::vector<Benches>> open_ports(const RunPlan& plan);
 
-/// Another device on the desk than the bench file has? Also looked at for a sheet to sign (`wanted`), which then shows it.
+/// Another device on the desk than the bench file has? Also looked at for a sheet to sign
+/// (`wanted`), which then shows it.
 Status take_fingerprints(RunPlan& plan, std::vector<Benches>& ports, bool wanted);
 
 }  // namespace fieldproof

@@ -13,13 +13,17 @@ class ProgressOfARun : public testing::Test {
  protected:
   ProgressOfARun() {
     std::vector<nlohmann::ordered_json> vectors = many_vectors(60);
-    vectors.push_back(small_vector("many/m_wrong", wrong_word));  // in the middle of neither: the first by its id
-    arguments_ = {"run", "--endpoint", "emulator:xbc-h", "--vectors", write_vectors(folder_, vectors), "--out", folder_ / "out"};
+    vectors.push_back(
+        small_vector("many/m_wrong", wrong_word));  // in the middle of neither: the first by its id
+    arguments_ = {
+        "run",   "--endpoint",   "emulator:xbc-h", "--vectors", write_vectors(folder_, vectors),
+        "--out", folder_ / "out"};
   }
 
   /// `script` runs a command behind a pty of its own, `columns` wide.
   Finished on_a_terminal(int columns) {
-    std::string command = "stty cols " + std::to_string(columns) + " && exec " + quoted(FIELDPROOF_TOOL);
+    std::string command =
+        "stty cols " + std::to_string(columns) + " && exec " + quoted(FIELDPROOF_TOOL);
     for (const std::string& one : arguments_) command += ' ' + quoted(one);
     return run_program({"script", "--quiet", "--return", "--command", command, "/dev/null"});
   }
@@ -28,7 +32,8 @@ class ProgressOfARun : public testing::Test {
   std::vector<std::string> arguments_;
 };
 
-/// What stands on the screen in the end: a carriage return goes back to the first column, ESC [ K erases from there.
+/// What stands on the screen in the end: a carriage return goes back to the first column, ESC [ K
+/// erases from there.
 std::vector<std::string> screen(const std::string& output) {
   std::vector<std::string> lines{""};
   std::size_t column = 0;
@@ -54,7 +59,8 @@ std::vector<std::string> screen(const std::string& output) {
 std::vector<std::string> drawn(const std::string& output) {
   const std::string erase = "\r\x1b[K[";
   std::vector<std::string> lines;
-  for (std::size_t at = output.find(erase); at != std::string::npos; at = output.find(erase, at + 1)) {
+  for (std::size_t at = output.find(erase); at != std::string::npos;
+       at = output.find(erase, at + 1)) {
     const std::size_t start = at + erase.size() - 1;
     lines.push_back(output.substr(start, output.find_first_of("\r\n\x1b", start) - start));
   }

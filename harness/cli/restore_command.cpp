@@ -1,6 +1,6 @@
 // Puts back what an interrupted run left behind: all that is open in its journal, the latest first.
-#include <filesystem>
 #include <fmt/format.h>
+#include <filesystem>
 
 #include "harness/bench/exchange.hpp"
 #include "harness/bench/saved_memory.hpp"
@@ -29,40 +29,55 @@ Result<Connection> connect(const JournalDevice& device, const std::string& endpo
   name->options["protocol"] = device.protocol;
   const Result<const Protocol*> protocol = choose_protocol(device.protocol, device.model);
   if (!protocol) return protocol.error();
-  Result<std::unique_ptr<Protocol>> configured = (*protocol)->configured(device.model, device.config);
+  Result<std::unique_ptr<Protocol>> configured =
+      (*protocol)->configured(device.model, device.config);
   if (!configured) return configured.error();
   connection.configured = std::move(*configured);
   const Protocol& declared = connection.configured ? *connection.configured : **protocol;
   Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(*name);
   if (!endpoint) return endpoint.error();
   connection.endpoint = std::move(*endpoint);
-  if (Status begun = connection.endpoint->begin({{"station", device.station}, {"model", device.model}}); !begun) return begun.error();
+  if (Status begun =
+          connection.endpoint->begin({{"station", device.station}, {"model", device.model}});
+      !begun)
+    return begun.error();
   Exchange exchange(*connection.endpoint, declared, {});
   const Result<bool> alive = exchange.anything_answers(device.station, start_patience);
   if (!alive) return alive.error();
-  if (!*alive) return fail(fmt::format("nothing answers on {} at station {}: check power, wiring and line settings", endpoint_text, device.station));
-  connection.memory = std::make_unique<SavedMemory>(*connection.endpoint, declared, response_max, device, nullptr);
+  if (!*alive)
+    return fail(
+        fmt::format("nothing answers on {} at station {}: check power, wiring and line settings",
+                    endpoint_text, device.station));
+  connection.memory =
+      std::make_unique<SavedMemory>(*connection.endpoint, declared, response_max, device, nullptr);
   return connection;
 }
 
 class Restoration {
  public:
-  Restoration(Journal& journal, std::string endpoint) : journal_(journal), endpoint_(std::move(endpoint)) {}
+  Restoration(Journal& journal, std::string endpoint)
+      : journal_(journal), endpoint_(std::move(endpoint)) {}
 
   /// All that is open, the latest first; false where something could not be put back.
   bool run() {
     const std::vector<OpenEntry> entries = journal_.open_entries();
     for (auto one = entries.rbegin(); one != entries.rend(); ++one) {
       const Status done = put_back(*one);
-      if (done) fmt::print("restored      {} = {} on {}\n", one->address, one->value, endpoint_of(one->device));
-      else fmt::print("NOT RESTORED  {} = {} on {}: {}\n", one->address, one->value, endpoint_of(one->device), done.error().message);
+      if (done)
+        fmt::print("restored      {} = {} on {}\n", one->address, one->value,
+                   endpoint_of(one->device));
+      else
+        fmt::print("NOT RESTORED  {} = {} on {}: {}\n", one->address, one->value,
+                   endpoint_of(one->device), done.error().message);
       all_ = all_ && done;
     }
     return all_;
   }
 
  private:
-  const std::string& endpoint_of(const JournalDevice& device) const { return endpoint_.empty() ? device.endpoint : endpoint_; }
+  const std::string& endpoint_of(const JournalDevice& device) const {
+    return endpoint_.empty() ? device.endpoint : endpoint_;
+  }
 
   Status put_back(const OpenEntry& entry) {
     if (!connection_ || connection_->device != entry.device) {
@@ -90,7 +105,9 @@ class Restoration {
 
 int restore_command(const RestoreOptions& options) {
   if (!std::filesystem::exists(options.journal))
-    return complain(fmt::format("cannot read journal {}: there is no such file; a run keeps it in its folder of reports, as journal.ndjson", options.journal),
+    return complain(fmt::format("cannot read journal {}: there is no such file; a run keeps it in "
+                                "its folder of reports, as journal.ndjson",
+                                options.journal),
                     exit_code::usage);
   Result<Journal> journal = Journal::open(options.journal);
   if (!journal) return complain(journal.error().message, exit_code::usage);
@@ -101,8 +118,11 @@ int restore_command(const RestoreOptions& options) {
   catch_interrupts();
   if (Restoration(*journal, options.endpoint).run()) return exit_code::ok;
   if (interrupted()) return exit_code::interrupted;
-  return complain(fmt::format("not all is as it was; correct what is said above and type again: fieldproof restore {}", shell_word(options.journal)),
-                  exit_code::trouble);
+  return complain(
+      fmt::format(
+          "not all is as it was; correct what is said above and type again: fieldproof restore {}",
+          shell_word(options.journal)),
+      exit_code::trouble);
 }
 
 }  // namespace fieldproof

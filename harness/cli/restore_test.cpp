@@ -1,5 +1,6 @@
-// What a run writes on a device is put back: after each case, and by `fieldproof restore` after a run that was killed.
-// The device is the emulator in a process of its own behind two ptys, so it survives the run.
+// What a run writes on a device is put back: after each case, and by `fieldproof restore` after a
+// run that was killed. The device is the emulator in a process of its own behind two ptys, so it
+// survives the run.
 #include <gmock/gmock.h>
 
 #include "harness/cli/plc_client.hpp"
@@ -23,9 +24,12 @@ class Restore : public testing::Test {
     before_ = client.read(xbc());
   }
 
-  /// The adapter: a pty for the bench, joined to that of the device. The device keeps its memory without it.
+  /// The adapter: a pty for the bench, joined to that of the device. The device keeps its memory
+  /// without it.
   void plug_in() {
-    adapter_ = std::make_unique<Process>(std::vector<std::string>{"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"), "file:" + (folder_ / "device") + ",raw,echo=0"});
+    adapter_ = std::make_unique<Process>(
+        std::vector<std::string>{"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"),
+                                 "file:" + (folder_ / "device") + ",raw,echo=0"});
     EXPECT_TRUE(adapter_->wait_for("starting data transfer loop"));
   }
 
@@ -33,7 +37,8 @@ class Restore : public testing::Test {
   std::string endpoint() const { return "serial:" + (folder_ / "bench"); }
   std::string journal() const { return folder_ / "out/journal.ndjson"; }
   std::vector<std::string> run_arguments(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"run", "--endpoint", endpoint(), "--profile", "xbc-h", "--out", folder_ / "out"};
+    std::vector<std::string> arguments{"run",   "--endpoint", endpoint(),     "--profile",
+                                       "xbc-h", "--out",      folder_ / "out"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
@@ -49,8 +54,11 @@ class Restore : public testing::Test {
     std::filesystem::remove_all(folder_ / "out");
     std::filesystem::create_directories(folder_ / "out");
     const FileWatch journal_watch(journal());
-    auto run = std::make_unique<Process>(tool_arguments(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*:xgt_cnet/data_types/*"})));
-    EXPECT_TRUE(journal_watch.wait_until([&](const std::string& text) { return std::count(text.begin(), text.end(), '\n') >= lines; })) << lines;
+    auto run = std::make_unique<Process>(tool_arguments(run_arguments(
+        {"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*:xgt_cnet/data_types/*"})));
+    EXPECT_TRUE(journal_watch.wait_until([&](const std::string& text) {
+      return std::count(text.begin(), text.end(), '\n') >= lines;
+    })) << lines;
     return run;
   }
   /// All is as before; was there anything to put back?
@@ -78,18 +86,23 @@ class Restore : public testing::Test {
 };
 
 TEST_F(Restore, ARunInAFewWordsLeavesTheMemoryAsItWas) {
-  const Finished run = run_tool(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*:xgt_cnet/errors/*:xgt_cnet/monitor_*"}));
+  const Finished run =
+      run_tool(run_arguments({"--allow-write", "M100-M119", "--filter",
+                              "xgt_cnet/w*:xgt_cnet/errors/*:xgt_cnet/monitor_*"}));
   EXPECT_EQ(run.code, 0) << run.out << run.err;
   expect_as_before();
   const Results results = read_results(folder_ / "out/results.ndjson");
   const auto moved = std::ranges::count_if(results.cases, [](const nlohmann::json& one) {
-    return one.at("verdict") == "PASS" && one.value("notes", nlohmann::json()).dump().find("transposed: %") != std::string::npos;
+    return one.at("verdict") == "PASS" &&
+           one.value("notes", nlohmann::json()).dump().find("transposed: %") != std::string::npos;
   });
   EXPECT_GT(moved, 200) << "cases that had to be moved into M100-M119";
 }
 
 TEST_F(Restore, ARunThatMayWriteEverythingDoesToo) {
-  const Finished run = run_tool(run_arguments({"--allow-write", "all,P,Q,U", "--filter", "xgt_cnet/areas/*:xgt_cnet/w*:xgt_cnet/data_types/*"}));
+  const Finished run =
+      run_tool(run_arguments({"--allow-write", "all,P,Q,U", "--filter",
+                              "xgt_cnet/areas/*:xgt_cnet/w*:xgt_cnet/data_types/*"}));
   EXPECT_EQ(run.code, 0) << run.out << run.err;
   expect_as_before();
 }
@@ -135,18 +148,21 @@ TEST_F(Restore, AfterTheDeviceFellSilentRestorePutsBack) {
 
 /// Cut off in the middle of a case, with a line that the disk has not got whole.
 TEST_F(Restore, ARunDoesNotWriteOverWhatIsOpen) {
-  const std::string entry = R"({"saved":{"address":"%MW100","config":{},"endpoint":")" + endpoint() +
-                            R"(","model":"xbc-h","number":1,"protocol":"xgt-cnet","station":1,"value":"1234"}})";
+  const std::string entry =
+      R"({"saved":{"address":"%MW100","config":{},"endpoint":")" + endpoint() +
+      R"(","model":"xbc-h","number":1,"protocol":"xgt-cnet","station":1,"value":"1234"}})";
   folder_.write("out/journal.ndjson", entry + "\n" + entry.substr(0, 40));
   const std::vector<std::string> writes = {"--allow-write", "M100", "--filter", "xgt_cnet/wss/*"};
   const Finished refused = run_tool(run_arguments(writes));
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.err, HasSubstr("type: fieldproof restore " + journal()));
-  EXPECT_NE(run_tool(run_arguments({"--filter", "xgt_cnet/rss/*"})).code, 2) << "who writes nothing may read";
+  EXPECT_NE(run_tool(run_arguments({"--filter", "xgt_cnet/rss/*"})).code, 2)
+      << "who writes nothing may read";
   const Finished restored = run_tool({"restore", journal()});
   EXPECT_EQ(restored.code, 0) << restored.err;
   EXPECT_THAT(restored.out, HasSubstr("restored      %MW100 = 1234 on " + endpoint()));
-  EXPECT_THAT(memory().at("05%MW60"), testing::Ne(before_.at("05%MW60"))) << "it wrote what the journal says";
+  EXPECT_THAT(memory().at("05%MW60"), testing::Ne(before_.at("05%MW60")))
+      << "it wrote what the journal says";
 
   folder_.write("out/journal.ndjson", entry + "\n");
   std::vector<std::string> discards = writes;
@@ -155,13 +171,15 @@ TEST_F(Restore, ARunDoesNotWriteOverWhatIsOpen) {
 }
 
 TEST_F(Restore, WhatDoesNotAnswerStaysOpen) {
-  const std::string entry = R"({"saved":{"address":"%MW100","config":{},"endpoint":"serial:/no/such/port","model":"xbc-h","number":1,)"
-                            R"("protocol":"xgt-cnet","station":1,"value":"1234"}})";
+  const std::string entry =
+      R"({"saved":{"address":"%MW100","config":{},"endpoint":"serial:/no/such/port","model":"xbc-h","number":1,)"
+      R"("protocol":"xgt-cnet","station":1,"value":"1234"}})";
   folder_.write("out/journal.ndjson", entry + "\n");
   const Finished gone = run_tool({"restore", journal()});
   EXPECT_EQ(gone.code, 3);
   EXPECT_THAT(gone.out, HasSubstr("NOT RESTORED  %MW100 = 1234"));
-  EXPECT_EQ(run_tool({"restore", journal(), "--endpoint", endpoint()}).code, 0) << "the device hangs on another port now";
+  EXPECT_EQ(run_tool({"restore", journal(), "--endpoint", endpoint()}).code, 0)
+      << "the device hangs on another port now";
   EXPECT_EQ(run_tool({"restore", folder_ / "none.ndjson"}).code, 2);
 }
 

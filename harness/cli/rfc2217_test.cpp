@@ -18,14 +18,16 @@ using testing::HasSubstr;
 class RemotePort : public testing::Test {
  protected:
   RemotePort()
-      : socat_({"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"), "pty,raw,echo=0,link=" + (folder_ / "device")}) {
+      : socat_({"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"),
+                "pty,raw,echo=0,link=" + (folder_ / "device")}) {
     EXPECT_TRUE(socat_.wait_for("starting data transfer loop"));
     server_ = std::make_unique<Ser2net>(folder_ / "bench");
   }
 
   std::string endpoint() const { return "rfc2217:" + server_->where() + "?baud=115200"; }
   static std::vector<std::string> arguments(const std::string& endpoint, const std::string& out) {
-    return {"run", "--endpoint", endpoint, "--profile", "xbc-h", "--allow-write", "all,P,Q,U", "--out", out};
+    return {"run",           "--endpoint", endpoint, "--profile", "xbc-h",
+            "--allow-write", "all,P,Q,U",  "--out",  out};
   }
   Results run(const std::string& endpoint, const std::string& filter) {
     std::vector<std::string> all = arguments(endpoint, folder_ / "out");
@@ -36,13 +38,15 @@ class RemotePort : public testing::Test {
     return read_results(folder_ / "out/results.ndjson");
   }
 
-  /// testdata/device.py answers `until` requests, then tells and is silent: the bench is in the middle of something.
+  /// testdata/device.py answers `until` requests, then tells and is silent: the bench is in the
+  /// middle of something.
   std::unique_ptr<Process> device_that_tells(int until) {
     const std::string path = folder_ / "told";
     EXPECT_EQ(::mkfifo(path.c_str(), 0600), 0);
     told_.reset(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
-    return std::make_unique<Process>(std::vector<std::string>{"/usr/bin/python3", FIELDPROOF_SOURCE_DIR "/harness/cli/testdata/device.py", "tell",
-                                                              folder_ / "device", path, std::to_string(until)});
+    return std::make_unique<Process>(std::vector<std::string>{
+        "/usr/bin/python3", FIELDPROOF_SOURCE_DIR "/harness/cli/testdata/device.py", "tell",
+        folder_ / "device", path, std::to_string(until)});
   }
   bool told() const {
     pollfd one{told_.get(), POLLIN, 0};
@@ -85,8 +89,10 @@ TEST_F(RemotePort, a_server_killed_in_the_middle_is_trouble_with_reports) {
   const Results results = read_results(folder_ / "out/results.ndjson");
   EXPECT_EQ(results.counts().at("ERROR"), 1u);
   EXPECT_GE(results.counts().at("PASS"), 1u);
-  EXPECT_EQ(results.counts().at("PASS") + 1 + results.counts().at("BLOCKED"), 200u) << "the rest cannot be judged";
-  EXPECT_THAT(finished.out, AllOf(HasSubstr(server_->where()), HasSubstr("see that the device or serial server still runs")));
+  EXPECT_EQ(results.counts().at("PASS") + 1 + results.counts().at("BLOCKED"), 200u)
+      << "the rest cannot be judged";
+  EXPECT_THAT(finished.out, AllOf(HasSubstr(server_->where()),
+                                  HasSubstr("see that the device or serial server still runs")));
   expect_reports(folder_ / "out");
 }
 
@@ -95,7 +101,9 @@ TEST_F(RemotePort, a_server_that_is_not_there_is_trouble) {
   server_.reset();
   const Finished finished = run_tool(arguments("rfc2217:" + where, folder_ / "out"));
   EXPECT_EQ(finished.code, 3);
-  EXPECT_THAT(finished.err, AllOf(HasSubstr(where), HasSubstr("nothing listens there; start the device or serial server")));
+  EXPECT_THAT(finished.err,
+              AllOf(HasSubstr(where),
+                    HasSubstr("nothing listens there; start the device or serial server")));
 }
 
 /// The first one waits for a device that never answers.
@@ -106,7 +114,9 @@ TEST_F(RemotePort, a_second_user_is_told_of_the_first) {
   ASSERT_TRUE(told());
   const Finished second = run_tool(arguments("serial:" + (folder_ / "bench"), folder_ / "second"));
   EXPECT_EQ(second.code, 3);
-  EXPECT_THAT(second.err, AllOf(HasSubstr("cannot open " + (folder_ / "bench") + ": the port is in use by process "), HasSubstr(" (fieldproof) since 20"),
+  EXPECT_THAT(second.err, AllOf(HasSubstr("cannot open " + (folder_ / "bench") +
+                                          ": the port is in use by process "),
+                                HasSubstr(" (fieldproof) since 20"),
                                 HasSubstr("end that process or choose another port")));
   // Killed, it leaves its lock: the next user takes it over and says so.
   first.signal(SIGKILL);

@@ -1,9 +1,9 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <chrono>
 #include <deque>
 #include <filesystem>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <optional>
 #include <set>
 
@@ -33,11 +33,17 @@ class Run {
  public:
   /// One of `ports` for each device of the plan.
   Run(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, RunReport& report)
-      : options_(options), plan_(plan), ports_(ports), benches_(ports.front()), report_(report), lines_(plan, ports.front(), options.reconfigure) {}
+      : options_(options),
+        plan_(plan),
+        ports_(ports),
+        benches_(ports.front()),
+        report_(report),
+        lines_(plan, ports.front(), options.reconfigure) {}
 
   RunInfo info() const { return run_info(options_, plan_, ports_, floors_); }
 
-  /// Sanity exchange and floor of each device, which the head of the reports tells of; an error: nothing can run.
+  /// Sanity exchange and floor of each device, which the head of the reports tells of; an error:
+  /// nothing can run.
   Status start() {
     if (const Status measured = measure_over_loop(); !measured) return measured;
     if (!plan_.matrix.empty()) return ok();  // at each step
@@ -56,15 +62,20 @@ class Run {
     started_ = std::chrono::steady_clock::now();
     if (started && !plan_.others.empty()) return share_out();
     if (started) {
-      run_with_gtest(plan_.selected, runner_options(), [this](const Case& source, int round) { return run_case(source, round); });
+      run_with_gtest(plan_.selected, runner_options(),
+                     [this](const Case& source, int round) { return run_case(source, round); });
       if (soak_ && report_.tally().total() > 0) report_.add(soak_->summary(seconds()));
-      // Whoever vanished is trouble, whatever the verdict of the case in which it did. Steps of a matrix are BLOCKED.
-      if (plan_.matrix.empty() && !interrupted() && end_.trouble.empty()) end_.trouble = benches_.stopped();
+      // Whoever vanished is trouble, whatever the verdict of the case in which it did. Steps of a
+      // matrix are BLOCKED.
+      if (plan_.matrix.empty() && !interrupted() && end_.trouble.empty())
+        end_.trouble = benches_.stopped();
       // The last sanity exchange: whatever the cases left behind, the device still answers.
       if (!interrupted() && lines_.live())
-        if (const Status still = benches_.start(); !still && !still.error().interrupted) end_.trouble = "after the last case: " + still.error().message;
+        if (const Status still = benches_.start(); !still && !still.error().interrupted)
+          end_.trouble = "after the last case: " + still.error().message;
       // Waivers that the whole run has shown to be needless turn the gate red.
-      for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors))) report_.add(result);
+      for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors)))
+        report_.add(result);
     } else if (started.error().interrupted) {
       end_.interrupted = true;
     } else {
@@ -75,17 +86,22 @@ class Run {
   }
 
  private:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  }
 
   /// With --loop: the floor of that link, for this one.
   Status measure_over_loop() {
     if (!plan_.loop) return ok();
     Result<Benches> loop = Benches::open(*plan_.loop, {plan_.protocols.front()}, plan_.bench);
     if (!loop) return fail("--loop: " + loop.error().message);
-    if (const Status alive = loop->start(); !alive) return Error{"--loop: " + alive.error().message, alive.error().interrupted};
+    if (const Status alive = loop->start(); !alive)
+      return Error{"--loop: " + alive.error().message, alive.error().interrupted};
     Result<std::optional<AdapterFloor>> measured = loop->measured_floor();
     if (!measured) return measured.error();
-    if (!*measured) return fail("--loop: simulated time has no floor; name a link on real time, such as pty:xbc-h");
+    if (!*measured)
+      return fail(
+          "--loop: simulated time has no floor; name a link on real time, such as pty:xbc-h");
     plan_.floor = std::move(**measured);
     plan_.floor->source = AdapterFloor::Source::loop;
     return ok();
@@ -99,17 +115,27 @@ class Run {
   /// How many results there will be; of a soak, at the speed so far.
   std::size_t expected_results() const {
     const std::size_t done = report_.tally().total();
-    if (plan_.soak > 0ns) return done + static_cast<std::size_t>(static_cast<double>(done) * std::max(0.0, std::chrono::duration<double>(plan_.soak).count() / std::max(seconds(), 0.001) - 1));
-    return plan_.selected.size() * static_cast<std::size_t>(options_.repeat) * std::max<std::size_t>(1, plan_.matrix.size());
+    if (plan_.soak > 0ns)
+      return done + static_cast<std::size_t>(
+                        static_cast<double>(done) *
+                        std::max(0.0, std::chrono::duration<double>(plan_.soak).count() /
+                                              std::max(seconds(), 0.001) -
+                                          1));
+    return plan_.selected.size() * static_cast<std::size_t>(options_.repeat) *
+           std::max<std::size_t>(1, plan_.matrix.size());
   }
 
   /// The step of the line matrix to which this round belongs. False: stop here.
   bool enter_step(std::size_t step) {
     if (lines_.current() == step) return true;
-    const Status entered = lines_.enter(step, [this](Benches& benches) { return take_floor(benches); });
-    if (!entered && entered.error().interrupted) end_.interrupted = true;
-    else if (!entered) end_.trouble = entered.error().message;
-    else report_.say(lines_.remark());
+    const Status entered =
+        lines_.enter(step, [this](Benches& benches) { return take_floor(benches); });
+    if (!entered && entered.error().interrupted)
+      end_.interrupted = true;
+    else if (!entered)
+      end_.trouble = entered.error().message;
+    else
+      report_.say(lines_.remark());
     return bool(entered);
   }
 
@@ -128,10 +154,12 @@ class Run {
 
   RunnerOptions runner_options() const {
     const int steps = std::max<int>(1, static_cast<int>(plan_.matrix.size()));
-    return {plan_.soak > 0ns ? -1 : options_.repeat * steps, options_.seed >= 0, std::max(0, options_.seed), options_.gtest_arguments};
+    return {plan_.soak > 0ns ? -1 : options_.repeat * steps, options_.seed >= 0,
+            std::max(0, options_.seed), options_.gtest_arguments};
   }
 
-  /// The same on several ports at once. GoogleTest settles which cases, and in which order they are taken.
+  /// The same on several ports at once. GoogleTest settles which cases, and in which order they are
+  /// taken.
   RunReport::End share_out() {
     std::deque<SharedRun::Task> tasks;
     run_with_gtest(plan_.selected, runner_options(), [&](const Case& source, int repeat) {
@@ -140,14 +168,18 @@ class Run {
     });
     const std::size_t total = tasks.size();
     std::vector<SharedRun::Port> ports;
-    for (std::size_t i = 0; i < ports_.size(); ++i) ports.push_back({plan_.dut(i).identity.name, &ports_[i], unable_[i]});
-    SharedRun shared(std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
-      report_.show_progress(total, source.id);
-      waivers_.apply(result);
-      return report_.add(result) && !(options_.fail_fast && gates(result.verdict, report_.gate()));
-    });
+    for (std::size_t i = 0; i < ports_.size(); ++i)
+      ports.push_back({plan_.dut(i).identity.name, &ports_[i], unable_[i]});
+    SharedRun shared(std::move(ports), std::move(tasks),
+                     [&](const Case& source, CaseResult result) {
+                       report_.show_progress(total, source.id);
+                       waivers_.apply(result);
+                       return report_.add(result) &&
+                              !(options_.fail_fast && gates(result.verdict, report_.gate()));
+                     });
     shared.execute();
-    for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors))) report_.add(result);
+    for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors)))
+      report_.add(result);
     end_.interrupted = shared.interrupted();
     end_.trouble = fmt::format("{}", fmt::join(shared.troubles(), "; "));
     put_back();
@@ -172,10 +204,12 @@ class Run {
       end_.interrupted = true;  // the case was not finished: it has no result
       return false;
     }
-    if (hung) result.message = "the bench hung in this case for more than a minute; " + result.message;
+    if (hung)
+      result.message = "the bench hung in this case for more than a minute; " + result.message;
     waivers_.apply(result);
     result.repeat = soak ? round : round % options_.repeat;
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     const bool stop_here = hung || (options_.fail_fast && gates(result.verdict, report_.gate()));
     return (soak ? add_to_soak(result) : report_.add(result)) && !stop_here;
   }
@@ -185,7 +219,9 @@ class Run {
     if (end_.interrupted) clear_interrupt();
     for (std::size_t i = 0; i < ports_.size(); ++i)
       if (const std::string open = ports_[i].put_back(); !open.empty())
-        end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}", end_.not_restored.empty() ? "" : "\n", open, shell_word(plan_.dut(i).journal));
+        end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}",
+                                         end_.not_restored.empty() ? "" : "\n", open,
+                                         shell_word(plan_.dut(i).journal));
   }
 
   const RunOptions& options_;
@@ -205,18 +241,21 @@ class Run {
 
 int dry_run(const RunPlan& plan) {
   for (const Case* one : plan.selected) fmt::print("{:<58} {}\n", one->id, one->title);
-  fmt::print("{} cases would run on {}:{}\n", plan.selected.size(), plan.endpoint.kind, plan.endpoint.target);
+  fmt::print("{} cases would run on {}:{}\n", plan.selected.size(), plan.endpoint.kind,
+             plan.endpoint.target);
   return exit_code::ok;
 }
 
-/// The results of this run against those of an earlier one, as far as it has the selected cases; was anything better then?
+/// The results of this run against those of an earlier one, as far as it has the selected cases;
+/// was anything better then?
 bool worse_than(const RunSummary& baseline, const RunOptions& options, RunReport& report) {
   const Result<ResultFile> now = read_result_file(report.paths().front().second);
   if (!now) return complain(now.error().message, 0), false;
   const ComparisonSet set({baseline, summarize(*now)});
   const std::filesystem::path out = options.out;
   const std::string html = (out / "compare.html").string(), junit = (out / "compare.xml").string();
-  if (const Status reported = report_comparison(set, html, junit); !reported) complain(reported.error().message, 0);
+  if (const Status reported = report_comparison(set, html, junit); !reported)
+    complain(reported.error().message, 0);
   report.add_path("compare", html);
   report.add_path("compare", junit);
   return set.worse();
@@ -233,16 +272,21 @@ Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const
   return std::optional(summarize(*file));
 }
 
-int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports, const std::optional<RunSummary>& baseline) {
-  Result<ReportPaths> paths = make_report_paths(options.out, options.json, options.junit, options.html);
+int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports,
+            const std::optional<RunSummary>& baseline) {
+  Result<ReportPaths> paths =
+      make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return complain(paths.error().message, exit_code::trouble);
   if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
-  Result<RunReport> report = RunReport::create(std::move(*paths), console_options(gate_of(options), options.verbose));
+  Result<RunReport> report =
+      RunReport::create(std::move(*paths), console_options(gate_of(options), options.verbose));
   if (!report) return complain(report.error().message, exit_code::trouble);
-  const Status same_devices = plan.matrix.empty() ? take_fingerprints(plan, ports, options.qualify) : ok();
+  const Status same_devices =
+      plan.matrix.empty() ? take_fingerprints(plan, ports, options.qualify) : ok();
   Run run(options, plan, ports, *report);
   const Status started = same_devices ? run.start() : same_devices;
-  if (const Status begun = report->begin(run.info()); !begun) return complain(begun.error().message, exit_code::trouble);
+  if (const Status begun = report->begin(run.info()); !begun)
+    return complain(begun.error().message, exit_code::trouble);
   RunReport::End end = run.execute(started);
   if (baseline) end.worse = worse_than(*baseline, options, *report);
   return report->finish(end);
@@ -251,7 +295,8 @@ int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& port
 }  // namespace
 
 std::string shell_word(const std::string& word) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -267,13 +312,20 @@ int run_command(const RunOptions& options) {
   Result<RunPlan> plan = make_run_plan(options);
   if (!plan) return complain(plan.error().message, exit_code::usage);
   if (plan->selected.empty())
-    return complain(fmt::format("no case{} matches --filter '{}'; `fieldproof list` shows them all", options.role.empty() ? "" : " of --role " + options.role, options.filter), exit_code::nothing);
+    return complain(
+        fmt::format("no case{} matches --filter '{}'; `fieldproof list` shows them all",
+                    options.role.empty() ? "" : " of --role " + options.role, options.filter),
+        exit_code::nothing);
   if (options.dry_run) return dry_run(*plan);
   const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
   if (!baseline) return complain(baseline.error().message, exit_code::usage);
   catch_interrupts();
-  const auto trouble = [&](const Error& error) { return complain(error.message, options.skip_absent && error.absent ? exit_code::absent : exit_code::trouble); };
-  if (const Status opened = open_journals(options, *plan); !opened) return complain(opened.error().message, exit_code::usage);
+  const auto trouble = [&](const Error& error) {
+    return complain(error.message,
+                    options.skip_absent && error.absent ? exit_code::absent : exit_code::trouble);
+  };
+  if (const Status opened = open_journals(options, *plan); !opened)
+    return complain(opened.error().message, exit_code::usage);
   const Result<std::vector<Fixtures>> fixtures = open_fixtures(*plan);
   if (!fixtures) return trouble(fixtures.error());
   Result<std::vector<Benches>> ports = open_ports(*plan);
@@ -282,13 +334,20 @@ int run_command(const RunOptions& options) {
 }
 
 int report_command(const ReportOptions& options) {
-  ReportPaths reports{{"junit", options.junit}, {"json", options.json}, {"html", options.html}, {"capture", options.capture}};
+  ReportPaths reports{{"junit", options.junit},
+                      {"json", options.json},
+                      {"html", options.html},
+                      {"capture", options.capture}};
   std::erase_if(reports, [](const auto& one) { return one.second.empty(); });
-  if (reports.empty()) return complain("nothing to write; give --junit FILE, --json FILE, --html FILE, --capture FILE or several", exit_code::usage);
+  if (reports.empty())
+    return complain(
+        "nothing to write; give --junit FILE, --json FILE, --html FILE, --capture FILE or several",
+        exit_code::usage);
   const Result<RunLog> log = read_ndjson(options.ndjson, [](const CaseResult&) {});
   if (!log) return complain(log.error().message, exit_code::usage);
   const auto gate = log->run.properties.find("gate");
-  return derive_reports(options.ndjson, reports, gate == log->run.properties.end() ? Gate{} : parse_gate(gate->second));
+  return derive_reports(options.ndjson, reports,
+                        gate == log->run.properties.end() ? Gate{} : parse_gate(gate->second));
 }
 
 }  // namespace fieldproof

@@ -1,7 +1,7 @@
 #include "harness/cli/run_info.hpp"
 
-#include <cstdint>
 #include <fmt/format.h>
+#include <cstdint>
 #include <set>
 
 #include "harness/cli/timestamp.hpp"
@@ -14,10 +14,12 @@ namespace fieldproof {
 namespace {
 
 /// What the devices have in common stays in `info`, each has an entry of its own.
-void name_devices(const RunPlan& plan, const std::vector<Benches>& ports, const std::vector<std::string>& floors, RunInfo& info) {
+void name_devices(const RunPlan& plan, const std::vector<Benches>& ports,
+                  const std::vector<std::string>& floors, RunInfo& info) {
   for (std::size_t i = 0; i < ports.size(); ++i) {
     const DutPlan& own = plan.dut(i);
-    DutInfo one{ports[i].describe(), {{"station", std::to_string(own.bench.station)}}, own.identity};
+    DutInfo one{
+        ports[i].describe(), {{"station", std::to_string(own.bench.station)}}, own.identity};
     if (!own.line.empty()) one.properties["line"] = own.line;
     if (i < floors.size() && !floors[i].empty()) one.properties["floor"] = floors[i];
     info.duts.push_back(std::move(one));
@@ -50,9 +52,12 @@ std::vector<ErratumInfo> errata(const RunPlan& plan) {
 
 }  // namespace
 
-Gate gate_of(const RunOptions& options) { return {options.strict, options.fail_on_marginal, options.qualify}; }
+Gate gate_of(const RunOptions& options) {
+  return {options.strict, options.fail_on_marginal, options.qualify};
+}
 
-RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vector<Benches>& ports, const std::vector<std::string>& floors) {
+RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vector<Benches>& ports,
+                 const std::vector<std::string>& floors) {
   RunInfo info;
   info.tool_version = FIELDPROOF_VERSION;
   info.started = timestamp();
@@ -63,7 +68,8 @@ RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vect
   info.properties["gate"] = to_string(gate_of(options));
   info.properties["station"] = std::to_string(plan.bench.station);
   info.properties["protocol"] = ports.front().protocol_names();
-  if (!plan.bench.profile.notes.empty()) info.properties["profile_notes"] = plan.bench.profile.notes;
+  if (!plan.bench.profile.notes.empty())
+    info.properties["profile_notes"] = plan.bench.profile.notes;
   if (!plan.bench.profile.title.empty()) info.properties["device"] = plan.bench.profile.title;
   if (options.seed >= 0) info.properties["seed"] = std::to_string(options.seed);
   if (options.repeat > 1) info.properties["repeat"] = std::to_string(options.repeat);

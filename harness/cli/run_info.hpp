@@ -14,6 +14,7 @@ namespace fieldproof {
 Gate gate_of(const RunOptions& options);
 
 /// `floors`: what the link of each port can show, in words; empty before it is measured.
-RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vector<Benches>& ports, const std::vector<std::string>& floors);
+RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vector<Benches>& ports,
+                 const std::vector<std::string>& floors);
 
 }  // namespace fieldproof

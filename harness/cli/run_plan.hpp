@@ -19,22 +19,23 @@ struct DutPlan {
   EndpointName endpoint;
   std::vector<const Protocol*> protocols;  // what the endpoint speaks, at least one
   BenchOptions bench;
-  std::string stimulus;                    // as --stimulus takes it
+  std::string stimulus;  // as --stimulus takes it
   std::optional<EndpointName> aux;
-  Identity identity;                       // of the bench file's device
-  std::string line;                        // as the bench file declares it
-  std::string journal;                     // of a real device that may be written; empty: none
+  Identity identity;    // of the bench file's device
+  std::string line;     // as the bench file declares it
+  std::string journal;  // of a real device that may be written; empty: none
 };
 
 struct RunPlan : DutPlan {
-  std::vector<DutPlan> others;             // further devices, of the same profile and protocols: all share the cases
+  std::vector<DutPlan>
+      others;  // further devices, of the same profile and protocols: all share the cases
   std::vector<Waiver> waivers;
   VectorSet vectors;
-  std::vector<const Case*> selected;       // into `vectors`
-  std::vector<LineSettings> matrix;        // --matrix: steps of the line; empty: there is none
-  std::optional<AdapterFloor> floor;       // --floor
-  std::optional<EndpointName> loop;        // --loop: where an emulator answers over the same kind of link
-  Duration soak{};                         // --duration; 0: no soak
+  std::vector<const Case*> selected;  // into `vectors`
+  std::vector<LineSettings> matrix;   // --matrix: steps of the line; empty: there is none
+  std::optional<AdapterFloor> floor;  // --floor
+  std::optional<EndpointName> loop;  // --loop: where an emulator answers over the same kind of link
+  Duration soak{};                   // --duration; 0: no soak
   std::map<std::string, std::string> hashes;  // with --qualify: SHA-256 of tool, vectors, profile
 
   /// By the number of its port: this one, then `others`.

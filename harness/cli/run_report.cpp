@@ -1,12 +1,12 @@
 #include "harness/cli/run_report.hpp"
 
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/timestamp.hpp"
@@ -31,12 +31,19 @@ void print(const std::string& text) {
   if (!text.empty()) std::fflush(stdout);
 }
 
-Result<ReportPaths> make_report_paths(const std::string& out, const std::string& json, const std::string& junit, const std::string& html) {
+Result<ReportPaths> make_report_paths(const std::string& out, const std::string& json,
+                                      const std::string& junit, const std::string& html) {
   std::error_code failed;
   fs::create_directories(out, failed);
-  if (failed) return fail(fmt::format("cannot make the folder {}: {}; name another with --out", out, failed.message()));
-  const auto path = [&](const std::string& given, const char* name) { return given.empty() ? (fs::path(out) / name).string() : given; };
-  return ReportPaths{{"results", path("", "results.ndjson")}, {"json", path(json, "results.json")}, {"junit", path(junit, "junit.xml")},
+  if (failed)
+    return fail(fmt::format("cannot make the folder {}: {}; name another with --out", out,
+                            failed.message()));
+  const auto path = [&](const std::string& given, const char* name) {
+    return given.empty() ? (fs::path(out) / name).string() : given;
+  };
+  return ReportPaths{{"results", path("", "results.ndjson")},
+                     {"json", path(json, "results.json")},
+                     {"junit", path(junit, "junit.xml")},
                      {"html", path(html, "report.html")}};
 }
 
@@ -44,8 +51,8 @@ int derive_reports(const std::string& ndjson, const ReportPaths& reports, const 
   int code = exit_code::ok;
   for (const auto& [kind, path] : reports) {
     if (kind == "results") continue;
-    const Result<Tally> written = kind == "junit" ? write_junit(ndjson, path, gate)
-                                  : kind == "html" ? write_html(ndjson, path, gate)
+    const Result<Tally> written = kind == "junit"     ? write_junit(ndjson, path, gate)
+                                  : kind == "html"    ? write_html(ndjson, path, gate)
                                   : kind == "capture" ? write_capture(ndjson, path)
                                                       : write_json(ndjson, path);
     if (!written) code = complain(written.error().message, exit_code::trouble);
@@ -60,7 +67,8 @@ ConsoleOptions console_options(const Gate& gate, bool verbose) {
   console.terminal = isatty(STDOUT_FILENO) != 0;
   console.colour = std::getenv("NO_COLOR") == nullptr;
   winsize size{};
-  if (console.terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20) console.width = size.ws_col;
+  if (console.terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20)
+    console.width = size.ws_col;
   return console;
 }
 
@@ -79,9 +87,11 @@ Status RunReport::begin(const RunInfo& info) {
 bool RunReport::add(const CaseResult& result, bool written) {
   tally_.add(result.verdict);
   timing_.add(result);
-  if (gates(result.verdict, console_.gate) && red_.size() < most_red) red_.push_back(case_label(result));
+  if (gates(result.verdict, console_.gate) && red_.size() < most_red)
+    red_.push_back(case_label(result));
   if (!written) return true;
-  if (const std::string text = case_report(result, console_); !text.empty()) print(progress_.erase() + text);
+  if (const std::string text = case_report(result, console_); !text.empty())
+    print(progress_.erase() + text);
   return keep(writer_.write(result));
 }
 
@@ -111,7 +121,10 @@ int RunReport::finish(const End& end) {
   Summary summary;
   summary.tally = tally_;
   summary.end.finished = timestamp();
-  summary.end.seconds = end.seconds >= 0 ? end.seconds : std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  summary.end.seconds =
+      end.seconds >= 0
+          ? end.seconds
+          : std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   summary.end.interrupted = end.interrupted;
   summary.end.trouble = !end.trouble.empty() ? end.trouble : write_trouble_;
   summary.end.exit_code = code(end);
@@ -121,13 +134,16 @@ int RunReport::finish(const End& end) {
   summary.reports = paths_;
   summary.reports.insert(summary.reports.end(), other_paths_.begin(), other_paths_.end());
   print(progress_.erase());
-  if (const Status written = writer_.write(summary.end); !written) complain(written.error().message, 0);
+  if (const Status written = writer_.write(summary.end); !written)
+    complain(written.error().message, 0);
   const int report_code = derive_reports(paths_.front().second, paths_, console_.gate);
   if (!end.trouble.empty()) complain(end.trouble, 0);
   print(run_summary(summary, console_));
   if (!end.not_restored.empty()) complain(end.not_restored, 0);
   const int run_code = summary.end.exit_code;
-  return run_code == exit_code::ok || run_code == exit_code::nothing ? std::max(run_code, report_code) : run_code;
+  return run_code == exit_code::ok || run_code == exit_code::nothing
+             ? std::max(run_code, report_code)
+             : run_code;
 }
 
 }  // namespace fieldproof

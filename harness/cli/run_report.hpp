@@ -11,11 +11,14 @@
 
 namespace fieldproof {
 
-/// Kind and path: {"results", "out/results.ndjson"}, {"json", ...}, {"junit", ...}. The first is what the others derive from.
+/// Kind and path: {"results", "out/results.ndjson"}, {"json", ...}, {"junit", ...}. The first is
+/// what the others derive from.
 using ReportPaths = std::vector<std::pair<std::string, std::string>>;
 
-/// Where the reports of a run go: into the folder `out`, which is made, but for those with a path of their own.
-Result<ReportPaths> make_report_paths(const std::string& out, const std::string& json, const std::string& junit, const std::string& html);
+/// Where the reports of a run go: into the folder `out`, which is made, but for those with a path
+/// of their own.
+Result<ReportPaths> make_report_paths(const std::string& out, const std::string& json,
+                                      const std::string& junit, const std::string& html);
 
 /// Derives the reports from the results; 0, or the exit code of what went wrong (and was said).
 int derive_reports(const std::string& ndjson, const ReportPaths& reports, const Gate& gate);
@@ -43,11 +46,12 @@ class RunReport {
   void say(const std::string& line) { print(progress_.erase() + line + '\n'); }
 
   struct End {
-    std::string trouble;       // empty, or why the run stopped early
+    std::string trouble;  // empty, or why the run stopped early
     bool interrupted = false;
     bool worse = false;        // than a baseline: fails a gate that was met
     double seconds = -1;       // that the run took; negative: since this report was begun
-    std::string not_restored;  // what a real device does not hold as before, and what to type: a gate that was met is trouble
+    std::string not_restored;  // what a real device does not hold as before, and what to type: a
+                               // gate that was met is trouble
   };
   /// Writes the end and the reports, prints the summary; the exit code of the run.
   int finish(const End& end);
@@ -55,11 +59,16 @@ class RunReport {
   const Tally& tally() const { return tally_; }
   const Gate& gate() const { return console_.gate; }
   const ReportPaths& paths() const { return paths_; }
-  void add_path(const std::string& kind, const std::string& path) { other_paths_.emplace_back(kind, path); }
+  void add_path(const std::string& kind, const std::string& path) {
+    other_paths_.emplace_back(kind, path);
+  }
 
  private:
   RunReport(ReportPaths paths, const ConsoleOptions& console, NdjsonWriter writer)
-      : paths_(std::move(paths)), console_(console), progress_(console), writer_(std::move(writer)) {}
+      : paths_(std::move(paths)),
+        console_(console),
+        progress_(console),
+        writer_(std::move(writer)) {}
   int code(const End& end) const;
 
   ReportPaths paths_, other_paths_;

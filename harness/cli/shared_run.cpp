@@ -1,8 +1,8 @@
 #include "harness/cli/shared_run.hpp"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <chrono>
 #include <thread>
 
 #include "harness/bench/judge.hpp"
@@ -44,7 +44,8 @@ void SharedRun::serve(const Port& port) {
   for (Task task; take(task);)
     if (!run(port, task, watchdog)) return;
   if (fieldproof::interrupted()) return;
-  if (const Status still = port.benches->start(); !still) cannot("after the last case: ", still.error());
+  if (const Status still = port.benches->start(); !still)
+    cannot("after the last case: ", still.error());
 }
 
 /// Waits while another port may still give its case back.
@@ -62,20 +63,24 @@ bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
   watchdog.watch(task.source->id);
   const auto started = std::chrono::steady_clock::now();
   CaseResult result = port.benches->run(*task.source);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  result.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   result.dut = port.name;
   const bool hung = watchdog.done();
   const bool ended = fieldproof::interrupted() && !hung;
   const bool failed = !ended && (hung || port.benches->port_failed());
   const bool lost = failed && !hung && !task.earlier;
   const bool done = ended || hung || !port.benches->stopped().empty();
-  if (hung) result.message = "the bench hung in this case for more than a minute; " + result.message;
+  if (hung)
+    result.message = "the bench hung in this case for more than a minute; " + result.message;
   {
     const std::lock_guard lock(mutex_);
     hung_ |= hung;
     interrupted_ |= ended;
     over_ |= hung || ended;
-    if (done) stops_.push_back(port.name + ": " + (hung ? "hung in " + result.id : port.benches->stopped()));
+    if (done)
+      stops_.push_back(port.name + ": " +
+                       (hung ? "hung in " + result.id : port.benches->stopped()));
     if (done && !ended) troubles_.push_back(stops_.back());
     if (lost) tasks_.push_front({task.source, task.repeat, std::move(result)});
     if (ended || lost) --running_;
@@ -88,7 +93,8 @@ bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
 
 void SharedRun::report(const Task& task, CaseResult result) {
   result.repeat = task.repeat;
-  if (task.earlier) result.notes.push_back(fmt::format("begun on {}, whose port failed", task.earlier->dut));
+  if (task.earlier)
+    result.notes.push_back(fmt::format("begun on {}, whose port failed", task.earlier->dut));
   {
     const std::lock_guard lock(mutex_);
     over_ |= !on_result_(*task.source, std::move(result));

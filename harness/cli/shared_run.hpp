@@ -1,4 +1,5 @@
-// One selection of cases on several ports at once: each case runs once, the next free port takes the next one.
+// One selection of cases on several ports at once: each case runs once, the next free port takes
+// the next one.
 #pragma once
 
 #include <condition_variable>
@@ -31,11 +32,14 @@ class SharedRun {
 
   SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult on_result);
 
-  /// Until every case has its result. What a port that vanishes leaves goes to the others; what no port is left for is
-  /// BLOCKED. The case in which a port failed is run elsewhere, but only once more: it may be the case that does it.
+  /// Until every case has its result. What a port that vanishes leaves goes to the others; what no
+  /// port is left for is BLOCKED. The case in which a port failed is run elsewhere, but only once
+  /// more: it may be the case that does it.
   void execute();
 
-  const std::vector<std::string>& troubles() const { return troubles_; }  // "a: the port failed in ..."
+  const std::vector<std::string>& troubles() const {
+    return troubles_;
+  }  // "a: the port failed in ..."
   bool interrupted() const { return interrupted_; }
 
  private:
@@ -54,7 +58,7 @@ class SharedRun {
   std::vector<std::string> troubles_, stops_;
   bool interrupted_ = false;
   bool hung_ = false;
-  bool over_ = false;                // on_result_ said so
+  bool over_ = false;  // on_result_ said so
 };
 
 }  // namespace fieldproof

@@ -8,7 +8,8 @@ namespace fieldproof {
 
 namespace {
 
-constexpr std::size_t most_stretches = 160;  // between 80 and 160: a tenth is known to about one percent of the time
+constexpr std::size_t most_stretches =
+    160;  // between 80 and 160: a tenth is known to about one percent of the time
 constexpr double most_samples = 500;
 
 }  // namespace
@@ -21,7 +22,8 @@ void SoakLog::Stretch::add(const Stretch& other) {
 
 bool SoakLog::take(const CaseResult& result, double now) {
   rounds_ = std::max(rounds_, result.repeat + 1);
-  const bool judged = is_judged(result.verdict) || result.verdict == Verdict::error, failed = judged && gates(result.verdict, gate_);
+  const bool judged = is_judged(result.verdict) || result.verdict == Verdict::error,
+             failed = judged && gates(result.verdict, gate_);
   note(result, now, judged, failed);
   OneCase& one = cases_[result.id];
   const bool first = one.counts.empty();
@@ -30,8 +32,10 @@ bool SoakLog::take(const CaseResult& result, double now) {
   if (first) return true;
   if (!failed) return false;
   const bool room = one.written < failures_a_case && written_ < failures_in_all;
-  if (room) ++one.written, ++written_;
-  else ++unwritten_;
+  if (room)
+    ++one.written, ++written_;
+  else
+    ++unwritten_;
   return room;
 }
 

@@ -1,4 +1,5 @@
-// Keeps a soak in little memory: counts and response times by case and by stretch of time; never a result.
+// Keeps a soak in little memory: counts and response times by case and by stretch of time; never a
+// result.
 #pragma once
 
 #include <map>
@@ -18,8 +19,8 @@ class SoakLog {
 
   bool over(double now) const { return now >= planned_s_; }
 
-  /// Notes one repetition. Should its result be written in full? The first of each case is, and so are failures, as
-  /// far as there is room for them.
+  /// Notes one repetition. Should its result be written in full? The first of each case is, and so
+  /// are failures, as far as there is room for them.
   bool take(const CaseResult& result, double now);
 
   /// The stretch since the last sample, where one is due: about 500 in all.

@@ -9,7 +9,8 @@ namespace {
 
 using testing::HasSubstr;
 
-CaseResult repetition(const std::string& id, int repeat, Verdict verdict = Verdict::pass, std::vector<double> ms = {1}) {
+CaseResult repetition(const std::string& id, int repeat, Verdict verdict = Verdict::pass,
+                      std::vector<double> ms = {1}) {
   CaseResult result;
   result.id = id;
   result.repeat = repeat;
@@ -30,7 +31,8 @@ TEST(SoakLog, TheFirstOfEachCaseAndFailuresAreWritten) {
   EXPECT_EQ(4u, summary.judged) << "a skipped case is no repetition";
   EXPECT_EQ(1u, summary.failed);
   EXPECT_EQ(0.25, summary.error_rate());
-  EXPECT_EQ((std::map<std::string, std::uint64_t>{{"PASS", 2}, {"FAIL", 1}, {"NON-STRICT", 1}}), summary.cases.at("a").counts);
+  EXPECT_EQ((std::map<std::string, std::uint64_t>{{"PASS", 2}, {"FAIL", 1}, {"NON-STRICT", 1}}),
+            summary.cases.at("a").counts);
 }
 
 TEST(SoakLog, FailuresBeyondTheRoomAreCounted) {
@@ -40,18 +42,22 @@ TEST(SoakLog, FailuresBeyondTheRoomAreCounted) {
   EXPECT_EQ(1 + SoakLog::failures_a_case, written);
   EXPECT_EQ(99 - SoakLog::failures_a_case, log.summary(100).unwritten);
   EXPECT_TRUE(log.take(repetition("rare", 0), 100));
-  EXPECT_TRUE(log.take(repetition("rare", 101, Verdict::fail), 101)) << "a rare failure still has room";
+  EXPECT_TRUE(log.take(repetition("rare", 101, Verdict::fail), 101))
+      << "a rare failure still has room";
   EXPECT_THAT(soak_text(log.summary(102)), HasSubstr("79 more are counted"));
 }
 
 /// From 1 ms to 2 ms over the time: the last tenth is slower than the first by about 90 %.
 TEST(SoakLog, DriftIsTheLastTenthAgainstTheFirst) {
   SoakLog log(1000, {});
-  for (int i = 0; i < 100'000; ++i) log.take(repetition("a", i, i < 99'000 ? Verdict::pass : Verdict::fail, {1 + i * 1e-5}), i * 0.01);
+  for (int i = 0; i < 100'000; ++i)
+    log.take(repetition("a", i, i < 99'000 ? Verdict::pass : Verdict::fail, {1 + i * 1e-5}),
+             i * 0.01);
   const SoakSummary summary = log.summary(1000);
   EXPECT_NEAR(1.05, summary.first.response.median, 0.02);
   EXPECT_NEAR(1.95, summary.last.response.median, 0.02);
-  EXPECT_NEAR(10'000, static_cast<double>(summary.first.judged), 1000) << "a stretch is about one percent of the time";
+  EXPECT_NEAR(10'000, static_cast<double>(summary.first.judged), 1000)
+      << "a stretch is about one percent of the time";
   EXPECT_EQ(0u, summary.first.failed);
   EXPECT_EQ(1000u, summary.last.failed);
   EXPECT_THAT(soak_text(summary), HasSubstr("median +8"));
@@ -60,7 +66,8 @@ TEST(SoakLog, DriftIsTheLastTenthAgainstTheFirst) {
 /// Whenever it is interrupted, there are tenths.
 TEST(SoakLog, AnInterruptedSoakHasTenthsOfItsOwn) {
   SoakLog log(28'800, {});
-  for (int i = 0; i < 1000; ++i) log.take(repetition("a", i, Verdict::pass, {i < 500 ? 1.0 : 3.0}), i * 0.002);
+  for (int i = 0; i < 1000; ++i)
+    log.take(repetition("a", i, Verdict::pass, {i < 500 ? 1.0 : 3.0}), i * 0.002);
   const SoakSummary summary = log.summary(2);
   EXPECT_DOUBLE_EQ(1, summary.first.response.median);
   EXPECT_DOUBLE_EQ(3, summary.last.response.median);

@@ -1,4 +1,5 @@
-// `run --duration`: hours of repetitions in flat memory and a small file, with what they came to at the end.
+// `run --duration`: hours of repetitions in flat memory and a small file, with what they came to at
+// the end.
 #include <gmock/gmock.h>
 
 #include "harness/cli/tool_files.hpp"
@@ -10,9 +11,11 @@ using testing::HasSubstr;
 
 class Soak : public testing::Test {
  protected:
-  std::vector<std::string> arguments(const std::vector<nlohmann::ordered_json>& vectors, const std::string& duration,
+  std::vector<std::string> arguments(const std::vector<nlohmann::ordered_json>& vectors,
+                                     const std::string& duration,
                                      const std::string& endpoint = "emulator:xbc-h") {
-    return tool_arguments({"run", "--endpoint", endpoint, "--vectors", write_vectors(folder_, vectors), "--out", out_, "--duration", duration});
+    return tool_arguments({"run", "--endpoint", endpoint, "--vectors",
+                           write_vectors(folder_, vectors), "--out", out_, "--duration", duration});
   }
   Results results() { return read_results(out_ + "/results.ndjson"); }
 
@@ -41,7 +44,8 @@ TEST_F(Soak, RepeatsUntilTheTimeIsOver) {
 
 /// Every repetition fails: few are written, all are counted, and the gate is red.
 TEST_F(Soak, FailuresAreWrittenAsFarAsThereIsRoom) {
-  const Finished finished = run_program(arguments({small_vector("v/good"), small_vector("v/wrong", wrong_word)}, "2s"));
+  const Finished finished =
+      run_program(arguments({small_vector("v/good"), small_vector("v/wrong", wrong_word)}, "2s"));
   EXPECT_EQ(finished.code, 1);
   const Results all = results();
   const std::uint64_t failed = all.soak["failed"], unwritten = all.soak["unwritten"];
@@ -52,7 +56,8 @@ TEST_F(Soak, FailuresAreWrittenAsFarAsThereIsRoom) {
   expect_reports(out_);
 }
 
-/// Peak memory of a soak does not follow its repetitions: one of a single round against one of three seconds. The room is for what the allocator and the reports keep.
+/// Peak memory of a soak does not follow its repetitions: one of a single round against one of
+/// three seconds. The room is for what the allocator and the reports keep.
 TEST_F(Soak, MemoryAndFileStayFlat) {
   const Finished brief = run_program(arguments(many_vectors(1), "1ms"));
   const Finished longer = run_program(arguments(many_vectors(1), "3s"));
@@ -65,7 +70,8 @@ TEST_F(Soak, MemoryAndFileStayFlat) {
 
 TEST_F(Soak, AnInterruptWritesTheReports) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    std::vector<std::string> command = arguments({small_vector("v/wrong", wrong_word)}, "8h", "pty:xbc-h");
+    std::vector<std::string> command =
+        arguments({small_vector("v/wrong", wrong_word)}, "8h", "pty:xbc-h");
     Process process(command);
     ASSERT_TRUE(process.wait_for("v/wrong")) << "it has begun";
     process.signal(signal);
@@ -85,12 +91,18 @@ TEST_F(Soak, AKilledOneIsReportedFromItsSamples) {
   std::filesystem::create_directories(out_);
   const FileWatch results_watch(out_ + "/results.ndjson");
   Process process(arguments(many_vectors(1), "8s"));
-  ASSERT_TRUE(results_watch.wait_until([](const std::string& text) { return text.find("{\"sample\":") != text.npos; }));
+  ASSERT_TRUE(results_watch.wait_until(
+      [](const std::string& text) { return text.find("{\"sample\":") != text.npos; }));
   process.signal(SIGKILL);
   EXPECT_EQ(process.wait().code, 128 + SIGKILL);
-  EXPECT_EQ(run_tool({"report", out_ + "/results.ndjson", "--junit", out_ + "/junit.xml", "--json", out_ + "/results.json", "--html", out_ + "/report.html"}).code, 0);
+  EXPECT_EQ(run_tool({"report", out_ + "/results.ndjson", "--junit", out_ + "/junit.xml", "--json",
+                      out_ + "/results.json", "--html", out_ + "/report.html"})
+                .code,
+            0);
   expect_reports(out_);
-  EXPECT_THAT(read_text(out_ + "/junit.xml"), testing::ContainsRegex("the run was killed: 1 results were written before; [1-9] s of soak: [0-9]+ judged repetitions, 0 red"));
+  EXPECT_THAT(read_text(out_ + "/junit.xml"),
+              testing::ContainsRegex("the run was killed: 1 results were written before; [1-9] s "
+                                     "of soak: [0-9]+ judged repetitions, 0 red"));
 }
 
 TEST_F(Soak, WhereNothingRunsItEnds) {
@@ -102,7 +114,8 @@ TEST_F(Soak, WhereNothingRunsItEnds) {
 
 /// A device that goes away ends the soak: there is nothing to wait for.
 TEST_F(Soak, ADeviceThatVanishesIsTrouble) {
-  const std::string device = std::string("exec:python3 ") + FIELDPROOF_SOURCE_DIR + "/harness/cli/testdata/device.py die {tty} 100";
+  const std::string device = std::string("exec:python3 ") + FIELDPROOF_SOURCE_DIR +
+                             "/harness/cli/testdata/device.py die {tty} 100";
   const Finished finished = run_program(arguments(many_vectors(1), "8h", device));
   EXPECT_EQ(finished.code, 3) << finished.out << finished.err;
   ASSERT_FALSE(results().soak.is_null());
@@ -111,12 +124,14 @@ TEST_F(Soak, ADeviceThatVanishesIsTrouble) {
 }
 
 TEST_F(Soak, WrongOptionsAreRefused) {
-  for (const std::vector<std::string>& more : {std::vector<std::string>{"--repeat", "2"}, {"--matrix", "9600 x 8N1"}}) {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--repeat", "2"}, {"--matrix", "9600 x 8N1"}}) {
     std::vector<std::string> command = arguments(many_vectors(1), "8h");
     command.insert(command.end(), more.begin(), more.end());
     EXPECT_EQ(run_program(command).code, 2);
   }
-  EXPECT_THAT(run_program(arguments(many_vectors(1), "8 hours")).err, HasSubstr("--duration: '8 hours' is no duration"));
+  EXPECT_THAT(run_program(arguments(many_vectors(1), "8 hours")).err,
+              HasSubstr("--duration: '8 hours' is no duration"));
   EXPECT_EQ(run_program(arguments(many_vectors(1), "0s")).code, 2);
 }
 

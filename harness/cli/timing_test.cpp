@@ -1,5 +1,5 @@
-// The timing suite: figures on simulated time are exact to a character, limits come from the profile with their units,
-// and repetitions are one row of figures in every report.
+// The timing suite: figures on simulated time are exact to a character, limits come from the
+// profile with their units, and repetitions are one row of figures in every report.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -25,8 +25,8 @@ class Timing : public testing::Test {
 
 constexpr double character = 10 / 9.6;  // ms at 9600-8N1
 
-/// A reply is delayed by the parameter, from the moment at which the device knows that the request is over: at its
-/// tail, or in RTU after 3.5 characters of 11 bits.
+/// A reply is delayed by the parameter, from the moment at which the device knows that the request
+/// is over: at its tail, or in RTU after 3.5 characters of 11 bits.
 TEST_F(Timing, DelaysAreExactToACharacter) {
   EXPECT_EQ(run({"--filter", "*/timing/delay/*"}).code, 0);
   const Results all = results();
@@ -40,15 +40,25 @@ TEST_F(Timing, DelaysAreExactToACharacter) {
 }
 
 TEST_F(Timing, RepetitionsAreOneRowOfFigures) {
-  const Finished finished = run({"--filter", "xgt_cnet/timing/delay/d10:xgt_cnet/timing/back_to_back", "--repeat", "50"});
-  EXPECT_THAT(finished.out, HasSubstr("  xgt_cnet/timing/back_to_back       200      0.000      0.000      0.000      0.000\n"));
-  EXPECT_THAT(finished.out, HasSubstr("  xgt_cnet/timing/delay/d10           50     10.000     10.000     10.000     10.000\n"));
+  const Finished finished =
+      run({"--filter", "xgt_cnet/timing/delay/d10:xgt_cnet/timing/back_to_back", "--repeat", "50"});
+  EXPECT_THAT(finished.out, HasSubstr("  xgt_cnet/timing/back_to_back       200      0.000      "
+                                      "0.000      0.000      0.000\n"));
+  EXPECT_THAT(finished.out, HasSubstr("  xgt_cnet/timing/delay/d10           50     10.000     "
+                                      "10.000     10.000     10.000\n"));
   const auto written = nlohmann::json::parse(read_text(out_ + "/results.json"))["timing"];
-  EXPECT_EQ(written["cases"]["xgt_cnet/timing/delay/d10"], (nlohmann::json{{"replies", 50}, {"min_ms", 10.0}, {"median_ms", 10.0}, {"p99_ms", 10.0}, {"max_ms", 10.0}}));
+  EXPECT_EQ(written["cases"]["xgt_cnet/timing/delay/d10"], (nlohmann::json{{"replies", 50},
+                                                                           {"min_ms", 10.0},
+                                                                           {"median_ms", 10.0},
+                                                                           {"p99_ms", 10.0},
+                                                                           {"max_ms", 10.0}}));
   EXPECT_EQ(written["groups"]["xgt_cnet/timing"]["replies"], 250);
   Junit junit;
   read_junit(out_ + "/junit.xml", junit);
-  EXPECT_EQ(junit.document.select_node("//property[@name='reply times xgt_cnet/timing/delay/d10']").node().attribute("value").value(),
+  EXPECT_EQ(junit.document.select_node("//property[@name='reply times xgt_cnet/timing/delay/d10']")
+                .node()
+                .attribute("value")
+                .value(),
             std::string("50 replies: min 10.000, median 10.000, p99 10.000, max 10.000 ms"));
   EXPECT_THAT(read_text(out_ + "/report.html"), HasSubstr("99 %"));
 }
@@ -59,7 +69,8 @@ TEST_F(Timing, LimitsOfTheProfileHaveUnitsAndAGuardBand) {
   vector["given"]["config"] = {{"rs485", true}, {"delay_ms", 10}};
   const std::string vectors = write_vectors(folder_, {vector});
   const auto verdict = [&](const std::string& timing) {
-    const std::string profile = folder_.write("p.json", R"({"name": "p", "extends": "xbc-h", "timing": {)" + timing + "}}");
+    const std::string profile =
+        folder_.write("p.json", R"({"name": "p", "extends": "xbc-h", "timing": {)" + timing + "}}");
     run({"--endpoint", "emulator:xbc-h", "--vectors", vectors, "--profile", profile});
     return results().verdict("xgt_cnet/v/delayed");
   };

@@ -26,7 +26,8 @@
 
 namespace fieldproof {
 
-/// How a program ended. `code` is its exit code, 128 + signal where a signal ended it, -1 where it missed the deadline.
+/// How a program ended. `code` is its exit code, 128 + signal where a signal ended it, -1 where it
+/// missed the deadline.
 struct Finished {
   int code = -1;
   std::string out, err;
@@ -37,9 +38,11 @@ struct Finished {
 class TestFolder {
  public:
   TestFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "fieldproof_test_XXXXXX").string();
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "fieldproof_test_XXXXXX").string();
     if (::mkdtemp(pattern.data())) path_ = pattern;
-    EXPECT_FALSE(path_.empty()) << "cannot make a folder in " << std::filesystem::temp_directory_path();
+    EXPECT_FALSE(path_.empty()) << "cannot make a folder in "
+                                << std::filesystem::temp_directory_path();
   }
   ~TestFolder() {
     std::error_code ignored;
@@ -79,10 +82,12 @@ class Process {
   using Clock = std::chrono::steady_clock;
   using Limit = std::chrono::seconds;
 
-  explicit Process(std::vector<std::string> arguments, const ProcessOptions& options = {}) : name_(arguments.front()) {
+  explicit Process(std::vector<std::string> arguments, const ProcessOptions& options = {})
+      : name_(arguments.front()) {
     std::array<std::array<int, 2>, 2> pipes{};
     for (auto& one : pipes)
-      if (::pipe2(one.data(), O_CLOEXEC) != 0) ADD_FAILURE() << "cannot make a pipe: " << std::strerror(errno);
+      if (::pipe2(one.data(), O_CLOEXEC) != 0)
+        ADD_FAILURE() << "cannot make a pipe: " << std::strerror(errno);
     std::vector<char*> argv = pointers(arguments);
     std::vector<std::string> environment = environment_for(options);
     std::vector<char*> envp = pointers(environment);
@@ -121,7 +126,8 @@ class Process {
   /// Until its end. A program that misses the limit is killed.
   Finished wait(Limit limit = Limit(120)) {
     const Clock::time_point deadline = Clock::now() + limit;
-    while (!over(deadline)) {}
+    while (!over(deadline)) {
+    }
     if (!ended_) ::kill(pid_, SIGKILL);
     int status = 0;
     rusage usage{};
@@ -129,8 +135,11 @@ class Process {
     pid_ = -1;
     read_streams();
     Finished finished{-1, std::move(text_[0]), std::move(text_[1]), usage.ru_maxrss};
-    if (!ended_) ADD_FAILURE() << name_ << " did not end within " << limit.count() << " s:\n" << finished.out << finished.err;
-    else finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (!ended_)
+      ADD_FAILURE() << name_ << " did not end within " << limit.count() << " s:\n"
+                    << finished.out << finished.err;
+    else
+      finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return finished;
   }
 
@@ -147,33 +156,41 @@ class Process {
     std::vector<std::string> result;
     for (char** one = environ; *one; ++one) {
       const std::string text = *one;
-      if (text.starts_with("GTEST_") || text.starts_with("FIELDPROOF_") || text.starts_with("XML_OUTPUT_FILE")) continue;
+      if (text.starts_with("GTEST_") || text.starts_with("FIELDPROOF_") ||
+          text.starts_with("XML_OUTPUT_FILE"))
+        continue;
       result.push_back(text);
     }
     for (const auto& [key, value] : options.environment) result.push_back(key + '=' + value);
     return result;
   }
 
-  [[noreturn]] static void become(std::vector<char*>& argv, std::vector<char*>& envp, const std::string& folder, int out, int err) {
+  [[noreturn]] static void become(std::vector<char*>& argv, std::vector<char*>& envp,
+                                  const std::string& folder, int out, int err) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const int nothing = ::open("/dev/null", O_RDONLY);
     ::dup2(nothing, STDIN_FILENO);
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
-    if (folder.empty() || ::chdir(folder.c_str()) == 0) ::execvpe(argv[0], argv.data(), envp.data());
+    if (folder.empty() || ::chdir(folder.c_str()) == 0)
+      ::execvpe(argv[0], argv.data(), envp.data());
     ::dprintf(STDERR_FILENO, "cannot start %s: %s\n", argv[0], std::strerror(errno));
     ::_exit(127);
   }
 
   bool printed(const std::string& text) const {
-    return std::ranges::any_of(text_, [&](const std::string& one) { return one.find(text) != std::string::npos; });
+    return std::ranges::any_of(
+        text_, [&](const std::string& one) { return one.find(text) != std::string::npos; });
   }
 
   /// Waits for output or the end. True: it ended, or the deadline is over.
   bool over(Clock::time_point deadline) {
-    std::array<pollfd, 3> fds{pollfd{streams_[0], POLLIN, 0}, pollfd{streams_[1], POLLIN, 0}, pollfd{pid_fd_, POLLIN, 0}};
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
-    const int ready = ::poll(fds.data(), fds.size(), static_cast<int>(std::max<long long>(0, left.count())));
+    std::array<pollfd, 3> fds{pollfd{streams_[0], POLLIN, 0}, pollfd{streams_[1], POLLIN, 0},
+                              pollfd{pid_fd_, POLLIN, 0}};
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    const int ready =
+        ::poll(fds.data(), fds.size(), static_cast<int>(std::max<long long>(0, left.count())));
     read_streams();
     ended_ = ended_ || fds[2].revents != 0;
     return ended_ || ready == 0;
@@ -183,7 +200,8 @@ class Process {
     for (std::size_t i = 0; i < 2; ++i) {
       std::array<char, 65'536> buffer;
       ssize_t n = 0;
-      while (streams_[i] >= 0 && (n = ::read(streams_[i], buffer.data(), buffer.size())) > 0) text_[i].append(buffer.data(), static_cast<std::size_t>(n));
+      while (streams_[i] >= 0 && (n = ::read(streams_[i], buffer.data(), buffer.size())) > 0)
+        text_[i].append(buffer.data(), static_cast<std::size_t>(n));
       if (n != 0 || streams_[i] < 0) continue;
       ::close(streams_[i]);  // its end would wake poll for ever
       streams_[i] = -1;
@@ -198,7 +216,8 @@ class Process {
   bool ended_ = false;
 };
 
-inline Finished run_program(std::vector<std::string> arguments, const ProcessOptions& options = {}) {
+inline Finished run_program(std::vector<std::string> arguments,
+                            const ProcessOptions& options = {}) {
   return Process(std::move(arguments), options).wait();
 }
 

@@ -7,13 +7,18 @@
 
 namespace fieldproof {
 
-std::filesystem::path vectors_path(const std::string& option) { return option.empty() ? find_data().vectors : std::filesystem::path(option); }
+std::filesystem::path vectors_path(const std::string& option) {
+  return option.empty() ? find_data().vectors : std::filesystem::path(option);
+}
 
 Result<VectorSet> load_sound_vectors(const std::string& option) {
   VectorSet vectors = load_vectors(vectors_path(option), find_data().vectors / "schema.json");
   if (vectors.problems.empty()) return vectors;
-  return fail(fmt::format("{}\n{} in the vectors; nothing was sent. `fieldproof lint` shows them all", fmt::join(vectors.problems, "\n"),
-                          vectors.problems.size() == 1 ? "1 problem" : fmt::format("{} problems", vectors.problems.size())));
+  return fail(fmt::format(
+      "{}\n{} in the vectors; nothing was sent. `fieldproof lint` shows them all",
+      fmt::join(vectors.problems, "\n"),
+      vectors.problems.size() == 1 ? "1 problem"
+                                   : fmt::format("{} problems", vectors.problems.size())));
 }
 
 std::vector<std::string> case_ids(const VectorSet& set) {
@@ -23,7 +28,8 @@ std::vector<std::string> case_ids(const VectorSet& set) {
 }
 
 ErratumInfo erratum_info(const Erratum& erratum) {
-  return {erratum.vector_id, erratum.manual, erratum.section, erratum.printed, erratum.correct, erratum.why};
+  return {erratum.vector_id, erratum.manual,  erratum.section,
+          erratum.printed,   erratum.correct, erratum.why};
 }
 
 }  // namespace fieldproof

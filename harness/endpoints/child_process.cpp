@@ -32,7 +32,10 @@ constexpr int term_limit_ms = 1000;
 void prepare_child(const ChildOptions& options, int null, int standard_error) {
   ::setsid();
   if (options.terminal >= 0) ::ioctl(options.terminal, TIOCSCTTY, 0);
-  ::dup2(options.terminal_is_stdio ? options.terminal : options.standard_input >= 0 ? options.standard_input : null, STDIN_FILENO);
+  ::dup2(options.terminal_is_stdio     ? options.terminal
+         : options.standard_input >= 0 ? options.standard_input
+                                       : null,
+         STDIN_FILENO);
   ::dup2(options.terminal_is_stdio ? options.terminal : standard_error, STDOUT_FILENO);
   ::dup2(standard_error, STDERR_FILENO);
   // Boost.Process leaks every descriptor, and its limit_handles closes the redirected stdout.
@@ -46,7 +49,9 @@ std::vector<std::string> shell(const std::string& command) { return {"/bin/sh", 
 
 Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const ChildOptions& options) {
   namespace bp = boost::process;
-  const auto failed = [&](const std::string& why) { return fail("cannot start " + options.arguments.front() + ": " + why); };
+  const auto failed = [&](const std::string& why) {
+    return fail("cannot start " + options.arguments.front() + ": " + why);
+  };
   std::array<int, 2> pipe_ends{};
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return failed(errno_text(errno));
   UniqueFd readable(pipe_ends[0]);
@@ -57,8 +62,11 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const ChildOptions& op
 
   std::error_code error;
   const std::vector<std::string> rest(options.arguments.begin() + 1, options.arguments.end());
-  bp::child child(bp::exe = options.arguments.front(), bp::args = rest, error,
-                  bp::extend::on_exec_setup = [&](auto&) { prepare_child(options, null.get(), writable.get()); });
+  bp::child child(
+      bp::exe = options.arguments.front(), bp::args = rest, error,
+      bp::extend::on_exec_setup = [&](auto&) {
+        prepare_child(options, null.get(), writable.get());
+      });
   if (error) return failed(errno_text(error.value()));
   const pid_t pid = child.id();
   child.detach();  // we reap it ourselves
@@ -70,11 +78,15 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const ChildOptions& op
     ::waitpid(pid, nullptr, 0);
     return failed("no descriptor of the process: " + errno_text(cause));
   }
-  return std::unique_ptr<ChildProcess>(new ChildProcess(pid, std::move(pid_fd), std::move(readable)));
+  return std::unique_ptr<ChildProcess>(
+      new ChildProcess(pid, std::move(pid_fd), std::move(readable)));
 }
 
 ChildProcess::ChildProcess(pid_t pid, UniqueFd pid_fd, UniqueFd standard_error)
-    : pid_(pid), pid_fd_(std::move(pid_fd)), standard_error_(std::move(standard_error)), stop_(::eventfd(0, EFD_CLOEXEC)) {
+    : pid_(pid),
+      pid_fd_(std::move(pid_fd)),
+      standard_error_(std::move(standard_error)),
+      stop_(::eventfd(0, EFD_CLOEXEC)) {
   watcher_ = std::thread([this] { watch(); });
 }
 
@@ -87,7 +99,8 @@ ChildProcess::~ChildProcess() {
   } while (ready < 0 && errno == EINTR);
   // Not yet reaped, its number still means this group: what is left of it ends too.
   ::kill(-pid_, SIGKILL);
-  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {}
+  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
   ::eventfd_write(stop_.get(), 1);
   watcher_.join();
 }
@@ -97,12 +110,15 @@ void ChildProcess::watch() {
   sigset_t all;
   sigfillset(&all);
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
-  std::array<pollfd, 3> fds{pollfd{stop_.get(), POLLIN, 0}, pollfd{standard_error_.get(), POLLIN, 0},
+  std::array<pollfd, 3> fds{pollfd{stop_.get(), POLLIN, 0},
+                            pollfd{standard_error_.get(), POLLIN, 0},
                             pollfd{pid_fd_.get(), POLLIN, 0}};
   while (fds[0].revents == 0) {
     if (::poll(fds.data(), fds.size(), -1) < 0) continue;
-    if (fds[1].revents & POLLIN) read_standard_error();
-    else if (fds[1].revents != 0) fds[1].fd = -1;  // all writers closed it
+    if (fds[1].revents & POLLIN)
+      read_standard_error();
+    else if (fds[1].revents != 0)
+      fds[1].fd = -1;  // all writers closed it
     if (fds[2].revents != 0) {
       ended_ = true;
       fds[2].fd = -1;
@@ -120,13 +136,15 @@ void ChildProcess::read_standard_error() {
 }
 
 std::string ChildProcess::last_lines() {
-  // What it said before its end is in the pipe by now. The bound is for a grandchild that goes on writing.
+  // What it said before its end is in the pipe by now. The bound is for a grandchild that goes on
+  // writing.
   for (int i = 0; i < 16; ++i) read_standard_error();
   const std::lock_guard lock(mutex_);
   std::string text = said_;
   while (!text.empty() && text.back() == '\n') text.pop_back();
   std::size_t from = text.size();
-  for (std::size_t lines = 0; lines < said_lines && from != std::string::npos && from > 0; ++lines) {
+  for (std::size_t lines = 0; lines < said_lines && from != std::string::npos && from > 0;
+       ++lines) {
     from = text.rfind('\n', from - 1);
   }
   return from == std::string::npos || from == 0 ? text : text.substr(from + 1);
@@ -135,11 +153,14 @@ std::string ChildProcess::last_lines() {
 std::string ChildProcess::how() {
   siginfo_t info{};
   std::string text = "the process still runs";
-  if (::waitid(P_PIDFD, static_cast<id_t>(pid_fd_.get()), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0) {
+  if (::waitid(P_PIDFD, static_cast<id_t>(pid_fd_.get()), &info, WEXITED | WNOHANG | WNOWAIT) ==
+          0 &&
+      info.si_pid != 0) {
     ended_ = true;
-    text = info.si_code == CLD_EXITED ? "the process ended with exit status " + std::to_string(info.si_status)
-                                      : "the process was ended by signal " + std::to_string(info.si_status) + " (" +
-                                            ::strsignal(info.si_status) + ')';
+    text = info.si_code == CLD_EXITED
+               ? "the process ended with exit status " + std::to_string(info.si_status)
+               : "the process was ended by signal " + std::to_string(info.si_status) + " (" +
+                     ::strsignal(info.si_status) + ')';
   }
   if (const std::string said = last_lines(); !said.empty()) text += "; it said: " + said;
   return text;

@@ -18,10 +18,13 @@ namespace fieldproof {
 
 struct ChildOptions {
   std::vector<std::string> arguments;  // the program and its arguments
-  std::vector<int> keep;               // descriptors that the child inherits under their numbers; no others above 2
-  int terminal = -1;                   // the slave of a pty: its hangup ends the child, even when the bench was killed
-  int standard_input = -1;             // becomes its stdin
-  bool terminal_is_stdio = false;      // stdin and stdout; else /dev/null, and stdout goes where stderr goes
+  std::vector<int>
+      keep;  // descriptors that the child inherits under their numbers; no others above 2
+  int terminal =
+      -1;  // the slave of a pty: its hangup ends the child, even when the bench was killed
+  int standard_input = -1;  // becomes its stdin
+  bool terminal_is_stdio =
+      false;  // stdin and stdout; else /dev/null, and stdout goes where stderr goes
 };
 
 /// The arguments that run `command` by the shell.
@@ -40,7 +43,8 @@ class ChildProcess final : public FarEnd {
   pid_t pid() const { return pid_; }
   int end_fd() const override { return pid_fd_.get(); }
   bool ended() const override { return ended_; }
-  /// "the process ended with exit status 3; it said: ..." (the last lines of stderr), or that it still runs.
+  /// "the process ended with exit status 3; it said: ..." (the last lines of stderr), or that it
+  /// still runs.
   std::string how() override;
 
  private:

@@ -30,7 +30,9 @@ bool ends(const ChildProcess& child) {
 TEST(ChildProcess, TellsExitStatusAndLastLines) {
   const auto child = run("for i in 1 2 3 4 5 6 7; do echo line $i >&2; done; exit 3");
   ASSERT_TRUE(ends(*child));
-  EXPECT_EQ(child->how(), "the process ended with exit status 3; it said: line 3\nline 4\nline 5\nline 6\nline 7");
+  EXPECT_EQ(
+      child->how(),
+      "the process ended with exit status 3; it said: line 3\nline 4\nline 5\nline 6\nline 7");
   EXPECT_TRUE(child->ended());
 }
 
@@ -62,10 +64,12 @@ TEST(ChildProcess, AMissingProgramIsAnError) {
 
 TEST(ChildProcess, InheritsOnlyWhatItIsGiven) {
   std::array<int, 2> fds{};
-  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds.data()), 0);  // deliberately not close-on-exec
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, fds.data()),
+            0);  // deliberately not close-on-exec
   const UniqueFd ours(fds[0]), theirs(fds[1]);
   const std::string kept = std::to_string(theirs.get()), other = std::to_string(ours.get());
-  const auto child = run("test -e /proc/$$/fd/" + kept + " && echo kept >&2; test -e /proc/$$/fd/" + other + " && echo leaked >&2; exit 0",
+  const auto child = run("test -e /proc/$$/fd/" + kept + " && echo kept >&2; test -e /proc/$$/fd/" +
+                             other + " && echo leaked >&2; exit 0",
                          {theirs.get()});
   ASSERT_TRUE(ends(*child));
   EXPECT_EQ(child->how(), "the process ended with exit status 0; it said: kept");
@@ -77,7 +81,9 @@ TEST(ChildProcess, EndsWithItsChildren) {
   const UniqueFd readable(fds[0]);
   UniqueFd writable(fds[1]);
   // The grandchild ignores SIGTERM, and holds the pipe open as long as it lives.
-  auto child = run("(trap '' TERM; echo up >&" + std::to_string(writable.get()) + "; while :; do sleep 1000; done) & wait", {writable.get()});
+  auto child = run("(trap '' TERM; echo up >&" + std::to_string(writable.get()) +
+                       "; while :; do sleep 1000; done) & wait",
+                   {writable.get()});
   writable.reset();
   std::array<char, 8> text{};
   ASSERT_EQ(::read(readable.get(), text.data(), text.size()), 3);

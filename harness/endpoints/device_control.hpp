@@ -17,9 +17,10 @@
 
 namespace fieldproof {
 
-/// The answer line (with its newline) to one request line; `begin` makes the fresh device, `device` gives the present
-/// one (nullptr: none yet).
-std::string answer_control(std::string_view line, const std::function<Status(const nlohmann::json& config)>& begin,
+/// The answer line (with its newline) to one request line; `begin` makes the fresh device, `device`
+/// gives the present one (nullptr: none yet).
+std::string answer_control(std::string_view line,
+                           const std::function<Status(const nlohmann::json& config)>& begin,
                            const std::function<EmulatedDevice*()>& device);
 
 /// A request as a line.

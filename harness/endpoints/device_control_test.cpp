@@ -54,7 +54,8 @@ TEST_F(DeviceControl, ErrorsAreAnswers) {
 TEST_F(DeviceControl, AnAnswerIsAValueOrAnError) {
   EXPECT_EQ(*read_control_answer(R"({"ok":true})"), "");
   EXPECT_EQ(*read_control_answer(R"({"ok":true,"value":"1234"})"), "1234");
-  EXPECT_EQ(read_control_answer(R"({"error":"no such address"})").error().message, "no such address");
+  EXPECT_EQ(read_control_answer(R"({"error":"no such address"})").error().message,
+            "no such address");
   EXPECT_THAT(read_control_answer("???").error().message, HasSubstr("it is no JSON object"));
 }
 

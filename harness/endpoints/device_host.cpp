@@ -80,7 +80,8 @@ Status DeviceHost::begin(const json& config) {
 int DeviceHost::run() {
   while (!interrupted() && !control_closed_) {
     wait();
-    // The line first: what was sent before a question over the control socket counts before its answer.
+    // The line first: what was sent before a question over the control socket counts before its
+    // answer.
     if (const Status heard = hear(); !heard) {
       complain(heard.error().message);
       return exit_trouble;
@@ -106,10 +107,13 @@ void DeviceHost::wait() {
   for (pollfd& one : fds_) one.revents = 0;
 }
 
-/// Feeds what has arrived. Where the device was due meanwhile, the host looked late, and the bytes may have come in
-/// time: they count as come at that moment, so that a busy machine does not look like a gap on the line.
+/// Feeds what has arrived. Where the device was due meanwhile, the host looked late, and the bytes
+/// may have come in time: they count as come at that moment, so that a busy machine does not look
+/// like a gap on the line.
 Status DeviceHost::hear() {
-  if (std::none_of(fds_.begin() + first_port_slot, fds_.end(), [](const pollfd& one) { return one.revents != 0; })) return ok();
+  if (std::none_of(fds_.begin() + first_port_slot, fds_.end(),
+                   [](const pollfd& one) { return one.revents != 0; }))
+    return ok();
   for (;;) {
     Result<Bytes> bytes = port_.read();
     if (!bytes) return bytes.error();
@@ -132,8 +136,8 @@ void DeviceHost::run_due(Time until) {
   }
 }
 
-/// What is changed through the back door is changed now, not when the device last had something to do: a client whose
-/// flag rises counts its time-out from here.
+/// What is changed through the back door is changed now, not when the device last had something to
+/// do: a client whose flag rises counts its time-out from here.
 void DeviceHost::tell_time() {
   device_time_ = std::max(device_time_, clock_.now());
   transmit(device_->advance(device_time_));
@@ -158,10 +162,11 @@ void DeviceHost::serve_control() {
 }
 
 void DeviceHost::answer_lines() {
-  for (std::size_t end; (end = control_text_.find('\n')) != std::string::npos; control_text_.erase(0, end + 1)) {
+  for (std::size_t end; (end = control_text_.find('\n')) != std::string::npos;
+       control_text_.erase(0, end + 1)) {
     std::string answer = answer_control(
-        std::string_view(control_text_).substr(0, end), [this](const json& config) { return begin(config); },
-        [this] { return device_.get(); });
+        std::string_view(control_text_).substr(0, end),
+        [this](const json& config) { return begin(config); }, [this] { return device_.get(); });
     for (std::string_view left = answer; !left.empty();) {
       const ssize_t n = ::send(control_.get(), left.data(), left.size(), MSG_NOSIGNAL);
       if (n < 0 && errno == EINTR && !interrupted()) continue;
@@ -210,19 +215,24 @@ int host(const HostOptions& options, Result<std::unique_ptr<HostPort>> port) {
 
 std::string monitor_line(const Traffic& traffic) {
   std::string text = to_text(traffic.bytes);
-  std::ranges::replace_if(text, [](char c) { return c < ' ' || c > '~'; }, '.');
-  return fmt::format("{:>12.3f} ms  {}  {:>4}  {}  {}", to_ms(traffic.moment), traffic.to_device ? "received" : "sent    ",
-                     traffic.bytes.size(), to_hex(traffic.bytes), text);
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' ' || c > '~'; }, '.');
+  return fmt::format("{:>12.3f} ms  {}  {:>4}  {}  {}", to_ms(traffic.moment),
+                     traffic.to_device ? "received" : "sent    ", traffic.bytes.size(),
+                     to_hex(traffic.bytes), text);
 }
 
 int host_on_tty(const HostOptions& options) {
   const auto line = options.config.find("line");
   const bool given = line != options.config.end() && line->is_string();
-  return host(options, open_tty_port(options.tty, given ? line->get<std::string>() : to_string(LineSettings{})));
+  return host(options, open_tty_port(options.tty,
+                                     given ? line->get<std::string>() : to_string(LineSettings{})));
 }
 
 int host_on_tcp(const HostOptions& options) { return host(options, open_tcp_port(options.tcp)); }
 
-int host_device(const HostOptions& options) { return options.tcp.empty() ? host_on_tty(options) : host_on_tcp(options); }
+int host_device(const HostOptions& options) {
+  return options.tcp.empty() ? host_on_tty(options) : host_on_tcp(options);
+}
 
 }  // namespace fieldproof

@@ -71,7 +71,8 @@ FdLink open_client(const std::string& path) {
 }
 
 std::string new_path(const std::string& name) {
-  const std::string path = testing::TempDir() + "/fieldproof_" + name + '_' + std::to_string(::getpid());
+  const std::string path =
+      testing::TempDir() + "/fieldproof_" + name + '_' + std::to_string(::getpid());
   fs::remove(path);
   return path;
 }
@@ -152,12 +153,16 @@ TEST(DeviceHost, ServesTheControlSocket) {
   options.config = {{"station", 7}, {"delay_ms", 0}};
   Hosted host(options);
   EXPECT_EQ(host.ask(R"({"set":{"address":"%MW1","hex":"12"}})"), "{\"ok\":true}\n");
-  EXPECT_EQ(host.ask(R"({"get":{"address":"%MW1","digits":2}})"), "{\"ok\":true,\"value\":\"12\"}\n");
+  EXPECT_EQ(host.ask(R"({"get":{"address":"%MW1","digits":2}})"),
+            "{\"ok\":true,\"value\":\"12\"}\n");
   EXPECT_EQ(host.ask(R"({"begin":{"delay_ms":1}})"), "{\"ok\":true}\n");
-  EXPECT_THAT(host.ask(R"({"get":{"address":"%MW1","digits":2}})"), HasSubstr("nothing was set")) << "the device is fresh";
+  EXPECT_THAT(host.ask(R"({"get":{"address":"%MW1","digits":2}})"), HasSubstr("nothing was set"))
+      << "the device is fresh";
   const auto answer = nlohmann::json::parse(host.ask(R"({"get":{"address":"@config"}})"));
-  EXPECT_EQ(nlohmann::json::parse(answer["value"].get<std::string>()),
-            nlohmann::json({{"model", "tiny"}, {"station", 7}, {"delay_ms", 1}, {"inter_character_floor_ms", 20}}));
+  EXPECT_EQ(
+      nlohmann::json::parse(answer["value"].get<std::string>()),
+      nlohmann::json(
+          {{"model", "tiny"}, {"station", 7}, {"delay_ms", 1}, {"inter_character_floor_ms", 20}}));
 }
 
 TEST(DeviceHost, TheStationIsOneUnlessGiven) {
@@ -227,18 +232,24 @@ TEST(DeviceHost, ServesSocketsOneAfterAnotherAndTogether) {
 TEST(DeviceHost, ShowsTheTraffic) {
   std::vector<std::string> lines;
   HostOptions options;
-  options.monitor = [&](const Traffic& traffic) { lines.push_back(monitor_line(traffic).substr(17)); };
+  options.monitor = [&](const Traffic& traffic) {
+    lines.push_back(monitor_line(traffic).substr(17));
+  };
   Hosted host(options);
   FdLink client = open_client(host.where.substr(4));
   ASSERT_TRUE(client.send(to_bytes("\x05.")));
   EXPECT_EQ(receive_text(client, ">"), "<\x05>");
   host.end();
-  EXPECT_THAT(lines, testing::ElementsAre("received     2  05 2E  ..", "sent         3  3C 05 3E  <.>"));
+  EXPECT_THAT(lines,
+              testing::ElementsAre("received     2  05 2E  ..", "sent         3  3C 05 3E  <.>"));
 }
 
 TEST(DeviceHost, AMonitorLineHasTimeDirectionSizeHexAndText) {
-  const Bytes bytes = to_bytes("\x05" "01rSS");
-  EXPECT_EQ(monitor_line({12'345'600ns, true, bytes}), "      12.346 ms  received     6  05 30 31 72 53 53  .01rSS");
+  const Bytes bytes = to_bytes(
+      "\x05"
+      "01rSS");
+  EXPECT_EQ(monitor_line({12'345'600ns, true, bytes}),
+            "      12.346 ms  received     6  05 30 31 72 53 53  .01rSS");
 }
 
 }  // namespace

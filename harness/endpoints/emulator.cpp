@@ -16,7 +16,8 @@ namespace {
 
 Capabilities emulator_capabilities() {
   Capabilities capabilities;
-  capabilities.simulated = capabilities.wire = capabilities.back_door = capabilities.can_power_cycle = true;
+  capabilities.simulated = capabilities.wire = capabilities.back_door =
+      capabilities.can_power_cycle = true;
   return capabilities;
 }
 
@@ -46,7 +47,8 @@ json take(json& config, const char* key) {
 Result<LineSettings> settings_of(const json& value, const char* key) {
   if (value.is_null()) return LineSettings{};
   if (!value.is_string())
-    return fail(fmt::format("cannot set up the line: '{}' is {}; write text such as \"9600-8N1\"", key, value.dump()));
+    return fail(fmt::format("cannot set up the line: '{}' is {}; write text such as \"9600-8N1\"",
+                            key, value.dump()));
   return parse_line_settings(value.get_ref<const std::string&>());
 }
 
@@ -62,13 +64,18 @@ bool is_on(const json& config, const char* key) {
   return *found == true || *found == 1 || *found == "true" || *found == "1";
 }
 
-std::string counted(int n, const char* what) { return fmt::format("{} {} error{}", n, what, n == 1 ? "" : "s"); }
+std::string counted(int n, const char* what) {
+  return fmt::format("{} {} error{}", n, what, n == 1 ? "" : "s");
+}
 
-Error before_begin(std::string_view what) { return fail(fmt::format("cannot {}: there is no device before a case begins", what)); }
+Error before_begin(std::string_view what) {
+  return fail(fmt::format("cannot {}: there is no device before a case begins", what));
+}
 
 }  // namespace
 
-EmulatorEndpoint::EmulatorEndpoint(const EndpointName& name, DeviceFactory factory, Decorator decorate)
+EmulatorEndpoint::EmulatorEndpoint(const EndpointName& name, DeviceFactory factory,
+                                   Decorator decorate)
     : model_(name.target),
       defaults_(defaults_of(name)),
       factory_(std::move(factory)),
@@ -89,9 +96,12 @@ Status EmulatorEndpoint::begin(const json& given) {
   const json bench_line = take(config, "bench_line");
   const json neighbours = take(config, "neighbours");
   const json named = take(config, "model");
-  const std::string model = !model_.empty() ? model_ : named.is_string() ? named.get<std::string>() : std::string();
+  const std::string model = !model_.empty()     ? model_
+                            : named.is_string() ? named.get<std::string>()
+                                                : std::string();
 
-  const Result<LineSettings> bench = bench_line.is_null() ? line_of(config) : settings_of(bench_line, "bench_line");
+  const Result<LineSettings> bench =
+      bench_line.is_null() ? line_of(config) : settings_of(bench_line, "bench_line");
   if (!bench) return bench.error();
   line_ = SimulatedLine(*bench, is_on(config, "rs485") ? Duplex::half : Duplex::full, line_.now());
   if (Status attached = attach(model, config); !attached) return attached;
@@ -114,10 +124,12 @@ Status EmulatorEndpoint::attach(std::string_view model, const json& config) {
   return ok();
 }
 
-Status EmulatorEndpoint::attach_neighbours(std::string_view model, const json& neighbours, const json& config) {
+Status EmulatorEndpoint::attach_neighbours(std::string_view model, const json& neighbours,
+                                           const json& config) {
   if (neighbours.is_null()) return ok();
   if (!neighbours.is_array())
-    return fail("cannot set up the line: 'neighbours' is " + neighbours.dump() + "; write an array of stations");
+    return fail("cannot set up the line: 'neighbours' is " + neighbours.dump() +
+                "; write an array of stations");
   for (const json& neighbour : neighbours) {
     json own = neighbour.is_object() ? neighbour : json{{"station", neighbour}};
     for (const char* key : {"line", "rs485"}) {
@@ -165,11 +177,13 @@ std::string EmulatorEndpoint::line_errors() {
 
 Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name) {
   const Result<const Protocol*> chosen = choose_protocol(name.option("protocol", ""), name.target);
-  if (!chosen) return fail(fmt::format("cannot open emulator:{}: {}", name.target, chosen.error().message));
+  if (!chosen)
+    return fail(fmt::format("cannot open emulator:{}: {}", name.target, chosen.error().message));
   const Protocol* protocol = *chosen;
   auto endpoint = std::make_unique<EmulatorEndpoint>(
       name, [protocol](std::string_view model, const json& config) {
-        return make_monitored_device(*protocol, model.empty() ? protocol->models().front() : model, config);
+        return make_monitored_device(*protocol, model.empty() ? protocol->models().front() : model,
+                                     config);
       });
   if (const Status begun = endpoint->begin(json::object()); !begun) {
     return fail(fmt::format("cannot open emulator:{}: {}", name.target, begun.error().message));

@@ -14,16 +14,19 @@
 
 namespace fieldproof {
 
-/// Makes a device in its power-on state; `config` is `given.config` without what belongs to the line and the endpoint
-/// (model, protocol, bench_line, neighbours).
-using DeviceFactory = std::function<Result<std::unique_ptr<EmulatedDevice>>(std::string_view model, const nlohmann::json& config)>;
-/// Puts something between the line and the device, as FaultyDevice (src/line/faults.hpp). `device` outlives it.
+/// Makes a device in its power-on state; `config` is `given.config` without what belongs to the
+/// line and the endpoint (model, protocol, bench_line, neighbours).
+using DeviceFactory = std::function<Result<std::unique_ptr<EmulatedDevice>>(
+    std::string_view model, const nlohmann::json& config)>;
+/// Puts something between the line and the device, as FaultyDevice (src/line/faults.hpp). `device`
+/// outlives it.
 using Decorator = std::function<std::unique_ptr<Device>(Device& device, const LineSettings& line)>;
 
 class EmulatorEndpoint : public Endpoint {
  public:
-  /// The target of `name` is the model; without one it is the key "model" of each case, or empty. Options are defaults
-  /// for the keys of `given.config` and are overridden by it; "[...]" and "{...}" are read as JSON.
+  /// The target of `name` is the model; without one it is the key "model" of each case, or empty.
+  /// Options are defaults for the keys of `given.config` and are overridden by it; "[...]" and
+  /// "{...}" are read as JSON.
   EmulatorEndpoint(const EndpointName& name, DeviceFactory factory, Decorator decorate = {});
 
   const Capabilities& capabilities() const override { return capabilities_; }
@@ -31,9 +34,10 @@ class EmulatorEndpoint : public Endpoint {
   Time now() const override { return line_.now(); }
   Duration character_time() const override { return line_.bench_settings().character_time(); }
 
-  /// New devices on a new line; simulated time goes on. `line` is the device's setting, `bench_line` the bench's (the
-  /// same when absent); `rs485` makes the line half duplex. `neighbours`: stations, or objects of config keys, of further
-  /// devices of the same model on the same line. Errors name the key.
+  /// New devices on a new line; simulated time goes on. `line` is the device's setting,
+  /// `bench_line` the bench's (the same when absent); `rs485` makes the line half duplex.
+  /// `neighbours`: stations, or objects of config keys, of further devices of the same model on the
+  /// same line. Errors name the key.
   Status begin(const nlohmann::json& config) override;
   Result<Sent> send(ByteView bytes) override;
   Result<Burst> receive(Time deadline) override;
@@ -46,20 +50,22 @@ class EmulatorEndpoint : public Endpoint {
 
  private:
   Status attach(std::string_view model, const nlohmann::json& config);
-  Status attach_neighbours(std::string_view model, const nlohmann::json& neighbours, const nlohmann::json& config);
+  Status attach_neighbours(std::string_view model, const nlohmann::json& neighbours,
+                           const nlohmann::json& config);
 
-  std::string model_;          // empty: of each case
-  nlohmann::json defaults_;    // the endpoint's options
+  std::string model_;        // empty: of each case
+  nlohmann::json defaults_;  // the endpoint's options
   DeviceFactory factory_;
   Decorator decorate_;
   Capabilities capabilities_;
   SimulatedLine line_;
-  std::vector<std::unique_ptr<EmulatedDevice>> devices_;  // the device under test, then its neighbours
+  std::vector<std::unique_ptr<EmulatedDevice>>
+      devices_;  // the device under test, then its neighbours
   std::unique_ptr<Device> decorated_;
 };
 
-/// The protocol of option `protocol`, else the first that has the model, makes the devices. Opens with a device of the options alone, so
-/// that a wrong model or option is reported at once.
+/// The protocol of option `protocol`, else the first that has the model, makes the devices. Opens
+/// with a device of the options alone, so that a wrong model or option is reported at once.
 Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name);
 
 }  // namespace fieldproof

@@ -14,7 +14,8 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-/// Answers frames that begin with its station with ACK, station and its one byte of memory; "%FLAG" makes it ask.
+/// Answers frames that begin with its station with ACK, station and its one byte of memory; "%FLAG"
+/// makes it ask.
 class TinyDevice : public EmulatedDevice {
  public:
   explicit TinyDevice(int station) : station_(static_cast<Byte>(station)) {}
@@ -29,9 +30,12 @@ class TinyDevice : public EmulatedDevice {
     return {0x06, station_, memory_};
   }
   Status set(std::string_view address, std::string_view hex) override {
-    if (address == "%FLAG") due_ = Time{};
-    else if (address != "%M" || hex.size() != 2) return fail("cannot set " + std::string(address) + ": no such memory");
-    else memory_ = from_hex(hex)->front();
+    if (address == "%FLAG")
+      due_ = Time{};
+    else if (address != "%M" || hex.size() != 2)
+      return fail("cannot set " + std::string(address) + ": no such memory");
+    else
+      memory_ = from_hex(hex)->front();
     return ok();
   }
   Result<std::string> get(std::string_view address, std::size_t) const override {
@@ -39,7 +43,8 @@ class TinyDevice : public EmulatedDevice {
     return hex_number(memory_, 2);
   }
   Status act(std::string_view action) override {
-    if (action != "power_cycle") return fail("cannot do " + std::string(action) + ": unknown action");
+    if (action != "power_cycle")
+      return fail("cannot do " + std::string(action) + ": unknown action");
     memory_ = 0;
     return ok();
   }
@@ -61,18 +66,20 @@ Result<std::unique_ptr<EmulatedDevice>> make_tiny(std::string_view model, const 
   asked.push_back({std::string(model), config});
   if (model != "tiny" && !model.empty()) return fail("unknown model '" + std::string(model) + "'");
   for (const auto& [key, value] : config.items()) {
-    if (key != "station" && key != "line" && key != "rs485") return fail("unknown key '" + key + "'");
+    if (key != "station" && key != "line" && key != "rs485")
+      return fail("unknown key '" + key + "'");
   }
   const json& station = config.at("station");
-  return Result<std::unique_ptr<EmulatedDevice>>(
-      std::make_unique<TinyDevice>(station.is_string() ? std::stoi(station.get<std::string>()) : station.get<int>()));
+  return Result<std::unique_ptr<EmulatedDevice>>(std::make_unique<TinyDevice>(
+      station.is_string() ? std::stoi(station.get<std::string>()) : station.get<int>()));
 }
 
 class TinyProtocol : public Protocol {
  public:
   std::string_view name() const override { return "tiny"; }
   std::vector<std::string> models() const override { return {"tiny"}; }
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const json& config) const override {
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
+                                                      const json& config) const override {
     return make_tiny(model, config);
   }
   Bytes station_bytes(int station) const override { return {static_cast<Byte>(station)}; }
@@ -80,8 +87,13 @@ class TinyProtocol : public Protocol {
   std::vector<Field> explain(ByteView) const override { return {}; }
   Bytes probe(int station, ByteView) const override { return station_bytes(station); }
   bool is_reply_to_probe(ByteView, ByteView) const override { return true; }
-  Result<std::vector<Bytes>> write_requests(int, std::string_view, std::string_view) const override { return fail("none"); }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view, std::size_t) const override { return fail("none"); }
+  Result<std::vector<Bytes>> write_requests(int, std::string_view,
+                                            std::string_view) const override {
+    return fail("none");
+  }
+  Result<std::vector<Bytes>> read_requests(int, std::string_view, std::size_t) const override {
+    return fail("none");
+  }
   Status write_reply(ByteView) const override { return ok(); }
   Result<std::string> read_reply(ByteView) const override { return fail("none"); }
   std::vector<Written> written_by(ByteView) const override { return {}; }
@@ -105,7 +117,8 @@ class Emulator : public ::testing::Test {
  protected:
   Emulator() { asked.clear(); }
 
-  std::unique_ptr<EmulatorEndpoint> open(std::string_view text, const json& config = json::object(), Decorator decorate = {}) {
+  std::unique_ptr<EmulatorEndpoint> open(std::string_view text, const json& config = json::object(),
+                                         Decorator decorate = {}) {
     auto endpoint = std::make_unique<EmulatorEndpoint>(named(text), make_tiny, std::move(decorate));
     const Status begun = endpoint->begin(config);
     EXPECT_TRUE(begun) << (begun ? "" : begun.error().message);
@@ -203,7 +216,8 @@ TEST_F(Emulator, ADeviceThatHasWorkAfterASetIsWokenAtOnce) {
 }
 
 TEST_F(Emulator, NeighboursShareTheLine) {
-  auto endpoint = open("emulator:tiny", {{"line", "19200-8N1"}, {"neighbours", {2, {{"station", 3}, {"line", "9600"}}}}});
+  auto endpoint = open("emulator:tiny", {{"line", "19200-8N1"},
+                                         {"neighbours", {2, {{"station", 3}, {"line", "9600"}}}}});
   EXPECT_EQ(asked.size(), 3u);
   EXPECT_EQ(ask(*endpoint, {1}), (Bytes{0x06, 1, 0}));
   EXPECT_EQ(ask(*endpoint, {2}), (Bytes{0x06, 2, 0}));
@@ -218,8 +232,8 @@ TEST_F(Emulator, NeighboursCanBeAnOption) {
 TEST_F(Emulator, TheBenchMayHaveSettingsOfItsOwn) {
   auto endpoint = open("emulator:tiny", {{"line", "9600-8E1"}, {"bench_line", "9600-8N1"}});
   EXPECT_EQ(endpoint->character_time(), ct);
-  // The stop bit of the request passes as the parity of 01. Of the reply 06 01 00 the parity bits 0 1 0 stand where the
-  // bench expects its stop bit.
+  // The stop bit of the request passes as the parity of 01. Of the reply 06 01 00 the parity bits 0
+  // 1 0 stand where the bench expects its stop bit.
   EXPECT_EQ(ask(*endpoint, {1}), (Bytes{0x01}));
   EXPECT_TRUE(endpoint->receive(1s)->bytes.empty());
   EXPECT_EQ(endpoint->line_errors(), "2 framing errors");
@@ -236,9 +250,11 @@ TEST_F(Emulator, Rs485IsHalfDuplex) {
 }
 
 TEST_F(Emulator, ADecoratorStandsBetweenLineAndDevice) {
-  auto endpoint = open("emulator:tiny", {{"neighbours", {2}}}, [](Device& device, const LineSettings& line) {
-    return std::make_unique<FaultyDevice>(device, LineFaults{.reply = {.flip = 0}}, line.character_time());
-  });
+  auto endpoint =
+      open("emulator:tiny", {{"neighbours", {2}}}, [](Device& device, const LineSettings& line) {
+        return std::make_unique<FaultyDevice>(device, LineFaults{.reply = {.flip = 0}},
+                                              line.character_time());
+      });
   EXPECT_EQ(ask(*endpoint, {1}), (Bytes{0x07, 1, 0}));
   EXPECT_EQ(ask(*endpoint, {2}), (Bytes{0x06, 2, 0}));  // the device under test alone
 }
@@ -248,7 +264,8 @@ TEST_F(Emulator, ErrorsNameTheKey) {
   EXPECT_THAT(refusal("emulator:tiny", {{"line", "9601"}}), HasSubstr("9601"));
   EXPECT_THAT(refusal("emulator:tiny", {{"bench_line", true}}), HasSubstr("'bench_line' is true"));
   EXPECT_THAT(refusal("emulator:tiny", {{"neighbours", 2}}), HasSubstr("'neighbours' is 2"));
-  EXPECT_THAT(refusal("emulator:tiny", {{"neighbours", {{{"statoin", 2}, {"station", 3}}}}}), HasSubstr("unknown key 'statoin'"));
+  EXPECT_THAT(refusal("emulator:tiny", {{"neighbours", {{{"statoin", 2}, {"station", 3}}}}}),
+              HasSubstr("unknown key 'statoin'"));
   EXPECT_THAT(refusal("emulator:tiny", {{"colour", "red"}}), HasSubstr("unknown key 'colour'"));
   EXPECT_THAT(refusal("emulator:huge", json::object()), HasSubstr("unknown model 'huge'"));
 }
@@ -275,9 +292,12 @@ TEST_F(Emulator, OpeningReportsAWrongProtocolModelOrOption) {
     return endpoint ? std::string("opened") : endpoint.error().message;
   };
   EXPECT_EQ(message("emulator:tiny?protocol=tinny"),
-            "cannot open emulator:tiny: there is no protocol 'tinny'; use one of tiny; did you mean 'tiny'?");
-  EXPECT_EQ(message("emulator:huge?protocol=tiny"), "cannot open emulator:huge: unknown model 'huge'");
-  EXPECT_EQ(message("emulator:tiny?protocol=tiny&colour=red"), "cannot open emulator:tiny: unknown key 'colour'");
+            "cannot open emulator:tiny: there is no protocol 'tinny'; use one of tiny; did you "
+            "mean 'tiny'?");
+  EXPECT_EQ(message("emulator:huge?protocol=tiny"),
+            "cannot open emulator:huge: unknown model 'huge'");
+  EXPECT_EQ(message("emulator:tiny?protocol=tiny&colour=red"),
+            "cannot open emulator:tiny: unknown key 'colour'");
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "harness/endpoints/endpoint.hpp"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -22,13 +22,15 @@ namespace {
 using Options = std::span<const std::string_view>;
 
 constexpr std::array<std::string_view, 3> link_keys{"protocol", "station", "floor_ms"};
-constexpr std::array<std::string_view, 6> serial_keys{"protocol", "station", "floor_ms", "baud", "frame", "rs485"};
+constexpr std::array<std::string_view, 6> serial_keys{"protocol", "station", "floor_ms",
+                                                      "baud",     "frame",   "rs485"};
 
 struct Kind {
   std::string_view name;
   std::string_view target;  // what stands behind the colon, for messages; empty: it may be left out
   Options options;          // empty: the emulated device checks them (keys of `given.config`)
-  bool free_target;         // the target may hold '?' and '&' of its own: only known options count as options
+  bool free_target;  // the target may hold '?' and '&' of its own: only known options count as
+                     // options
   Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&);
 };
 
@@ -51,32 +53,40 @@ const Kind* find_kind(std::string_view name) {
 std::string unknown_kind(std::string_view name) {
   std::vector<std::string_view> names;
   for (const Kind& kind : kinds) names.push_back(kind.name);
-  return fmt::format("unknown kind '{}'; the kinds are {}{}", name, fmt::join(names, ", "), suggestion(name, names));
+  return fmt::format("unknown kind '{}'; the kinds are {}{}", name, fmt::join(names, ", "),
+                     suggestion(name, names));
 }
 
-bool known(Options options, std::string_view key) { return options.empty() || std::ranges::find(options, key) != options.end(); }
+bool known(Options options, std::string_view key) {
+  return options.empty() || std::ranges::find(options, key) != options.end();
+}
 
 /// Reads "station=1&protocol=xgt-cnet" into `options`; what is wrong with it, or empty.
-std::string read_options(std::string_view text, const Kind& kind, std::map<std::string, std::string>& options) {
+std::string read_options(std::string_view text, const Kind& kind,
+                         std::map<std::string, std::string>& options) {
   while (!text.empty()) {
     const std::string_view one = text.substr(0, text.find('&'));
     text.remove_prefix(std::min(text.size(), one.size() + 1));
     const std::string key(one.substr(0, one.find('=')));
     if (!known(kind.options, key)) {
-      return fmt::format("unknown option '{}'; the options of {} are {}{}", key, kind.name, fmt::join(kind.options, ", "),
-                         suggestion(key, kind.options));
+      return fmt::format("unknown option '{}'; the options of {} are {}{}", key, kind.name,
+                         fmt::join(kind.options, ", "), suggestion(key, kind.options));
     }
-    if (key.empty() || key.size() == one.size()) return fmt::format("option '{}' has no value; write KEY=VALUE", one);
-    if (!options.emplace(key, one.substr(key.size() + 1)).second) return fmt::format("option '{}' is given twice; leave one", key);
+    if (key.empty() || key.size() == one.size())
+      return fmt::format("option '{}' has no value; write KEY=VALUE", one);
+    if (!options.emplace(key, one.substr(key.size() + 1)).second)
+      return fmt::format("option '{}' is given twice; leave one", key);
   }
   return {};
 }
 
-/// A command keeps its own '?': behind the last one there are options only if it reads as such, and no option of ours
-/// has a space (`exec:tool emulate xbc-h?station=1 --pty {tty}` is all command).
+/// A command keeps its own '?': behind the last one there are options only if it reads as such, and
+/// no option of ours has a space (`exec:tool emulate xbc-h?station=1 --pty {tty}` is all command).
 std::size_t options_of_command(std::string_view rest, const Kind& kind) {
   const std::size_t mark = rest.rfind('?');
-  if (mark == std::string_view::npos || mark + 1 == rest.size() || rest.find(' ', mark) != std::string_view::npos) return std::string_view::npos;
+  if (mark == std::string_view::npos || mark + 1 == rest.size() ||
+      rest.find(' ', mark) != std::string_view::npos)
+    return std::string_view::npos;
   std::map<std::string, std::string> trial;
   return read_options(rest.substr(mark + 1), kind, trial).empty() ? mark : std::string_view::npos;
 }
@@ -92,11 +102,14 @@ Result<std::string> Endpoint::get(std::string_view address, std::size_t) {
 }
 
 Status Endpoint::act(std::string_view action) {
-  return fail(fmt::format("cannot do {}: {} cannot be switched from here; do it by hand", action, describe()));
+  return fail(fmt::format("cannot do {}: {} cannot be switched from here; do it by hand", action,
+                          describe()));
 }
 
 Status Endpoint::tell(std::string_view) {
-  return fail(fmt::format("cannot tell {} what to request: the bench has not started it; give --stimulus a command", describe()));
+  return fail(fmt::format(
+      "cannot tell {} what to request: the bench has not started it; give --stimulus a command",
+      describe()));
 }
 
 std::string Endpoint::line_errors() { return {}; }
@@ -107,7 +120,9 @@ std::string EndpointName::option(const std::string& key, const std::string& fall
 }
 
 Result<EndpointName> parse_endpoint(std::string_view text) {
-  const auto wrong = [text](const std::string& why) { return fail(fmt::format("cannot read endpoint '{}': {}", text, why)); };
+  const auto wrong = [text](const std::string& why) {
+    return fail(fmt::format("cannot read endpoint '{}': {}", text, why));
+  };
   EndpointName name;
   name.kind = text.substr(0, text.find_first_of(":?"));
   const Kind* kind = find_kind(name.kind);
@@ -117,10 +132,13 @@ Result<EndpointName> parse_endpoint(std::string_view text) {
   const std::size_t mark = kind->free_target ? options_of_command(rest, *kind) : rest.find('?');
   name.target = rest.substr(0, mark);
   if (name.target.empty() && !kind->target.empty()) {
-    return wrong(fmt::format("nothing stands behind the colon; write {}:{}", kind->name, kind->target));
+    return wrong(
+        fmt::format("nothing stands behind the colon; write {}:{}", kind->name, kind->target));
   }
   if (mark == std::string_view::npos) return name;
-  if (const std::string why = read_options(rest.substr(mark + 1), *kind, name.options); !why.empty()) return wrong(why);
+  if (const std::string why = read_options(rest.substr(mark + 1), *kind, name.options);
+      !why.empty())
+    return wrong(why);
   return name;
 }
 

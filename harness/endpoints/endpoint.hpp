@@ -1,9 +1,9 @@
 // Where the bytes of a case go to and come from. An endpoint knows no protocol.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
@@ -16,12 +16,12 @@ namespace fieldproof {
 
 /// What an endpoint can and cannot show, so that no case is judged on what the link does not carry.
 struct Capabilities {
-  bool simulated = false;      // time costs nothing and is exact
-  bool wire = false;           // character times, parity and data bits exist (simulated line, real adapter)
-  bool back_door = false;      // emulator: memory, counters and configuration can be set for each case
-  bool real_device = false;    // the write fence binds; configuration is what is declared
+  bool simulated = false;  // time costs nothing and is exact
+  bool wire = false;  // character times, parity and data bits exist (simulated line, real adapter)
+  bool back_door = false;  // emulator: memory, counters and configuration can be set for each case
+  bool real_device = false;  // the write fence binds; configuration is what is declared
   bool can_power_cycle = false;
-  bool datagrams = false;      // one send is one packet (UDP)
+  bool datagrams = false;  // one send is one packet (UDP)
   /// Differences in time below this cannot be judged (0 in simulation).
   Duration timing_floor{};
 };
@@ -43,14 +43,15 @@ class Endpoint {
   /// One character on this line.
   virtual Duration character_time() const = 0;
 
-  /// Starts a case. Emulators become a fresh device with `config` (vectors/README.md, `given.config`, with "model");
-  /// real devices ignore it: the runner has compared it with what is declared. Nothing is purged.
+  /// Starts a case. Emulators become a fresh device with `config` (vectors/README.md,
+  /// `given.config`, with "model"); real devices ignore it: the runner has compared it with what is
+  /// declared. Nothing is purged.
   virtual Status begin(const nlohmann::json& config) = 0;
 
   /// Transmits now. Errors are trouble of the port, never of the device.
   virtual Result<Sent> send(ByteView bytes) = 0;
-  /// Waits for bytes until `deadline` (a moment in the past: takes what is there). An empty burst: none came.
-  /// Ctrl-C ends the wait with an interrupted error.
+  /// Waits for bytes until `deadline` (a moment in the past: takes what is there). An empty burst:
+  /// none came. Ctrl-C ends the wait with an interrupted error.
   virtual Result<Burst> receive(Time deadline) = 0;
 
   /// Back door (capabilities().back_door); errors name the address or action.
@@ -58,7 +59,8 @@ class Endpoint {
   virtual Result<std::string> get(std::string_view address, std::size_t digits);
   virtual Status act(std::string_view action);
 
-  /// A line to the standard input of the device under test, where the endpoint has started it (`--stimulus -`).
+  /// A line to the standard input of the device under test, where the endpoint has started it
+  /// (`--stimulus -`).
   virtual Status tell(std::string_view line);
 
   /// Errors that the driver has counted since the last call ("3 parity errors, 1 break"), or empty.

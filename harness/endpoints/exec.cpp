@@ -18,7 +18,8 @@ namespace {
 constexpr std::string_view tty_mark = "{tty}";
 
 std::string with_tty(std::string command, const std::string& path) {
-  for (std::size_t at = 0; (at = command.find(tty_mark, at)) != std::string::npos; at += path.size()) {
+  for (std::size_t at = 0; (at = command.find(tty_mark, at)) != std::string::npos;
+       at += path.size()) {
     command.replace(at, tty_mark.size(), path);
   }
   return command;
@@ -27,7 +28,10 @@ std::string with_tty(std::string command, const std::string& path) {
 class ExecEndpoint final : public Endpoint {
  public:
   ExecEndpoint(const EndpointName& name, PtyPair pty, Duration floor)
-      : command_(name.target), slave_(std::move(pty.slave)), path_(pty.path), link_(std::move(pty.master), describe()) {
+      : command_(name.target),
+        slave_(std::move(pty.slave)),
+        path_(pty.path),
+        link_(std::move(pty.master), describe()) {
     capabilities_.real_device = true;
     capabilities_.can_power_cycle = true;
     capabilities_.timing_floor = floor;
@@ -66,14 +70,18 @@ class ExecEndpoint final : public Endpoint {
 
   Status tell(std::string_view line) override {
     if (command_.find(tty_mark) == std::string::npos)
-      return fail(fmt::format("cannot tell {} what to request: its standard input is the port; write {{tty}} where the command takes its path", describe()));
+      return fail(
+          fmt::format("cannot tell {} what to request: its standard input is the port; write "
+                      "{{tty}} where the command takes its path",
+                      describe()));
     if (write_line(input_.get(), std::string(line))) return ok();
     return fail(fmt::format("cannot tell {} what to request: {}", describe(), child_->how()));
   }
 
   Status act(std::string_view action) override {
     if (action == "power_cycle") return start();
-    return fail(fmt::format("cannot do '{}' on {}: the bench can only power_cycle it", action, describe()));
+    return fail(
+        fmt::format("cannot do '{}' on {}: the bench can only power_cycle it", action, describe()));
   }
 
  private:
@@ -90,7 +98,9 @@ class ExecEndpoint final : public Endpoint {
 
 Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name) {
   if (name.target.empty()) {
-    return fail("cannot open exec: there is no command; write exec:COMMAND, with {tty} for the path of its port");
+    return fail(
+        "cannot open exec: there is no command; write exec:COMMAND, with {tty} for the path of its "
+        "port");
   }
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();

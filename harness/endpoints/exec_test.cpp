@@ -23,14 +23,16 @@ std::unique_ptr<Endpoint> open(const std::string& command) {
 TEST(Exec, WithoutTtyTheStandardStreamsAreTheLine) {
   const auto endpoint = open("cat");
   ASSERT_TRUE(endpoint->begin(nlohmann::json::object()));
-  const Bytes controls{0x05, 0x03, 0x04, 0x15, 0x0A, 0x0D, 0x11, 0x13, 0x1A, 0xFF, 'z'};  // what a cooked pty would eat
+  const Bytes controls{0x05, 0x03, 0x04, 0x15, 0x0A, 0x0D,
+                       0x11, 0x13, 0x1A, 0xFF, 'z'};  // what a cooked pty would eat
   ASSERT_TRUE(endpoint->send(controls));
   EXPECT_EQ(to_hex(to_bytes(receive_text(*endpoint, "z"))), to_hex(controls));
 }
 
 TEST(Exec, TheMarkBecomesThePathOfThePort) {
   const auto endpoint = open(
-      "/usr/bin/python3 -c \"import os,sys;f=os.open(sys.argv[1],os.O_RDWR);os.write(f,os.read(f,100).upper())\n"
+      "/usr/bin/python3 -c \"import "
+      "os,sys;f=os.open(sys.argv[1],os.O_RDWR);os.write(f,os.read(f,100).upper())\n"
       "while os.read(f,1):pass\" {tty}");
   ASSERT_TRUE(endpoint->send(to_bytes("loud")));
   EXPECT_EQ(receive_text(*endpoint, "LOUD"), "LOUD");
@@ -113,8 +115,10 @@ TEST(Exec, SaysWhatItIs) {
 }
 
 TEST(Exec, RefusesNoCommandAndNoFloor) {
-  EXPECT_THAT(open_exec(endpoint_name("exec", "")).error().message, HasSubstr("there is no command"));
-  EXPECT_THAT(open_exec(endpoint_name("exec", "cat", {{"floor_ms", "x"}})).error().message, HasSubstr("floor_ms is 'x'"));
+  EXPECT_THAT(open_exec(endpoint_name("exec", "")).error().message,
+              HasSubstr("there is no command"));
+  EXPECT_THAT(open_exec(endpoint_name("exec", "cat", {{"floor_ms", "x"}})).error().message,
+              HasSubstr("floor_ms is 'x'"));
 }
 
 }  // namespace

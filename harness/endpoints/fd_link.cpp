@@ -17,7 +17,8 @@ namespace fieldproof {
 
 namespace {
 
-/// Bytes that a process wrote before its end pass through a kernel work queue and may come after the news of its end.
+/// Bytes that a process wrote before its end pass through a kernel work queue and may come after
+/// the news of its end.
 constexpr Duration last_bytes_limit = 20ms;
 constexpr Duration end_limit = 200ms;
 
@@ -45,7 +46,8 @@ Error interrupted_error(const char* verb, const std::string& name) {
   return Error{"cannot " + std::string(verb) + ' ' + name + ": interrupted", true};
 }
 
-FdLink::FdLink(UniqueFd fd, std::string name, RunClock clock) : fd_(std::move(fd)), name_(std::move(name)), clock_(clock) {
+FdLink::FdLink(UniqueFd fd, std::string name, RunClock clock)
+    : fd_(std::move(fd)), name_(std::move(name)), clock_(clock) {
   ::fcntl(fd_.get(), F_SETFL, ::fcntl(fd_.get(), F_GETFL) | O_NONBLOCK);
   struct stat status {};
   socket_ = ::fstat(fd_.get(), &status) == 0 && S_ISSOCK(status.st_mode);
@@ -60,12 +62,16 @@ Error FdLink::gone(const char* verb, int error) {
   }
   const std::string start = "cannot " + std::string(verb) + ' ' + name_ + ": ";
   if (socket_) {
-    return fail(start + (error ? "the connection broke (" + errno_text(error) + ')' : "the far end closed the connection") +
+    return fail(start +
+                (error ? "the connection broke (" + errno_text(error) + ')'
+                       : "the far end closed the connection") +
                 "; see that the device or serial server still runs");
   }
-  if (error != 0 && error != EIO && error != ENXIO && error != ENODEV) return fail(start + errno_text(error));
+  if (error != 0 && error != EIO && error != ENXIO && error != ENODEV)
+    return fail(start + errno_text(error));
   return fail(start +
-              "the far end is gone; see that the adapter is still plugged in, or that the process behind the pty still runs");
+              "the far end is gone; see that the adapter is still plugged in, or that the process "
+              "behind the pty still runs");
 }
 
 Error FdLink::ended(const char* verb) {
@@ -108,13 +114,16 @@ Status FdLink::wait_writable(Time give_up) {
   const int ready = poll_for(fds.data(), fds.size(), give_up - now());
   if (interrupted()) return interrupted_error("send to", name_);
   if (ready == 0) {
-    return fail("cannot send to " + name_ + ": the far end takes no more bytes; see that it reads and that flow control is off");
+    return fail(
+        "cannot send to " + name_ +
+        ": the far end takes no more bytes; see that it reads and that flow control is off");
   }
   if (ready > 0 && fds[0].revents == 0 && fds[2].revents != 0) return ended("send to");
   return ok();
 }
 
-/// The kernel takes bytes faster than the wire does. Waits until the last stop bit, so that pauses count from there.
+/// The kernel takes bytes faster than the wire does. Waits until the last stop bit, so that pauses
+/// count from there.
 Status FdLink::wait_for_end(Time end) {
   for (Duration left = end - now(); left > Duration::zero(); left = end - now()) {
     if (interrupted()) return interrupted_error("send to", name_);
@@ -152,19 +161,22 @@ Result<Burst> FdLink::receive(Time deadline) {
     }
     const long n = read_some(buffer.data(), buffer.size());
     if (n > 0) return arrived(ByteView(buffer.data(), static_cast<std::size_t>(n)));
-    if (n == 0 || (!would_block(errno) && errno != EINTR)) return gone("receive from", n == 0 ? 0 : errno);
+    if (n == 0 || (!would_block(errno) && errno != EINTR))
+      return gone("receive from", n == 0 ? 0 : errno);
     if (!waiting && !interrupted()) return Burst{{}, now(), {}};
   }
 }
 
-/// The last stop bit was over when the bytes were read; on a wire the first began as much earlier as they last, but
-/// not before the bytes read earlier had ended.
+/// The last stop bit was over when the bytes were read; on a wire the first began as much earlier
+/// as they last, but not before the bytes read earlier had ended.
 Burst FdLink::arrived(ByteView bytes) {
   const Time moment = now();
   Duration each = character_time_;
-  if (each != Duration::zero()) each = std::min(each, (moment - received_until_) / static_cast<Duration::rep>(bytes.size()));
+  if (each != Duration::zero())
+    each = std::min(each, (moment - received_until_) / static_cast<Duration::rep>(bytes.size()));
   received_until_ = moment;
-  return Burst{Bytes(bytes.begin(), bytes.end()), moment - each * static_cast<Duration::rep>(bytes.size()), each};
+  return Burst{Bytes(bytes.begin(), bytes.end()),
+               moment - each * static_cast<Duration::rep>(bytes.size()), each};
 }
 
 }  // namespace fieldproof

@@ -22,7 +22,8 @@ class RunClock {
   Time origin_{};
 };
 
-/// A process that a link depends on. Its end is noticed while waiting, although the bench itself keeps the pty open.
+/// A process that a link depends on. Its end is noticed while waiting, although the bench itself
+/// keeps the pty open.
 class FarEnd {
  public:
   virtual ~FarEnd() = default;
@@ -39,7 +40,8 @@ class FdLink {
   /// Takes over `fd` and makes it non-blocking. `name` is for messages: "serial:/dev/ttyUSB0".
   FdLink(UniqueFd fd, std::string name, RunClock clock = {});
 
-  /// On a real line, one character: sent bytes end, and received bytes begin, by this time. 0 (pty, socket): no wire.
+  /// On a real line, one character: sent bytes end, and received bytes begin, by this time. 0 (pty,
+  /// socket): no wire.
   void set_character_time(Duration character_time) { character_time_ = character_time; }
   /// How long a send waits for a far end that takes no bytes.
   void set_send_limit(Duration limit) { send_limit_ = limit; }
@@ -51,12 +53,12 @@ class FdLink {
   bool dead() const { return dead_; }
   Time now() const { return clock_.now(); }
 
-  /// Sends all. On a real line it returns when the last stop bit is over. Errors: interrupted, the far end is gone,
-  /// or it takes no bytes (3 s).
+  /// Sends all. On a real line it returns when the last stop bit is over. Errors: interrupted, the
+  /// far end is gone, or it takes no bytes (3 s).
   Result<Sent> send(ByteView bytes);
 
-  /// The next bytes up to `deadline` (in the past: what is there), or an empty burst. Bytes that a dead far end left
-  /// behind are still handed out. Errors: interrupted, the far end is gone.
+  /// The next bytes up to `deadline` (in the past: what is there), or an empty burst. Bytes that a
+  /// dead far end left behind are still handed out. Errors: interrupted, the far end is gone.
   Result<Burst> receive(Time deadline);
 
  private:

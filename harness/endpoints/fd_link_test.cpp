@@ -73,11 +73,13 @@ TEST(FdLink, SaysThatASocketWasClosed) {
   sockets.far.reset();
   EXPECT_EQ(receive_text(link, "last"), "last");
   EXPECT_FALSE(link.dead());
-  EXPECT_THAT(endpoint_tests::receive_error(link).message, HasSubstr("cannot receive from tcp:h:1: the far end closed the connection"));
+  EXPECT_THAT(endpoint_tests::receive_error(link).message,
+              HasSubstr("cannot receive from tcp:h:1: the far end closed the connection"));
   EXPECT_TRUE(link.dead());
   const Result<Sent> sent = link.send(to_bytes("x"));
   ASSERT_FALSE(sent);
-  EXPECT_THAT(sent.error().message, HasSubstr("cannot send to tcp:h:1: the connection broke (broken pipe)"));
+  EXPECT_THAT(sent.error().message,
+              HasSubstr("cannot send to tcp:h:1: the connection broke (broken pipe)"));
 }
 
 TEST(FdLink, SaysThatTheOtherEndOfAPtyIsGone) {
@@ -85,7 +87,8 @@ TEST(FdLink, SaysThatTheOtherEndOfAPtyIsGone) {
   ASSERT_TRUE(pty);
   FdLink link(std::move(pty->slave), "serial:/dev/x");
   pty->master.reset();
-  EXPECT_THAT(endpoint_tests::receive_error(link).message, HasSubstr("cannot receive from serial:/dev/x: the far end is gone"));
+  EXPECT_THAT(endpoint_tests::receive_error(link).message,
+              HasSubstr("cannot receive from serial:/dev/x: the far end is gone"));
   const Result<Sent> sent = link.send(to_bytes("x"));
   ASSERT_FALSE(sent);
   EXPECT_THAT(sent.error().message, HasSubstr("the far end is gone"));
@@ -119,7 +122,8 @@ TEST(FdLink, AFarEndThatDoesNotReadIsAnError) {
   link.set_send_limit(20ms);
   const Result<Sent> sent = link.send(Bytes(100'000, 'x'));
   ASSERT_FALSE(sent);
-  EXPECT_THAT(sent.error().message, HasSubstr("cannot send to exec:stuck: the far end takes no more bytes"));
+  EXPECT_THAT(sent.error().message,
+              HasSubstr("cannot send to exec:stuck: the far end takes no more bytes"));
 }
 
 TEST(FdLink, OnAWireSentBytesEndByTheCharacterTime) {
@@ -146,7 +150,9 @@ TEST(FdLink, OnAWireReceivedBytesBeganByTheCharacterTimeButNeverOverlap) {
   ASSERT_TRUE(first);
   EXPECT_EQ(first->character_time, 2ms);
   EXPECT_EQ(first->end() - first->start, 10ms);
-  sockets.write_far("a hundred characters cannot have come in no time, so they are said to have come in the time there was");
+  sockets.write_far(
+      "a hundred characters cannot have come in no time, so they are said to have come in the time "
+      "there was");
   const Result<Burst> second = link.receive(link.now() + 5s);
   ASSERT_TRUE(second);
   EXPECT_GE(second->start, first->end());

@@ -5,11 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fcntl.h>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <fcntl.h>
 
 #include "harness/endpoints/interrupt.hpp"
 #include "harness/endpoints/system_calls.hpp"
@@ -71,7 +71,8 @@ Status run_hook(const std::string& command, const std::vector<std::string>& argu
   const bool ended = end && wait_readable(end.get());
   if (!ended) ::kill(pid, SIGTERM);
   int status = 0;
-  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {}
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
   if (!ended) return Error{"cannot run '" + command + "': interrupted", true};
   if (status != 0) return fail("the command '" + command + "' failed: " + how(status));
   return ok();

@@ -14,7 +14,8 @@ using testing::HasSubstr;
 
 TEST(Hook, GetsArgumentsAndEnvironment) {
   EXPECT_TRUE(run_hook("test \"$SPEED\" = 38400 && test 8N1 =", {"8N1"}, {{"SPEED", "38400"}}));
-  const Status failed = run_hook("test \"$SPEED\" = 9600 && test 8N1 =", {"8N1"}, {{"SPEED", "38400"}});
+  const Status failed =
+      run_hook("test \"$SPEED\" = 9600 && test 8N1 =", {"8N1"}, {{"SPEED", "38400"}});
   ASSERT_FALSE(failed);
   EXPECT_THAT(failed.error().message, HasSubstr("failed: exit status 1"));
 }
@@ -39,7 +40,9 @@ class Input {
     ::dup2(kept_, STDIN_FILENO);
     ::close(kept_);
   }
-  void type(const std::string& text) { EXPECT_EQ(::write(write_, text.data(), text.size()), static_cast<ssize_t>(text.size())); }
+  void type(const std::string& text) {
+    EXPECT_EQ(::write(write_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  }
   void end() {
     if (write_ >= 0) ::close(write_);
     write_ = -1;

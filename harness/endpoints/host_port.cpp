@@ -26,7 +26,10 @@ namespace fs = std::filesystem;
 class TtyPort final : public HostPort {
  public:
   TtyPort(UniqueFd fd, UniqueFd slave, std::string description, fs::path link)
-      : fd_(std::move(fd)), slave_(std::move(slave)), description_(std::move(description)), link_(std::move(link)) {}
+      : fd_(std::move(fd)),
+        slave_(std::move(slave)),
+        description_(std::move(description)),
+        link_(std::move(link)) {}
   ~TtyPort() override {
     std::error_code none;
     if (!link_.empty()) fs::remove(link_, none);
@@ -40,10 +43,13 @@ class TtyPort final : public HostPort {
     const ssize_t n = ::read(fd_.get(), buffer.data(), buffer.size());
     if (n > 0) return Bytes(buffer.begin(), buffer.begin() + n);
     if (n < 0 && (errno == EAGAIN || errno == EINTR)) return Bytes{};
-    return fail("cannot read " + description_ + ": the other end is gone; start it again, then this");
+    return fail("cannot read " + description_ +
+                ": the other end is gone; start it again, then this");
   }
 
-  void write(ByteView bytes) override { [[maybe_unused]] const ssize_t n = ::write(fd_.get(), bytes.data(), bytes.size()); }
+  void write(ByteView bytes) override {
+    [[maybe_unused]] const ssize_t n = ::write(fd_.get(), bytes.data(), bytes.size());
+  }
   void flush() override { drop_waiting_bytes(fd_.get()); }
 
  private:
@@ -53,15 +59,18 @@ class TtyPort final : public HostPort {
   fs::path link_;
 };
 
-Result<std::unique_ptr<HostPort>> use_terminal(UniqueFd fd, const std::string& path, const std::string& line) {
+Result<std::unique_ptr<HostPort>> use_terminal(UniqueFd fd, const std::string& path,
+                                               const std::string& line) {
   if (is_pty(real_system_calls(), fd.get())) {
     if (!set_raw(fd.get())) return fail("cannot use " + path + ": " + errno_text(errno));
   } else {
     const Result<LineSettings> settings = parse_line_settings(line);
     if (!settings) return settings.error();
-    if (const Status done = apply_settings(real_system_calls(), fd.get(), path, *settings); !done) return done.error();
+    if (const Status done = apply_settings(real_system_calls(), fd.get(), path, *settings); !done)
+      return done.error();
   }
-  return std::unique_ptr<HostPort>(std::make_unique<TtyPort>(std::move(fd), UniqueFd(), path, fs::path()));
+  return std::unique_ptr<HostPort>(
+      std::make_unique<TtyPort>(std::move(fd), UniqueFd(), path, fs::path()));
 }
 
 Result<std::unique_ptr<HostPort>> make_pty(const std::string& path) {
@@ -78,14 +87,15 @@ Result<std::unique_ptr<HostPort>> make_pty(const std::string& path) {
     }
     description += ", linked from " + path;
   }
-  return std::unique_ptr<HostPort>(
-      std::make_unique<TtyPort>(std::move(pty->master), std::move(pty->slave), description, fs::path(path)));
+  return std::unique_ptr<HostPort>(std::make_unique<TtyPort>(
+      std::move(pty->master), std::move(pty->slave), description, fs::path(path)));
 }
 
 /// The clients of a listening socket, on one line together.
 class TcpPort final : public HostPort {
  public:
-  TcpPort(UniqueFd listener, std::string description) : listener_(std::move(listener)), description_(std::move(description)) {}
+  TcpPort(UniqueFd listener, std::string description)
+      : listener_(std::move(listener)), description_(std::move(description)) {}
 
   std::string describe() const override { return description_; }
   void add_to(std::vector<pollfd>& fds) const override {
@@ -114,12 +124,14 @@ class TcpPort final : public HostPort {
   void write(ByteView bytes) override {
     for (const UniqueFd& client : clients_) {
       if (heard_ && *heard_ != client.get()) continue;
-      [[maybe_unused]] const ssize_t n = ::send(client.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      [[maybe_unused]] const ssize_t n =
+          ::send(client.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
     }
   }
 
   void flush() override {
-    for (Result<Bytes> left = read(); left && !left->empty(); left = read()) {}
+    for (Result<Bytes> left = read(); left && !left->empty(); left = read()) {
+    }
   }
 
  private:
@@ -145,19 +157,23 @@ class TcpPort final : public HostPort {
 };
 
 int listen_on(const addrinfo& address, UniqueFd& fd) {
-  fd.reset(::socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, address.ai_protocol));
+  fd.reset(::socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK,
+                    address.ai_protocol));
   if (!fd) return errno;
   const int yes = 1;
   ::setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  return ::bind(fd.get(), address.ai_addr, address.ai_addrlen) == 0 && ::listen(fd.get(), 16) == 0 ? 0 : errno;
+  return ::bind(fd.get(), address.ai_addr, address.ai_addrlen) == 0 && ::listen(fd.get(), 16) == 0
+             ? 0
+             : errno;
 }
 
 std::string bound_port(int fd) {
   sockaddr_storage address{};
   socklen_t size = sizeof address;
   ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-  const in_port_t port = address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
-                                                       : reinterpret_cast<const sockaddr_in&>(address).sin_port;
+  const in_port_t port = address.ss_family == AF_INET6
+                             ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
+                             : reinterpret_cast<const sockaddr_in&>(address).sin_port;
   return std::to_string(ntohs(port));
 }
 
@@ -169,7 +185,8 @@ Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const s
   if (!fd && errno == ENOENT) return make_pty(path);
   constexpr std::string_view advice = "; choose a terminal, or a path where there is nothing yet";
   if (!fd) return fail("cannot open " + path + ": " + errno_text(errno).append(advice));
-  if (!::isatty(fd.get())) return fail("cannot use " + path + ": it is no terminal" + std::string(advice));
+  if (!::isatty(fd.get()))
+    return fail("cannot use " + path + ": it is no terminal" + std::string(advice));
   return use_terminal(std::move(fd), path, line);
 }
 
@@ -179,7 +196,8 @@ Result<std::unique_ptr<HostPort>> open_tcp_port(const std::string& host_and_port
   if (!list) return fail(start + list.error().message);
   UniqueFd fd;
   int error = EADDRNOTAVAIL;
-  for (const addrinfo* one = list->get(); one && error != 0; one = one->ai_next) error = listen_on(*one, fd);
+  for (const addrinfo* one = list->get(); one && error != 0; one = one->ai_next)
+    error = listen_on(*one, fd);
   if (error != 0) return fail(start + errno_text(error) + "; choose another port or address");
   const std::string host = host_and_port.substr(0, host_and_port.rfind(':'));
   const std::string description = "tcp " + host + ':' + bound_port(fd.get());

@@ -16,11 +16,14 @@ namespace {
 std::atomic<bool> interrupt_came{false};
 std::atomic<int> interrupt_event{-1};
 std::atomic<int> hangup_event{-1};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free, "signal handlers use them");
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "signal handlers use them");
 
 int new_event() {
   const int fd = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (fd < 0) throw std::runtime_error("cannot make an eventfd: no file descriptors left; raise the limit with ulimit -n");
+  if (fd < 0)
+    throw std::runtime_error(
+        "cannot make an eventfd: no file descriptors left; raise the limit with ulimit -n");
   return fd;
 }
 

@@ -3,8 +3,8 @@
 
 namespace fieldproof {
 
-/// From now on SIGINT and SIGTERM end waits instead of the process; a second one of the same kind ends the process,
-/// so that a hanging bench can still be left.
+/// From now on SIGINT and SIGTERM end waits instead of the process; a second one of the same kind
+/// ends the process, so that a hanging bench can still be left.
 void catch_interrupts();
 
 /// Has a signal come since `catch_interrupts`?
@@ -19,7 +19,8 @@ void interrupt();
 /// Forgets the interrupt, so that one process can be interrupted again (tests).
 void clear_interrupt();
 
-/// From now on SIGHUP makes this descriptor readable instead of ending the process; the reader empties it.
+/// From now on SIGHUP makes this descriptor readable instead of ending the process; the reader
+/// empties it.
 int catch_hangup();
 
 }  // namespace fieldproof

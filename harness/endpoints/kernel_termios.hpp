@@ -1,4 +1,5 @@
-// The kernel's terminal settings with any speed. <asm/termbits.h> cannot be included next to <termios.h>.
+// The kernel's terminal settings with any speed. <asm/termbits.h> cannot be included next to
+// <termios.h>.
 #pragma once
 
 #include <asm-generic/ioctl.h>
@@ -24,8 +25,8 @@ static_assert(sizeof(KernelTermios) == 44);
 constexpr unsigned long get_kernel_termios = _IOR('T', 0x2A, KernelTermios);  // TCGETS2
 constexpr unsigned long set_kernel_termios = _IOW('T', 0x2B, KernelTermios);  // TCSETS2
 
-constexpr std::uint32_t speed_mask = 0x0000100F;   // CBAUD
-constexpr std::uint32_t any_speed = 0x00001000;    // BOTHER: the speed stands in the speed fields
-constexpr int input_speed_shift = 16;              // IBSHIFT
+constexpr std::uint32_t speed_mask = 0x0000100F;  // CBAUD
+constexpr std::uint32_t any_speed = 0x00001000;   // BOTHER: the speed stands in the speed fields
+constexpr int input_speed_shift = 16;             // IBSHIFT
 
 }  // namespace fieldproof

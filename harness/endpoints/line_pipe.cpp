@@ -13,7 +13,8 @@ namespace fieldproof {
 Result<LinePipe> open_line_pipe() {
   // A socket pair: writing to one that was closed raises no signal.
   std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return fail("cannot make a pipe: " + errno_text(errno));
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    return fail("cannot make a pipe: " + errno_text(errno));
   const timeval limit{5, 0};
   ::setsockopt(ends[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
   return LinePipe{UniqueFd(ends[0]), UniqueFd(ends[1])};

@@ -15,7 +15,8 @@ struct LinePipe {
 
 Result<LinePipe> open_line_pipe();
 
-/// Writes `line` and a newline; false where nobody reads any more, or a reader has not read for long.
+/// Writes `line` and a newline; false where nobody reads any more, or a reader has not read for
+/// long.
 bool write_line(int fd, const std::string& line);
 
 }  // namespace fieldproof

@@ -17,10 +17,13 @@ Result<Duration> timing_floor(const EndpointName& name) {
 }
 
 Result<SerialOptions> serial_options(const EndpointName& name) {
-  const auto wrong = [&](const Error& error) { return fail("cannot open " + name.kind + ':' + name.target + ": " + error.message); };
+  const auto wrong = [&](const Error& error) {
+    return fail("cannot open " + name.kind + ':' + name.target + ": " + error.message);
+  };
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();
-  const Result<LineSettings> settings = parse_line_settings(name.option("baud", "9600") + '-' + name.option("frame", "8N1"));
+  const Result<LineSettings> settings =
+      parse_line_settings(name.option("baud", "9600") + '-' + name.option("frame", "8N1"));
   if (!settings) return wrong(settings.error());
   const Result<Direction> direction = parse_direction(name.option("rs485", ""));
   if (!direction) return wrong(direction.error());

@@ -1,4 +1,5 @@
-// The options that endpoints on real time have in common. parse_endpoint has refused those that a kind does not know.
+// The options that endpoints on real time have in common. parse_endpoint has refused those that a
+// kind does not know.
 #pragma once
 
 #include "harness/endpoints/endpoint.hpp"

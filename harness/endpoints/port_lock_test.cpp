@@ -84,13 +84,15 @@ TEST_F(PortLocks, AFileWithOurProcessIdAsOtherProgramsReadIt) {
     EXPECT_EQ(status.st_mode & 0777u, 0644u) << "others must be able to read whose it is";
   }
   EXPECT_FALSE(fs::exists(lock_path));
-  EXPECT_THAT(std::vector<fs::path>(fs::directory_iterator(folder), {}), SizeIs(1)) << "the port alone is left";
+  EXPECT_THAT(std::vector<fs::path>(fs::directory_iterator(folder), {}), SizeIs(1))
+      << "the port alone is left";
 }
 
 TEST_F(PortLocks, ASecondUserIsToldWhoHasIt) {
   const Result<PortLock> first = acquire();
   ASSERT_TRUE(first);
-  EXPECT_THAT(refusal(), HasSubstr("cannot open " + port + ": the port is in use by process " + std::to_string(::getpid()) + " ("));
+  EXPECT_THAT(refusal(), HasSubstr("cannot open " + port + ": the port is in use by process " +
+                                   std::to_string(::getpid()) + " ("));
   EXPECT_EQ(std::stol(content()), ::getpid()) << "the refused one leaves the lock alone";
 }
 
@@ -98,7 +100,8 @@ TEST_F(PortLocks, ALinkIsTheSamePort) {
   const Result<PortLock> first = acquire();
   ASSERT_TRUE(first);
   fs::create_symlink(port, folder + "/by-id");
-  EXPECT_THAT(PortLock::acquire(folder + "/by-id", {folder}).error().message, HasSubstr("the port is in use by process"));
+  EXPECT_THAT(PortLock::acquire(folder + "/by-id", {folder}).error().message,
+              HasSubstr("the port is in use by process"));
 }
 
 TEST_F(PortLocks, AProgramThatLocksTheLinkIsRespected) {
@@ -107,7 +110,8 @@ TEST_F(PortLocks, AProgramThatLocksTheLinkIsRespected) {
   std::string of_link = "LCK.." + folder + "_by-id";
   std::ranges::replace(of_link, '/', '_');
   std::ofstream(folder + '/' + of_link) << other.pid() << '\n';
-  EXPECT_THAT(PortLock::acquire(folder + "/by-id", {folder}).error().message, HasSubstr("in use by process " + std::to_string(other.pid())));
+  EXPECT_THAT(PortLock::acquire(folder + "/by-id", {folder}).error().message,
+              HasSubstr("in use by process " + std::to_string(other.pid())));
   EXPECT_FALSE(fs::exists(lock_path)) << "what was taken before is given back";
 }
 
@@ -136,8 +140,10 @@ TEST_F(PortLocks, AnotherProgramsLockIsRespected) {
   ASSERT_EQ(::utimensat(AT_FDCWD, lock_path.c_str(), when.data(), 0), 0);
   std::string name;
   std::ifstream("/proc/self/comm") >> name;  // it is our child
-  EXPECT_EQ(refusal(), "cannot open " + port + ": the port is in use by process " + std::to_string(other.pid()) + " (" + name +
-                           ") since 2026-03-20 09:46; end that process or choose another port (if it does not use the port, delete " +
+  EXPECT_EQ(refusal(), "cannot open " + port + ": the port is in use by process " +
+                           std::to_string(other.pid()) + " (" + name +
+                           ") since 2026-03-20 09:46; end that process or choose another port (if "
+                           "it does not use the port, delete " +
                            lock_path + ")");
 }
 
@@ -149,7 +155,8 @@ TEST_F(PortLocks, ALockOfADeadProcessIsTakenOverWithANotice) {
   other.end();
   const Result<PortLock> lock = acquire();
   ASSERT_TRUE(lock) << lock.error().message;
-  EXPECT_THAT(lock->notice(), HasSubstr("took over the lock of " + port + ": process " + std::to_string(dead) + ", which locked it on 20"));
+  EXPECT_THAT(lock->notice(), HasSubstr("took over the lock of " + port + ": process " +
+                                        std::to_string(dead) + ", which locked it on 20"));
   EXPECT_EQ(std::stol(content()), ::getpid());
 }
 

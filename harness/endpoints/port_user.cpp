@@ -21,7 +21,8 @@ std::string lock_holder(const struct stat& port) {
     std::istringstream words(line);
     std::string number, kind, advisory, mode, process, file;
     words >> number >> kind >> advisory >> mode >> process >> file;
-    if (kind == "FLOCK" && file.substr(file.rfind(':') + 1) == std::to_string(port.st_ino)) return process;
+    if (kind == "FLOCK" && file.substr(file.rfind(':') + 1) == std::to_string(port.st_ino))
+      return process;
   }
   return "";
 }
@@ -31,7 +32,9 @@ bool has_open(const fs::path& process, const struct stat& port) {
   // Not a range-for, which throws when the process ends meanwhile.
   for (fs::directory_iterator one(process / "fd", none), end; one != end; one.increment(none)) {
     struct stat status {};
-    if (::stat(one->path().c_str(), &status) == 0 && status.st_dev == port.st_dev && status.st_ino == port.st_ino) return true;
+    if (::stat(one->path().c_str(), &status) == 0 && status.st_dev == port.st_dev &&
+        status.st_ino == port.st_ino)
+      return true;
   }
   return false;
 }
@@ -40,7 +43,8 @@ std::string opener(const struct stat& port) {
   std::error_code none;
   for (fs::directory_iterator one("/proc", none), end; one != end; one.increment(none)) {
     const std::string name = one->path().filename();
-    if (name.find_first_not_of("0123456789") == std::string::npos && has_open(one->path(), port)) return name;
+    if (name.find_first_not_of("0123456789") == std::string::npos && has_open(one->path(), port))
+      return name;
   }
   return "";
 }

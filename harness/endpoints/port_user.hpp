@@ -5,8 +5,8 @@
 
 namespace fieldproof {
 
-/// " by process 1234 (minicom)" for a process that holds the lock (flock) of `path`, or else has it open; empty when
-/// /proc does not tell (another user's process).
+/// " by process 1234 (minicom)" for a process that holds the lock (flock) of `path`, or else has it
+/// open; empty when /proc does not tell (another user's process).
 std::string port_user(const std::string& path);
 
 /// "process 1234 (minicom)"

@@ -41,7 +41,8 @@ std::string device_name(const EndpointName& name) {
 
 class PtyEndpoint final : public Endpoint {
  public:
-  PtyEndpoint(const EndpointName& name, PtyPair pty, UniqueFd control, std::unique_ptr<ChildProcess> child, Duration floor)
+  PtyEndpoint(const EndpointName& name, PtyPair pty, UniqueFd control,
+              std::unique_ptr<ChildProcess> child, Duration floor)
       : name_(name),
         child_(std::move(child)),
         slave_(std::move(pty.slave)),
@@ -54,7 +55,9 @@ class PtyEndpoint final : public Endpoint {
   }
 
   const Capabilities& capabilities() const override { return capabilities_; }
-  std::string describe() const override { return "pty: emulator" + (name_.target.empty() ? "" : ' ' + name_.target); }
+  std::string describe() const override {
+    return "pty: emulator" + (name_.target.empty() ? "" : ' ' + name_.target);
+  }
   Time now() const override { return link_.now(); }
   /// A pty has no wire; pauses in characters are meant at the device's speed.
   Duration character_time() const override { return line_.character_time(); }
@@ -63,7 +66,8 @@ class PtyEndpoint final : public Endpoint {
     const Result<LineSettings> line = parse_line_settings(line_of(config));
     if (!line) return line.error();
     line_ = *line;
-    // Bytes on their way to the old device, and after the answer those that it had sent: neither concerns this case.
+    // Bytes on their way to the old device, and after the answer those that it had sent: neither
+    // concerns this case.
     drop_waiting_bytes(link_.fd());
     const Result<std::string> begun = ask({{"begin", config}});
     drop_waiting_bytes(link_.fd());
@@ -101,7 +105,8 @@ class PtyEndpoint final : public Endpoint {
     while (answer.empty() || answer.back() != '\n') {
       const Result<Burst> burst = control_.receive(deadline);
       if (!burst) return burst.error();
-      if (burst->bytes.empty()) return fail("cannot talk to " + describe() + ": no answer within 5 s; " + child_->how());
+      if (burst->bytes.empty())
+        return fail("cannot talk to " + describe() + ": no answer within 5 s; " + child_->how());
       answer += to_text(burst->bytes);
     }
     return read_control_answer(answer);
@@ -124,18 +129,23 @@ Result<std::unique_ptr<Endpoint>> open_pty(const EndpointName& name) {
   Result<PtyPair> pty = open_pty_pair();
   if (!pty) return pty.error();
   int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return fail("cannot open pty: " + errno_text(errno));
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    return fail("cannot open pty: " + errno_text(errno));
   UniqueFd ours(ends[0]);
   const UniqueFd theirs(ends[1]);
   ChildOptions options;
-  options.arguments = {executable(), "emulate", device_name(name), "--control", std::to_string(theirs.get()), "--tty", pty->path};
+  options.arguments = {
+      executable(), "emulate", device_name(name), "--control", std::to_string(theirs.get()),
+      "--tty",      pty->path};
   options.keep = {theirs.get()};
   Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
   if (!child) return child.error();
-  auto endpoint = std::make_unique<PtyEndpoint>(name, std::move(*pty), std::move(ours), std::move(*child), *floor);
+  auto endpoint = std::make_unique<PtyEndpoint>(name, std::move(*pty), std::move(ours),
+                                                std::move(*child), *floor);
   // Its first answer says that it is ready, and that it accepts the options.
   if (const Status ready = endpoint->begin(json::object()); !ready) {
-    return Error{"cannot open pty:" + name.target + ": " + ready.error().message, ready.error().interrupted};
+    return Error{"cannot open pty:" + name.target + ": " + ready.error().message,
+                 ready.error().interrupted};
   }
   return std::unique_ptr<Endpoint>(std::move(endpoint));
 }

@@ -27,10 +27,14 @@ bool set_raw(int fd) {
 void drop_waiting_bytes(int fd) { ::tcflush(fd, TCIOFLUSH); }
 
 Result<PtyPair> open_pty_pair() {
-  const auto failed = [] { return fail("cannot open a pty: " + errno_text(errno) + "; see /proc/sys/kernel/pty/nr against max"); };
+  const auto failed = [] {
+    return fail("cannot open a pty: " + errno_text(errno) +
+                "; see /proc/sys/kernel/pty/nr against max");
+  };
   PtyPair pair;
   pair.master.reset(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
-  if (!pair.master || ::grantpt(pair.master.get()) != 0 || ::unlockpt(pair.master.get()) != 0) return failed();
+  if (!pair.master || ::grantpt(pair.master.get()) != 0 || ::unlockpt(pair.master.get()) != 0)
+    return failed();
   std::array<char, 64> path{};
   if (::ptsname_r(pair.master.get(), path.data(), path.size()) != 0) return failed();
   pair.path = path.data();

@@ -40,7 +40,8 @@ TEST(PtyPair, APeerThatAsksForParityIsNotRefused) {
   termios settings{};
   ASSERT_EQ(::tcgetattr(pty->slave.get(), &settings), 0);
   settings.c_cflag |= PARENB;
-  EXPECT_EQ(::tcsetattr(pty->slave.get(), TCSANOW, &settings), -1) << "the trap itself is gone from this kernel: B50 is needless";
+  EXPECT_EQ(::tcsetattr(pty->slave.get(), TCSANOW, &settings), -1)
+      << "the trap itself is gone from this kernel: B50 is needless";
   ::cfsetspeed(&settings, B9600);
   EXPECT_EQ(::tcsetattr(pty->slave.get(), TCSANOW, &settings), 0);
 }

@@ -39,8 +39,10 @@ int emulate(const std::vector<std::string>& arguments) {
   if (arguments.size() == 7 && arguments[1] == "emulate") std::_Exit(emulate(arguments));
 }
 
-std::unique_ptr<Endpoint> open(const std::string& model, std::map<std::string, std::string> options = {}) {
-  Result<std::unique_ptr<Endpoint>> endpoint = open_pty(endpoint_name("pty", model, std::move(options)));
+std::unique_ptr<Endpoint> open(const std::string& model,
+                               std::map<std::string, std::string> options = {}) {
+  Result<std::unique_ptr<Endpoint>> endpoint =
+      open_pty(endpoint_name("pty", model, std::move(options)));
   EXPECT_TRUE(endpoint) << endpoint.error().message;
   return endpoint ? std::move(*endpoint) : nullptr;
 }
@@ -70,17 +72,21 @@ TEST(Pty, EachCaseHasAFreshDeviceWithItsConfiguration) {
   ASSERT_TRUE(endpoint->set("%MW1", "12"));
   ASSERT_TRUE(endpoint->begin({{"mode", "stop"}}));
   EXPECT_FALSE(endpoint->get("%MW1", 2));
-  EXPECT_EQ(json::parse(*endpoint->get("@config", 0)),
-            json({{"model", "tiny"}, {"station", 5}, {"mode", "stop"}, {"inter_character_floor_ms", 20}}));
+  EXPECT_EQ(
+      json::parse(*endpoint->get("@config", 0)),
+      json(
+          {{"model", "tiny"}, {"station", 5}, {"mode", "stop"}, {"inter_character_floor_ms", 20}}));
 }
 
 TEST(Pty, WithoutAModelTheCaseDecides) {
   const auto endpoint = open("");
   EXPECT_EQ(endpoint->describe(), "pty: emulator");
-  EXPECT_FALSE(json::parse(*endpoint->get("@config", 0)).contains("model")) << "the device's own default";
+  EXPECT_FALSE(json::parse(*endpoint->get("@config", 0)).contains("model"))
+      << "the device's own default";
   ASSERT_TRUE(endpoint->begin({{"model", "tiny"}}));
   EXPECT_EQ(json::parse(*endpoint->get("@config", 0))["model"], "tiny");
-  EXPECT_THAT(endpoint->begin({{"model", "xgk"}}).error().message, HasSubstr("cannot make a device 'xgk'"));
+  EXPECT_THAT(endpoint->begin({{"model", "xgk"}}).error().message,
+              HasSubstr("cannot make a device 'xgk'"));
 }
 
 TEST(Pty, NothingOfAnEarlierCaseIsLeft) {
@@ -113,21 +119,25 @@ TEST(Pty, SaysWhatItIs) {
   EXPECT_EQ(can.timing_floor, 20ms);
   ASSERT_TRUE(endpoint->begin({{"line", "1200-8N1"}}));
   EXPECT_EQ(endpoint->character_time(), (LineSettings{1200, 8, 'N', 1}.character_time()));
-  EXPECT_THAT(endpoint->begin({{"line", "1200-9N1"}}).error().message, HasSubstr("cannot read line settings '1200-9N1'"));
+  EXPECT_THAT(endpoint->begin({{"line", "1200-9N1"}}).error().message,
+              HasSubstr("cannot read line settings '1200-9N1'"));
 }
 
 TEST(Pty, AnEmulatorThatDoesNotStartSaysWhy) {
   const auto endpoint = open_pty(endpoint_name("pty", "xgk"));
   ASSERT_FALSE(endpoint);
   EXPECT_THAT(endpoint.error().message,
-              testing::AllOf(HasSubstr("cannot open pty:xgk: "), HasSubstr("the process ended with exit status 2; it said: "),
+              testing::AllOf(HasSubstr("cannot open pty:xgk: "),
+                             HasSubstr("the process ended with exit status 2; it said: "),
                              HasSubstr("fieldproof: cannot make a device 'xgk'")));
 }
 
 TEST(Pty, AnEmulatorThatDiesIsAnError) {
   const auto endpoint = open("tiny");
-  EXPECT_THAT(endpoint->act("die").error().message, HasSubstr("the process ended with exit status 9"));
-  EXPECT_THAT(receive_error(*endpoint).message, HasSubstr("cannot receive from pty:tiny: the process ended with exit status 9"));
+  EXPECT_THAT(endpoint->act("die").error().message,
+              HasSubstr("the process ended with exit status 9"));
+  EXPECT_THAT(receive_error(*endpoint).message,
+              HasSubstr("cannot receive from pty:tiny: the process ended with exit status 9"));
 }
 
 TEST(Pty, AnotherProgramCanBeTheEmulator) {
@@ -135,7 +145,8 @@ TEST(Pty, AnotherProgramCanBeTheEmulator) {
   const auto endpoint = open_pty(endpoint_name("pty", "tiny"));
   ::unsetenv("FIELDPROOF_EXECUTABLE");
   ASSERT_FALSE(endpoint);
-  EXPECT_THAT(endpoint.error().message, HasSubstr("cannot start /nowhere/fieldproof: no such file or directory"));
+  EXPECT_THAT(endpoint.error().message,
+              HasSubstr("cannot start /nowhere/fieldproof: no such file or directory"));
 }
 
 }  // namespace

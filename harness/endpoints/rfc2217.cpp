@@ -16,7 +16,9 @@ constexpr Duration default_patience = 3s;
 class Rfc2217Endpoint final : public Endpoint {
  public:
   Rfc2217Endpoint(const std::string& where, const SerialOptions& options, Duration patience)
-      : where_(where), settings_(options.settings), session_(where, options.settings, options.direction, patience) {
+      : where_(where),
+        settings_(options.settings),
+        session_(where, options.settings, options.direction, patience) {
     capabilities_.real_device = true;
     capabilities_.timing_floor = options.floor;
   }
@@ -39,7 +41,9 @@ class Rfc2217Endpoint final : public Endpoint {
   std::string line_errors() override {
     std::string text = line_errors_between({}, session_.take_line_errors());
     const int count = std::exchange(reconnections_, 0);
-    if (count > 0) text += fmt::format("{}{} lost connection{}", text.empty() ? "" : ", ", count, count == 1 ? "" : "s");
+    if (count > 0)
+      text += fmt::format("{}{} lost connection{}", text.empty() ? "" : ", ", count,
+                          count == 1 ? "" : "s");
     return text;
   }
 
@@ -53,15 +57,20 @@ class Rfc2217Endpoint final : public Endpoint {
 
 }  // namespace
 
-Result<std::unique_ptr<Endpoint>> open_rfc2217(const EndpointName& name) { return open_rfc2217(name, default_patience); }
+Result<std::unique_ptr<Endpoint>> open_rfc2217(const EndpointName& name) {
+  return open_rfc2217(name, default_patience);
+}
 
 Result<std::unique_ptr<Endpoint>> open_rfc2217(const EndpointName& name, Duration patience) {
   const Result<SerialOptions> options = serial_options(name);
   if (!options) return options.error();
   if (options->direction == Direction::kernel) {
-    return fail(fmt::format("cannot open rfc2217:{}: RFC 2217 has no command for rs485=1; set it at the server (ser2net.yaml: "
-                            "`connector: serialdev,/dev/ttyUSB0,9600n81,local,rs485=0:0`) and leave rs485 out here, or use rs485=rts",
-                            name.target));
+    return fail(
+        fmt::format("cannot open rfc2217:{}: RFC 2217 has no command for rs485=1; set it at the "
+                    "server (ser2net.yaml: "
+                    "`connector: serialdev,/dev/ttyUSB0,9600n81,local,rs485=0:0`) and leave rs485 "
+                    "out here, or use rs485=rts",
+                    name.target));
   }
   auto endpoint = std::make_unique<Rfc2217Endpoint>(name.target, *options, patience);
   if (const Status opened = endpoint->open(); !opened) return opened.error();

@@ -15,7 +15,8 @@ namespace {
 
 Bytes big_endian(int value) {
   const auto bits = static_cast<std::uint32_t>(value);
-  return {static_cast<Byte>(bits >> 24), static_cast<Byte>(bits >> 16), static_cast<Byte>(bits >> 8), static_cast<Byte>(bits)};
+  return {static_cast<Byte>(bits >> 24), static_cast<Byte>(bits >> 16),
+          static_cast<Byte>(bits >> 8), static_cast<Byte>(bits)};
 }
 
 Byte parity_code(char parity) { return parity == 'O' ? 2 : parity == 'E' ? 3 : 1; }
@@ -38,10 +39,13 @@ std::string words(const std::deque<Burst>& received) {
 
 }  // namespace
 
-Rfc2217Session::Rfc2217Session(std::string where, LineSettings settings, Direction direction, Duration patience)
+Rfc2217Session::Rfc2217Session(std::string where, LineSettings settings, Direction direction,
+                               Duration patience)
     : where_(std::move(where)), settings_(settings), direction_(direction), patience_(patience) {}
 
-Error Rfc2217Session::cannot_open(const std::string& why) const { return fail(fmt::format("cannot open {}: {}", name(), why)); }
+Error Rfc2217Session::cannot_open(const std::string& why) const {
+  return fail(fmt::format("cannot open {}: {}", name(), why));
+}
 
 Status Rfc2217Session::open() {
   Result<UniqueFd> fd = connect_socket(where_, SOCK_STREAM);
@@ -54,41 +58,60 @@ Status Rfc2217Session::open() {
   Status opened = negotiate();
   if (opened) opened = set_up();
   if (!opened && link_->dead())
-    while (listen(now())) {}  // its last words
+    while (listen(now())) {
+    }  // its last words
   const std::string said = words(std::exchange(received_, std::move(from_before)));
   if (!opened && link_->dead() && !said.empty()) {
-    return cannot_open(fmt::format("the server says '{}' and closes the connection; see who uses the port, and the connector line of its "
-                                   "ser2net.yaml",
-                                   said));
+    return cannot_open(
+        fmt::format("the server says '{}' and closes the connection; see who uses the port, and "
+                    "the connector line of its "
+                    "ser2net.yaml",
+                    said));
   }
   return opened;
 }
 
 Status Rfc2217Session::negotiate() {
-  if (const Result<Sent> sent = link_->send(telnet::Negotiator::opening()); !sent) return sent.error();
+  if (const Result<Sent> sent = link_->send(telnet::Negotiator::opening()); !sent)
+    return sent.error();
   const Time give_up = now() + patience_;
   while (!negotiator_.missing().empty() && negotiator_.refused().empty() && now() < give_up)
     if (const Status heard = listen(give_up); !heard) return heard;
   if (negotiator_.missing().empty()) return ok();
-  const std::string what = negotiator_.refused().empty() ? "does not agree to " + negotiator_.missing() : "refuses " + negotiator_.refused();
-  return cannot_open(fmt::format("the server {}; in its ser2net.yaml write `accepter: telnet(rfc2217),tcp,PORT`, or see that this is the port of an "
-                                 "RFC 2217 server",
-                                 what));
+  const std::string what = negotiator_.refused().empty()
+                               ? "does not agree to " + negotiator_.missing()
+                               : "refuses " + negotiator_.refused();
+  return cannot_open(
+      fmt::format("the server {}; in its ser2net.yaml write `accepter: telnet(rfc2217),tcp,PORT`, "
+                  "or see that this is the port of an "
+                  "RFC 2217 server",
+                  what));
 }
 
 Status Rfc2217Session::set_up() {
   // In the order that RFC 2217, 2 recommends: not every parity goes with every number of data bits.
   const std::string to = to_string(settings_);
   Status done = set(telnet::set_baud_rate, big_endian(settings_.baud), to + " (speed)");
-  if (done) done = set(telnet::set_data_size, {static_cast<Byte>(settings_.data_bits)}, to + " (data bits)");
-  if (done) done = set(telnet::set_parity, {parity_code(settings_.parity)}, to + " (parity: 1 none, 2 odd, 3 even)");
-  if (done) done = set(telnet::set_stop_size, {static_cast<Byte>(settings_.stop_bits)}, to + " (stop bits)");
+  if (done)
+    done =
+        set(telnet::set_data_size, {static_cast<Byte>(settings_.data_bits)}, to + " (data bits)");
+  if (done)
+    done = set(telnet::set_parity, {parity_code(settings_.parity)},
+               to + " (parity: 1 none, 2 odd, 3 even)");
+  if (done)
+    done =
+        set(telnet::set_stop_size, {static_cast<Byte>(settings_.stop_bits)}, to + " (stop bits)");
   if (done) done = set(telnet::set_control, {telnet::no_flow_control}, "no flow control");
   if (done && direction_ == Direction::rts) done = set_rts(false);
   if (!done) return done;
-  // Not every server answers this one as RFC 2217 has it, and one that notifies no errors can still be used.
-  const Byte errors = telnet::overrun_error | telnet::parity_error | telnet::framing_error | telnet::break_detect;
-  if (const Result<Sent> sent = link_->send(telnet::command(telnet::set_line_state_mask, {{errors}})); !sent) return sent.error();
+  // Not every server answers this one as RFC 2217 has it, and one that notifies no errors can still
+  // be used.
+  const Byte errors =
+      telnet::overrun_error | telnet::parity_error | telnet::framing_error | telnet::break_detect;
+  if (const Result<Sent> sent =
+          link_->send(telnet::command(telnet::set_line_state_mask, {{errors}}));
+      !sent)
+    return sent.error();
   return set(telnet::purge_data, {telnet::purge_both}, "empty buffers");
 }
 
@@ -99,7 +122,8 @@ bool Rfc2217Session::ended() {
 
 /// Takes the next of what the server says, if it comes until `deadline`.
 Status Rfc2217Session::listen(Time deadline) {
-  // A server without TCP_NODELAY holds the rest of an answer until its first part is acknowledged: up to 40 ms later.
+  // A server without TCP_NODELAY holds the rest of an answer until its first part is acknowledged:
+  // up to 40 ms later.
   const int yes = 1;
   ::setsockopt(link_->fd(), IPPROTO_TCP, TCP_QUICKACK, &yes, sizeof yes);
   const Result<Burst> burst = link_->receive(deadline);
@@ -108,7 +132,8 @@ Status Rfc2217Session::listen(Time deadline) {
   Bytes replies;
   for (telnet::Message& message : decoder_.decode(burst->bytes)) {
     if (Bytes* data = std::get_if<Bytes>(&message)) {
-      // On the wire nothing of an answer can come before the last stop bit of the request; behind a pty it does.
+      // On the wire nothing of an answer can come before the last stop bit of the request; behind a
+      // pty it does.
       received_.push_back({std::move(*data), std::max(burst->start, sent_until_), {}});
     } else if (const auto* notification = std::get_if<telnet::Notification>(&message)) {
       take(*notification);
@@ -137,15 +162,20 @@ void Rfc2217Session::take(const telnet::Notification& notification) {
 }
 
 /// What the server confirms the command with.
-Result<Bytes> Rfc2217Session::ask(telnet::Command command, const Bytes& value, const std::string& what) {
+Result<Bytes> Rfc2217Session::ask(telnet::Command command, const Bytes& value,
+                                  const std::string& what) {
   confirmed_.erase(command);
-  if (const Result<Sent> sent = link_->send(telnet::command(command, value)); !sent) return sent.error();
+  if (const Result<Sent> sent = link_->send(telnet::command(command, value)); !sent)
+    return sent.error();
   const Time give_up = now() + patience_;
   while (!confirmed_.contains(command)) {
     if (now() >= give_up) {
-      return fail(fmt::format("cannot set {} to {}: the server does not confirm it within {:g} s; see that its host is on, and that the "
-                              "connector in its ser2net.yaml is a serial port that has this (`serialdev,/dev/ttyUSB0,9600n81,local`)",
-                              name(), what, to_ms(patience_) / 1000));
+      return fail(
+          fmt::format("cannot set {} to {}: the server does not confirm it within {:g} s; see that "
+                      "its host is on, and that the "
+                      "connector in its ser2net.yaml is a serial port that has this "
+                      "(`serialdev,/dev/ttyUSB0,9600n81,local`)",
+                      name(), what, to_ms(patience_) / 1000));
     }
     if (const Status heard = listen(give_up); !heard) return heard.error();
   }
@@ -156,14 +186,17 @@ Status Rfc2217Session::set(telnet::Command command, const Bytes& value, const st
   const Result<Bytes> taken = ask(command, value, what);
   if (!taken) return taken.error();
   if (*taken == value) return ok();
-  return fail(fmt::format("cannot set {} to {}: the server answers {} to {}; see that its adapter offers it, and that the connector in its "
-                          "ser2net.yaml fixes nothing",
-                          name(), what, number(*taken), number(value)));
+  return fail(
+      fmt::format("cannot set {} to {}: the server answers {} to {}; see that its adapter offers "
+                  "it, and that the connector in its "
+                  "ser2net.yaml fixes nothing",
+                  name(), what, number(*taken), number(value)));
 }
 
 Status Rfc2217Session::set_rts(bool on) {
   return set(telnet::set_control, {on ? telnet::rts_on : telnet::rts_off},
-             on ? "RTS on; leave rs485 out where the adapter switches by itself" : "RTS off; leave rs485 out where the adapter switches by itself");
+             on ? "RTS on; leave rs485 out where the adapter switches by itself"
+                : "RTS off; leave rs485 out where the adapter switches by itself");
 }
 
 Result<Sent> Rfc2217Session::send(ByteView bytes) {
@@ -171,8 +204,10 @@ Result<Sent> Rfc2217Session::send(ByteView bytes) {
     if (const Status on = set_rts(true); !on) return on.error();
   Sent sent;
   sent.start = std::max(now(), sent_until_);
-  if (const Result<Sent> handed_over = link_->send(telnet::escaped(bytes)); !handed_over) return handed_over.error();
-  sent_until_ = sent.end = sent.start + settings_.character_time() * static_cast<Duration::rep>(bytes.size());
+  if (const Result<Sent> handed_over = link_->send(telnet::escaped(bytes)); !handed_over)
+    return handed_over.error();
+  sent_until_ = sent.end =
+      sent.start + settings_.character_time() * static_cast<Duration::rep>(bytes.size());
   unproven_ = true;
   while (now() < sent.end)
     if (const Status heard = listen(sent.end); !heard) return heard.error();
@@ -192,10 +227,14 @@ Result<Burst> Rfc2217Session::receive(Time deadline) {
     if (const Status heard = listen(deadline); !heard && received_.empty()) return heard.error();
   } while (!received_.empty() || now() < deadline);
   if (waiting && unproven_) {
-    const Result<Bytes> alive = ask(telnet::set_control, {telnet::ask_flow_control}, "a sign of life");
+    const Result<Bytes> alive =
+        ask(telnet::set_control, {telnet::ask_flow_control}, "a sign of life");
     if (!alive && alive.error().interrupted) return alive.error();
     if (!alive && !link_->dead()) {
-      return fail(fmt::format("cannot receive from {}: the server does not answer any more; see that its host and the network are up", name()));
+      return fail(
+          fmt::format("cannot receive from {}: the server does not answer any more; see that its "
+                      "host and the network are up",
+                      name()));
     }
     if (!alive) return alive.error();
   }

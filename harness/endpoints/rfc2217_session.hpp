@@ -16,11 +16,12 @@ namespace fieldproof {
 class Rfc2217Session {
  public:
   /// `patience`: how long the server may take to confirm anything.
-  Rfc2217Session(std::string where, LineSettings settings, Direction direction, Duration patience = 3s);
+  Rfc2217Session(std::string where, LineSettings settings, Direction direction,
+                 Duration patience = 3s);
 
-  /// Connects, negotiates, sets speed and format, and purges the server's buffers; each is confirmed by the server, or
-  /// it is an error that says what to set in ser2net.yaml. After the end of a connection it opens a new one: what had
-  /// come over the old one is still handed out.
+  /// Connects, negotiates, sets speed and format, and purges the server's buffers; each is
+  /// confirmed by the server, or it is an error that says what to set in ser2net.yaml. After the
+  /// end of a connection it opens a new one: what had come over the old one is still handed out.
   Status open();
   /// Has the connection ended? Looks, without waiting.
   bool ended();
@@ -28,8 +29,8 @@ class Rfc2217Session {
   Time now() const { return clock_.now(); }
   /// The end is that of the last stop bit at the set speed, as far as a network lets one tell.
   Result<Sent> send(ByteView bytes);
-  /// As Endpoint::receive. A silence counts only if the server still answers us at its end: a dead server or network is
-  /// an error, never a silence of the device.
+  /// As Endpoint::receive. A silence counts only if the server still answers us at its end: a dead
+  /// server or network is an error, never a silence of the device.
   Result<Burst> receive(Time deadline);
 
   /// Errors that the server has notified, since the last call.
@@ -54,7 +55,8 @@ class Rfc2217Session {
   std::optional<FdLink> link_;
   telnet::Decoder decoder_;
   telnet::Negotiator negotiator_;
-  std::map<Byte, Bytes> confirmed_;  // by command of the client: the value that the server has answered
+  std::map<Byte, Bytes>
+      confirmed_;  // by command of the client: the value that the server has answered
   std::deque<Burst> received_;
   LineErrorCounts line_errors_;
   Time sent_until_{};

@@ -13,7 +13,8 @@ constexpr std::string_view the_protocol = "RFC 2217 (COM-PORT-OPTION)";
 constexpr std::string_view eight_bits = "binary transmission";
 
 void add_data(Byte byte, std::vector<Message>& messages) {
-  if (messages.empty() || !std::holds_alternative<Bytes>(messages.back())) messages.emplace_back(Bytes{});
+  if (messages.empty() || !std::holds_alternative<Bytes>(messages.back()))
+    messages.emplace_back(Bytes{});
   std::get<Bytes>(messages.back()).push_back(byte);
 }
 
@@ -48,8 +49,10 @@ std::vector<Message> Decoder::decode(ByteView bytes) {
 void Decoder::take(Byte byte, std::vector<Message>& messages) {
   switch (state_) {
     case State::data:
-      if (byte == iac) state_ = State::command;
-      else add_data(byte, messages);
+      if (byte == iac)
+        state_ = State::command;
+      else
+        add_data(byte, messages);
       return;
     case State::command: return take_command(byte, messages);
     case State::option:
@@ -57,8 +60,10 @@ void Decoder::take(Byte byte, std::vector<Message>& messages) {
       state_ = State::data;
       return;
     case State::sub:
-      if (byte == iac) state_ = State::sub_command;
-      else if (sub_.size() < longest_sub) sub_.push_back(byte);
+      if (byte == iac)
+        state_ = State::sub_command;
+      else if (sub_.size() < longest_sub)
+        sub_.push_back(byte);
       return;
     case State::sub_command:
       if (byte == iac) {
@@ -92,21 +97,29 @@ void Decoder::end_sub(std::vector<Message>& messages) {
 
 Bytes Negotiator::opening() {
   Bytes bytes;
-  for (const Bytes& one : {negotiation(will, binary), negotiation(do_it, binary), negotiation(will, suppress_go_ahead),
-                           negotiation(do_it, suppress_go_ahead), negotiation(will, com_port)})
+  for (const Bytes& one :
+       {negotiation(will, binary), negotiation(do_it, binary), negotiation(will, suppress_go_ahead),
+        negotiation(do_it, suppress_go_ahead), negotiation(will, com_port)})
     bytes.insert(bytes.end(), one.begin(), one.end());
   return bytes;
 }
 
 Bytes Negotiator::answer(const Negotiation& from_server) {
   const auto [verb, option] = from_server;
-  const bool wanted = option == binary || option == suppress_go_ahead || (option == com_port && (verb == do_it || verb == dont));
+  const bool wanted = option == binary || option == suppress_go_ahead ||
+                      (option == com_port && (verb == do_it || verb == dont));
   // Answering what was asked for would answer an answer, and go on for ever (RFC 854).
-  if (!wanted) return verb == do_it ? negotiation(wont, option) : verb == will ? negotiation(dont, option) : Bytes{};
+  if (!wanted)
+    return verb == do_it  ? negotiation(wont, option)
+           : verb == will ? negotiation(dont, option)
+                          : Bytes{};
   std::set<Byte>& agreed_to = verb == do_it || verb == dont ? ours_ : theirs_;
-  if (verb == do_it || verb == will) agreed_to.insert(option);
-  else agreed_to.erase(option);
-  if ((verb == dont || verb == wont) && option != suppress_go_ahead) refused_ = std::string(option == com_port ? the_protocol : eight_bits);
+  if (verb == do_it || verb == will)
+    agreed_to.insert(option);
+  else
+    agreed_to.erase(option);
+  if ((verb == dont || verb == wont) && option != suppress_go_ahead)
+    refused_ = std::string(option == com_port ? the_protocol : eight_bits);
   return {};
 }
 

@@ -1,4 +1,5 @@
-// Telnet (RFC 854, 856) and its COM-PORT-OPTION (RFC 2217) as bytes: what a client says, and how it reads the server.
+// Telnet (RFC 854, 856) and its COM-PORT-OPTION (RFC 2217) as bytes: what a client says, and how it
+// reads the server.
 #pragma once
 
 #include <set>
@@ -12,18 +13,18 @@ namespace fieldproof::telnet {
 
 enum Verb : Byte { will = 251, wont = 252, do_it = 253, dont = 254 };
 
-constexpr Byte binary = 0;               // RFC 856: all 8 bits, no CR NUL
+constexpr Byte binary = 0;  // RFC 856: all 8 bits, no CR NUL
 constexpr Byte suppress_go_ahead = 3;
 constexpr Byte com_port = 44;
 
 /// Commands of the client (RFC 2217, 2 to 4); the server answers with `answer + command`.
 enum Command : Byte {
-  set_baud_rate = 1,       // 4 bytes, most significant first
+  set_baud_rate = 1,  // 4 bytes, most significant first
   set_data_size = 2,
-  set_parity = 3,          // 1 none, 2 odd, 3 even
+  set_parity = 3,  // 1 none, 2 odd, 3 even
   set_stop_size = 4,
   set_control = 5,
-  notify_line_state = 6,   // of the server alone
+  notify_line_state = 6,  // of the server alone
   set_line_state_mask = 10,
   purge_data = 12,
 };
@@ -75,7 +76,8 @@ class Negotiator {
   static Bytes opening();
   /// What is answered: nothing to an agreement on what we want, refusal of everything else.
   Bytes answer(const Negotiation& from_server);
-  /// What the server has not agreed to yet: "RFC 2217 (COM-PORT-OPTION)", "binary transmission"; empty: all is agreed.
+  /// What the server has not agreed to yet: "RFC 2217 (COM-PORT-OPTION)", "binary transmission";
+  /// empty: all is agreed.
   std::string missing() const;
   /// What it has refused of that, or empty.
   const std::string& refused() const { return refused_; }

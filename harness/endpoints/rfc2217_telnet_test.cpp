@@ -13,11 +13,15 @@ std::string shown(const Message& message) {
   if (const auto* notification = std::get_if<Notification>(&message))
     return "notify " + std::to_string(notification->command) + ' ' + to_hex(notification->value);
   const auto& negotiation = std::get<Negotiation>(message);
-  const char* const verb = negotiation.verb == will ? "will" : negotiation.verb == wont ? "wont" : negotiation.verb == do_it ? "do" : "dont";
+  const char* const verb = negotiation.verb == will    ? "will"
+                           : negotiation.verb == wont  ? "wont"
+                           : negotiation.verb == do_it ? "do"
+                                                       : "dont";
   return std::string(verb) + ' ' + std::to_string(negotiation.option);
 }
 
-/// The messages of a stream, each part of it fed at once; data that stands together is shown together.
+/// The messages of a stream, each part of it fed at once; data that stands together is shown
+/// together.
 std::vector<std::string> decoded(std::initializer_list<std::string_view> parts) {
   Decoder decoder;
   std::vector<std::string> shown_messages;
@@ -44,9 +48,11 @@ TEST(Telnet, DoublesIacInData) {
 }
 
 TEST(Telnet, CommandsAsInRfc2217) {
-  EXPECT_EQ(to_hex(command(set_baud_rate, {{0x00, 0x00, 0x96, 0x00}})), "FF FA 2C 01 00 00 96 00 FF F0");
+  EXPECT_EQ(to_hex(command(set_baud_rate, {{0x00, 0x00, 0x96, 0x00}})),
+            "FF FA 2C 01 00 00 96 00 FF F0");
   EXPECT_EQ(to_hex(command(purge_data, {{purge_both}})), "FF FA 2C 0C 03 FF F0");
-  EXPECT_EQ(to_hex(command(set_line_state_mask, {{0xFF}})), "FF FA 2C 0A FF FF FF F0") << "255 is doubled in a value, too";
+  EXPECT_EQ(to_hex(command(set_line_state_mask, {{0xFF}})), "FF FA 2C 0A FF FF FF F0")
+      << "255 is doubled in a value, too";
   EXPECT_EQ(to_hex(negotiation(will, com_port)), "FF FB 2C");
 }
 
@@ -63,21 +69,28 @@ TEST(Telnet, AStreamMayBeCutAnywhere) {
   const auto expected = decoded({whole});
   ASSERT_THAT(expected, ElementsAre("data 41", "do 44", "data FF", "notify 106 FF", "data 0D 00"));
   for (std::size_t cut = 1; cut < stream.size(); ++cut)
-    EXPECT_EQ(decoded({std::string_view(whole).substr(0, cut * 3), std::string_view(whole).substr(cut * 3)}), expected) << cut;
+    EXPECT_EQ(decoded({std::string_view(whole).substr(0, cut * 3),
+                       std::string_view(whole).substr(cut * 3)}),
+              expected)
+        << cut;
 }
 
 TEST(Telnet, WhatIsNotForUsIsPassedOver) {
   EXPECT_THAT(decoded({"41 FF F1 42"}), ElementsAre("data 41 42")) << "NOP";
-  EXPECT_THAT(decoded({"FF FA 18 01 FF F0 41"}), ElementsAre("data 41")) << "the sub-negotiation of another option";
-  EXPECT_THAT(decoded({"FF FA 2C FF F0 41"}), ElementsAre("data 41")) << "a notification without command";
-  EXPECT_THAT(decoded({"FF FA 2C 65 FF F1 41"}), ElementsAre("data 41")) << "one that does not end as it must";
+  EXPECT_THAT(decoded({"FF FA 18 01 FF F0 41"}), ElementsAre("data 41"))
+      << "the sub-negotiation of another option";
+  EXPECT_THAT(decoded({"FF FA 2C FF F0 41"}), ElementsAre("data 41"))
+      << "a notification without command";
+  EXPECT_THAT(decoded({"FF FA 2C 65 FF F1 41"}), ElementsAre("data 41"))
+      << "one that does not end as it must";
 }
 
 TEST(Negotiation, AgreesWhenBothDirectionsAreBinaryAndThePortObeys) {
   Negotiator negotiator;
   EXPECT_EQ(to_hex(Negotiator::opening()), "FF FB 00 FF FD 00 FF FB 03 FF FD 03 FF FB 2C");
   EXPECT_EQ(negotiator.missing(), "RFC 2217 (COM-PORT-OPTION)");
-  EXPECT_THAT(negotiator.answer({do_it, com_port}), IsEmpty()) << "an answer to our WILL is not answered";
+  EXPECT_THAT(negotiator.answer({do_it, com_port}), IsEmpty())
+      << "an answer to our WILL is not answered";
   EXPECT_EQ(negotiator.missing(), "binary transmission");
   EXPECT_THAT(negotiator.answer({do_it, binary}), IsEmpty());
   EXPECT_EQ(negotiator.missing(), "binary transmission") << "one direction is not enough";
@@ -97,10 +110,12 @@ TEST(Negotiation, RefusesWhatItDoesNotKnow) {
 }
 
 TEST(Negotiation, ARefusalOfWhatIsNeededIsOne) {
-  for (const telnet::Negotiation& one : std::initializer_list<telnet::Negotiation>{{dont, com_port}, {dont, binary}, {wont, binary}}) {
+  for (const telnet::Negotiation& one : std::initializer_list<telnet::Negotiation>{
+           {dont, com_port}, {dont, binary}, {wont, binary}}) {
     Negotiator negotiator;
     negotiator.answer(one);
-    EXPECT_EQ(negotiator.refused(), one.option == com_port ? "RFC 2217 (COM-PORT-OPTION)" : "binary transmission");
+    EXPECT_EQ(negotiator.refused(),
+              one.option == com_port ? "RFC 2217 (COM-PORT-OPTION)" : "binary transmission");
   }
   Negotiator negotiator;
   negotiator.answer({wont, suppress_go_ahead});

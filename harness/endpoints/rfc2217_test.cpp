@@ -30,7 +30,8 @@ using Options = std::map<std::string, std::string>;
 
 const nlohmann::json no_config = nlohmann::json::object();
 
-Result<std::unique_ptr<Endpoint>> open(const std::string& where, const Options& options = {}, Duration patience = 5s) {
+Result<std::unique_ptr<Endpoint>> open(const std::string& where, const Options& options = {},
+                                       Duration patience = 5s) {
   return open_rfc2217(endpoint_name("rfc2217", where, options), patience);
 }
 
@@ -101,7 +102,8 @@ TEST_F(Rfc2217, ASecondUserIsToldWhatTheServerSays) {
   const auto first = open(server->where());
   ASSERT_TRUE(first) << first.error().message;
   EXPECT_THAT(refusal(server->where()),
-              AllOf(HasSubstr("cannot open rfc2217:" + server->where() + ": the server says '"), HasSubstr("already in use' and closes the connection; see who")));
+              AllOf(HasSubstr("cannot open rfc2217:" + server->where() + ": the server says '"),
+                    HasSubstr("already in use' and closes the connection; see who")));
 }
 
 TEST_F(Rfc2217, ThePortOfAServerIsInUseForOthers) {
@@ -114,18 +116,22 @@ TEST_F(Rfc2217, ThePortOfAServerIsInUseForOthers) {
   const auto local = open_serial(endpoint_name("serial", link));
   std::filesystem::remove(link);
   ASSERT_FALSE(local);
-  EXPECT_THAT(local.error().message, AllOf(HasSubstr("the port is in use by process "), HasSubstr(" (ser2net) since 20")));
+  EXPECT_THAT(local.error().message,
+              AllOf(HasSubstr("the port is in use by process "), HasSubstr(" (ser2net) since 20")));
 }
 
 TEST_F(Rfc2217, AServerWithoutRfc2217IsSaid) {
   const Ser2net plain(path, "telnet");
-  EXPECT_THAT(refusal(plain.where()), HasSubstr("cannot open rfc2217:" + plain.where() + ": the server refuses RFC 2217 (COM-PORT-OPTION); in its "
-                                                "ser2net.yaml write `accepter: telnet(rfc2217),tcp,PORT`"));
+  EXPECT_THAT(refusal(plain.where()),
+              HasSubstr("cannot open rfc2217:" + plain.where() +
+                        ": the server refuses RFC 2217 (COM-PORT-OPTION); in its "
+                        "ser2net.yaml write `accepter: telnet(rfc2217),tcp,PORT`"));
 }
 
 TEST_F(Rfc2217, APortThatTheServerLacksIsSaid) {
   const Ser2net none("/dev/no_such_port");
-  EXPECT_THAT(refusal(none.where()), HasSubstr("the server says 'Device open failure: Value or file not found' and closes the connection; see who "
+  EXPECT_THAT(refusal(none.where()), HasSubstr("the server says 'Device open failure: Value or "
+                                               "file not found' and closes the connection; see who "
                                                "uses the port, and the connector line"));
 }
 
@@ -134,23 +140,30 @@ TEST_F(Rfc2217, AKilledServerIsTroubleUntilItIsBack) {
   ASSERT_TRUE(port) << port.error().message;
   const int number = server->port();
   server->kill();
-  EXPECT_THAT(receive_error(**port).message, AllOf(HasSubstr("cannot receive from rfc2217:" + server->where()), HasSubstr("see that the device or serial server still runs")));
-  EXPECT_THAT((*port)->begin(no_config).error().message, HasSubstr("cannot connect to " + server->where() + ": nothing listens there"));
+  EXPECT_THAT(receive_error(**port).message,
+              AllOf(HasSubstr("cannot receive from rfc2217:" + server->where()),
+                    HasSubstr("see that the device or serial server still runs")));
+  EXPECT_THAT((*port)->begin(no_config).error().message,
+              HasSubstr("cannot connect to " + server->where() + ": nothing listens there"));
   server.emplace(path, "telnet(rfc2217)", number);
   const Status back = (*port)->begin(no_config);
   ASSERT_TRUE(back) << back.error().message;
   ASSERT_TRUE((*port)->send(to_bytes("again")));
   EXPECT_EQ(receive_text(*far, "again"), "again");
-  EXPECT_EQ((*port)->line_errors(), "2 lost connections") << "a run must show that it was not one session";
+  EXPECT_EQ((*port)->line_errors(), "2 lost connections")
+      << "a run must show that it was not one session";
   EXPECT_EQ((*port)->line_errors(), "");
 }
 
 TEST_F(Rfc2217, APtyHasNoRts) {
-  EXPECT_THAT(refusal(server->where(), {{"rs485", "rts"}}, 300ms), HasSubstr("cannot set rfc2217:" + server->where() + " to RTS off"));
+  EXPECT_THAT(refusal(server->where(), {{"rs485", "rts"}}, 300ms),
+              HasSubstr("cannot set rfc2217:" + server->where() + " to RTS off"));
 }
 
 TEST(Rfc2217Options, TheDriversRs485ModeIsTheServers) {
-  EXPECT_THAT(refusal("plc:2000", {{"rs485", "1"}}), AllOf(HasSubstr("RFC 2217 has no command for rs485=1; set it at the server"), HasSubstr("rs485=0:0")));
+  EXPECT_THAT(refusal("plc:2000", {{"rs485", "1"}}),
+              AllOf(HasSubstr("RFC 2217 has no command for rs485=1; set it at the server"),
+                    HasSubstr("rs485=0:0")));
   EXPECT_THAT(refusal("plc:2000", {{"frame", "9N1"}}), HasSubstr("cannot open rfc2217:plc:2000: "));
   EXPECT_THAT(refusal("plc"), HasSubstr("there is no port; write HOST:PORT"));
 }
@@ -160,20 +173,32 @@ TEST(Rfc2217Server, IsToldEverythingInOrder) {
   auto port = open(server.where(), {{"baud", "38400"}, {"frame", "8E2"}, {"rs485", "rts"}});
   ASSERT_TRUE(port) << port.error().message;
   ASSERT_TRUE((*port)->send({{0x05, 0xFF}}));
-  EXPECT_THAT(server.heard(), ElementsAre("1 00 00 96 00", "2 08", "3 03", "4 02", "5 01", "5 0C", "10 1E", "12 03",  //
+  EXPECT_THAT(server.heard(), ElementsAre("1 00 00 96 00", "2 08", "3 03", "4 02", "5 01", "5 0C",
+                                          "10 1E", "12 03",  //
                                           "5 0B", "data 05 FF", "5 0C"));
 }
 
 TEST(Rfc2217Server, AnotherSpeedThanAskedForIsAnError) {
   FakeServer server({.only_baud = 9600});
-  EXPECT_THAT(refusal(server.where(), {{"baud", "38400"}}), HasSubstr("cannot set rfc2217:" + server.where() + " to 38400-8N1 (speed): the server answers 9600 to 38400; see that its adapter offers it"));
+  EXPECT_THAT(refusal(server.where(), {{"baud", "38400"}}),
+              HasSubstr("cannot set rfc2217:" + server.where() +
+                        " to 38400-8N1 (speed): the server answers 9600 to 38400; see that its "
+                        "adapter offers it"));
   EXPECT_TRUE(open(server.where(), {{"baud", "9600"}}));
 }
 
 TEST(Rfc2217Server, ACommandThatIsNotConfirmedIsAnError) {
-  for (const auto& [command, what] : std::map<Byte, std::string>{{1, "(speed)"}, {2, "(data bits)"}, {3, "(parity"}, {4, "(stop bits)"}, {5, "no flow control"}, {12, "empty buffers"}}) {
+  for (const auto& [command, what] : std::map<Byte, std::string>{{1, "(speed)"},
+                                                                 {2, "(data bits)"},
+                                                                 {3, "(parity"},
+                                                                 {4, "(stop bits)"},
+                                                                 {5, "no flow control"},
+                                                                 {12, "empty buffers"}}) {
     FakeServer server({.unconfirmed = {command}});
-    EXPECT_THAT(refusal(server.where(), {}, 100ms), AllOf(HasSubstr(what), HasSubstr("the server does not confirm it within 0.1 s; see that its host is on")));
+    EXPECT_THAT(
+        refusal(server.where(), {}, 100ms),
+        AllOf(HasSubstr(what),
+              HasSubstr("the server does not confirm it within 0.1 s; see that its host is on")));
   }
   FakeServer server({.unconfirmed = {telnet::set_line_state_mask}});
   EXPECT_TRUE(open(server.where())) << "ser2net answers it in a way of its own";
@@ -181,7 +206,8 @@ TEST(Rfc2217Server, ACommandThatIsNotConfirmedIsAnError) {
 
 TEST(Rfc2217Server, MustSpeakTelnet) {
   FakeServer mute({.speaks_telnet = false});
-  EXPECT_THAT(refusal(mute.where(), {}, 100ms), HasSubstr("the server does not agree to RFC 2217 (COM-PORT-OPTION)"));
+  EXPECT_THAT(refusal(mute.where(), {}, 100ms),
+              HasSubstr("the server does not agree to RFC 2217 (COM-PORT-OPTION)"));
   FakeServer cooked({.has_binary = false});
   EXPECT_THAT(refusal(cooked.where()), HasSubstr("the server refuses binary transmission"));
 }
@@ -235,7 +261,9 @@ TEST(Rfc2217Server, SilenceOfADeadServerIsNotTheDevices) {
   ASSERT_TRUE((*port)->send(to_bytes("y")));
   const Result<Burst> burst = (*port)->receive((*port)->now() + 1ms);
   ASSERT_FALSE(burst);
-  EXPECT_EQ(burst.error().message, "cannot receive from rfc2217:" + server.where() + ": the server does not answer any more; see that its host and the network are up");
+  EXPECT_EQ(burst.error().message,
+            "cannot receive from rfc2217:" + server.where() +
+                ": the server does not answer any more; see that its host and the network are up");
 }
 
 TEST(Rfc2217Server, ATransmissionLastsAsLongAsOnTheWire) {

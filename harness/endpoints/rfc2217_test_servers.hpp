@@ -36,23 +36,30 @@ inline UniqueFd listen_anywhere(int& port) {
   return fd;
 }
 
-/// ser2net in front of one terminal. It listens when the constructor is over, and has ended when the object is gone.
+/// ser2net in front of one terminal. It listens when the constructor is over, and has ended when
+/// the object is gone.
 class Ser2net {
  public:
   /// `port` 0: one that is free.
-  explicit Ser2net(const std::string& tty, const std::string& accepter = "telnet(rfc2217)", int port = 0) : port_(port) {
+  explicit Ser2net(const std::string& tty, const std::string& accepter = "telnet(rfc2217)",
+                   int port = 0)
+      : port_(port) {
     if (port_ == 0) listen_anywhere(port_);
     std::string pattern = (std::filesystem::temp_directory_path() / "ser2net_XXXXXX").string();
     folder_ = ::mkdtemp(pattern.data());
-    std::ofstream(folder_ / "ser2net.yaml") << "%YAML 1.1\n---\nconnection: &bench\n  accepter: " << accepter << ",tcp,127.0.0.1," << port_
-                                            << "\n  connector: serialdev," << tty << ",9600n81,local\n  options:\n    chardelay: false\n";
+    std::ofstream(folder_ / "ser2net.yaml")
+        << "%YAML 1.1\n---\nconnection: &bench\n  accepter: " << accepter << ",tcp,127.0.0.1,"
+        << port_ << "\n  connector: serialdev," << tty
+        << ",9600n81,local\n  options:\n    chardelay: false\n";
     // It writes its pid file when it listens: into this pipe.
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);
     const UniqueFd ready(ends[0]);
     UniqueFd pid_file(ends[1]);
     ChildOptions options;
-    options.arguments = {"/usr/sbin/ser2net", "-n", "-c", folder_ / "ser2net.yaml", "-P", "/dev/fd/" + std::to_string(pid_file.get())};
+    options.arguments = {
+        "/usr/sbin/ser2net",      "-n", "-c",
+        folder_ / "ser2net.yaml", "-P", "/dev/fd/" + std::to_string(pid_file.get())};
     options.keep = {pid_file.get()};
     Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
     EXPECT_TRUE(child) << child.error().message;
@@ -82,19 +89,23 @@ class Ser2net {
 
 /// How a FakeServer differs from a good one.
 struct FakeServerOptions {
-  std::string greeting{};                // sent before anything else
+  std::string greeting{};  // sent before anything else
   bool speaks_telnet = true;
   bool has_com_port = true;
   bool has_binary = true;
-  std::vector<Byte> unconfirmed{};       // commands that it ignores
-  unsigned only_baud = 0;                // it confirms any speed with this one
+  std::vector<Byte> unconfirmed{};  // commands that it ignores
+  unsigned only_baud = 0;           // it confirms any speed with this one
 };
 
-/// Serves one connection after the other in a thread of its own. Data is answered with the same data.
+/// Serves one connection after the other in a thread of its own. Data is answered with the same
+/// data.
 class FakeServer {
  public:
   explicit FakeServer(FakeServerOptions options = {})
-      : options_(std::move(options)), listener_(listen_anywhere(port_)), stop_(::eventfd(0, EFD_CLOEXEC)), thread_([this] { serve(); }) {}
+      : options_(std::move(options)),
+        listener_(listen_anywhere(port_)),
+        stop_(::eventfd(0, EFD_CLOEXEC)),
+        thread_([this] { serve(); }) {}
   ~FakeServer() {
     ::eventfd_write(stop_.get(), 1);
     thread_.join();
@@ -115,7 +126,8 @@ class FakeServer {
     UniqueFd client;
     telnet::Decoder decoder;
     for (;;) {
-      pollfd fds[3]{{stop_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}, {client.get(), POLLIN, 0}};
+      pollfd fds[3]{
+          {stop_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}, {client.get(), POLLIN, 0}};
       ::poll(fds, 3, -1);
       if (fds[0].revents != 0) return;
       if (fds[1].revents != 0) {
@@ -131,13 +143,16 @@ class FakeServer {
         continue;
       }
       if (!options_.speaks_telnet || dead_) continue;
-      for (const telnet::Message& message : decoder.decode({buffer, static_cast<std::size_t>(size)})) send(client, answer(message));
+      for (const telnet::Message& message :
+           decoder.decode({buffer, static_cast<std::size_t>(size)}))
+        send(client, answer(message));
     }
   }
 
   static void send(const UniqueFd& client, const Bytes& bytes) {
     // The client may have left already.
-    if (!bytes.empty()) static_cast<void>(::send(client.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL));
+    if (!bytes.empty())
+      static_cast<void>(::send(client.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL));
   }
 
   Bytes answer(const telnet::Message& message) {
@@ -146,7 +161,8 @@ class FakeServer {
       note("data " + to_hex(*data));
       Bytes reply = telnet::escaped(*data);
       if (const Byte state = line_state_.exchange(0)) {
-        const Bytes notification = telnet::command(telnet::answer + telnet::notify_line_state, {{state}});
+        const Bytes notification =
+            telnet::command(telnet::answer + telnet::notify_line_state, {{state}});
         reply.insert(reply.begin(), notification.begin(), notification.end());
       }
       return reply;
@@ -155,14 +171,18 @@ class FakeServer {
     note(std::to_string(command) + ' ' + to_hex(value));
     if (std::ranges::find(options_.unconfirmed, command) != options_.unconfirmed.end()) return {};
     const unsigned baud = options_.only_baud;
-    const Bytes taken = command == telnet::set_baud_rate && baud != 0 ? Bytes{0, 0, static_cast<Byte>(baud >> 8), static_cast<Byte>(baud)} : value;
+    const Bytes taken = command == telnet::set_baud_rate && baud != 0
+                            ? Bytes{0, 0, static_cast<Byte>(baud >> 8), static_cast<Byte>(baud)}
+                            : value;
     return telnet::command(static_cast<Byte>(command + telnet::answer), taken);
   }
 
   Bytes agree(const telnet::Negotiation& asked) const {
     const bool has = asked.option == telnet::com_port ? options_.has_com_port : options_.has_binary;
-    if (asked.verb == telnet::will) return telnet::negotiation(has ? telnet::do_it : telnet::dont, asked.option);
-    if (asked.verb == telnet::do_it) return telnet::negotiation(has ? telnet::will : telnet::wont, asked.option);
+    if (asked.verb == telnet::will)
+      return telnet::negotiation(has ? telnet::do_it : telnet::dont, asked.option);
+    if (asked.verb == telnet::do_it)
+      return telnet::negotiation(has ? telnet::will : telnet::wont, asked.option);
     return {};
   }
 

@@ -38,7 +38,8 @@ std::string ports_there() {
   for (const auto& one : std::filesystem::directory_iterator("/dev/serial/by-id", none)) {
     list += (list.empty() ? "" : ", ") + one.path().string();
   }
-  return list.empty() ? "plug in the adapter (none is listed in /dev/serial/by-id)" : "these are there: " + list;
+  return list.empty() ? "plug in the adapter (none is listed in /dev/serial/by-id)"
+                      : "these are there: " + list;
 }
 
 Error absent(std::string message) {
@@ -50,19 +51,25 @@ Error absent(std::string message) {
 Error open_error(const std::string& path, int error) {
   const std::string start = "cannot open " + path + ": ";
   switch (error) {
-    case EACCES: return fail(start + "permission denied; add yourself to the group " + group_of(path));
+    case EACCES:
+      return fail(start + "permission denied; add yourself to the group " + group_of(path));
     case ENOENT: return absent(start + "there is no such port; " + ports_there());
     case EBUSY:
-    case EWOULDBLOCK: return fail(start + "the port is in use" + port_user(path) + "; end that process or choose another port");
+    case EWOULDBLOCK:
+      return fail(start + "the port is in use" + port_user(path) +
+                  "; end that process or choose another port");
     case ENODEV:
-    case ENXIO: return absent(start + "no adapter behind this name; plug it in or choose another port");
-    default: return fail(start + errno_text(error) + "; name a terminal device such as /dev/ttyUSB0");
+    case ENXIO:
+      return absent(start + "no adapter behind this name; plug it in or choose another port");
+    default:
+      return fail(start + errno_text(error) + "; name a terminal device such as /dev/ttyUSB0");
   }
 }
 
 class SerialEndpoint final : public Endpoint {
  public:
-  SerialEndpoint(const SystemCalls& calls, UniqueFd fd, PortLock lock, std::string path, const SerialOptions& options)
+  SerialEndpoint(const SystemCalls& calls, UniqueFd fd, PortLock lock, std::string path,
+                 const SerialOptions& options)
       : calls_(calls),
         lock_(std::move(lock)),
         path_(std::move(path)),
@@ -129,13 +136,17 @@ Status make_exclusive(const SystemCalls& calls, UniqueFd& fd, const std::string&
 
 }  // namespace
 
-Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name) { return open_serial(name, real_system_calls()); }
+Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name) {
+  return open_serial(name, real_system_calls());
+}
 
 Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const SystemCalls& calls) {
   const std::string& path = name.target;
   const Result<SerialOptions> options = serial_options(name);
   if (!options) return options.error();
-  if (path.empty()) return fail("cannot open serial: there is no port; write serial:/dev/ttyUSB0; " + ports_there());
+  if (path.empty())
+    return fail("cannot open serial: there is no port; write serial:/dev/ttyUSB0; " +
+                ports_there());
 
   Result<PortLock> lock = PortLock::acquire(path);
   if (!lock) return lock.error();
@@ -144,10 +155,13 @@ Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const Sy
   UniqueFd fd(calls.open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd) return open_error(path, errno);
   if (const Status done = make_exclusive(calls, fd, path); !done) return done.error();
-  if (const Status done = apply_settings(calls, fd.get(), path, options->settings); !done) return done.error();
-  if (const Status done = apply_direction(calls, fd.get(), path, options->direction); !done) return done.error();
+  if (const Status done = apply_settings(calls, fd.get(), path, options->settings); !done)
+    return done.error();
+  if (const Status done = apply_direction(calls, fd.get(), path, options->direction); !done)
+    return done.error();
   calls.ioctl(fd.get(), TCFLSH, number(TCIOFLUSH));
-  return std::unique_ptr<Endpoint>(std::make_unique<SerialEndpoint>(calls, std::move(fd), std::move(*lock), path, *options));
+  return std::unique_ptr<Endpoint>(
+      std::make_unique<SerialEndpoint>(calls, std::move(fd), std::move(*lock), path, *options));
 }
 
 }  // namespace fieldproof

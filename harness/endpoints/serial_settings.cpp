@@ -24,7 +24,8 @@ std::uint32_t format_flags(const LineSettings& settings) {
   return flags;
 }
 
-/// The eight speeds of parse_line_settings by their codes, which a peer behind a pty reads back; others by number.
+/// The eight speeds of parse_line_settings by their codes, which a peer behind a pty reads back;
+/// others by number.
 std::uint32_t speed_flags(int baud) {
   switch (baud) {
     case 1200: return B1200;
@@ -50,14 +51,16 @@ bool is_pty(const SystemCalls& calls, int fd) {
   return major >= 136 && major <= 143;
 }
 
-Status apply_settings(const SystemCalls& calls, int fd, const std::string& port, const LineSettings& settings) {
+Status apply_settings(const SystemCalls& calls, int fd, const std::string& port,
+                      const LineSettings& settings) {
   KernelTermios wanted{};
   if (calls.ioctl(fd, get_kernel_termios, &wanted) != 0) {
     return fail("cannot use " + port + " as a serial port: " + errno_text(errno) +
                 "; name a terminal device such as /dev/ttyUSB0");
   }
   const bool pty = is_pty(calls, fd);
-  // A byte with a parity or framing error and a break are dropped, as a serial module does it; the driver counts them.
+  // A byte with a parity or framing error and a break are dropped, as a serial module does it; the
+  // driver counts them.
   wanted.input_flags = IGNBRK | IGNPAR | (settings.parity == 'N' ? 0 : INPCK);
   LineSettings on_line = settings;
   if (pty) on_line.data_bits = 8, on_line.parity = 'N';  // asked for, they may be refused
@@ -69,18 +72,24 @@ Status apply_settings(const SystemCalls& calls, int fd, const std::string& port,
   wanted.control_characters.fill(0);
   wanted.control_characters[VMIN] = 1;
   wanted.input_speed = wanted.output_speed = static_cast<std::uint32_t>(settings.baud);
-  if (calls.ioctl(fd, set_kernel_termios, &wanted) != 0) return cannot_set(port, to_string(settings), errno_text(errno));
+  if (calls.ioctl(fd, set_kernel_termios, &wanted) != 0)
+    return cannot_set(port, to_string(settings), errno_text(errno));
   if (pty) return ok();
 
   KernelTermios taken{};
-  if (calls.ioctl(fd, get_kernel_termios, &taken) != 0) return cannot_set(port, to_string(settings), errno_text(errno));
+  if (calls.ioctl(fd, get_kernel_termios, &taken) != 0)
+    return cannot_set(port, to_string(settings), errno_text(errno));
   if ((taken.control_flags & format_mask) != format_flags(settings)) {
-    return cannot_set(port, to_string(settings), "the adapter does not offer this character format; use another adapter or format");
+    return cannot_set(
+        port, to_string(settings),
+        "the adapter does not offer this character format; use another adapter or format");
   }
   // A UART is within 2 % of the other side's speed or it misreads the last bits.
   if (std::abs(static_cast<long>(taken.output_speed) - settings.baud) * 50 > settings.baud) {
-    return cannot_set(port, to_string(settings),
-                      fmt::format("the adapter offers {} bit/s instead; use another adapter or speed", taken.output_speed));
+    return cannot_set(
+        port, to_string(settings),
+        fmt::format("the adapter offers {} bit/s instead; use another adapter or speed",
+                    taken.output_speed));
   }
   return ok();
 }
@@ -89,16 +98,19 @@ Result<Direction> parse_direction(const std::string& text) {
   if (text.empty() || text == "0") return Direction::none;
   if (text == "1") return Direction::kernel;
   if (text == "rts") return Direction::rts;
-  return fail("rs485 is '" + text + "'; write 1 (the driver switches), rts (the bench switches by RTS) or 0");
+  return fail("rs485 is '" + text +
+              "'; write 1 (the driver switches), rts (the bench switches by RTS) or 0");
 }
 
-Status apply_direction(const SystemCalls& calls, int fd, const std::string& port, Direction direction) {
+Status apply_direction(const SystemCalls& calls, int fd, const std::string& port,
+                       Direction direction) {
   if (direction == Direction::none) return ok();
   if (direction == Direction::rts) return set_rts(calls, fd, port, false);
   serial_rs485 mode{};
   mode.flags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
   if (calls.ioctl(fd, TIOCSRS485, &mode) == 0) return ok();
-  const std::string why = errno == ENOTTY || errno == EINVAL ? "its driver has no RS-485 mode" : errno_text(errno);
+  const std::string why =
+      errno == ENOTTY || errno == EINVAL ? "its driver has no RS-485 mode" : errno_text(errno);
   return fail("cannot switch " + port + " to RS-485: " + why +
               "; use rs485=rts, or leave rs485 out where the adapter switches by itself");
 }
@@ -106,7 +118,8 @@ Status apply_direction(const SystemCalls& calls, int fd, const std::string& port
 Status set_rts(const SystemCalls& calls, int fd, const std::string& port, bool on) {
   int line = TIOCM_RTS;
   if (calls.ioctl(fd, on ? TIOCMBIS : TIOCMBIC, &line) == 0) return ok();
-  const std::string why = errno == ENOTTY || errno == EINVAL ? "it has no such line" : errno_text(errno);
+  const std::string why =
+      errno == ENOTTY || errno == EINVAL ? "it has no such line" : errno_text(errno);
   return fail("cannot switch RTS of " + port + ": " + why +
               "; use rs485=1, or leave rs485 out where the adapter switches by itself");
 }

@@ -12,9 +12,11 @@ namespace fieldproof {
 /// Is it the slave of a pty? It carries no parity, no 7-bit characters and no character times.
 bool is_pty(const SystemCalls& calls, int fd);
 
-/// Sets speed and character format, raw, without flow control. What the driver of a real port did not take over is an
-/// error; a pty drops parity and 7 bits without a word, and here that is no error. `port` is for messages.
-Status apply_settings(const SystemCalls& calls, int fd, const std::string& port, const LineSettings& settings);
+/// Sets speed and character format, raw, without flow control. What the driver of a real port did
+/// not take over is an error; a pty drops parity and 7 bits without a word, and here that is no
+/// error. `port` is for messages.
+Status apply_settings(const SystemCalls& calls, int fd, const std::string& port,
+                      const LineSettings& settings);
 
 /// Who drives the transmitter of a two-wire line.
 enum class Direction {
@@ -27,7 +29,8 @@ enum class Direction {
 Result<Direction> parse_direction(const std::string& text);
 
 /// Prepares the port for the direction control: RS-485 mode on, or RTS off (receive).
-Status apply_direction(const SystemCalls& calls, int fd, const std::string& port, Direction direction);
+Status apply_direction(const SystemCalls& calls, int fd, const std::string& port,
+                       Direction direction);
 /// RTS on or off.
 Status set_rts(const SystemCalls& calls, int fd, const std::string& port, bool on);
 

@@ -32,8 +32,8 @@ struct FakeDriver {
   KernelTermios termios{};
   serial_rs485 rs485{};
   serial_icounter_struct counters{};
-  std::uint32_t refused_flags = 0;    // format flags that the chip does not have
-  std::uint32_t only_speed = 0;       // the chip knows no other
+  std::uint32_t refused_flags = 0;  // format flags that the chip does not have
+  std::uint32_t only_speed = 0;     // the chip knows no other
   bool has_rs485 = true;
   bool has_counters = true;
   bool has_modem_lines = true;
@@ -47,10 +47,15 @@ struct FakeDriver {
         termios.control_flags &= ~refused_flags;
         if (only_speed) termios.output_speed = only_speed;
         return 0;
-      case TIOCSRS485: return has_rs485 ? (rs485 = *static_cast<const serial_rs485*>(argument), 0) : refuse();
+      case TIOCSRS485:
+        return has_rs485 ? (rs485 = *static_cast<const serial_rs485*>(argument), 0) : refuse();
       case TIOCMBIS:
-      case TIOCMBIC: return has_modem_lines ? switch_line(request, *static_cast<const int*>(argument)) : refuse();
-      case TIOCGICOUNT: return has_counters ? (*static_cast<serial_icounter_struct*>(argument) = counters, 0) : refuse();
+      case TIOCMBIC:
+        return has_modem_lines ? switch_line(request, *static_cast<const int*>(argument))
+                               : refuse();
+      case TIOCGICOUNT:
+        return has_counters ? (*static_cast<serial_icounter_struct*>(argument) = counters, 0)
+                            : refuse();
       case TCSBRK: calls.push_back("drain"); return 0;
       default: return real_system_calls().ioctl(fd, request, argument);
     }
@@ -67,7 +72,9 @@ struct FakeDriver {
   SystemCalls system_calls() {
     SystemCalls fake = real_system_calls();
     fake.device_major = [](int) { return 188; };  // ttyUSB
-    fake.ioctl = [this](int fd, unsigned long request, void* argument) { return answer(fd, request, argument); };
+    fake.ioctl = [this](int fd, unsigned long request, void* argument) {
+      return answer(fd, request, argument);
+    };
     return fake;
   }
 };
@@ -133,7 +140,8 @@ TEST_F(Serial, APortInUseIsSaidWithItsUser) {
   const auto second = open();
   ASSERT_FALSE(second);
   EXPECT_THAT(second.error().message,
-              HasSubstr("cannot open " + path + ": the port is in use by process " + std::to_string(::getpid()) + " ("));
+              HasSubstr("cannot open " + path + ": the port is in use by process " +
+                        std::to_string(::getpid()) + " ("));
 }
 
 TEST_F(Serial, AClosedPortIsFreeAgain) {
@@ -144,7 +152,8 @@ TEST_F(Serial, AClosedPortIsFreeAgain) {
 TEST_F(Serial, AnAbsentPortIsSaid) {
   const auto port = open_serial(endpoint_name("serial", "/dev/no_such_port"));
   ASSERT_FALSE(port);
-  EXPECT_THAT(port.error().message, HasSubstr("cannot open /dev/no_such_port: there is no such port; "));
+  EXPECT_THAT(port.error().message,
+              HasSubstr("cannot open /dev/no_such_port: there is no such port; "));
 }
 
 TEST_F(Serial, AFileIsNoPort) {
@@ -153,7 +162,9 @@ TEST_F(Serial, AFileIsNoPort) {
   const auto port = open_serial(endpoint_name("serial", file));
   std::filesystem::remove(file);
   ASSERT_FALSE(port);
-  EXPECT_THAT(port.error().message, HasSubstr("as a serial port: inappropriate ioctl for device; name a terminal device"));
+  EXPECT_THAT(
+      port.error().message,
+      HasSubstr("as a serial port: inappropriate ioctl for device; name a terminal device"));
 }
 
 TEST_F(Serial, APortWithoutPermissionSaysWhichGroup) {
@@ -164,18 +175,21 @@ TEST_F(Serial, APortWithoutPermissionSaysWhichGroup) {
   };
   const auto port = open_serial(endpoint_name("serial", "/dev/no_such_port"), calls);
   ASSERT_FALSE(port);
-  EXPECT_EQ(port.error().message, "cannot open /dev/no_such_port: permission denied; add yourself to the group dialout");
+  EXPECT_EQ(port.error().message,
+            "cannot open /dev/no_such_port: permission denied; add yourself to the group dialout");
 }
 
 TEST_F(Serial, APortThatDisappearsIsSaid) {
   auto port = open();
   ASSERT_TRUE(port);
   far.reset();
-  EXPECT_THAT(endpoint_tests::receive_error(**port).message, HasSubstr("the far end is gone; see that the adapter is still plugged in"));
+  EXPECT_THAT(endpoint_tests::receive_error(**port).message,
+              HasSubstr("the far end is gone; see that the adapter is still plugged in"));
 }
 
 TEST_F(Serial, RefusesValuesThatAreNone) {
-  EXPECT_THAT(open({{"baud", "12345"}}).error().message, HasSubstr("the speed is not one of the eight"));
+  EXPECT_THAT(open({{"baud", "12345"}}).error().message,
+              HasSubstr("the speed is not one of the eight"));
   EXPECT_THAT(open({{"frame", "9N1"}}).error().message, HasSubstr("the data bits are not 7 or 8"));
   EXPECT_THAT(open({{"rs485", "yes"}}).error().message, HasSubstr("rs485 is 'yes'"));
 }
@@ -188,8 +202,10 @@ TEST_F(Serial, ARealPortGetsSpeedAndFormatRaw) {
   EXPECT_EQ(driver.termios.input_speed, 115200u);
   EXPECT_EQ(driver.termios.output_speed, 115200u);
   EXPECT_EQ(driver.termios.control_flags & speed_mask, static_cast<unsigned>(B115200));
-  EXPECT_EQ(driver.termios.control_flags & (CSIZE | PARENB | PARODD | CSTOPB), static_cast<unsigned>(CS7 | PARENB | PARODD | CSTOPB));
-  EXPECT_EQ(driver.termios.control_flags & (CRTSCTS | CLOCAL | CREAD), static_cast<unsigned>(CLOCAL | CREAD));
+  EXPECT_EQ(driver.termios.control_flags & (CSIZE | PARENB | PARODD | CSTOPB),
+            static_cast<unsigned>(CS7 | PARENB | PARODD | CSTOPB));
+  EXPECT_EQ(driver.termios.control_flags & (CRTSCTS | CLOCAL | CREAD),
+            static_cast<unsigned>(CLOCAL | CREAD));
   EXPECT_EQ(driver.termios.local_flags, 0u);
   EXPECT_EQ(driver.termios.output_flags, 0u);
   EXPECT_EQ(driver.termios.input_flags & (IXON | ICRNL | ISTRIP), 0u);
@@ -212,7 +228,9 @@ TEST_F(Serial, AFormatThatTheChipLacksIsAnError) {
   driver.refused_flags = PARENB;
   const auto port = open_fake({{"frame", "8E1"}});
   ASSERT_FALSE(port);
-  EXPECT_THAT(port.error().message, HasSubstr("cannot set " + path + " to 9600-8E1: the adapter does not offer this character format"));
+  EXPECT_THAT(port.error().message,
+              HasSubstr("cannot set " + path +
+                        " to 9600-8E1: the adapter does not offer this character format"));
 }
 
 TEST_F(Serial, ASpeedThatTheChipLacksIsAnError) {
@@ -234,7 +252,9 @@ TEST_F(Serial, ADriverWithoutRs485IsSaid) {
   driver.has_rs485 = false;
   const auto port = open_fake({{"rs485", "1"}});
   ASSERT_FALSE(port);
-  EXPECT_THAT(port.error().message, HasSubstr("cannot switch " + path + " to RS-485: its driver has no RS-485 mode; use rs485=rts"));
+  EXPECT_THAT(port.error().message,
+              HasSubstr("cannot switch " + path +
+                        " to RS-485: its driver has no RS-485 mode; use rs485=rts"));
 }
 
 TEST_F(Serial, TheBenchSwitchesTheDirectionByRts) {
@@ -246,7 +266,8 @@ TEST_F(Serial, TheBenchSwitchesTheDirectionByRts) {
   driver.has_modem_lines = false;
   const Result<Sent> sent = (*port)->send(to_bytes("y"));
   ASSERT_FALSE(sent);
-  EXPECT_THAT(sent.error().message, HasSubstr("cannot switch RTS of " + path + ": it has no such line"));
+  EXPECT_THAT(sent.error().message,
+              HasSubstr("cannot switch RTS of " + path + ": it has no such line"));
 }
 
 TEST_F(Serial, APtyHasNoRts) {

@@ -15,8 +15,8 @@ struct AddressInfoDeleter {
 };
 using AddressInfo = std::unique_ptr<addrinfo, AddressInfoDeleter>;
 
-/// The TCP addresses of "HOST:PORT" or "[IPV6]:PORT"; `passive` for listening, where HOST may be empty (all).
-/// The error is the cause alone: "there is no port; write HOST:PORT".
+/// The TCP addresses of "HOST:PORT" or "[IPV6]:PORT"; `passive` for listening, where HOST may be
+/// empty (all). The error is the cause alone: "there is no port; write HOST:PORT".
 Result<AddressInfo> resolve(const std::string& host_and_port, bool passive);
 
 }  // namespace fieldproof

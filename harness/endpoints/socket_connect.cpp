@@ -40,8 +40,11 @@ int connect_to(const addrinfo& address, int type, UniqueFd& fd) {
 
 std::string advice(int error) {
   switch (error) {
-    case ECONNREFUSED: return "nothing listens there; start the device or serial server, or correct the port";
-    case ETIMEDOUT: return "no answer within 3 s; see that the host is on and that no firewall drops the connection";
+    case ECONNREFUSED:
+      return "nothing listens there; start the device or serial server, or correct the port";
+    case ETIMEDOUT:
+      return "no answer within 3 s; see that the host is on and that no firewall drops the "
+             "connection";
     default: return errno_text(error) + "; correct the address";
   }
 }

@@ -1,8 +1,8 @@
 #include "harness/endpoints/stable_name.hpp"
 
+#include <gtest/gtest.h>
 #include <filesystem>
 #include <fstream>
-#include <gtest/gtest.h>
 
 namespace fieldproof {
 namespace {
@@ -17,7 +17,9 @@ TEST(StableName, IsTheLinkThatLeadsToThePort) {
   fs::create_symlink("../ttyUSB1", root / "by-id" / "usb-Prolific-if00");
   fs::create_symlink("../gone", root / "by-id" / "usb-gone-if00");
   fs::create_symlink("ttyUSB0", root / "plc");
-  const auto name = [&](const std::string& port) { return stable_name((root / port).string(), (root / "by-id").string()); };
+  const auto name = [&](const std::string& port) {
+    return stable_name((root / port).string(), (root / "by-id").string());
+  };
   EXPECT_EQ(name("ttyUSB1"), (root / "by-id" / "usb-Prolific-if00").string());
   EXPECT_EQ(name("ttyUSB2"), "") << "no link";
   EXPECT_EQ(name("nothing"), "");

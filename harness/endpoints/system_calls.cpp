@@ -14,7 +14,8 @@ namespace fieldproof {
 const SystemCalls& real_system_calls() {
   static const SystemCalls calls{
       .open = [](const char* path, int flags) { return ::open(path, flags); },
-      .ioctl = [](int fd, unsigned long request, void* argument) { return ::ioctl(fd, request, argument); },
+      .ioctl = [](int fd, unsigned long request,
+                  void* argument) { return ::ioctl(fd, request, argument); },
       .flock = [](int fd, int operation) { return ::flock(fd, operation); },
       .device_major =
           [](int fd) {

@@ -1,5 +1,5 @@
-// The system calls that a serial port needs, so that tests can stand in for drivers: a pty answers ENOTTY to RS-485,
-// modem lines and error counters.
+// The system calls that a serial port needs, so that tests can stand in for drivers: a pty answers
+// ENOTTY to RS-485, modem lines and error counters.
 #pragma once
 
 #include <functional>

@@ -17,7 +17,8 @@ namespace {
 class SocketEndpoint final : public Endpoint {
  public:
   /// `type`: SOCK_STREAM or SOCK_DGRAM.
-  SocketEndpoint(const EndpointName& name, int type, Duration floor) : name_(name.kind + ':' + name.target), where_(name.target), type_(type) {
+  SocketEndpoint(const EndpointName& name, int type, Duration floor)
+      : name_(name.kind + ':' + name.target), where_(name.target), type_(type) {
     capabilities_.real_device = true;
     capabilities_.datagrams = type == SOCK_DGRAM;
     capabilities_.timing_floor = floor;
@@ -58,7 +59,11 @@ Result<std::unique_ptr<Endpoint>> open_socket(const EndpointName& name, int type
 
 }  // namespace
 
-Result<std::unique_ptr<Endpoint>> open_tcp(const EndpointName& name) { return open_socket(name, SOCK_STREAM); }
-Result<std::unique_ptr<Endpoint>> open_udp(const EndpointName& name) { return open_socket(name, SOCK_DGRAM); }
+Result<std::unique_ptr<Endpoint>> open_tcp(const EndpointName& name) {
+  return open_socket(name, SOCK_STREAM);
+}
+Result<std::unique_ptr<Endpoint>> open_udp(const EndpointName& name) {
+  return open_socket(name, SOCK_DGRAM);
+}
 
 }  // namespace fieldproof

@@ -31,7 +31,9 @@ class Tcp : public testing::Test {
     ASSERT_EQ(::getsockname(listener.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
     where = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
   }
-  FdLink accept() { return FdLink(UniqueFd(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC)), "device"); }
+  FdLink accept() {
+    return FdLink(UniqueFd(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC)), "device");
+  }
   UniqueFd listener;
   std::string where;
 };
@@ -53,7 +55,8 @@ TEST_F(Tcp, AClosedConnectionIsAnErrorUntilTheNextCase) {
   auto endpoint = open_tcp(endpoint_name("tcp", where));
   ASSERT_TRUE(endpoint);
   { FdLink device = accept(); }
-  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message, HasSubstr("the far end closed the connection"));
+  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message,
+              HasSubstr("the far end closed the connection"));
   ASSERT_TRUE((*endpoint)->begin(nlohmann::json::object()));
   FdLink device = accept();
   ASSERT_TRUE((*endpoint)->send(to_bytes("again")));
@@ -71,11 +74,14 @@ TEST_F(Tcp, SaysThatNothingListens) {
   const auto endpoint = open_tcp(endpoint_name("tcp", where));
   ASSERT_FALSE(endpoint);
   EXPECT_EQ(endpoint.error().message,
-            "cannot connect to " + where + ": nothing listens there; start the device or serial server, or correct the port");
+            "cannot connect to " + where +
+                ": nothing listens there; start the device or serial server, or correct the port");
 }
 
 TEST_F(Tcp, RefusesWhatIsNoAddress) {
-  const auto message = [](const std::string& target) { return open_tcp(endpoint_name("tcp", target)).error().message; };
+  const auto message = [](const std::string& target) {
+    return open_tcp(endpoint_name("tcp", target)).error().message;
+  };
   EXPECT_EQ(message("plc"), "cannot connect to plc: there is no port; write HOST:PORT");
   EXPECT_EQ(message("plc:"), "cannot connect to plc:: there is no port; write HOST:PORT");
   EXPECT_EQ(message(":2004"), "cannot connect to :2004: there is no host; write HOST:PORT");
@@ -107,11 +113,14 @@ class Udp : public testing::Test {
   std::string hear() {
     std::string text(4096, ' ');
     socklen_t size = sizeof client;
-    const ssize_t n = ::recvfrom(device.get(), text.data(), text.size(), 0, reinterpret_cast<sockaddr*>(&client), &size);
+    const ssize_t n = ::recvfrom(device.get(), text.data(), text.size(), 0,
+                                 reinterpret_cast<sockaddr*>(&client), &size);
     return n < 0 ? "!" : text.substr(0, static_cast<std::size_t>(n));
   }
   void say(const std::string& text) {
-    ASSERT_EQ(::sendto(device.get(), text.data(), text.size(), 0, reinterpret_cast<sockaddr*>(&client), sizeof client), static_cast<ssize_t>(text.size()));
+    ASSERT_EQ(::sendto(device.get(), text.data(), text.size(), 0,
+                       reinterpret_cast<sockaddr*>(&client), sizeof client),
+              static_cast<ssize_t>(text.size()));
   }
   UniqueFd device;
   sockaddr_in client{};
@@ -144,7 +153,9 @@ TEST_F(Udp, ADeviceThatIsGoneIsSaidAndMayComeBack) {
   ASSERT_EQ(::getsockname(device.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
   device.reset();
   ASSERT_TRUE((*endpoint)->send(to_bytes("anybody?")));
-  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message, HasSubstr("cannot receive from udp:" + where + ": the connection broke (connection refused)"));
+  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message,
+              HasSubstr("cannot receive from udp:" + where +
+                        ": the connection broke (connection refused)"));
   device.reset(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   ASSERT_EQ(::bind(device.get(), reinterpret_cast<sockaddr*>(&address), size), 0);
   ASSERT_TRUE((*endpoint)->begin(nlohmann::json::object()));

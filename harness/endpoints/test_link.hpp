@@ -9,7 +9,8 @@
 
 namespace fieldproof::endpoint_tests {
 
-/// Collects from an Endpoint or an FdLink until `wanted` has come, or 5 s are over, or an error, which is returned.
+/// Collects from an Endpoint or an FdLink until `wanted` has come, or 5 s are over, or an error,
+/// which is returned.
 template <typename Link>
 std::string receive_text(Link& link, const std::string& wanted) {
   std::string text;
@@ -33,7 +34,8 @@ Error receive_error(Link& link) {
   return fail("no error came");
 }
 
-inline EndpointName endpoint_name(std::string kind, std::string target, std::map<std::string, std::string> options = {}) {
+inline EndpointName endpoint_name(std::string kind, std::string target,
+                                  std::map<std::string, std::string> options = {}) {
   return {std::move(kind), std::move(target), std::move(options)};
 }
 

@@ -12,12 +12,14 @@
 
 namespace fieldproof::endpoint_tests {
 
-/// Keys of the configuration: model (tiny, xbc-h), station, delay_ms (of the reply), inter_character_floor_ms: a longer
-/// gap drops an unfinished frame. Addresses: any; @config is the configuration, @dropped counts dropped frames.
+/// Keys of the configuration: model (tiny, xbc-h), station, delay_ms (of the reply),
+/// inter_character_floor_ms: a longer gap drops an unfinished frame. Addresses: any; @config is the
+/// configuration, @dropped counts dropped frames.
 class TinyDevice final : public EmulatedDevice {
  public:
   explicit TinyDevice(const nlohmann::json& config)
-      : config_(config), delay_(std::chrono::milliseconds(config.value("delay_ms", 0))),
+      : config_(config),
+        delay_(std::chrono::milliseconds(config.value("delay_ms", 0))),
         gap_(std::chrono::milliseconds(config.value("inter_character_floor_ms", 0))) {}
 
   void receive(const Burst& burst) override {
@@ -58,7 +60,8 @@ class TinyDevice final : public EmulatedDevice {
     if (address == "@config") return config_.dump();
     if (address == "@dropped") return std::to_string(dropped_);
     const auto found = memory_.find(std::string(address));
-    if (found == memory_.end()) return fail("cannot get " + std::string(address) + ": nothing was set");
+    if (found == memory_.end())
+      return fail("cannot get " + std::string(address) + ": nothing was set");
     return digits ? found->second.substr(0, digits) : found->second;
   }
 
@@ -81,7 +84,8 @@ class TinyDevice final : public EmulatedDevice {
 
 inline Result<std::unique_ptr<EmulatedDevice>> make_tiny_device(const nlohmann::json& config) {
   const std::string model = config.value("model", "xbc-h");
-  if (model != "tiny" && model != "xbc-h") return fail("cannot make a device '" + model + "': the models are tiny and xbc-h");
+  if (model != "tiny" && model != "xbc-h")
+    return fail("cannot make a device '" + model + "': the models are tiny and xbc-h");
   return std::unique_ptr<EmulatedDevice>(std::make_unique<TinyDevice>(config));
 }
 

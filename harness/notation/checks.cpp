@@ -29,7 +29,8 @@ unsigned lrc8(ByteView bytes) {
 }
 
 Bytes encode(CheckKind kind, unsigned value) {
-  if (kind == CheckKind::crc) return {static_cast<Byte>(value & 0xFF), static_cast<Byte>(value >> 8 & 0xFF)};
+  if (kind == CheckKind::crc)
+    return {static_cast<Byte>(value & 0xFF), static_cast<Byte>(value >> 8 & 0xFF)};
   return to_bytes(hex_number(value & 0xFF, 2));
 }
 
@@ -57,6 +58,8 @@ std::string_view to_string(CheckKind kind) {
 
 Bytes compute_check(CheckKind kind, ByteView frame) { return encode(kind, value_of(kind, frame)); }
 
-Bytes compute_wrong_check(CheckKind kind, ByteView frame) { return encode(kind, value_of(kind, frame) + 1); }
+Bytes compute_wrong_check(CheckKind kind, ByteView frame) {
+  return encode(kind, value_of(kind, frame) + 1);
+}
 
 }  // namespace fieldproof

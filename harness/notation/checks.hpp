@@ -1,4 +1,5 @@
-// The checks of the frame notation, computed here and nowhere else: devices under test and the emulator have their own.
+// The checks of the frame notation, computed here and nowhere else: devices under test and the
+// emulator have their own.
 #pragma once
 
 #include <string_view>
@@ -11,7 +12,8 @@ enum class CheckKind {
   bcc,  // XGT (000 7.1.5): low byte of the sum from header to tail, two hex digits
   sum,  // LS Bus (000 8): low byte of the sum between header and sum, two hex digits
   crc,  // Modbus RTU (000 9.3): CRC-16, polynomial A001, start FFFF, low byte first
-  lrc   // Modbus ASCII (000 9.3): two's complement of the sum of the bytes that the hex pairs after ':' stand for
+  lrc   // Modbus ASCII (000 9.3): two's complement of the sum of the bytes that the hex pairs after
+        // ':' stand for
 };
 
 /// "BCC", "SUM", "CRC", "LRC"

@@ -38,25 +38,29 @@ struct FrameTemplate {
     Pause pause;
   };
 
-  Bytes bytes;              // literal values; 0 in open cells; checks filled in where all they cover is literal
+  Bytes bytes;  // literal values; 0 in open cells; checks filled in where all they cover is literal
   std::vector<Cell> cells;  // one a byte
   std::vector<Check> checks;
   std::vector<Gap> gaps;
   std::vector<std::string> names;
-  bool open = false;                           // has cells that are not literal or a settled check
-  std::map<std::string, std::string> readings; // alternatives taken inside the frame: name of the field -> "a"
+  bool open = false;  // has cells that are not literal or a settled check
+  std::map<std::string, std::string>
+      readings;  // alternatives taken inside the frame: name of the field -> "a"
 };
 
 /// Every choice of named alternatives gives one template, the preferred one first.
 /// Errors: a check in a bracket of foreign shape, more than 64 alternatives.
-Result<std::vector<FrameTemplate>> make_templates(const Notation& notation, const Stations& stations);
+Result<std::vector<FrameTemplate>> make_templates(const Notation& notation,
+                                                  const Stations& stations);
 
 /// The bytes to send; an error when a place is open.
 Result<Bytes> render(const FrameTemplate& frame, const Captures& captures);
 
-/// Does `received` match? On success captures are added. On failure the offset of the first byte that differs
+/// Does `received` match? On success captures are added. On failure the offset of the first byte
+/// that differs
 /// (`received.size()` when it is cut short, the template's size when it has a surplus).
-std::optional<std::size_t> first_mismatch(const FrameTemplate& frame, ByteView received, Captures& captures);
+std::optional<std::size_t> first_mismatch(const FrameTemplate& frame, ByteView received,
+                                          Captures& captures);
 
 /// "05 30 ?? ??": open places as ??, checks behind open places too.
 std::string to_hex_with_holes(const FrameTemplate& frame);

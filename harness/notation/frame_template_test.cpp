@@ -34,7 +34,9 @@ TEST(FrameTemplate, ACheckCoversItsOwnBracketAlone) {
 }
 
 TEST(FrameTemplate, MovingFieldsAndRepetition) {
-  EXPECT_EQ(hex("st+1 '12'*2 seq(2)"), to_hex(to_bytes("02" "1212" "00010002")));
+  EXPECT_EQ(hex("st+1 '12'*2 seq(2)"), to_hex(to_bytes("02"
+                                                       "1212"
+                                                       "00010002")));
   EXPECT_EQ(hex("name(%MW020)"), to_hex(to_bytes("06%MW020")));
 }
 
@@ -42,7 +44,10 @@ TEST(FrameTemplate, HolesMatchWhatTheyAllow) {
   const FrameTemplate frame = templates("[ACK st 'rSS' x:2 ?? ETX BCC]")[0];
   Captures captures;
   const auto reply = [](const std::string& data) {
-    Bytes bytes = to_bytes("\x06" "01rSS" + data + "\x03");
+    Bytes bytes = to_bytes(
+        "\x06"
+        "01rSS" +
+        data + "\x03");
     const Bytes check = compute_check(CheckKind::bcc, bytes);
     bytes.insert(bytes.end(), check.begin(), check.end());
     return bytes;
@@ -71,7 +76,11 @@ TEST(FrameTemplate, CapturesAreReused) {
   EXPECT_EQ(first_mismatch(templates("{id}")[0], to_bytes("1235"), captures), 3u);
   const Result<Bytes> sent = render(templates("[ENQ {id} EOT SUM]")[0], captures);
   ASSERT_TRUE(sent);
-  EXPECT_EQ(to_text(*sent), "\x05" "1234" "\x04" "CE");
+  EXPECT_EQ(to_text(*sent),
+            "\x05"
+            "1234"
+            "\x04"
+            "CE");
 }
 
 TEST(FrameTemplate, OpenPlacesCannotBeSent) { EXPECT_FALSE(render(templates("?? 'a'")[0], {})); }

@@ -1,9 +1,9 @@
 #include "harness/notation/notation.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fmt/format.h>
 #include <optional>
 
 namespace fieldproof {
@@ -14,11 +14,13 @@ struct Control {
   std::string_view name;
   Byte value;
 };
-constexpr std::array controls{Control{"ENQ", 0x05}, Control{"ACK", 0x06}, Control{"NAK", 0x15}, Control{"EOT", 0x04},
-                              Control{"ETX", 0x03}, Control{"STX", 0x02}, Control{"CR", 0x0D},  Control{"LF", 0x0A}};
+constexpr std::array controls{Control{"ENQ", 0x05}, Control{"ACK", 0x06}, Control{"NAK", 0x15},
+                              Control{"EOT", 0x04}, Control{"ETX", 0x03}, Control{"STX", 0x02},
+                              Control{"CR", 0x0D},  Control{"LF", 0x0A}};
 constexpr std::array checks{CheckKind::bcc, CheckKind::sum, CheckKind::crc, CheckKind::lrc};
 constexpr std::string_view words =
-    "ENQ ACK NAK EOT ETX STX CR LF, 'text', two hex digits, st, st+1, name(...), seq(n), BCC SUM CRC LRC, ~20ms, ?? x:4 {id:4} (a:..|b:..)";
+    "ENQ ACK NAK EOT ETX STX CR LF, 'text', two hex digits, st, st+1, name(...), seq(n), BCC SUM "
+    "CRC LRC, ~20ms, ?? x:4 {id:4} (a:..|b:..)";
 
 class Parser {
  public:
@@ -37,7 +39,8 @@ class Parser {
   char peek() const { return at_end() ? '\0' : text_[pos_]; }
 
   void error_at(std::size_t position, std::string_view what) {
-    if (error_.empty()) error_ = fmt::format("cannot read the notation at column {}: {}", position + 1, what);
+    if (error_.empty())
+      error_ = fmt::format("cannot read the notation at column {}: {}", position + 1, what);
   }
 
   void skip_space() {
@@ -47,7 +50,8 @@ class Parser {
   /// Items up to one of `stops` or the end.
   Notation items(std::string_view stops) {
     Notation result;
-    for (skip_space(); !failed() && !at_end() && stops.find(peek()) == std::string_view::npos; skip_space()) {
+    for (skip_space(); !failed() && !at_end() && stops.find(peek()) == std::string_view::npos;
+         skip_space()) {
       Item item = one();
       if (failed()) break;
       if (peek() == '*') item.repeat = repetition(item);
@@ -70,7 +74,8 @@ class Parser {
   }
 
   Item bracket(Item::Kind kind, int step) {
-    if ((step > 0) == (depth_ > 0)) error_at(pos_, step > 0 ? "'[' inside '['; a frame holds no frame" : "']' without '['");
+    if ((step > 0) == (depth_ > 0))
+      error_at(pos_, step > 0 ? "'[' inside '['; a frame holds no frame" : "']' without '['");
     depth_ += step;
     Item item;
     item.kind = kind;
@@ -98,16 +103,20 @@ class Parser {
     const std::size_t begin = pos_++;
     Item item;
     item.kind = Item::Kind::pause;
-    const auto [rest, error] = std::from_chars(text_.data() + pos_, text_.data() + text_.size(), item.pause.amount);
+    const auto [rest, error] =
+        std::from_chars(text_.data() + pos_, text_.data() + text_.size(), item.pause.amount);
     if (error != std::errc{}) {
       error_at(begin, "a pause is ~20ms, ~1s or ~1.6c");
       return item;
     }
     pos_ = static_cast<std::size_t>(rest - text_.data());
     const std::string_view unit = take_letters();
-    if (unit == "c") item.pause.characters = true;
-    else if (unit == "s") item.pause.amount *= 1000;
-    else if (unit != "ms") error_at(begin, "a pause is ~20ms, ~1s or ~1.6c");
+    if (unit == "c")
+      item.pause.characters = true;
+    else if (unit == "s")
+      item.pause.amount *= 1000;
+    else if (unit != "ms")
+      error_at(begin, "a pause is ~20ms, ~1s or ~1.6c");
     item.text = text_.substr(begin, pos_ - begin);
     return item;
   }
@@ -180,7 +189,9 @@ class Parser {
     for (const Control& control : controls)
       if (letters == control.name) item.bytes = {control.value};
     if (item.bytes.empty() && letters.size() == 2) item.bytes = from_hex(letters).value_or(Bytes{});
-    if (item.bytes.empty()) error_at(begin, fmt::format("unknown word '{}'; there are {}", letters.empty() ? text_.substr(begin, 1) : letters, words));
+    if (item.bytes.empty())
+      error_at(begin, fmt::format("unknown word '{}'; there are {}",
+                                  letters.empty() ? text_.substr(begin, 1) : letters, words));
     return item;
   }
 
@@ -193,7 +204,8 @@ class Parser {
       return item;
     }
     item.text = text_.substr(pos_ + 1, end - pos_ - 1);
-    if (item.text.size() > 255) error_at(begin, "a name has at most 255 characters: its length is two hex digits");
+    if (item.text.size() > 255)
+      error_at(begin, "a name has at most 255 characters: its length is two hex digits");
     pos_ = end + 1;
     return item;
   }
@@ -203,7 +215,8 @@ class Parser {
     item.kind = Item::Kind::sequence;
     if (peek() == '(') ++pos_;
     item.number = take_number();
-    if (item.number < 1 || item.number > 0xFFFF || peek() != ')') error_at(begin, "a sequence of words is written seq(60)");
+    if (item.number < 1 || item.number > 0xFFFF || peek() != ')')
+      error_at(begin, "a sequence of words is written seq(60)");
     ++pos_;
     return item;
   }
@@ -234,7 +247,8 @@ class Parser {
     const std::size_t begin = pos_++;
     const int count = take_number();
     if (count < 1 || count > 100'000) error_at(begin, "a repetition is *n with n from 1 to 100000");
-    if (item.kind == Item::Kind::open || item.kind == Item::Kind::close || item.kind == Item::Kind::check)
+    if (item.kind == Item::Kind::open || item.kind == Item::Kind::close ||
+        item.kind == Item::Kind::check)
       error_at(begin, "brackets and checks cannot be repeated");
     return count;
   }
@@ -247,7 +261,9 @@ class Parser {
   static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
   static bool is_digit(char c) { return c >= '0' && c <= '9'; }
   std::string_view take_letters() { return take_while(is_letter); }
-  std::string_view take_name() { return take_while([](char c) { return is_letter(c) || is_digit(c) || c == '_'; }); }
+  std::string_view take_name() {
+    return take_while([](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+  }
 
   int take_number() {
     const std::string_view digits = take_while(is_digit);
@@ -272,7 +288,8 @@ std::string print_item(const Item& item) {
     case Item::Kind::station: return item.number ? fmt::format("st+{}", item.number) : "st";
     case Item::Kind::name: return fmt::format("name({})", item.text);
     case Item::Kind::sequence: return fmt::format("seq({})", item.number);
-    case Item::Kind::check: return fmt::format("{}{}", to_string(item.check), item.wrong ? "!" : "");
+    case Item::Kind::check:
+      return fmt::format("{}{}", to_string(item.check), item.wrong ? "!" : "");
     case Item::Kind::hex_digits: return fmt::format("x:{}", item.number);
     case Item::Kind::capture: return fmt::format("{{{}:{}}}", item.text, item.number);
     case Item::Kind::reuse: return fmt::format("{{{}}}", item.text);
@@ -280,7 +297,8 @@ std::string print_item(const Item& item) {
   }
   std::string text = "(";
   for (const Item::Alternative& alternative : item.alternatives)
-    text += fmt::format("{}{}:{}", text.size() > 1 ? "|" : "", alternative.name, print(alternative.items));
+    text += fmt::format("{}{}:{}", text.size() > 1 ? "|" : "", alternative.name,
+                        print(alternative.items));
   return text + ")";
 }
 
@@ -293,7 +311,9 @@ std::string_view control_name(Byte value) {
 }  // namespace
 
 Duration Pause::at(Duration character_time) const {
-  if (characters) return Duration(static_cast<Duration::rep>(amount * static_cast<double>(character_time.count())));
+  if (characters)
+    return Duration(
+        static_cast<Duration::rep>(amount * static_cast<double>(character_time.count())));
   return Duration(static_cast<Duration::rep>(amount * 1e6));
 }
 
@@ -316,7 +336,9 @@ bool is_quotable(Byte b) { return b >= 0x20 && b < 0x7F && b != '\''; }
 
 /// More than a quarter of the bytes has neither a character nor a name: numbers, not text.
 bool is_binary(ByteView bytes) {
-  return 4 * std::ranges::count_if(bytes, [](Byte b) { return !is_quotable(b) && control_name(b).empty(); }) > std::ssize(bytes);
+  return 4 * std::ranges::count_if(
+                 bytes, [](Byte b) { return !is_quotable(b) && control_name(b).empty(); }) >
+         std::ssize(bytes);
 }
 }  // namespace
 

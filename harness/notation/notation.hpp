@@ -23,29 +23,31 @@ struct Pause {
 /// One word of the notation.
 struct Item {
   enum class Kind {
-    open, close,    // [ ]
-    literal,        // ENQ, 0D, 'rSS': `bytes`
-    station,        // st, st+1: `number` is what is added
-    name,           // name(%MW020): `text`
-    sequence,       // seq(60): `number` words
-    check,          // BCC, BCC!: `check`, `wrong`
-    pause,          // ~20ms
-    any,            // ??
-    hex_digits,     // x:4
-    capture, reuse, // {id:4}, {id}: `text` and `number`
-    alternatives    // (a:'ss'|b:'SS')
+    open,
+    close,       // [ ]
+    literal,     // ENQ, 0D, 'rSS': `bytes`
+    station,     // st, st+1: `number` is what is added
+    name,        // name(%MW020): `text`
+    sequence,    // seq(60): `number` words
+    check,       // BCC, BCC!: `check`, `wrong`
+    pause,       // ~20ms
+    any,         // ??
+    hex_digits,  // x:4
+    capture,
+    reuse,        // {id:4}, {id}: `text` and `number`
+    alternatives  // (a:'ss'|b:'SS')
   };
   struct Alternative;
 
   Kind kind = Kind::literal;
-  std::string text;      // as written, less the repetition
+  std::string text;  // as written, less the repetition
   Bytes bytes;
   int number = 0;
   CheckKind check = CheckKind::bcc;
   bool wrong = false;
   Pause pause;
   std::vector<Alternative> alternatives;
-  int repeat = 1;        // '1234'*60
+  int repeat = 1;  // '1234'*60
 };
 
 struct Item::Alternative {
@@ -61,7 +63,8 @@ Result<Notation> parse_notation(std::string_view text);
 /// The reverse: parse_notation(print(n)) prints the same again.
 std::string print(const Notation& notation);
 
-/// Plain bytes in notation: ENQ '01rSS' EOT 'A4' FF; numbers that are hardly text as hex alone: 01 03 00 63.
+/// Plain bytes in notation: ENQ '01rSS' EOT 'A4' FF; numbers that are hardly text as hex alone: 01
+/// 03 00 63.
 std::string print_bytes(ByteView bytes);
 
 }  // namespace fieldproof

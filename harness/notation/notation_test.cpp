@@ -13,13 +13,17 @@ std::string reprinted(std::string_view text) {
 }
 
 TEST(Notation, PrintsWhatItParsed) {
-  for (const char* text : {"[ENQ st 'rSS' '02' name(%MW020) EOT BCC]", "[ACK st 'rSS' '01' '02' x:4 ETX BCC]", "'noise' [ENQ st+1 'X09' EOT]",
-                           "[ENQ ~1.6c 0D FF seq(60) '1234'*60 EOT BCC!]", "[?? {id:4} {id} ?? SUM CRC LRC]", "[STX (as_sent:'ss'|upper:'SS' 0D) CR LF]",
-                           "~20ms [ENQ ~1s EOT]"})
+  for (const char* text :
+       {"[ENQ st 'rSS' '02' name(%MW020) EOT BCC]", "[ACK st 'rSS' '01' '02' x:4 ETX BCC]",
+        "'noise' [ENQ st+1 'X09' EOT]", "[ENQ ~1.6c 0D FF seq(60) '1234'*60 EOT BCC!]",
+        "[?? {id:4} {id} ?? SUM CRC LRC]", "[STX (as_sent:'ss'|upper:'SS' 0D) CR LF]",
+        "~20ms [ENQ ~1s EOT]"})
     EXPECT_EQ(reprinted(text), text);
 }
 
-TEST(Notation, SpaceIsFreeBetweenWords) { EXPECT_EQ(reprinted(" [ENQ   st\tEOT ] "), "[ENQ st EOT]"); }
+TEST(Notation, SpaceIsFreeBetweenWords) {
+  EXPECT_EQ(reprinted(" [ENQ   st\tEOT ] "), "[ENQ st EOT]");
+}
 
 TEST(Notation, ErrorsNameTheColumn) {
   EXPECT_THAT(reprinted("[ENQ ENX EOT]"), HasSubstr("column 6: unknown word 'ENX'"));
@@ -55,7 +59,11 @@ TEST(Notation, AnyTextIsParsedOrRefusedButNeverCrashes) {
 }
 
 TEST(PrintBytes, ShowsControlsTextAndTheRestInHex) {
-  EXPECT_EQ(print_bytes(to_bytes("\x05" "01rSS'" "\x04" "A4\xFF")), "ENQ '01rSS' 27 EOT 'A4' FF");
+  EXPECT_EQ(print_bytes(to_bytes("\x05"
+                                 "01rSS'"
+                                 "\x04"
+                                 "A4\xFF")),
+            "ENQ '01rSS' 27 EOT 'A4' FF");
   EXPECT_EQ(print_bytes(Bytes{}), "");
   // Modbus RTU: names of control characters would mislead where most bytes are numbers.
   EXPECT_EQ(print_bytes(*from_hex("01 03 00 63 00 01 74 14")), "01 03 00 63 00 01 74 14");

@@ -33,7 +33,8 @@ Setting random_setting(unsigned seed) {
   setting.line.parity = one_of<char>(random, {'N', 'E', 'O'});
   setting.line.stop_bits = one_of<int>(random, {1, 2});
   setting.hidden.config = {{"station", setting.station}, {"line", to_string(setting.line)}};
-  if (random() % 2) setting.hidden.config.update({{"rs485", true}, {"delay_ms", 10 * (random() % 40)}});
+  if (random() % 2)
+    setting.hidden.config.update({{"rs485", true}, {"delay_ms", 10 * (random() % 40)}});
   return setting;
 }
 
@@ -42,9 +43,11 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Blind, testing::Range(0u, 50u));
 
 TEST_P(Blind, IsFound) {
   const Setting setting = random_setting(GetParam());
-  SCOPED_TRACE(setting.hidden.protocol + ' ' + setting.hidden.model + ' ' + setting.hidden.config.dump());
+  SCOPED_TRACE(setting.hidden.protocol + ' ' + setting.hidden.model + ' ' +
+               setting.hidden.config.dump());
   const std::vector<Finding> findings = find(opener(setting.hidden));
-  ASSERT_THAT(kinds(findings), testing::ElementsAre(Finding::Kind::device)) << findings.front().text;
+  ASSERT_THAT(kinds(findings), testing::ElementsAre(Finding::Kind::device))
+      << findings.front().text;
   const Trial& found = findings.front().trial;
   EXPECT_EQ(found.protocol->name(), setting.hidden.protocol);
   EXPECT_EQ(found.station, setting.station);
@@ -63,13 +66,16 @@ TEST(Search, AFactoryNewDeviceIsFoundAtOnce) {
 TEST(Search, AllFindsEveryStationOfTheLine) {
   Hidden hidden;
   hidden.config["neighbours"] = {2, 3};
-  EXPECT_EQ(kinds(conclude(run_search(opener(hidden), small_space(), true), {})), std::vector(3, Finding::Kind::device));
-  EXPECT_EQ(kinds(conclude(run_search(opener(hidden), small_space(), false), {})), std::vector(1, Finding::Kind::device));
+  EXPECT_EQ(kinds(conclude(run_search(opener(hidden), small_space(), true), {})),
+            std::vector(3, Finding::Kind::device));
+  EXPECT_EQ(kinds(conclude(run_search(opener(hidden), small_space(), false), {})),
+            std::vector(1, Finding::Kind::device));
 }
 
 TEST(Search, SendsProbesAlone) {
   struct Recorder final : Wire {
-    Recorder(std::unique_ptr<Endpoint> inner, const LineSettings&, std::set<Bytes>* all) : Wire(std::move(inner)), sent(all) {}
+    Recorder(std::unique_ptr<Endpoint> inner, const LineSettings&, std::set<Bytes>* all)
+        : Wire(std::move(inner)), sent(all) {}
     Result<Sent> send(ByteView bytes) override {
       sent->emplace(bytes.begin(), bytes.end());
       return inner_->send(bytes);
@@ -78,7 +84,8 @@ TEST(Search, SendsProbesAlone) {
   };
   std::set<Bytes> sent, probes;
   run_search(behind<Recorder>(opener({.config = {{"station", 200}}}), &sent), small_space());
-  for (const Trial& trial : make_plan(small_space())) probes.insert(trial.protocol->probe(trial.station, {}));
+  for (const Trial& trial : make_plan(small_space()))
+    probes.insert(trial.protocol->probe(trial.station, {}));
   EXPECT_EQ(sent, probes);
 }
 
@@ -87,15 +94,18 @@ TEST(Search, WaitsForADelayedReply) {
   hidden.config.update({{"rs485", true}, {"delay_ms", 480}});
   const std::vector<Finding> findings = find(opener(hidden), small_space());
   ASSERT_THAT(kinds(findings), testing::ElementsAre(Finding::Kind::device));
-  EXPECT_THAT(findings.front().text, testing::HasSubstr("answers in 480.")) << findings.front().text;
+  EXPECT_THAT(findings.front().text, testing::HasSubstr("answers in 480."))
+      << findings.front().text;
 }
 
-/// The delay time may be 2550 ms (table 4.3.1): the reply comes when another question has been asked, and shows who is late.
+/// The delay time may be 2550 ms (table 4.3.1): the reply comes when another question has been
+/// asked, and shows who is late.
 TEST(Search, FindsADeviceThatAnswersAfterTheWait) {
   Hidden hidden;
   hidden.config.update({{"rs485", true}, {"delay_ms", 1700}});
   const std::vector<Finding> findings = find(opener(hidden), small_space());
-  ASSERT_THAT(kinds(findings), testing::ElementsAre(Finding::Kind::device)) << findings.front().text;
+  ASSERT_THAT(kinds(findings), testing::ElementsAre(Finding::Kind::device))
+      << findings.front().text;
   EXPECT_EQ(findings.front().trial.station, 1);
 }
 
@@ -115,7 +125,8 @@ TEST(Search, TroubleOfThePortEndsIt) {
     Prober prober(open, {}, [](std::size_t, std::size_t, const Observation&) {});
     return prober.run(make_plan(small_space()), false);
   };
-  const Result<Search> never = run([](const LineSettings&) -> Result<std::unique_ptr<Endpoint>> { return fail("in use"); });
+  const Result<Search> never =
+      run([](const LineSettings&) -> Result<std::unique_ptr<Endpoint>> { return fail("in use"); });
   ASSERT_FALSE(never);
   EXPECT_EQ(never.error().message, "in use");
 
@@ -131,10 +142,13 @@ TEST(Search, TroubleOfThePortEndsIt) {
 TEST(Search, AnInterruptKeepsWhatWasHeard) {
   struct Stopped final : Wire {
     Stopped(std::unique_ptr<Endpoint> inner, const LineSettings&) : Wire(std::move(inner)) {}
-    Result<Sent> send(ByteView bytes) override { return ++sent > 2 ? Result<Sent>(Error{"interrupted", true}) : inner_->send(bytes); }
+    Result<Sent> send(ByteView bytes) override {
+      return ++sent > 2 ? Result<Sent>(Error{"interrupted", true}) : inner_->send(bytes);
+    }
     int sent = 0;
   };
-  Prober prober(behind<Stopped>(opener({.config = {{"station", 9}}})), {}, [](std::size_t, std::size_t, const Observation&) {});
+  Prober prober(behind<Stopped>(opener({.config = {{"station", 9}}})), {},
+                [](std::size_t, std::size_t, const Observation&) {});
   const Result<Search> search = prober.run(make_plan(small_space()), false);
   ASSERT_TRUE(search);
   EXPECT_TRUE(search->interrupted);

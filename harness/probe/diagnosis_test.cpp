@@ -51,8 +51,13 @@ Heard read_with_other_settings(const Trial& t, const char* device) {
 Diagnosis of(const Trial& t, const Heard& h) { return diagnose(t, h, protocols()); }
 
 class EachProtocol : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(All, EachProtocol, testing::Values("xgt-cnet", "modbus-rtu", "modbus-ascii", "ls-bus"),
-                         [](const auto& p) { std::string name = p.param; std::erase(name, '-'); return name; });
+INSTANTIATE_TEST_SUITE_P(All, EachProtocol,
+                         testing::Values("xgt-cnet", "modbus-rtu", "modbus-ascii", "ls-bus"),
+                         [](const auto& p) {
+                           std::string name = p.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
 
 TEST_P(EachProtocol, ReplyWithItsTime) {
   const Trial t = trial(GetParam(), 5);
@@ -114,7 +119,8 @@ TEST_P(EachProtocol, StrayBytesAroundTheReply) {
 }
 
 TEST_P(EachProtocol, AFrameOfAnotherProtocol) {
-  const Trial t = trial(GetParam()), other = trial(GetParam() == std::string("ls-bus") ? "modbus-ascii" : "ls-bus", 7);
+  const Trial t = trial(GetParam()),
+              other = trial(GetParam() == std::string("ls-bus") ? "modbus-ascii" : "ls-bus", 7);
   const Diagnosis d = of(t, heard(answer(other)));
   EXPECT_EQ(d.symptom, Symptom::foreign_frame);
   EXPECT_EQ(d.protocol, other.protocol);
@@ -127,7 +133,9 @@ TEST_P(EachProtocol, AnotherMasterIsNoReply) {
 }
 
 TEST(Diagnosis, ARefusalIsAReply) {
-  const Bytes refusal = to_bytes("\x15" "01RFE3E\x04");
+  const Bytes refusal = to_bytes(
+      "\x15"
+      "01RFE3E\x04");
   EXPECT_FALSE(trial("ls-bus").protocol->is_reply_to_probe(question(trial("ls-bus")), refusal));
   EXPECT_EQ(of(trial("ls-bus"), heard(refusal)).symptom, Symptom::reply);
 }
@@ -158,13 +166,20 @@ struct Mismatch {
   const char *bench, *device;
 };
 class Format : public testing::TestWithParam<Mismatch> {};
-INSTANTIATE_TEST_SUITE_P(All, Format,
-                         testing::Values(Mismatch{"9600-8N1", "9600-7E1"}, Mismatch{"9600-8N1", "9600-7O1"}, Mismatch{"9600-8N1", "9600-7N2"},
-                                         Mismatch{"9600-8N1", "9600-8E1"}, Mismatch{"9600-8N1", "9600-8O1"}, Mismatch{"9600-8E1", "9600-8O1"},
-                                         Mismatch{"9600-8O1", "9600-8E1"}, Mismatch{"9600-7E1", "9600-7O1"}, Mismatch{"9600-7E1", "9600-8N1"}),
-                         [](const auto& p) { return std::string(p.param.bench).substr(5) + "_reads_" + std::string(p.param.device).substr(5); });
+INSTANTIATE_TEST_SUITE_P(
+    All, Format,
+    testing::Values(Mismatch{"9600-8N1", "9600-7E1"}, Mismatch{"9600-8N1", "9600-7O1"},
+                    Mismatch{"9600-8N1", "9600-7N2"}, Mismatch{"9600-8N1", "9600-8E1"},
+                    Mismatch{"9600-8N1", "9600-8O1"}, Mismatch{"9600-8E1", "9600-8O1"},
+                    Mismatch{"9600-8O1", "9600-8E1"}, Mismatch{"9600-7E1", "9600-7O1"},
+                    Mismatch{"9600-7E1", "9600-8N1"}),
+    [](const auto& p) {
+      return std::string(p.param.bench).substr(5) + "_reads_" +
+             std::string(p.param.device).substr(5);
+    });
 
-/// The device understands us, but its replies are in another format: which one shows in what is left of them.
+/// The device understands us, but its replies are in another format: which one shows in what is
+/// left of them.
 TEST_P(Format, IsNamed) {
   const Trial t = trial("xgt-cnet", 1, GetParam().bench);
   const Diagnosis d = of(t, read_with_other_settings(t, GetParam().device));
@@ -177,7 +192,9 @@ TEST_P(Format, IsNamed) {
 TEST(Diagnosis, AWrongSpeedIsNoWrongFormat) {
   for (const char* device : {"19200-8N1", "4800-8N1", "38400-8E1", "1200-8N1"}) {
     const Trial t = trial();
-    EXPECT_THAT(of(t, read_with_other_settings(t, device)).symptom, testing::AnyOf(Symptom::garbage, Symptom::silence)) << device;
+    EXPECT_THAT(of(t, read_with_other_settings(t, device)).symptom,
+                testing::AnyOf(Symptom::garbage, Symptom::silence))
+        << device;
   }
 }
 

@@ -26,8 +26,10 @@ TEST(LineFault, EchoWithoutADevice) {
 }
 
 TEST(LineFault, EchoBeforeTheReply) {
-  EXPECT_THAT(kinds(find(behind<Echo>(opener({})), small_space())), ElementsAre(Kind::device, Kind::echo));
-  EXPECT_THAT(kinds(find(opener(hidden(with_faults({.echo = true}))), small_space())), ElementsAre(Kind::device, Kind::echo));
+  EXPECT_THAT(kinds(find(behind<Echo>(opener({})), small_space())),
+              ElementsAre(Kind::device, Kind::echo));
+  EXPECT_THAT(kinds(find(opener(hidden(with_faults({.echo = true}))), small_space())),
+              ElementsAre(Kind::device, Kind::echo));
 }
 
 TEST(LineFault, SwappedPair) {
@@ -51,17 +53,20 @@ TEST(LineFault, FloatingLine) {
   const auto nobody = find(behind<Floating>(opener(hidden(switched_off))), small_space());
   ASSERT_THAT(kinds(nobody), ElementsAre(Kind::wiring));
   EXPECT_THAT(nobody[0].text, HasSubstr("mostly 00 and FF"));
-  EXPECT_THAT(kinds(find(behind<Floating>(opener({})), small_space())), ElementsAre(Kind::device, Kind::stray_bytes));
+  EXPECT_THAT(kinds(find(behind<Floating>(opener({})), small_space())),
+              ElementsAre(Kind::device, Kind::stray_bytes));
 }
 
 TEST(LineFault, TwoDevicesOneAfterTheOther) {
   Hidden two = hidden(with_faults({.late = 60ms}));
   two.config["neighbours"] = {1};
-  EXPECT_THAT(kinds(find(opener(two), small_space())), ElementsAre(Kind::device, Kind::two_devices));
+  EXPECT_THAT(kinds(find(opener(two), small_space())),
+              ElementsAre(Kind::device, Kind::two_devices));
 }
 
 TEST(LineFault, TwoDevicesAtOnce) {
-  Hidden two = hidden(with_faults({.late = 7'300us}));  // seven characters: one talks into the other
+  Hidden two =
+      hidden(with_faults({.late = 7'300us}));  // seven characters: one talks into the other
   two.config["neighbours"] = {1};
   const auto findings = find(opener(two), small_space());
   ASSERT_THAT(kinds(findings), ElementsAre(Kind::two_devices)) << findings[0].text;
@@ -69,7 +74,9 @@ TEST(LineFault, TwoDevicesAtOnce) {
 }
 
 TEST(LineFault, AnotherStationAnswers) {
-  Bytes reply = to_bytes("\x06" "03rSS01020000\x03");
+  Bytes reply = to_bytes(
+      "\x06"
+      "03rSS01020000\x03");
   unsigned sum = 0;
   for (const Byte b : reply) sum += b;
   for (const char c : hex_number(sum & 0xFF, 2)) reply.push_back(static_cast<Byte>(c));
@@ -87,11 +94,14 @@ TEST(LineFault, AnotherMasterTalks) {
   ASSERT_THAT(kinds(findings), ElementsAre(Kind::other_talker)) << findings[0].text;
   EXPECT_THAT(findings[0].text, HasSubstr("modbus-rtu frame of station 9"));
   EXPECT_EQ(to_string(findings[0].trial.line), "19200-8E1");
-  for (const Observation& one : search.observations) EXPECT_EQ(one.trial.protocol, nullptr) << "asked into the talk of others";
+  for (const Observation& one : search.observations)
+    EXPECT_EQ(one.trial.protocol, nullptr) << "asked into the talk of others";
 }
 
 LineOpener any_format_in(const char* out) {
-  const LineOpener open = [](const LineSettings& line) { return opener({.config = {{"station", 1}, {"line", to_string(line)}}})(line); };
+  const LineOpener open = [](const LineSettings& line) {
+    return opener({.config = {{"station", 1}, {"line", to_string(line)}}})(line);
+  };
   return behind<OwnFormat>(open, out);
 }
 

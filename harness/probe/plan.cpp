@@ -1,14 +1,15 @@
 #include "harness/probe/plan.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 
 namespace fieldproof {
 
 namespace {
 
-/// How unlikely something is; the sum over a question's parts orders the questions. Only the order matters.
+/// How unlikely something is; the sum over a question's parts orders the questions. Only the order
+/// matters.
 using Rank = int;
 
 template <typename T>
@@ -17,14 +18,17 @@ struct Ranked {
   Rank rank;
 };
 
-// Factory settings first: LS modules and inverters 9600, Modbus devices 19200; then what integrators choose for speed.
-constexpr std::array<Ranked<int>, 8> usual_speeds{{{9600, 0}, {19200, 2}, {38400, 2}, {115200, 2}, {57600, 4}, {4800, 5}, {2400, 6}, {1200, 7}}};
+// Factory settings first: LS modules and inverters 9600, Modbus devices 19200; then what
+// integrators choose for speed.
+constexpr std::array<Ranked<int>, 8> usual_speeds{
+    {{9600, 0}, {19200, 2}, {38400, 2}, {115200, 2}, {57600, 4}, {4800, 5}, {2400, 6}, {1200, 7}}};
 
 struct Frame {
   int data_bits;
   char parity;
 };
-constexpr std::array<Ranked<Frame>, 6> usual_frames{{{{8, 'N'}, 0}, {{8, 'E'}, 2}, {{8, 'O'}, 4}, {{7, 'E'}, 5}, {{7, 'O'}, 7}, {{7, 'N'}, 8}}};
+constexpr std::array<Ranked<Frame>, 6> usual_frames{
+    {{{8, 'N'}, 0}, {{8, 'E'}, 2}, {{8, 'O'}, 4}, {{7, 'E'}, 5}, {{7, 'O'}, 7}, {{7, 'N'}, 8}}};
 
 constexpr int last_usual_station = 31;
 
@@ -46,30 +50,39 @@ Rank rank_of_station(int station) {
 }
 
 /// A protocol whose station is a byte, not two digits, needs all eight bits.
-bool needs_eight_bits(const Protocol& protocol) { return protocol.station_bytes(255) == Bytes{255}; }
+bool needs_eight_bits(const Protocol& protocol) {
+  return protocol.station_bytes(255) == Bytes{255};
+}
 
 Duration wire_time(const Trial& trial) {
   if (!trial.protocol) return {};
-  return trial.line.character_time() * static_cast<Duration::rep>(trial.protocol->probe(trial.station, {}).size());
+  return trial.line.character_time() *
+         static_cast<Duration::rep>(trial.protocol->probe(trial.station, {}).size());
 }
 
 }  // namespace
 
 std::string question_of(const Trial& trial) {
-  return trial.protocol ? fmt::format("{} station {}", trial.protocol->name(), trial.station) : "listening";
+  return trial.protocol ? fmt::format("{} station {}", trial.protocol->name(), trial.station)
+                        : "listening";
 }
 
-std::string to_string(const Trial& trial) { return to_string(trial.line) + ' ' + question_of(trial); }
+std::string to_string(const Trial& trial) {
+  return to_string(trial.line) + ' ' + question_of(trial);
+}
 
 SearchSpace filled(SearchSpace space) {
   if (space.speeds.empty())
     for (const auto& one : usual_speeds) space.speeds.push_back(one.value);
   if (space.frames.empty())
-    for (const auto& one : usual_frames) space.frames.push_back({.data_bits = one.value.data_bits, .parity = one.value.parity});
+    for (const auto& one : usual_frames)
+      space.frames.push_back({.data_bits = one.value.data_bits, .parity = one.value.parity});
   if (space.stations.empty())
-    for (int station = 0; station <= last_usual_station; ++station) space.stations.push_back(station);
+    for (int station = 0; station <= last_usual_station; ++station)
+      space.stations.push_back(station);
   if (space.protocols.empty())
-    std::ranges::copy_if(protocols(), std::back_inserter(space.protocols), [](const Protocol* one) { return !one->probe(1, {}).empty(); });
+    std::ranges::copy_if(protocols(), std::back_inserter(space.protocols),
+                         [](const Protocol* one) { return !one->probe(1, {}).empty(); });
   if (!space.settable) space.speeds.resize(1), space.frames.resize(1);
   return space;
 }
@@ -84,7 +97,8 @@ std::vector<Trial> make_plan(const SearchSpace& given) {
         for (std::size_t i = 0; i < space.protocols.size(); ++i) {
           const Protocol& protocol = *space.protocols[i];
           if (space.settable && line.data_bits == 7 && needs_eight_bits(protocol)) continue;
-          const Rank rank = rank_of_speed(speed) + rank_of_frame(line) + rank_of_station(station) + static_cast<Rank>(i);
+          const Rank rank = rank_of_speed(speed) + rank_of_frame(line) + rank_of_station(station) +
+                            static_cast<Rank>(i);
           ranked.push_back({{line, &protocol, station}, rank});
         }
       }
@@ -108,6 +122,8 @@ Duration longest_time(const std::vector<Trial>& plan, Duration wait) {
   return total;
 }
 
-Duration listening_time(const LineSettings& line) { return std::max<Duration>(20ms, line.character_time() * 4); }
+Duration listening_time(const LineSettings& line) {
+  return std::max<Duration>(20ms, line.character_time() * 4);
+}
 
 }  // namespace fieldproof

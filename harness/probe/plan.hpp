@@ -24,11 +24,13 @@ std::string to_string(const Trial& trial);
 
 /// What is searched; an empty list means all that is usual.
 struct SearchSpace {
-  std::vector<int> speeds;                  // the eight of 000 table 4.3.1
-  std::vector<LineSettings> frames;         // their speed does not count; one stop bit: a second one reads the same
-  std::vector<int> stations;                // 0 to 31: what one line carries (000 9.3); more only when named
-  std::vector<const Protocol*> protocols;   // those of `protocols()` that have a probe
-  bool settable = true;                     // false: a socket or a pty has neither speed nor frame, one setting is tried
+  std::vector<int> speeds;  // the eight of 000 table 4.3.1
+  std::vector<LineSettings>
+      frames;  // their speed does not count; one stop bit: a second one reads the same
+  std::vector<int> stations;  // 0 to 31: what one line carries (000 9.3); more only when named
+  std::vector<const Protocol*> protocols;  // those of `protocols()` that have a probe
+  bool settable =
+      true;  // false: a socket or a pty has neither speed nor frame, one setting is tried
 };
 /// The same with the usual in place of the empty lists.
 SearchSpace filled(SearchSpace space);
@@ -36,8 +38,8 @@ SearchSpace filled(SearchSpace space);
 /// Each question of the space once, the most likely first; none with binary bytes over 7 data bits.
 std::vector<Trial> make_plan(const SearchSpace& space);
 
-/// How long the plan takes when nothing is heard: each question on the wire, `wait` for its answer, and what opening
-/// the line costs where the settings change.
+/// How long the plan takes when nothing is heard: each question on the wire, `wait` for its answer,
+/// and what opening the line costs where the settings change.
 Duration longest_time(const std::vector<Trial>& plan, Duration wait);
 
 /// A new setting is listened to for so long before the first question.

@@ -34,37 +34,51 @@ TEST(SearchPlan, BeginsWithTheMostLikely) {
   EXPECT_EQ(to_string(plan.front()), "9600-8N1 xgt-cnet station 1");
   EXPECT_LT(place(plan, "9600-8N1 modbus-rtu station 1"), 10);
   EXPECT_LT(place(plan, "19200-8E1 modbus-rtu station 1"), 100);
-  EXPECT_LT(place(plan, "9600-8N1 xgt-cnet station 2"), place(plan, "9600-8N1 xgt-cnet station 31"));
-  EXPECT_LT(place(plan, "38400-8N1 xgt-cnet station 1"), place(plan, "1200-8N1 xgt-cnet station 1"));
+  EXPECT_LT(place(plan, "9600-8N1 xgt-cnet station 2"),
+            place(plan, "9600-8N1 xgt-cnet station 31"));
+  EXPECT_LT(place(plan, "38400-8N1 xgt-cnet station 1"),
+            place(plan, "1200-8N1 xgt-cnet station 1"));
   EXPECT_LT(place(plan, "9600-8E1 ls-bus station 1"), place(plan, "9600-7N1 ls-bus station 1"));
 }
 
 /// A read is harmless at any station, and a module may be set to 0.
 TEST(SearchPlan, AsksStation0LikeAnyOther) {
-  EXPECT_THAT(texts(make_plan({.speeds = {9600}, .frames = {{}}, .stations = {0}, .protocols = {find_protocol("modbus-rtu")}})),
+  EXPECT_THAT(texts(make_plan({.speeds = {9600},
+                               .frames = {{}},
+                               .stations = {0},
+                               .protocols = {find_protocol("modbus-rtu")}})),
               testing::ElementsAre("9600-8N1 modbus-rtu station 0"));
 }
 
 TEST(SearchPlan, SendsNoBinaryBytesOverSevenBits) {
-  const auto seven = std::ranges::count_if(make_plan({}), [](const Trial& t) { return t.line.data_bits == 7 && t.protocol->name() == "modbus-rtu"; });
+  const auto seven = std::ranges::count_if(make_plan({}), [](const Trial& t) {
+    return t.line.data_bits == 7 && t.protocol->name() == "modbus-rtu";
+  });
   EXPECT_EQ(seven, 0);
 }
 
 TEST(SearchPlan, WritesNothing) {
-  for (const Trial& trial : make_plan({.speeds = {9600}, .frames = {{}}, .stations = {}, .protocols = {}}))
-    EXPECT_TRUE(trial.protocol->written_by(trial.protocol->probe(trial.station, {})).empty()) << to_string(trial);
+  for (const Trial& trial :
+       make_plan({.speeds = {9600}, .frames = {{}}, .stations = {}, .protocols = {}}))
+    EXPECT_TRUE(trial.protocol->written_by(trial.protocol->probe(trial.station, {})).empty())
+        << to_string(trial);
 }
 
 TEST(SearchPlan, ALinkWithoutSettingsHasOne) {
-  const SearchSpace space{.speeds = {}, .frames = {}, .stations = {}, .protocols = {}, .settable = false};
+  const SearchSpace space{
+      .speeds = {}, .frames = {}, .stations = {}, .protocols = {}, .settable = false};
   for (const Trial& trial : make_plan(space)) EXPECT_EQ(trial.line, LineSettings{});
 }
 
 TEST(SearchPlan, SaysTheWorstCaseBeforehand) {
-  const std::vector<Trial> plan = make_plan({.speeds = {9600, 1200}, .frames = {{}}, .stations = {1}, .protocols = {find_protocol("xgt-cnet")}});
+  const std::vector<Trial> plan = make_plan({.speeds = {9600, 1200},
+                                             .frames = {{}},
+                                             .stations = {1},
+                                             .protocols = {find_protocol("xgt-cnet")}});
   ASSERT_EQ(plan.size(), 2u);
   const auto characters = static_cast<int>(plan[0].protocol->probe(1, {}).size());
-  const Duration wire = characters * (plan[0].line.character_time() + plan[1].line.character_time());
+  const Duration wire =
+      characters * (plan[0].line.character_time() + plan[1].line.character_time());
   const Duration four_characters_at_1200 = 4 * plan[1].line.character_time();
   EXPECT_EQ(longest_time(plan, 500ms), 2 * 500ms + wire + 20ms + four_characters_at_1200);
   const Duration second = longest_time({plan[0], plan[0]}, 0ms) - longest_time({plan[0]}, 0ms);

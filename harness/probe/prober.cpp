@@ -10,7 +10,9 @@ namespace {
 /// More than any reply and a second one; a line that goes on talks without end.
 constexpr std::size_t flood = 2048;
 
-bool is_sure(Symptom symptom) { return symptom == Symptom::reply || symptom == Symptom::second_reply; }
+bool is_sure(Symptom symptom) {
+  return symptom == Symptom::reply || symptom == Symptom::second_reply;
+}
 
 template <typename T>
 bool contains(const std::vector<T>& all, const std::type_identity_t<T>& one) {
@@ -24,7 +26,9 @@ std::vector<Trial> suggestions(const Observation& observation) {
   const Diagnosis& diagnosis = observation.diagnosis;
   if (!trial.protocol) return {};
   if (diagnosis.right_format) return {{*diagnosis.right_format, trial.protocol, trial.station}};
-  if (diagnosis.station >= 0) return {{trial.line, diagnosis.protocol, diagnosis.station}, {trial.line, diagnosis.protocol, trial.station}};
+  if (diagnosis.station >= 0)
+    return {{trial.line, diagnosis.protocol, diagnosis.station},
+            {trial.line, diagnosis.protocol, trial.station}};
   return {};
 }
 
@@ -58,7 +62,8 @@ Result<bool> Prober::try_next(const Trial& trial, std::vector<Trial>& rest) {
   if (!*open) return false;
   Result<Observation> seen = observe(trial);
   if (!seen) return seen.error();
-  seen->late = contains(done_, {trial.line, seen->diagnosis.protocol, seen->diagnosis.station}) && !is_sure(seen->diagnosis.symptom);
+  seen->late = contains(done_, {trial.line, seen->diagnosis.protocol, seen->diagnosis.station}) &&
+               !is_sure(seen->diagnosis.symptom);
   const bool again = contains(done_, trial);
   done_.push_back(trial);
   keep(*seen);
@@ -74,15 +79,19 @@ Result<bool> Prober::try_next(const Trial& trial, std::vector<Trial>& rest) {
   if (is_sure(symptom)) return confirm(trial);
   if (symptom == Symptom::damaged && again) return confirm(trial);
   if (symptom == Symptom::damaged) {
-    // Perhaps the refusal of a device that speaks another protocol: those first, then this question again.
-    const auto others = std::ranges::stable_partition(rest, [&](const Trial& one) { return one.line == trial.line && one.station == trial.station; });
+    // Perhaps the refusal of a device that speaks another protocol: those first, then this question
+    // again.
+    const auto others = std::ranges::stable_partition(rest, [&](const Trial& one) {
+      return one.line == trial.line && one.station == trial.station;
+    });
     rest.insert(others.begin(), trial);
   }
   insert_next(rest, suggestions(*seen));
   return false;
 }
 
-/// Puts them in front, once. What has been asked before and shows itself now was late: it is asked again with patience.
+/// Puts them in front, once. What has been asked before and shows itself now was late: it is asked
+/// again with patience.
 void Prober::insert_next(std::vector<Trial>& rest, const std::vector<Trial>& trials) {
   std::size_t at = 0;
   for (const Trial& one : trials) {
@@ -118,13 +127,18 @@ Result<bool> Prober::settle(const LineSettings& line) {
 Result<Observation> Prober::observe(const Trial& trial) {
   Observation seen{.trial = trial, .heard = {}, .diagnosis = {}};
   Heard& heard = seen.heard;
-  const Duration gap = trial.protocol ? trial.protocol->frame_gap(endpoint_->character_time()) : timing_.listen;
-  if (const Status done = listen(endpoint_->now() + std::max(gap, listening_time(trial.line)), heard.before); !done) return done.error();
+  const Duration gap =
+      trial.protocol ? trial.protocol->frame_gap(endpoint_->character_time()) : timing_.listen;
+  if (const Status done =
+          listen(endpoint_->now() + std::max(gap, listening_time(trial.line)), heard.before);
+      !done)
+    return done.error();
   if (trial.protocol) {
     const Result<Sent> sent = endpoint_->send(trial.protocol->probe(trial.station, {}));
     if (!sent) return sent.error();
     heard.asked_until = sent->end;
-    const Time until = sent->end + (late_ ? timing_.late : timing_.wait) + endpoint_->character_time();
+    const Time until =
+        sent->end + (late_ ? timing_.late : timing_.wait) + endpoint_->character_time();
     if (const Status done = listen(until, heard.after); !done) return done.error();
   }
   heard.errors = endpoint_->line_errors();
@@ -133,7 +147,8 @@ Result<Observation> Prober::observe(const Trial& trial) {
   return seen;
 }
 
-/// Collects what comes until `until`, and behind the last byte a silence: a second device may be slower than the first.
+/// Collects what comes until `until`, and behind the last byte a silence: a second device may be
+/// slower than the first.
 Status Prober::listen(Time until, std::vector<Burst>& heard) {
   std::size_t size = 0;
   while (size < flood) {

@@ -15,10 +15,11 @@ namespace fieldproof {
 using LineOpener = std::function<Result<std::unique_ptr<Endpoint>>(const LineSettings& settings)>;
 
 struct ProbeTiming {
-  Duration wait = 500ms;     // for the first byte of an answer (the profiles' response_max)
-  Duration late = 2600ms;    // instead, once an answer came later: the longest delay time is 2550 ms (000 table 4.3.1)
-  Duration quiet = 100ms;    // no further byte for so long: the answer is over
-  Duration listen = 1s;      // before the first question of all
+  Duration wait = 500ms;   // for the first byte of an answer (the profiles' response_max)
+  Duration late = 2600ms;  // instead, once an answer came later: the longest delay time is 2550 ms
+                           // (000 table 4.3.1)
+  Duration quiet = 100ms;  // no further byte for so long: the answer is over
+  Duration listen = 1s;    // before the first question of all
 };
 
 /// One question and what came of it.
@@ -37,18 +38,21 @@ struct Search {
   bool interrupted = false;               // Ctrl-C: not all was tried
 };
 
-/// The questions that an observation suggests next: the station, protocol or character format that showed itself.
+/// The questions that an observation suggests next: the station, protocol or character format that
+/// showed itself.
 std::vector<Trial> suggestions(const Observation& observation);
 
 class Prober {
  public:
   /// `done` of `total` trials; called after each.
-  using Progress = std::function<void(std::size_t done, std::size_t total, const Observation& last)>;
+  using Progress =
+      std::function<void(std::size_t done, std::size_t total, const Observation& last)>;
 
   Prober(LineOpener open, ProbeTiming timing, Progress progress)
       : open_(std::move(open)), timing_(timing), progress_(std::move(progress)) {}
 
-  /// Until the first sure find, which is asked twice more; with `all` to the end of the plan. Errors are trouble of the port.
+  /// Until the first sure find, which is asked twice more; with `all` to the end of the plan.
+  /// Errors are trouble of the port.
   Result<Search> run(std::vector<Trial> plan, bool all);
 
  private:
@@ -66,12 +70,12 @@ class Prober {
   Progress progress_;
   std::unique_ptr<Endpoint> endpoint_;
   LineSettings line_;
-  std::vector<LineSettings> lines_;   // of the plan
+  std::vector<LineSettings> lines_;  // of the plan
   std::vector<LineSettings> refused_;
   std::vector<Trial> done_;
   std::string first_refusal_;
   std::size_t total_ = 0;
-  bool late_ = false;                 // a reply came after its wait
+  bool late_ = false;  // a reply came after its wait
   Search search_;
 };
 

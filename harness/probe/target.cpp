@@ -4,7 +4,9 @@ namespace fieldproof {
 
 bool is_emulator(const EndpointName& name) { return name.kind == "emulator" || name.kind == "pty"; }
 
-bool has_line_settings(const EndpointName& name) { return name.kind == "emulator" || name.kind == "serial" || name.kind == "rfc2217"; }
+bool has_line_settings(const EndpointName& name) {
+  return name.kind == "emulator" || name.kind == "serial" || name.kind == "rfc2217";
+}
 
 EndpointName with_settings(EndpointName name, const LineSettings& line) {
   if (!has_line_settings(name)) return name;

@@ -1,4 +1,5 @@
-// The endpoint that is probed: which settings it has, how it is opened with them, and its name once they are known.
+// The endpoint that is probed: which settings it has, how it is opened with them, and its name once
+// they are known.
 #pragma once
 
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace fieldproof {
 
-/// Does this kind of endpoint take a speed and a frame? Sockets and programs have none. (A serial port may still turn
-/// out to be a pty when it is opened.)
+/// Does this kind of endpoint take a speed and a frame? Sockets and programs have none. (A serial
+/// port may still turn out to be a pty when it is opened.)
 bool has_line_settings(const EndpointName& name);
 
 /// Is it our own emulator? Its options describe the device, and so they do not narrow the search.
@@ -19,7 +20,8 @@ bool is_emulator(const EndpointName& name);
 EndpointName with_settings(EndpointName name, const LineSettings& line);
 LineOpener line_opener(const EndpointName& name);
 
-/// `name` as it is to be used for what was found: settings, station and protocol added; an emulator has them already.
+/// `name` as it is to be used for what was found: settings, station and protocol added; an emulator
+/// has them already.
 EndpointName name_of_found(const EndpointName& name, const Trial& found, bool settable);
 /// "serial:/dev/ttyUSB0?baud=9600&frame=8N1", as parse_endpoint reads it.
 std::string to_string(const EndpointName& name);

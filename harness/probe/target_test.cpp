@@ -11,14 +11,16 @@ std::string found(const char* endpoint, bool settable = true) {
 }
 
 TEST(Target, TheFoundIsAddedToTheEndpoint) {
-  EXPECT_EQ(found("serial:/dev/ttyUSB0?rs485=1&baud=9600"), "serial:/dev/ttyUSB0?baud=38400&frame=7E1&protocol=ls-bus&rs485=1&station=12");
+  EXPECT_EQ(found("serial:/dev/ttyUSB0?rs485=1&baud=9600"),
+            "serial:/dev/ttyUSB0?baud=38400&frame=7E1&protocol=ls-bus&rs485=1&station=12");
   EXPECT_EQ(found("serial:/dev/pts/5", false), "serial:/dev/pts/5?protocol=ls-bus&station=12");
   EXPECT_EQ(found("tcp:plc:2000"), "tcp:plc:2000?protocol=ls-bus&station=12");
   EXPECT_EQ(found("emulator:inverter?station=12"), "emulator:inverter?station=12");
 }
 
 TEST(Target, AnEmulatorIsSetOnTheBenchsSide) {
-  EXPECT_EQ(to_string(with_settings(*parse_endpoint("emulator:xbc-h?line=9600-8E1"), {})), "emulator:xbc-h?bench_line=9600-8N1&line=9600-8E1");
+  EXPECT_EQ(to_string(with_settings(*parse_endpoint("emulator:xbc-h?line=9600-8E1"), {})),
+            "emulator:xbc-h?bench_line=9600-8N1&line=9600-8E1");
 }
 
 TEST(Target, TheNameCanBeReadAgain) {

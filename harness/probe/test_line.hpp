@@ -1,5 +1,5 @@
-// Lines for the tests of the search: an emulated device whose settings the search does not know, and what can be wrong
-// with the wiring between.
+// Lines for the tests of the search: an emulated device whose settings the search does not know,
+// and what can be wrong with the wiring between.
 #pragma once
 
 #include <functional>
@@ -28,7 +28,10 @@ inline LineOpener opener(const Hidden& hidden) {
     const Protocol* protocol = find_protocol(hidden.protocol);
     auto endpoint = std::make_unique<EmulatorEndpoint>(
         EndpointName{"emulator", hidden.model, {}},
-        [protocol](std::string_view model, const nlohmann::json& config) { return protocol->make_device(model, config); }, hidden.decorate);
+        [protocol](std::string_view model, const nlohmann::json& config) {
+          return protocol->make_device(model, config);
+        },
+        hidden.decorate);
     nlohmann::json config = hidden.config;
     config["bench_line"] = to_string(bench);
     if (const Status begun = endpoint->begin(config); !begun) return begun.error();
@@ -38,7 +41,9 @@ inline LineOpener opener(const Hidden& hidden) {
 
 /// Puts line faults between the line and the device.
 inline Decorator with_faults(const LineFaults& faults) {
-  return [faults](Device& device, const LineSettings& line) { return std::make_unique<FaultyDevice>(device, faults, line.character_time()); };
+  return [faults](Device& device, const LineSettings& line) {
+    return std::make_unique<FaultyDevice>(device, faults, line.character_time());
+  };
 }
 
 /// Between the bench and its endpoint: what happens on the way.
@@ -64,7 +69,8 @@ LineOpener behind(LineOpener inner, Arguments... arguments) {
   return [=](const LineSettings& line) -> Result<std::unique_ptr<Endpoint>> {
     Result<std::unique_ptr<Endpoint>> opened = inner(line);
     if (!opened) return opened;
-    return std::unique_ptr<Endpoint>(std::make_unique<OneWire>(std::move(*opened), line, arguments...));
+    return std::unique_ptr<Endpoint>(
+        std::make_unique<OneWire>(std::move(*opened), line, arguments...));
   };
 }
 
@@ -74,7 +80,9 @@ inline Search run_search(const LineOpener& open, const SearchSpace& space = {}, 
   return search ? *search : Search{};
 }
 
-inline std::vector<Finding> find(const LineOpener& open, const SearchSpace& space = {}) { return conclude(run_search(open, space), {}); }
+inline std::vector<Finding> find(const LineOpener& open, const SearchSpace& space = {}) {
+  return conclude(run_search(open, space), {});
+}
 
 inline std::vector<Finding::Kind> kinds(const std::vector<Finding>& findings) {
   std::vector<Finding::Kind> result;
@@ -83,6 +91,8 @@ inline std::vector<Finding::Kind> kinds(const std::vector<Finding>& findings) {
 }
 
 /// One speed, one frame, stations 0 to 3: enough where the search is not what is tested.
-inline SearchSpace small_space() { return {.speeds = {9600}, .frames = {LineSettings{}}, .stations = {1, 2, 3}, .protocols = {}}; }
+inline SearchSpace small_space() {
+  return {.speeds = {9600}, .frames = {LineSettings{}}, .stations = {1, 2, 3}, .protocols = {}};
+}
 
 }  // namespace fieldproof::probe_tests

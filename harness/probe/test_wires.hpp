@@ -15,7 +15,9 @@ class Deaf final : public Device {
   std::optional<Time> wake_at() const override { return std::nullopt; }
   Bytes advance(Time) override { return {}; }
 };
-inline const Decorator switched_off = [](Device&, const LineSettings&) { return std::make_unique<Deaf>(); };
+inline const Decorator switched_off = [](Device&, const LineSettings&) {
+  return std::make_unique<Deaf>();
+};
 
 /// Our transmitter is heard by our receiver.
 class Echo final : public Wire {
@@ -37,7 +39,8 @@ class Echo final : public Wire {
   std::deque<Burst> echo_;
 };
 
-/// The pair on which we listen is swapped: the line idles low, and each level is the other one. 8N1.
+/// The pair on which we listen is swapped: the line idles low, and each level is the other one.
+/// 8N1.
 class Swapped final : public Wire {
  public:
   Swapped(std::unique_ptr<Endpoint> inner, const LineSettings&) : Wire(std::move(inner)) {}
@@ -46,7 +49,9 @@ class Swapped final : public Wire {
     if (burst && !burst->bytes.empty()) burst->bytes = read(burst->bytes);
     return burst;
   }
-  std::string line_errors() override { return std::exchange(errors_, 0) > 0 ? "some framing errors" : ""; }
+  std::string line_errors() override {
+    return std::exchange(errors_, 0) > 0 ? "some framing errors" : "";
+  }
 
  private:
   Bytes read(const Bytes& sent) {
@@ -61,9 +66,12 @@ class Swapped final : public Wire {
     for (std::size_t at = 1; at + 9 < levels.size(); ++at) {
       if (!levels[at - 1] || levels[at]) continue;  // no falling edge
       Byte value = 0;
-      for (int bit = 0; bit < 8; ++bit) value |= static_cast<Byte>(levels[at + 1 + static_cast<std::size_t>(bit)] << bit);
-      if (levels[at + 9]) heard.push_back(value);
-      else ++errors_;
+      for (int bit = 0; bit < 8; ++bit)
+        value |= static_cast<Byte>(levels[at + 1 + static_cast<std::size_t>(bit)] << bit);
+      if (levels[at + 9])
+        heard.push_back(value);
+      else
+        ++errors_;
       at += 8;
     }
     return heard;
@@ -133,11 +141,13 @@ class OwnFormat final : public Wire {
   Result<Burst> receive(Time deadline) override {
     Result<Burst> burst = inner_->receive(deadline);
     if (!burst || burst->bytes.empty()) return burst;
-    const Reading reading = read_burst({burst->bytes, burst->start, device_.character_time()}, device_, bench_);
+    const Reading reading =
+        read_burst({burst->bytes, burst->start, device_.character_time()}, device_, bench_);
     parity_ += reading.errors.parity;
     framing_ += reading.errors.framing;
     Burst read{{}, burst->start, bench_.character_time()};
-    for (const Burst& one : reading.bursts) read.bytes.insert(read.bytes.end(), one.bytes.begin(), one.bytes.end());
+    for (const Burst& one : reading.bursts)
+      read.bytes.insert(read.bytes.end(), one.bytes.begin(), one.bytes.end());
     if (read.bytes.empty()) return inner_->receive(deadline);
     return read;
   }

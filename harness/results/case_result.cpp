@@ -62,8 +62,9 @@ Event::Kind parse_kind(const json& object) {
 }  // namespace
 
 Identity in_common(Identity a, const Identity& b) {
-  for (std::string Identity::*field : {&Identity::name, &Identity::maker, &Identity::model, &Identity::serial, &Identity::firmware,
-                                       &Identity::operator_name, &Identity::notes})
+  for (std::string Identity::*field :
+       {&Identity::name, &Identity::maker, &Identity::model, &Identity::serial, &Identity::firmware,
+        &Identity::operator_name, &Identity::notes})
     if (a.*field != b.*field) (a.*field).clear();
   if (a.fingerprint != b.fingerprint) a.fingerprint.clear();
   if (a.fingerprint_found != b.fingerprint_found) a.fingerprint_found.clear();
@@ -71,7 +72,9 @@ Identity in_common(Identity a, const Identity& b) {
 }
 
 void to_json(json& object, const Event& event) {
-  object = {{"kind", kind_word(event.kind)}, {"start_ms", to_ms(event.start)}, {"end_ms", to_ms(event.end)}};
+  object = {{"kind", kind_word(event.kind)},
+            {"start_ms", to_ms(event.start)},
+            {"end_ms", to_ms(event.end)}};
   put_bytes(object, "hex", event.bytes);
   put(object, "text", event.text);
   if (event.step >= 0) object["step"] = event.step;
@@ -117,11 +120,15 @@ void from_json(const json& object, Move& move) {
 }
 
 void to_json(json& object, const Recording& recording) {
-  object = {{"stimulus", recording.stimulus}, {"station", recording.station}, {"steps", recording.steps},
-            {"timing_floor_ms", to_ms(recording.timing_floor)}, {"link_floor_ms", to_ms(recording.link_floor)},
+  object = {{"stimulus", recording.stimulus},
+            {"station", recording.station},
+            {"steps", recording.steps},
+            {"timing_floor_ms", to_ms(recording.timing_floor)},
+            {"link_floor_ms", to_ms(recording.link_floor)},
             {"max_gap_ms", to_ms(recording.max_gap)}};
   if (recording.flooded) object["flooded"] = true;
-  if (recording.period_tolerance > 0ns) object["period_tolerance_ms"] = to_ms(recording.period_tolerance);
+  if (recording.period_tolerance > 0ns)
+    object["period_tolerance_ms"] = to_ms(recording.period_tolerance);
   put(object, "dead", recording.dead);
   put(object, "moves", recording.moves);
 }
@@ -142,7 +149,9 @@ void from_json(const json& object, Recording& recording) {
 }
 
 void to_json(json& object, const Difference& difference) {
-  object = {{"field", difference.field}, {"expected", difference.expected}, {"received", difference.received}};
+  object = {{"field", difference.field},
+            {"expected", difference.expected},
+            {"received", difference.received}};
   put(object, "hint", difference.hint);
 }
 
@@ -155,9 +164,14 @@ void from_json(const json& object, Difference& difference) {
 }
 
 void to_json(json& object, const CaseResult& result) {
-  object = {{"id", result.id},       {"rev", result.rev},     {"protocol", result.protocol},
-            {"title", result.title}, {"level", result.level}, {"basis", result.basis},
-            {"verdict", to_string(result.verdict)},           {"seconds", result.seconds}};
+  object = {{"id", result.id},
+            {"rev", result.rev},
+            {"protocol", result.protocol},
+            {"title", result.title},
+            {"level", result.level},
+            {"basis", result.basis},
+            {"verdict", to_string(result.verdict)},
+            {"seconds", result.seconds}};
   put(object, "line", result.line);
   if (result.repeat != 0) object["repeat"] = result.repeat;
   put(object, "dut", result.dut);
@@ -252,8 +266,9 @@ void from_json(const json& object, DutInfo& dut) {
 }
 
 void to_json(json& object, const ErratumInfo& erratum) {
-  object = {{"vector", erratum.vector_id}, {"manual", erratum.manual},   {"section", erratum.section},
-            {"printed", erratum.printed},  {"correct", erratum.correct}, {"why", erratum.why}};
+  object = {{"vector", erratum.vector_id}, {"manual", erratum.manual},
+            {"section", erratum.section},  {"printed", erratum.printed},
+            {"correct", erratum.correct},  {"why", erratum.why}};
 }
 
 void from_json(const json& object, ErratumInfo& erratum) {
@@ -267,8 +282,9 @@ void from_json(const json& object, ErratumInfo& erratum) {
 }
 
 void to_json(json& object, const RunInfo& info) {
-  object = {{"tool_version", info.tool_version}, {"started", info.started}, {"endpoint", info.endpoint},
-            {"profile", info.profile},           {"command", info.command}, {"vectors_hash", info.vectors_hash},
+  object = {{"tool_version", info.tool_version}, {"started", info.started},
+            {"endpoint", info.endpoint},         {"profile", info.profile},
+            {"command", info.command},           {"vectors_hash", info.vectors_hash},
             {"properties", info.properties}};
   if (json identity = info.identity; !identity.empty()) object["identity"] = std::move(identity);
   put(object, "hashes", info.hashes);
@@ -292,7 +308,10 @@ void from_json(const json& object, RunInfo& info) {
 }
 
 void to_json(json& object, const RunEnd& end) {
-  object = {{"finished", end.finished}, {"seconds", end.seconds}, {"exit_code", end.exit_code}, {"interrupted", end.interrupted}};
+  object = {{"finished", end.finished},
+            {"seconds", end.seconds},
+            {"exit_code", end.exit_code},
+            {"interrupted", end.interrupted}};
   put(object, "trouble", end.trouble);
 }
 

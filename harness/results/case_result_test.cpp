@@ -68,11 +68,12 @@ TEST(CaseResultJson, EveryFieldComesBack) {
 }
 
 TEST(CaseResultJson, NoFieldIsForgotten) {
-  // As many keys as fields, when none is empty. The binding does not compile once a field is added: then extend it,
-  // full_result(), to_json and from_json.
-  const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, manual, section, quote, verdict, message, notes, expected,
-               expected_bytes, expected_hex, received, received_bytes, differences, exchange, recording, readings,
-               response_ms, seconds, replay] = full_result();
+  // As many keys as fields, when none is empty. The binding does not compile once a field is added:
+  // then extend it, full_result(), to_json and from_json.
+  const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, manual, section, quote,
+               verdict, message, notes, expected, expected_bytes, expected_hex, received,
+               received_bytes, differences, exchange, recording, readings, response_ms, seconds,
+               replay] = full_result();
   EXPECT_EQ(27u, json(full_result()).size());
 }
 
@@ -80,8 +81,10 @@ TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
   CaseResult result;
   result.id = "a/b";
   result.verdict = Verdict::pass;
-  EXPECT_EQ(json::parse(R"({"id":"a/b","rev":1,"protocol":"","title":"","level":"","basis":"","verdict":"PASS","seconds":0.0})"),
-            json(result));
+  EXPECT_EQ(
+      json::parse(
+          R"({"id":"a/b","rev":1,"protocol":"","title":"","level":"","basis":"","verdict":"PASS","seconds":0.0})"),
+      json(result));
 }
 
 TEST(CaseResultJson, BytesAreHex) {
@@ -99,14 +102,19 @@ TEST(CaseResultJson, ForeignShapesThrow) {
   EXPECT_THROW(read(R"({"id":"a/b","verdict":"GREEN"})"), json::exception);
   EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","notes":"x"})"), json::exception);
   EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","received_bytes":"0G"})"), json::exception);
-  EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","exchange":[{"kind":"lost"}]})"), json::exception);
-  EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","exchange":[{"kind":"note","start_ms":1e300}]})"), json::exception);
+  EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","exchange":[{"kind":"lost"}]})"),
+               json::exception);
+  EXPECT_THROW(
+      read(R"({"id":"a/b","verdict":"PASS","exchange":[{"kind":"note","start_ms":1e300}]})"),
+      json::exception);
   EXPECT_THROW(read("[]"), json::exception);
   EXPECT_THROW(read("null"), json::exception);
 }
 
 TEST(RunJson, HeadAndEndComeBack) {
-  const RunInfo info{"0.1.0", "2026-11-21T12:39:03+00:00", "emulator:xbc-h", "xbc-h", "fieldproof run", "a1b2", {{"station", "1"}}};
+  const RunInfo info{
+      "0.1.0", "2026-11-21T12:39:03+00:00", "emulator:xbc-h", "xbc-h", "fieldproof run",
+      "a1b2",  {{"station", "1"}}};
   const auto info_again = json(info).get<RunInfo>();
   EXPECT_EQ(json(info), json(info_again));
   EXPECT_EQ("a1b2", info_again.vectors_hash);
@@ -123,12 +131,15 @@ TEST(RunJson, HeadAndEndComeBack) {
 
 TEST(RunJson, IdentityHashesAndErrataComeBack) {
   RunInfo info;
-  info.identity = {"bench-1", "LS", "XBC-DN32H", "S/N 7", "V1.8", "Kim", "port 2", {{"areas", "PMLK"}}, {{"areas", "PML"}}};
+  info.identity = {"bench-1", "LS",     "XBC-DN32H",         "S/N 7",           "V1.8",
+                   "Kim",     "port 2", {{"areas", "PMLK"}}, {{"areas", "PML"}}};
   info.hashes = {{"tool", "00ff"}};
-  info.errata = {{"xgt_cnet/rss/two_words", "xgb-cnet-en-1.6", "7.1.5", "H2550", "H255057", "six characters"}};
+  info.errata = {
+      {"xgt_cnet/rss/two_words", "xgb-cnet-en-1.6", "7.1.5", "H2550", "H255057", "six characters"}};
   const auto again = json(info).get<RunInfo>();
   // As in NoFieldIsForgotten.
-  const auto& [name, maker, model, serial, firmware, operator_name, notes, fingerprint, fingerprint_found] = again.identity;
+  const auto& [name, maker, model, serial, firmware, operator_name, notes, fingerprint,
+               fingerprint_found] = again.identity;
   EXPECT_EQ(9u, json(again)["identity"].size());
   EXPECT_EQ("V1.8", firmware);
   EXPECT_EQ("Kim", operator_name);
@@ -142,7 +153,10 @@ TEST(RunJson, IdentityHashesAndErrataComeBack) {
 
 TEST(RunJson, SeveralDevicesComeBack) {
   RunInfo info;
-  info.duts = {{"serial:/dev/a", {{"station", "3"}}, {"a", "LS", "XBL-C41A", "S/N 7", "V1.8", "Kim", "", {}, {}}}, {"serial:/dev/b", {}, {}}};
+  info.duts = {{"serial:/dev/a",
+                {{"station", "3"}},
+                {"a", "LS", "XBL-C41A", "S/N 7", "V1.8", "Kim", "", {}, {}}},
+               {"serial:/dev/b", {}, {}}};
   const auto again = json(info).get<RunInfo>();
   ASSERT_EQ(2u, again.duts.size());
   const auto& [endpoint, properties, identity] = again.duts[0];

@@ -28,7 +28,8 @@ const char* advice(int error) {
 
 Error file_error(std::string_view verb, const std::string& path, int error) {
   std::string cause = error == EWOULDBLOCK ? "" : std::generic_category().message(error);
-  if (!cause.empty()) cause = fmt::format(": {}{}", static_cast<char>(std::tolower(cause[0])), cause.substr(1));
+  if (!cause.empty())
+    cause = fmt::format(": {}{}", static_cast<char>(std::tolower(cause[0])), cause.substr(1));
   return fail(fmt::format("cannot {} {}{}{}", verb, path, cause, advice(error)));
 }
 

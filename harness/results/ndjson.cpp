@@ -31,7 +31,8 @@ std::string line_of(const char* key, const T& value) {
 /// The state of a file while it is read.
 class Reader {
  public:
-  Reader(const std::string& path, const std::function<void(const CaseResult&)>& on_result) : path_(path), on_result_(on_result) {}
+  Reader(const std::string& path, const std::function<void(const CaseResult&)>& on_result)
+      : path_(path), on_result_(on_result) {}
 
   Result<RunLog> read() {
     errno = 0;
@@ -45,7 +46,8 @@ class Reader {
     }
     if (file.bad()) return file_error("read", path_, errno != 0 ? errno : EIO);
     if (number_ == 0 || (log_.truncated && number_ == 1)) {
-      return fail(fmt::format("cannot read {}: no complete line is in it; the run was killed before it began", path_));
+      return fail(fmt::format(
+          "cannot read {}: no complete line is in it; the run was killed before it began", path_));
     }
     return std::move(log_);
   }
@@ -58,7 +60,8 @@ class Reader {
       log_.truncated = true;
       return ok();
     }
-    if (!parsed.is_object() || parsed.size() != 1) return damaged("it is not one of run, case, sample, soak, end");
+    if (!parsed.is_object() || parsed.size() != 1)
+      return damaged("it is not one of run, case, sample, soak, end");
     try {
       return take(parsed.begin().key(), parsed.begin().value());
     } catch (const json::exception& error) {
@@ -67,7 +70,8 @@ class Reader {
   }
 
   Status take(const std::string& key, const json& value) {
-    if ((key == "run") != (number_ == 1)) return damaged("the line 'run' must be the first, and the first only");
+    if ((key == "run") != (number_ == 1))
+      return damaged("the line 'run' must be the first, and the first only");
     if (log_.end) return damaged("nothing may follow the line 'end'");
     if (key == "run") {
       value.get_to(log_.run);
@@ -88,7 +92,8 @@ class Reader {
   }
 
   Status damaged(const std::string& cause) const {
-    return fail(fmt::format("cannot read {}, line {}: {}; repair or remove the line", path_, number_, cause));
+    return fail(fmt::format("cannot read {}, line {}: {}; repair or remove the line", path_,
+                            number_, cause));
   }
 
   const std::string& path_;
@@ -105,7 +110,8 @@ Result<NdjsonWriter> NdjsonWriter::create(const std::string& path) {
   NdjsonWriter writer(path, fd);
   if (is_regular(fd)) {
     // Locked before it is emptied: the lines of a run that is still writing are not ours to remove.
-    if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return file_error("write", path, errno);
+    if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      return file_error("write", path, errno);
     if (::ftruncate(fd, 0) != 0) return file_error("empty", path, errno);
   }
   return writer;
@@ -129,7 +135,9 @@ void NdjsonWriter::swap(NdjsonWriter& other) noexcept {
 
 Status NdjsonWriter::write(const RunInfo& info) { return write_line(line_of("run", info)); }
 Status NdjsonWriter::write(const CaseResult& result) { return write_line(line_of("case", result)); }
-Status NdjsonWriter::write(const SoakSample& sample) { return write_line(line_of("sample", sample)); }
+Status NdjsonWriter::write(const SoakSample& sample) {
+  return write_line(line_of("sample", sample));
+}
 Status NdjsonWriter::write(const SoakSummary& soak) { return write_line(line_of("soak", soak)); }
 Status NdjsonWriter::write(const RunEnd& end) { return write_line(line_of("end", end)); }
 
@@ -152,7 +160,8 @@ Status NdjsonWriter::write_line(const std::string& line) {
   return ok();
 }
 
-Result<RunLog> read_ndjson(const std::string& path, const std::function<void(const CaseResult&)>& on_result) {
+Result<RunLog> read_ndjson(const std::string& path,
+                           const std::function<void(const CaseResult&)>& on_result) {
   return Reader(path, on_result).read();
 }
 

@@ -1,4 +1,5 @@
-// The results of a run as they happen: one JSON object a line, so that whatever kills the run, what was judged is kept.
+// The results of a run as they happen: one JSON object a line, so that whatever kills the run, what
+// was judged is kept.
 //   {"run":{...}}    first
 //   {"case":{...}}   one a result
 //   {"sample":{...}}, {"soak":{...}}   of a soak (soak.hpp)
@@ -28,8 +29,8 @@ class NdjsonWriter {
   NdjsonWriter& operator=(NdjsonWriter&& other) noexcept;
   ~NdjsonWriter();
 
-  /// Text that is not UTF-8 is kept readable (U+FFFD for what is not). After an error the file ends with its last
-  /// complete line, and writing may go on.
+  /// Text that is not UTF-8 is kept readable (U+FFFD for what is not). After an error the file ends
+  /// with its last complete line, and writing may go on.
   Status write(const RunInfo& info);
   Status write(const CaseResult& result);
   Status write(const SoakSample& sample);
@@ -50,15 +51,16 @@ class NdjsonWriter {
 /// What stands around the results of a file.
 struct RunLog {
   RunInfo run;
-  std::optional<RunEnd> end;  // nothing: the run was killed, or is not over
+  std::optional<RunEnd> end;             // nothing: the run was killed, or is not over
   std::vector<SoakSample> samples = {};  // of a soak, in order
   std::optional<SoakSummary> soak = {};  // nothing: no soak, or a killed one
   std::size_t results = 0;
-  bool truncated = false;     // the last line is incomplete and was left out
+  bool truncated = false;  // the last line is incomplete and was left out
 };
 
 /// Reads a file line by line and hands over each result; memory does not grow with their number.
 /// An incomplete last line is tolerated; any other damage is an error that names file and line.
-Result<RunLog> read_ndjson(const std::string& path, const std::function<void(const CaseResult&)>& on_result);
+Result<RunLog> read_ndjson(const std::string& path,
+                           const std::function<void(const CaseResult&)>& on_result);
 
 }  // namespace fieldproof

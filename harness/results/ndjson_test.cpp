@@ -17,7 +17,8 @@ using testing::HasSubstr;
 class Ndjson : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     path_ = (folder_ / "results.ndjson").string();
@@ -49,7 +50,8 @@ class Ndjson : public testing::Test {
     return made;
   }
 
-  static constexpr const char* run_line = "{\"run\":{\"tool_version\":\"0.1.0\",\"started\":\"2026-11-21T12:00:00Z\"}}\n";
+  static constexpr const char* run_line =
+      "{\"run\":{\"tool_version\":\"0.1.0\",\"started\":\"2026-11-21T12:00:00Z\"}}\n";
   static constexpr const char* case_line = "{\"case\":{\"id\":\"a/b\",\"verdict\":\"PASS\"}}\n";
   static constexpr const char* end_line = "{\"end\":{\"exit_code\":0}}\n";
 
@@ -62,7 +64,8 @@ TEST_F(Ndjson, WhatIsWrittenIsRead) {
   {
     auto writer = NdjsonWriter::create(path_);
     ASSERT_TRUE(writer) << writer.error().message;
-    ASSERT_TRUE(writer->write(RunInfo{"0.1.0", "2026-11-21T12:00:00Z", "emulator:", "", "", "", {}}));
+    ASSERT_TRUE(
+        writer->write(RunInfo{"0.1.0", "2026-11-21T12:00:00Z", "emulator:", "", "", "", {}}));
     ASSERT_TRUE(writer->write(result("a/one")));
     ASSERT_TRUE(writer->write(result("a/two")));
     ASSERT_TRUE(writer->write(RunEnd{"2026-11-21T12:00:01Z", 1, 0, false, ""}));
@@ -152,7 +155,8 @@ TEST_F(Ndjson, AKilledRunIsReadAsFarAsItWent) {
 
 TEST_F(Ndjson, EveryTruncationIsTolerated) {
   const std::string whole = std::string(run_line) + case_line + end_line;
-  const std::size_t head = std::string(run_line).size() - 1;  // the run line as JSON, less its line break
+  const std::size_t head =
+      std::string(run_line).size() - 1;  // the run line as JSON, less its line break
   for (std::size_t length = 0; length <= whole.size(); ++length) {
     store(whole.substr(0, length));
     EXPECT_EQ(length >= head, static_cast<bool>(read())) << length;
@@ -171,11 +175,13 @@ TEST_F(Ndjson, DamageNamesFileAndLine) {
   store(std::string(run_line) + "{\"case\":{\"id\n" + case_line);
   EXPECT_EQ(", line 2: it is not JSON; repair or remove the line", read_error());
   store(std::string(run_line) + case_line + "{\"case\":{\"id\":\"a/b\",\"verdict\":\"GREEN\"}}\n");
-  EXPECT_THAT(read_error(), testing::AllOf(HasSubstr(", line 3: "), HasSubstr("unknown verdict 'GREEN'")));
+  EXPECT_THAT(read_error(),
+              testing::AllOf(HasSubstr(", line 3: "), HasSubstr("unknown verdict 'GREEN'")));
   store(std::string(run_line) + "{\"cases\":{}}\n");
   EXPECT_EQ(", line 2: unknown key 'cases'; repair or remove the line", read_error());
   store(std::string(run_line) + "[]\n");
-  EXPECT_EQ(", line 2: it is not one of run, case, sample, soak, end; repair or remove the line", read_error());
+  EXPECT_EQ(", line 2: it is not one of run, case, sample, soak, end; repair or remove the line",
+            read_error());
 }
 
 TEST_F(Ndjson, TheOrderOfLinesIsChecked) {

@@ -1,5 +1,6 @@
-// Response times of many repetitions in little memory: counted in bins of one percent, each with its own mean, so that
-// equal times (simulated time) stay exact and others are off by less than half a percent. Least and greatest are exact.
+// Response times of many repetitions in little memory: counted in bins of one percent, each with
+// its own mean, so that equal times (simulated time) stay exact and others are off by less than
+// half a percent. Least and greatest are exact.
 #pragma once
 
 #include <cstdint>

@@ -39,16 +39,19 @@ TEST(ResponseTimes, AddsUp) {
   some.add(others);
   some.add(ResponseTimes{});
   EXPECT_EQ(6u, some.count());
-  for (double part : {0.1, 0.3, 0.5, 0.7, 0.99, 1.0}) EXPECT_DOUBLE_EQ(all.percentile(part), some.percentile(part)) << part;
+  for (double part : {0.1, 0.3, 0.5, 0.7, 0.99, 1.0})
+    EXPECT_DOUBLE_EQ(all.percentile(part), some.percentile(part)) << part;
   EXPECT_EQ(0, ResponseTimes{}.percentile(0.5));
 }
 
 TEST(ResponseTimes, InWords) {
   ResponseTimes times;
   times.add(1);
-  EXPECT_EQ("1 reply: min 1.000, median 1.000, p99 1.000, max 1.000 ms", to_string(figures_of(times)));
+  EXPECT_EQ("1 reply: min 1.000, median 1.000, p99 1.000, max 1.000 ms",
+            to_string(figures_of(times)));
   times.add(3);
-  EXPECT_EQ("2 replies: min 1.000, median 1.000, p99 3.000, max 3.000 ms", to_string(figures_of(times)));
+  EXPECT_EQ("2 replies: min 1.000, median 1.000, p99 3.000, max 3.000 ms",
+            to_string(figures_of(times)));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ std::string sha256_of_text(const std::string& text) {
 Result<std::vector<std::string>> files_of(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
     if (at->is_regular_file(error)) names.push_back(at->path().lexically_relative(folder).string());
   }
   if (error) return file_error("read", folder.string(), error.value());
@@ -40,7 +41,8 @@ Result<std::vector<std::string>> files_of(const fs::path& folder) {
 Result<std::string> sha256_of_file(const fs::path& path) {
   Digits digits{};
   errno = 0;
-  if (SHA256File(path.c_str(), digits.data()) == nullptr) return file_error("read", path.string(), errno);
+  if (SHA256File(path.c_str(), digits.data()) == nullptr)
+    return file_error("read", path.string(), errno);
   return std::string(digits.data());
 }
 

@@ -11,8 +11,8 @@ namespace fieldproof {
 /// 64 hex digits, as `sha256sum PATH` prints them.
 Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
-/// One figure for a folder: `cd PATH && find . -type f -printf '%P\n' | LC_ALL=C sort | xargs sha256sum | sha256sum`.
-/// A single file is itself.
+/// One figure for a folder: `cd PATH && find . -type f -printf '%P\n' | LC_ALL=C sort | xargs
+/// sha256sum | sha256sum`. A single file is itself.
 Result<std::string> sha256_of_tree(const std::filesystem::path& path);
 
 }  // namespace fieldproof

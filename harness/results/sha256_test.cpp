@@ -17,7 +17,9 @@ class Sha256 : public testing::Test {
   }
   ~Sha256() override { fs::remove_all(folder_); }
 
-  void store(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
+  void store(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
 
   fs::path folder_;
 };
@@ -25,15 +27,18 @@ class Sha256 : public testing::Test {
 // FIPS 180-4, example "abc".
 TEST_F(Sha256, OfAFileIsThePublishedOne) {
   store("abc", "abc");
-  EXPECT_EQ("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad", *sha256_of_file(folder_ / "abc"));
-  EXPECT_EQ("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad", *sha256_of_tree(folder_ / "abc"));
+  EXPECT_EQ("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad",
+            *sha256_of_file(folder_ / "abc"));
+  EXPECT_EQ("ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad",
+            *sha256_of_tree(folder_ / "abc"));
 }
 
 // By the command that the header gives.
 TEST_F(Sha256, OfATreeIsThatOfItsList) {
   store("b", "abc");
   store("sub/a", "");
-  EXPECT_EQ("721533a004a6d7ecee0fdf4e2c315407a97b5cdc906c56f7362187aee96ae544", *sha256_of_tree(folder_));
+  EXPECT_EQ("721533a004a6d7ecee0fdf4e2c315407a97b5cdc906c56f7362187aee96ae544",
+            *sha256_of_tree(folder_));
 }
 
 TEST_F(Sha256, ATreeDiffersWhenANameOrAByteDoes) {

@@ -1,8 +1,8 @@
 #include "harness/results/shard.hpp"
 
+#include <fmt/format.h>
 #include <charconv>
 #include <cstdlib>
-#include <fmt/format.h>
 
 namespace fieldproof {
 
@@ -28,7 +28,9 @@ std::optional<Shard> shard_of_environment() {
   return index && total ? sound(number(index), number(total)) : std::nullopt;
 }
 
-std::string to_string(const Shard& shard) { return fmt::format("{}/{}", shard.index + 1, shard.total); }
+std::string to_string(const Shard& shard) {
+  return fmt::format("{}/{}", shard.index + 1, shard.total);
+}
 
 std::optional<Shard> parse_shard(std::string_view text) {
   const std::size_t slash = text.find('/');

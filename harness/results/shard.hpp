@@ -1,4 +1,5 @@
-// Which part of a selection a run has done: GoogleTest deals the cases out by GTEST_TOTAL_SHARDS and GTEST_SHARD_INDEX.
+// Which part of a selection a run has done: GoogleTest deals the cases out by GTEST_TOTAL_SHARDS
+// and GTEST_SHARD_INDEX.
 #pragma once
 
 #include <compare>
@@ -15,7 +16,8 @@ struct Shard {
   auto operator<=>(const Shard&) const = default;
 };
 
-/// Nothing where the environment asks for none, or for what is no shard (GoogleTest then says so and ends).
+/// Nothing where the environment asks for none, or for what is no shard (GoogleTest then says so
+/// and ends).
 std::optional<Shard> shard_of_environment();
 
 /// "2/3", counted from 1.

@@ -7,8 +7,9 @@ namespace fieldproof {
 namespace {
 
 // In the order of the enumeration.
-constexpr std::array<std::string_view, 11> words = {"PASS",  "MARGINAL", "NON-STRICT", "INFO",         "FAIL", "XFAIL",
-                                                    "XPASS", "SKIP",     "BLOCKED",    "INCONCLUSIVE", "ERROR"};
+constexpr std::array<std::string_view, 11> words = {"PASS",    "MARGINAL",     "NON-STRICT", "INFO",
+                                                    "FAIL",    "XFAIL",        "XPASS",      "SKIP",
+                                                    "BLOCKED", "INCONCLUSIVE", "ERROR"};
 static_assert(words.size() == static_cast<std::size_t>(Verdict::error) + 1);
 
 }  // namespace
@@ -23,7 +24,8 @@ std::optional<Verdict> parse_verdict(std::string_view text) {
 }
 
 bool is_judged(Verdict verdict) {
-  return verdict != Verdict::skip && verdict != Verdict::blocked && verdict != Verdict::inconclusive && verdict != Verdict::error;
+  return verdict != Verdict::skip && verdict != Verdict::blocked &&
+         verdict != Verdict::inconclusive && verdict != Verdict::error;
 }
 
 bool gates(Verdict verdict, const Gate& gate) {

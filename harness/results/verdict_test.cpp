@@ -8,9 +8,10 @@
 namespace fieldproof {
 namespace {
 
-const std::vector<Verdict> all = {Verdict::pass,  Verdict::marginal, Verdict::non_strict, Verdict::info,
-                                  Verdict::fail,  Verdict::xfail,    Verdict::xpass,      Verdict::skip,
-                                  Verdict::blocked, Verdict::inconclusive, Verdict::error};
+const std::vector<Verdict> all = {Verdict::pass,         Verdict::marginal, Verdict::non_strict,
+                                  Verdict::info,         Verdict::fail,     Verdict::xfail,
+                                  Verdict::xpass,        Verdict::skip,     Verdict::blocked,
+                                  Verdict::inconclusive, Verdict::error};
 
 std::vector<std::string> gating(const Gate& gate) {
   std::vector<std::string> words;
@@ -23,8 +24,8 @@ std::vector<std::string> gating(const Gate& gate) {
 TEST(Verdict, WordsAsInTheDesign) {
   std::vector<std::string> words;
   for (Verdict verdict : all) words.emplace_back(to_string(verdict));
-  EXPECT_THAT(words, testing::ElementsAre("PASS", "MARGINAL", "NON-STRICT", "INFO", "FAIL", "XFAIL", "XPASS", "SKIP", "BLOCKED",
-                                          "INCONCLUSIVE", "ERROR"));
+  EXPECT_THAT(words, testing::ElementsAre("PASS", "MARGINAL", "NON-STRICT", "INFO", "FAIL", "XFAIL",
+                                          "XPASS", "SKIP", "BLOCKED", "INCONCLUSIVE", "ERROR"));
 }
 
 TEST(Verdict, WordsReadBack) {
@@ -38,8 +39,10 @@ TEST(Verdict, EachOptionOfTheGateAddsItsOwn) {
   using testing::ElementsAre;
   EXPECT_THAT(gating({}), ElementsAre("FAIL", "XPASS", "ERROR"));
   EXPECT_THAT(gating({.strict = true}), ElementsAre("NON-STRICT", "FAIL", "XPASS", "ERROR"));
-  EXPECT_THAT(gating({.fail_on_marginal = true}), ElementsAre("MARGINAL", "FAIL", "XPASS", "ERROR"));
-  EXPECT_THAT(gating({.qualify = true}), ElementsAre("FAIL", "XPASS", "BLOCKED", "INCONCLUSIVE", "ERROR"));
+  EXPECT_THAT(gating({.fail_on_marginal = true}),
+              ElementsAre("MARGINAL", "FAIL", "XPASS", "ERROR"));
+  EXPECT_THAT(gating({.qualify = true}),
+              ElementsAre("FAIL", "XPASS", "BLOCKED", "INCONCLUSIVE", "ERROR"));
 }
 
 }  // namespace

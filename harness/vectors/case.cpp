@@ -16,7 +16,9 @@ std::optional<int> config_station(const json& config, int fallback) {
   if (value.is_number_integer()) station = value.get<int>();
   if (value.is_string()) {
     const std::string& text = value.get_ref<const std::string&>();
-    if (text.empty() || text.size() > 3 || text.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+    if (text.empty() || text.size() > 3 ||
+        text.find_first_not_of("0123456789") != std::string::npos)
+      return std::nullopt;
     station = std::stoi(text);
   }
   if (station < 0 || station > 255) return std::nullopt;
@@ -25,7 +27,9 @@ std::optional<int> config_station(const json& config, int fallback) {
 
 bool is_client_case(const Case& one) { return one.config.value("role", "server") == "client"; }
 
-bool has_role(const Case& one, const std::string& role) { return role.empty() || is_client_case(one) == (role == "client"); }
+bool has_role(const Case& one, const std::string& role) {
+  return role.empty() || is_client_case(one) == (role == "client");
+}
 
 std::optional<std::string> expand_hex(const std::string& text) {
   std::string unit = text;
@@ -36,10 +40,12 @@ std::optional<std::string> expand_hex(const std::string& text) {
     return unit;
   }
   if (const std::size_t star = text.find('*'); star != std::string::npos) {
-    if (std::sscanf(text.c_str() + star, "*%d", &count) != 1 || count < 1 || count > 100'000) return std::nullopt;
+    if (std::sscanf(text.c_str() + star, "*%d", &count) != 1 || count < 1 || count > 100'000)
+      return std::nullopt;
     unit = text.substr(0, star);
   }
-  if (unit.empty() || std::ranges::any_of(unit, [](char c) { return hex_digit(c) < 0; })) return std::nullopt;
+  if (unit.empty() || std::ranges::any_of(unit, [](char c) { return hex_digit(c) < 0; }))
+    return std::nullopt;
   std::string result;
   for (int i = 0; i < count; ++i) result += unit;
   return result;

@@ -19,37 +19,52 @@ struct Source {
   std::vector<std::string> statements;
 };
 
-/// A frame of a step as the vector gives it: notation, and the literal bytes where they are printed.
+/// A frame of a step as the vector gives it: notation, and the literal bytes where they are
+/// printed.
 struct Frame {
-  std::string reading;              // name of the alternative; empty where there is one frame alone
-  std::string text;                 // notation as written
+  std::string reading;  // name of the alternative; empty where there is one frame alone
+  std::string text;     // notation as written
   Notation notation;
   std::optional<std::string> wire;  // "05 30 ??"
 };
 
-/// One of our own devices in the partner's chair: it answers what a client asks, well or by a fault.
+/// One of our own devices in the partner's chair: it answers what a client asks, well or by a
+/// fault.
 struct PartnerSpec {
-  std::string model;                // empty: the first of the protocol
-  nlohmann::json config = nlohmann::json::object();  // keys of given.config
+  std::string model;                                        // empty: the first of the protocol
+  nlohmann::json config = nlohmann::json::object();         // keys of given.config
   std::vector<std::pair<std::string, std::string>> memory;  // set before each answer
-  std::string fault;                // of partner_faults; empty: none
+  std::string fault;                                        // of partner_faults; empty: none
 };
 
 /// What may happen to the partner's answer (vectors/README.md).
-inline constexpr std::array<std::string_view, 14> partner_faults{"wrong_station", "wrong_check", "nak",   "wrong_head", "wrong_tail",  "short",   "long",
-                                                                 "not_hex",       "late",        "never", "echo",       "garbage", "other_block", "previous"};
+inline constexpr std::array<std::string_view, 14> partner_faults{
+    "wrong_station", "wrong_check", "nak",   "wrong_head", "wrong_tail", "short",       "long",
+    "not_hex",       "late",        "never", "echo",       "garbage",    "other_block", "previous"};
 
 struct Step {
-  enum class Kind { send, expect, silence, wait, set, check, act, open, close, expect_close, partner };
+  enum class Kind {
+    send,
+    expect,
+    silence,
+    wait,
+    set,
+    check,
+    act,
+    open,
+    close,
+    expect_close,
+    partner
+  };
   Kind kind = Kind::send;
-  std::vector<Frame> frames;        // send: one; expect: the preferred first
-  std::string reading;              // what the alternatives of `expect` are about: type_echo
+  std::vector<Frame> frames;  // send: one; expect: the preferred first
+  std::string reading;        // what the alternatives of `expect` are about: type_echo
   std::vector<std::pair<std::string, std::string>> memory;  // set, check: address and hex digits
-  std::string action;               // do
-  Duration duration{};              // wait
-  std::optional<Duration> within;   // expect: instead of the profile's response_max
-  std::optional<Duration> every;    // expect: the period at which it comes
-  std::optional<Duration> max_gap;  // expect: longest silence inside the frame
+  std::string action;                                       // do
+  Duration duration{};                                      // wait
+  std::optional<Duration> within;      // expect: instead of the profile's response_max
+  std::optional<Duration> every;       // expect: the period at which it comes
+  std::optional<Duration> max_gap;     // expect: longest silence inside the frame
   std::optional<PartnerSpec> partner;  // partner, expect: who answers the request
   int times = 1;
 };
@@ -58,7 +73,7 @@ struct Case {
   std::string id, vector_id;
   int rev = 1;
   std::string title;
-  std::string protocol;             // "xgt-cnet", from the folder of the id
+  std::string protocol;  // "xgt-cnet", from the folder of the id
   Source source;
   std::string level, basis, why;
   std::vector<std::string> models;  // empty: all
@@ -67,8 +82,8 @@ struct Case {
   bool fresh = false;
   bool transpose = true;
   std::vector<Step> steps;
-  nlohmann::json facts;             // kind table: not null
-  std::string file;                 // for messages
+  nlohmann::json facts;  // kind table: not null
+  std::string file;      // for messages
 };
 
 /// given.config.station as a number; `fallback` when absent, nothing when it is not 0-255.

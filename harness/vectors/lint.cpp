@@ -1,7 +1,7 @@
 #include "harness/vectors/lint.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -24,7 +24,8 @@ std::optional<std::vector<std::string>> wire_bytes(const std::string& wire) {
   for (std::string token; in >> token;) {
     if (token.size() != 2) return std::nullopt;
     if (token != "??" && (hex_digit(token[0]) < 0 || hex_digit(token[1]) < 0)) return std::nullopt;
-    std::ranges::transform(token, token.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    std::ranges::transform(token, token.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     bytes.push_back(token);
   }
   return bytes;
@@ -32,39 +33,49 @@ std::optional<std::vector<std::string>> wire_bytes(const std::string& wire) {
 
 std::string compare_wire(const std::string& wire, const FrameTemplate& frame) {
   const std::optional<std::vector<std::string>> written = wire_bytes(wire);
-  if (!written) return fmt::format("wire \"{}\" is not two-digit hex bytes separated by spaces", wire);
+  if (!written)
+    return fmt::format("wire \"{}\" is not two-digit hex bytes separated by spaces", wire);
   const std::vector<std::string> notation = *wire_bytes(to_hex_with_holes(frame));
   const auto [a, b] = std::ranges::mismatch(*written, notation);
   if (a == written->end() && b == notation.end()) return {};
   const auto at = a - written->begin();
-  return fmt::format("wire and notation differ at byte {}: wire has {}, notation has {} ({})", at, a == written->end() ? "nothing" : *a,
-                     b == notation.end() ? "nothing" : *b, to_hex_with_holes(frame));
+  return fmt::format("wire and notation differ at byte {}: wire has {}, notation has {} ({})", at,
+                     a == written->end() ? "nothing" : *a, b == notation.end() ? "nothing" : *b,
+                     to_hex_with_holes(frame));
 }
 
-void lint_step(const Case& one, std::size_t index, const Stations& stations, std::vector<std::string>& problems) {
+void lint_step(const Case& one, std::size_t index, const Stations& stations,
+               std::vector<std::string>& problems) {
   for (const Frame& frame : one.steps[index].frames) {
     const auto problem = [&](const std::string& what) {
-      problems.push_back(fmt::format("{}: {}: steps[{}]{}{}: {}", one.file, one.id, index, frame.reading.empty() ? "" : " ", frame.reading, what));
+      problems.push_back(fmt::format("{}: {}: steps[{}]{}{}: {}", one.file, one.id, index,
+                                     frame.reading.empty() ? "" : " ", frame.reading, what));
     };
     const Result<std::vector<FrameTemplate>> templates = make_templates(frame.notation, stations);
     if (!templates) {
       problem(templates.error().message);
     } else if (!frame.wire) {
-      problem("no wire: type the literal bytes from the manual, or derive them without looking at the notation");
-    } else if (const std::string what = compare_wire(*frame.wire, templates->front()); !what.empty()) {
+      problem(
+          "no wire: type the literal bytes from the manual, or derive them without looking at the "
+          "notation");
+    } else if (const std::string what = compare_wire(*frame.wire, templates->front());
+               !what.empty()) {
       problem(what);
     }
   }
 }
 
 /// A partner that cannot be made would only be noticed in a run.
-void lint_partner(const Case& one, std::size_t index, const Protocol& protocol, std::vector<std::string>& problems) {
+void lint_partner(const Case& one, std::size_t index, const Protocol& protocol,
+                  std::vector<std::string>& problems) {
   const std::optional<PartnerSpec>& partner = one.steps[index].partner;
   if (!partner) return;
   const auto problem = [&](const Error& error) {
-    problems.push_back(fmt::format("{}: {}: steps[{}] partner: {}", one.file, one.id, index, error.message));
+    problems.push_back(
+        fmt::format("{}: {}: steps[{}] partner: {}", one.file, one.id, index, error.message));
   };
-  const Result<std::unique_ptr<EmulatedDevice>> device = protocol.make_device(partner->model.empty() ? protocol.models().front() : partner->model, partner->config);
+  const Result<std::unique_ptr<EmulatedDevice>> device = protocol.make_device(
+      partner->model.empty() ? protocol.models().front() : partner->model, partner->config);
   if (!device) return problem(device.error());
   for (const auto& [address, hex] : partner->memory)
     if (const Status set = (*device)->set(address, hex); !set) problem(set.error());
@@ -75,15 +86,18 @@ std::string read_all(const fs::path& path) {
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-/// Every quote of the set with the id that carries it and its manual; a vector's quote once, not for each of its cases.
+/// Every quote of the set with the id that carries it and its manual; a vector's quote once, not
+/// for each of its cases.
 struct Quote {
   std::string id, manual, text;
 };
 std::vector<Quote> quotes(const VectorSet& set) {
   std::map<std::string, Quote> by_id;
-  for (const Statement& statement : set.statements) by_id["statement " + statement.id] = {statement.id, statement.manual, statement.quote};
+  for (const Statement& statement : set.statements)
+    by_id["statement " + statement.id] = {statement.id, statement.manual, statement.quote};
   for (const std::vector<Case>* cases : {&set.cases, &set.tables})
-    for (const Case& one : *cases) by_id["vector " + one.id] = {one.id, one.source.manual, one.source.quote};
+    for (const Case& one : *cases)
+      by_id["vector " + one.id] = {one.id, one.source.manual, one.source.quote};
   std::vector<Quote> result;
   std::set<std::pair<std::string, std::string>> seen;
   for (auto& [key, quote] : by_id)
@@ -92,10 +106,12 @@ std::vector<Quote> quotes(const VectorSet& set) {
 }
 
 std::string quote_hash(const Quote& quote) {
-  return fmt::format("{:016x}", extend_fingerprint(empty_fingerprint, quote.manual + '\n' + fold_space(quote.text)));
+  return fmt::format("{:016x}", extend_fingerprint(empty_fingerprint,
+                                                   quote.manual + '\n' + fold_space(quote.text)));
 }
 
-/// At least five words; a table row or a Korean sentence counts its words likewise, shorter ones must be long in bytes.
+/// At least five words; a table row or a Korean sentence counts its words likewise, shorter ones
+/// must be long in bytes.
 bool long_enough(const std::string& quote) {
   const std::string folded = fold_space(quote);
   return std::ranges::count(folded, ' ') >= 4 || folded.size() >= 20;
@@ -107,8 +123,10 @@ std::string fold_space(std::string_view text) {
   std::string folded;
   for (char c : text) {
     const bool space = c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
-    if (!space) folded += c;
-    else if (!folded.empty() && folded.back() != ' ') folded += ' ';
+    if (!space)
+      folded += c;
+    else if (!folded.empty() && folded.back() != ' ')
+      folded += ' ';
   }
   if (folded.ends_with(' ')) folded.pop_back();
   return folded;
@@ -119,13 +137,18 @@ std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& 
   for (const Case& one : set.cases) {
     const Protocol* protocol = lookup(one.protocol);
     if (!protocol) {
-      problems.push_back(fmt::format("{}: {}: no protocol '{}'; an id begins with the folder of its protocol", one.file, one.id, one.protocol));
+      problems.push_back(
+          fmt::format("{}: {}: no protocol '{}'; an id begins with the folder of its protocol",
+                      one.file, one.id, one.protocol));
       continue;
     }
     for (const std::string& model : one.models)
-      if (!protocol->has_model(model)) problems.push_back(fmt::format("{}: {}: {} has no model '{}'", one.file, one.id, one.protocol, model));
+      if (!protocol->has_model(model))
+        problems.push_back(
+            fmt::format("{}: {}: {} has no model '{}'", one.file, one.id, one.protocol, model));
     const int station = config_station(one.config, 1).value_or(1);
-    const Stations stations{protocol->station_bytes(station), protocol->station_bytes((station + 1) % 256)};
+    const Stations stations{protocol->station_bytes(station),
+                            protocol->station_bytes((station + 1) % 256)};
     for (std::size_t i = 0; i < one.steps.size(); ++i) {
       lint_step(one, i, stations, problems);
       lint_partner(one, i, *protocol, problems);
@@ -139,14 +162,21 @@ std::vector<std::string> lint_statements(const VectorSet& set) {
   std::set<std::string> manuals, ids;
   for (const Manual& manual : set.manuals) manuals.insert(manual.id);
   for (const Statement& statement : set.statements) {
-    if (!ids.insert(statement.id).second) problems.push_back(fmt::format("statements: the id {} is used twice", statement.id));
-    if (!manuals.contains(statement.manual)) problems.push_back(fmt::format("statements: {}: no manual '{}' in manuals.json", statement.id, statement.manual));
+    if (!ids.insert(statement.id).second)
+      problems.push_back(fmt::format("statements: the id {} is used twice", statement.id));
+    if (!manuals.contains(statement.manual))
+      problems.push_back(fmt::format("statements: {}: no manual '{}' in manuals.json", statement.id,
+                                     statement.manual));
   }
   for (const std::vector<Case>* cases : {&set.cases, &set.tables})
     for (const Case& one : *cases) {
-      if (!manuals.contains(one.source.manual)) problems.push_back(fmt::format("{}: {}: no manual '{}' in manuals.json", one.file, one.id, one.source.manual));
+      if (!manuals.contains(one.source.manual))
+        problems.push_back(fmt::format("{}: {}: no manual '{}' in manuals.json", one.file, one.id,
+                                       one.source.manual));
       for (const std::string& statement : one.source.statements)
-        if (!ids.contains(statement)) problems.push_back(fmt::format("{}: {}: no statement '{}' in statements/", one.file, one.id, statement));
+        if (!ids.contains(statement))
+          problems.push_back(
+              fmt::format("{}: {}: no statement '{}' in statements/", one.file, one.id, statement));
     }
   for (const SectionCoverage& section : coverage(set))
     for (const std::string& id : section.uncovered)
@@ -155,7 +185,8 @@ std::vector<std::string> lint_statements(const VectorSet& set) {
 }
 
 std::vector<std::string> lint_readings(const VectorSet& set) {
-  std::map<std::string, std::pair<const Case*, std::vector<std::string>>> first;  // the vector that names most alternatives
+  std::map<std::string, std::pair<const Case*, std::vector<std::string>>>
+      first;  // the vector that names most alternatives
   std::vector<std::string> problems;
   const auto names = [](const Step& step) {
     std::vector<std::string> result;
@@ -164,16 +195,21 @@ std::vector<std::string> lint_readings(const VectorSet& set) {
   };
   for (const Case& one : set.cases)
     for (const Step& step : one.steps)
-      if (!step.reading.empty() && first[step.reading].second.size() < step.frames.size()) first[step.reading] = {&one, names(step)};
+      if (!step.reading.empty() && first[step.reading].second.size() < step.frames.size())
+        first[step.reading] = {&one, names(step)};
   for (const Case& one : set.cases)
     for (const Step& step : one.steps) {
       if (step.reading.empty()) continue;
       const auto& [model, known] = first[step.reading];
       for (const std::string& name : names(step))
         if (std::ranges::find(known, name) == known.end())
-          problems.push_back(fmt::format("{}: {}: reading {} has no alternative '{}' in {} ({})", one.file, one.id, step.reading, name, model->id, fmt::join(known, ", ")));
+          problems.push_back(fmt::format("{}: {}: reading {} has no alternative '{}' in {} ({})",
+                                         one.file, one.id, step.reading, name, model->id,
+                                         fmt::join(known, ", ")));
       if (step.frames.front().reading != known.front())
-        problems.push_back(fmt::format("{}: {}: reading {} prefers '{}', but '{}' in {}", one.file, one.id, step.reading, step.frames.front().reading, known.front(), model->id));
+        problems.push_back(fmt::format("{}: {}: reading {} prefers '{}', but '{}' in {}", one.file,
+                                       one.id, step.reading, step.frames.front().reading,
+                                       known.front(), model->id));
     }
   return problems;
 }
@@ -182,8 +218,10 @@ std::vector<std::string> lint_tables(const VectorSet& set, const ProtocolLookup&
   std::vector<std::string> problems;
   for (const Case& one : set.tables) {
     const Protocol* protocol = lookup(one.protocol);
-    const Status fact = protocol ? protocol->check_fact(one.facts) : Status(fail(fmt::format("no protocol '{}'", one.protocol)));
-    if (!fact) problems.push_back(fmt::format("{}: {}: {}", one.file, one.id, fact.error().message));
+    const Status fact = protocol ? protocol->check_fact(one.facts)
+                                 : Status(fail(fmt::format("no protocol '{}'", one.protocol)));
+    if (!fact)
+      problems.push_back(fmt::format("{}: {}: {}", one.file, one.id, fact.error().message));
   }
   return problems;
 }
@@ -197,17 +235,23 @@ std::vector<std::string> lint_quotes(const VectorSet& set, const fs::path& folde
   }
   for (const Quote& quote : quotes(set)) {
     const auto text = texts.find(quote.manual);
-    if (text == texts.end()) problems.push_back(fmt::format("{}: the text of {} is not in {}", quote.id, quote.manual, folder.string()));
+    if (text == texts.end())
+      problems.push_back(
+          fmt::format("{}: the text of {} is not in {}", quote.id, quote.manual, folder.string()));
     else if (text->second.find(fold_space(quote.text)) == std::string::npos)
-      problems.push_back(fmt::format("{}: the quote does not stand in {}: \"{}\"", quote.id, quote.manual, quote.text));
-    if (!long_enough(quote.text)) problems.push_back(fmt::format("{}: the quote is shorter than five words: \"{}\"", quote.id, quote.text));
+      problems.push_back(fmt::format("{}: the quote does not stand in {}: \"{}\"", quote.id,
+                                     quote.manual, quote.text));
+    if (!long_enough(quote.text))
+      problems.push_back(
+          fmt::format("{}: the quote is shorter than five words: \"{}\"", quote.id, quote.text));
   }
   return problems;
 }
 
 std::string quotes_lock(const VectorSet& set) {
   std::string lock;
-  for (const Quote& quote : quotes(set)) lock += fmt::format("{} {}\n", quote_hash(quote), quote.id);
+  for (const Quote& quote : quotes(set))
+    lock += fmt::format("{} {}\n", quote_hash(quote), quote.id);
   return lock;
 }
 
@@ -218,22 +262,32 @@ std::vector<std::string> lint_lock(const VectorSet& set, const std::string& lock
   std::vector<std::string> problems;
   for (const Quote& quote : quotes(set))
     if (!locked.contains(quote_hash(quote)))
-      problems.push_back(fmt::format("{}: the quote is not the one last verified against the manual; run `fieldproof lint --manuals DIR --lock`", quote.id));
+      problems.push_back(
+          fmt::format("{}: the quote is not the one last verified against the manual; run "
+                      "`fieldproof lint --manuals DIR --lock`",
+                      quote.id));
   return problems;
 }
 
 std::vector<SectionCoverage> coverage(const VectorSet& set) {
   std::set<std::string> cited;
   for (const std::vector<Case>* cases : {&set.cases, &set.tables})
-    for (const Case& one : *cases) cited.insert(one.source.statements.begin(), one.source.statements.end());
+    for (const Case& one : *cases)
+      cited.insert(one.source.statements.begin(), one.source.statements.end());
   std::vector<SectionCoverage> sections;
   for (const Statement& statement : set.statements) {
-    auto section = std::ranges::find_if(sections, [&](const SectionCoverage& s) { return s.manual == statement.manual && s.section == statement.section; });
-    if (section == sections.end()) section = sections.insert(sections.end(), {statement.manual, statement.section, 0, 0, 0, {}});
+    auto section = std::ranges::find_if(sections, [&](const SectionCoverage& s) {
+      return s.manual == statement.manual && s.section == statement.section;
+    });
+    if (section == sections.end())
+      section = sections.insert(sections.end(), {statement.manual, statement.section, 0, 0, 0, {}});
     ++section->statements;
-    if (cited.contains(statement.id)) ++section->covered;
-    else if (!statement.reason.empty()) ++section->reasoned;
-    else section->uncovered.push_back(statement.id);
+    if (cited.contains(statement.id))
+      ++section->covered;
+    else if (!statement.reason.empty())
+      ++section->reasoned;
+    else
+      section->uncovered.push_back(statement.id);
   }
   return sections;
 }

@@ -1,4 +1,5 @@
-// What must hold of the vectors beyond their shape: literal bytes against notation, statements, quotes, tables.
+// What must hold of the vectors beyond their shape: literal bytes against notation, statements,
+// quotes, tables.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +15,23 @@ namespace fieldproof {
 
 using ProtocolLookup = std::function<const Protocol*(std::string_view name)>;
 
-/// `wire` against the notation, at the station that the vector gives. Every step that the vector sends or expects has
-/// literal bytes, so that no byte of a vector can change unnoticed.
+/// `wire` against the notation, at the station that the vector gives. Every step that the vector
+/// sends or expects has literal bytes, so that no byte of a vector can change unnoticed.
 std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& protocol);
 
-/// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are unique.
+/// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are
+/// unique.
 std::vector<std::string> lint_statements(const VectorSet& set);
 
-/// One name ties all vectors of a reading together: each names the same alternatives, the same one preferred.
+/// One name ties all vectors of a reading together: each names the same alternatives, the same one
+/// preferred.
 std::vector<std::string> lint_readings(const VectorSet& set);
 
 /// Facts of kind `table` against the tables in src/.
 std::vector<std::string> lint_tables(const VectorSet& set, const ProtocolLookup& protocol);
 
-/// Each quote stands in its manual's text (white space folded) and has five words or is a table row.
+/// Each quote stands in its manual's text (white space folded) and has five words or is a table
+/// row.
 std::vector<std::string> lint_quotes(const VectorSet& set, const std::filesystem::path& manuals);
 
 /// The lock file: one line "HASH ID" for each quote, as last verified against the manuals.

@@ -15,7 +15,9 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 struct StationOnly : TestProtocol {
-  Status check_fact(const nlohmann::json& facts) const override { return facts.at("words") == 1024 ? ok() : Status(fail("the table has 1024 words")); }
+  Status check_fact(const nlohmann::json& facts) const override {
+    return facts.at("words") == 1024 ? ok() : Status(fail("the table has 1024 words"));
+  }
 };
 
 const StationOnly protocol;
@@ -23,57 +25,79 @@ const Protocol* lookup(std::string_view name) { return name == "xgt-cnet" ? &pro
 
 VectorSet with_step(const std::string& step) {
   VectorSet set;
-  load_vector_text(R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed",
+  load_vector_text(
+      R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed",
     "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "one two three four five"},
-    "given": {"config": {"station": 32}}, "steps": [)j" + step + "]}]", "f.json", set);
+    "given": {"config": {"station": 32}}, "steps": [)j" +
+          step + "]}]",
+      "f.json", set);
   set.manuals.push_back({"m", "m.txt", "M", "1"});
   set.statements.push_back({"m/1", "m", "1", "one two three four five", ""});
   EXPECT_THAT(set.problems, IsEmpty());
   return set;
 }
 
-std::vector<std::string> wires(const std::string& step) { return lint_wires(with_step(step), lookup); }
+std::vector<std::string> wires(const std::string& step) {
+  return lint_wires(with_step(step), lookup);
+}
 
 // 000 7.1.5 (1)(b): the worked example whose BCC is A4.
 TEST(LintWires, AgreesWithTheManualsBytes) {
-  EXPECT_THAT(wires(R"j({"send": "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]", "wire": "05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 34"})j"), IsEmpty());
+  EXPECT_THAT(
+      wires(
+          R"j({"send": "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]", "wire": "05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 34"})j"),
+      IsEmpty());
 }
 
 TEST(LintWires, NamesTheByteThatDiffers) {
   EXPECT_THAT(wires(R"j({"send": "[ENQ st EOT]", "wire": "05 32 31 04"})j"),
-              ElementsAre(HasSubstr("f.json: xgt_cnet/a/b: steps[0]: wire and notation differ at byte 2: wire has 31, notation has 30")));
-  EXPECT_THAT(wires(R"j({"send": "[ENQ st EOT]", "wire": "05 32 30"})j"), ElementsAre(HasSubstr("wire has nothing, notation has 04")));
-  EXPECT_THAT(wires(R"j({"send": "[ENQ EOT]", "wire": "5 04"})j"), ElementsAre(HasSubstr("not two-digit hex bytes")));
+              ElementsAre(HasSubstr("f.json: xgt_cnet/a/b: steps[0]: wire and notation differ at "
+                                    "byte 2: wire has 31, notation has 30")));
+  EXPECT_THAT(wires(R"j({"send": "[ENQ st EOT]", "wire": "05 32 30"})j"),
+              ElementsAre(HasSubstr("wire has nothing, notation has 04")));
+  EXPECT_THAT(wires(R"j({"send": "[ENQ EOT]", "wire": "5 04"})j"),
+              ElementsAre(HasSubstr("not two-digit hex bytes")));
 }
 
 TEST(LintWires, OpenPlacesStayOpenInBoth) {
   EXPECT_THAT(wires(R"j({"expect": "[ACK x:2 ETX]", "wire": "06 ?? ?? 03"})j"), IsEmpty());
-  EXPECT_THAT(wires(R"j({"expect": "[ACK x:2 ETX]", "wire": "06 31 ?? 03"})j"), ElementsAre(HasSubstr("byte 1")));
+  EXPECT_THAT(wires(R"j({"expect": "[ACK x:2 ETX]", "wire": "06 31 ?? 03"})j"),
+              ElementsAre(HasSubstr("byte 1")));
 }
 
 TEST(LintWires, TheModelsAreTheProtocols) {
   VectorSet set = with_step(R"j({"send": "[ENQ EOT]", "wire": "05 04"})j");
   set.cases.front().models = {"test", "tast"};
-  EXPECT_THAT(lint_wires(set, lookup), ElementsAre(HasSubstr("xgt_cnet/a/b: xgt-cnet has no model 'tast'")));
+  EXPECT_THAT(lint_wires(set, lookup),
+              ElementsAre(HasSubstr("xgt_cnet/a/b: xgt-cnet has no model 'tast'")));
 }
 
-TEST(LintWires, EveryFrameHasLiteralBytes) { EXPECT_THAT(wires(R"j({"send": "[ENQ EOT]"})j"), ElementsAre(HasSubstr("no wire"))); }
+TEST(LintWires, EveryFrameHasLiteralBytes) {
+  EXPECT_THAT(wires(R"j({"send": "[ENQ EOT]"})j"), ElementsAre(HasSubstr("no wire")));
+}
 
 TEST(LintWires, EveryNamedAlternativeHasItsOwn) {
-  EXPECT_THAT(wires(R"j({"expect": {"reading": "r", "a": "[ACK ETX]", "b": "[NAK ETX]"}, "wire": {"a": "06 03", "b": "15 03"}})j"), IsEmpty());
-  EXPECT_THAT(wires(R"j({"expect": {"reading": "r", "a": "[ACK ETX]", "b": "[NAK ETX]"}, "wire": {"a": "06 03", "b": "06 03"}})j"),
-              ElementsAre(HasSubstr("steps[0] b: wire and notation differ at byte 0")));
+  EXPECT_THAT(
+      wires(
+          R"j({"expect": {"reading": "r", "a": "[ACK ETX]", "b": "[NAK ETX]"}, "wire": {"a": "06 03", "b": "15 03"}})j"),
+      IsEmpty());
+  EXPECT_THAT(
+      wires(
+          R"j({"expect": {"reading": "r", "a": "[ACK ETX]", "b": "[NAK ETX]"}, "wire": {"a": "06 03", "b": "06 03"}})j"),
+      ElementsAre(HasSubstr("steps[0] b: wire and notation differ at byte 0")));
 }
 
 TEST(LintStatements, EachNeedsAVectorOrAReason) {
   VectorSet set = with_step(R"j({"silence": true})j");
   EXPECT_THAT(lint_statements(set), IsEmpty());
   set.statements.push_back({"m/2", "m", "2", "one two three four five", ""});
-  EXPECT_THAT(lint_statements(set), ElementsAre("statements: m/2 has neither a vector nor a reason"));
+  EXPECT_THAT(lint_statements(set),
+              ElementsAre("statements: m/2 has neither a vector nor a reason"));
   set.statements.back().reason = "about cables";
   EXPECT_THAT(lint_statements(set), IsEmpty());
   set.cases[0].source.statements = {"m/9"};
-  EXPECT_THAT(lint_statements(set), ElementsAre(HasSubstr("no statement 'm/9'"), HasSubstr("m/1 has neither")));
+  EXPECT_THAT(lint_statements(set),
+              ElementsAre(HasSubstr("no statement 'm/9'"), HasSubstr("m/1 has neither")));
 }
 
 TEST(LintQuotes, StandInTheManualWithSpaceFolded) {
@@ -83,7 +107,8 @@ TEST(LintQuotes, StandInTheManualWithSpaceFolded) {
   VectorSet set = with_step(R"j({"silence": true})j");
   EXPECT_THAT(lint_quotes(set, folder), IsEmpty());
   set.cases[0].source.quote = "one two three four seven";
-  EXPECT_THAT(lint_quotes(set, folder), ElementsAre(HasSubstr("xgt_cnet/a/b: the quote does not stand in m")));
+  EXPECT_THAT(lint_quotes(set, folder),
+              ElementsAre(HasSubstr("xgt_cnet/a/b: the quote does not stand in m")));
   set.cases[0].source.quote = "one two";
   EXPECT_THAT(lint_quotes(set, folder), ElementsAre(HasSubstr("shorter than five words")));
   std::filesystem::remove_all(folder);
@@ -94,7 +119,8 @@ TEST(LintLock, NoticesAChangedQuote) {
   const std::string lock = quotes_lock(set);
   EXPECT_THAT(lint_lock(set, lock), IsEmpty());
   set.cases[0].source.quote += " six";
-  EXPECT_THAT(lint_lock(set, lock), ElementsAre(HasSubstr("xgt_cnet/a/b: the quote is not the one last verified")));
+  EXPECT_THAT(lint_lock(set, lock),
+              ElementsAre(HasSubstr("xgt_cnet/a/b: the quote is not the one last verified")));
 }
 
 TEST(LintTables, AsksTheProtocol) {

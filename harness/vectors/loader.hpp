@@ -1,4 +1,5 @@
-// Vector files to cases: JSON, schema, expansion of `each`, notation. Nothing here knows a protocol.
+// Vector files to cases: JSON, schema, expansion of `each`, notation. Nothing here knows a
+// protocol.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +26,8 @@ struct Manual {
   std::string id, file, title, edition;
 };
 
-/// All that a folder of vectors holds. A broken file does not hide the others: `problems` names each, with file,
-/// vector and key; a run starts only without any.
+/// All that a folder of vectors holds. A broken file does not hide the others: `problems` names
+/// each, with file, vector and key; a run starts only without any.
 struct VectorSet {
   std::vector<Case> cases;   // expanded, sorted by id; without tables
   std::vector<Case> tables;  // kind table
@@ -34,21 +35,25 @@ struct VectorSet {
   std::vector<Statement> statements;
   std::vector<Manual> manuals;
   std::vector<std::string> problems;
-  std::string hash;          // of all files, to tell vector sets apart
-  nlohmann::json schema;     // vectors/schema.json; null: files are not checked against it
+  std::string hash;       // of all files, to tell vector sets apart
+  nlohmann::json schema;  // vectors/schema.json; null: files are not checked against it
 };
 
-/// A folder, or one file of vectors. The folder's own schema.json, where it has one, else `schema_file`.
-VectorSet load_vectors(const std::filesystem::path& folder, const std::filesystem::path& schema_file = {});
+/// A folder, or one file of vectors. The folder's own schema.json, where it has one, else
+/// `schema_file`.
+VectorSet load_vectors(const std::filesystem::path& folder,
+                       const std::filesystem::path& schema_file = {});
 
-/// Adds the second entry of the double entry: `folder`/wires/**.json gives the literal bytes of each step of a case,
+/// Adds the second entry of the double entry: `folder`/wires/**.json gives the literal bytes of
+/// each step of a case,
 /// {"CASE ID": {"STEP": "05 30 .."}}, where the vector itself prints none. Only `lint` needs them.
 void load_wires(const std::filesystem::path& folder, VectorSet& set);
 
 /// The vectors of one file's text; `file` is for messages. Used by load_vectors and by tests.
 void load_vector_text(std::string_view text, const std::string& file, VectorSet& set);
 
-/// "*" and "?" as in a shell; '*' crosses '/'. Alternatives are separated by ':' and a leading '-' excludes.
+/// "*" and "?" as in a shell; '*' crosses '/'. Alternatives are separated by ':' and a leading '-'
+/// excludes.
 bool matches_filter(std::string_view id, std::string_view filter);
 
 }  // namespace fieldproof

@@ -56,7 +56,8 @@ TEST(Loader, ReadsTheDesignsExample) {
 TEST(Loader, OneVectorAloneNeedsNoArray) { EXPECT_EQ(load(two_words).cases.size(), 1u); }
 
 TEST(Loader, EachIsAProductOfRows) {
-  const std::string each = R"j("each": {"area": [{"case": "m", "area": "M"}, {"case": "p", "area": "P"}], "command": [{"case": "lower", "r": "r"}, {"case": "upper", "r": "R"}]}, "given")j";
+  const std::string each =
+      R"j("each": {"area": [{"case": "m", "area": "M"}, {"case": "p", "area": "P"}], "command": [{"case": "lower", "r": "r"}, {"case": "upper", "r": "R"}]}, "given")j";
   std::string text = replaced(replaced(two_words, "\"given\"", each), "'rSS'", "'${r}SS'");
   text = replaced(text, "\"%MW020\"", "\"%${area}W020\"");
   const VectorSet set = load(text);
@@ -69,11 +70,15 @@ TEST(Loader, EachIsAProductOfRows) {
 }
 
 TEST(Loader, ASubstitutionWithoutItsRowIsNamed) {
-  EXPECT_THAT(only_problem(replaced(two_words, "'rSS'", "'${r}SS'")), HasSubstr("test.json: xgt_cnet/rss/two_words: steps[0]: no row of `each` gives '${r}'"));
+  EXPECT_THAT(
+      only_problem(replaced(two_words, "'rSS'", "'${r}SS'")),
+      HasSubstr("test.json: xgt_cnet/rss/two_words: steps[0]: no row of `each` gives '${r}'"));
 }
 
 TEST(Loader, NamedAlternativesKeepTheirOrder) {
-  const VectorSet set = load(replaced(two_words, "\"[ACK st 'rSS' ETX BCC]\"", R"j({"reading": "type_echo", "zz_first": "[ACK ETX]", "aa_second": "[ACK EOT]"})j"));
+  const VectorSet set = load(
+      replaced(two_words, "\"[ACK st 'rSS' ETX BCC]\"",
+               R"j({"reading": "type_echo", "zz_first": "[ACK ETX]", "aa_second": "[ACK EOT]"})j"));
   ASSERT_THAT(set.problems, IsEmpty());
   const Step& step = set.cases[0].steps[1];
   EXPECT_EQ(step.reading, "type_echo");
@@ -83,7 +88,9 @@ TEST(Loader, NamedAlternativesKeepTheirOrder) {
 
 TEST(Loader, EveryKindOfStepIsRead) {
   std::string text = two_words;
-  text = replaced(text, R"j("steps": [)j", R"j("steps": [{"silence": true}, {"wait": "1.5ms"}, {"set": {"%MX00000": "01"}}, {"check": {"%MW1": "seq(2)"}}, {"do": "stop"}, )j");
+  text = replaced(
+      text, R"j("steps": [)j",
+      R"j("steps": [{"silence": true}, {"wait": "1.5ms"}, {"set": {"%MX00000": "01"}}, {"check": {"%MW1": "seq(2)"}}, {"do": "stop"}, )j");
   const VectorSet set = load(text);
   ASSERT_THAT(set.problems, IsEmpty());
   const std::vector<Step>& steps = set.cases[0].steps;
@@ -95,21 +102,32 @@ TEST(Loader, EveryKindOfStepIsRead) {
 }
 
 TEST(Loader, BadInputNamesFileVectorAndKey) {
-  EXPECT_THAT(only_problem(replaced(two_words, "\"level\"", "\"levle\"")), HasSubstr("xgt_cnet/rss/two_words"));
-  EXPECT_THAT(load(replaced(two_words, "\"level\": \"must\"", "\"level\": \"must\", \"colour\": 1")).problems,
+  EXPECT_THAT(only_problem(replaced(two_words, "\"level\"", "\"levle\"")),
+              HasSubstr("xgt_cnet/rss/two_words"));
+  EXPECT_THAT(load(replaced(two_words, "\"level\": \"must\"", "\"level\": \"must\", \"colour\": 1"))
+                  .problems,
               testing::Contains(HasSubstr("unknown key 'colour'")));
-  EXPECT_THAT(only_problem(replaced(two_words, "'rSS' EOT", "'rSS' EOX")), HasSubstr("steps[0]: \"[ENQ st 'rSS' EOX BCC]\": cannot read the notation at column"));
-  EXPECT_THAT(only_problem(replaced(two_words, "\"station\": 1", "\"station\": 256")), HasSubstr("given.config.station"));
-  EXPECT_THAT(only_problem(replaced(two_words, "\"1234\"", "\"12G4\"")), HasSubstr("%MW020: '12G4' are no hex digits"));
-  EXPECT_THAT(only_problem(replaced(two_words, "\"wire\": \"05\"", "\"expect\": \"ACK\"")), HasSubstr("a step is one of"));
-  EXPECT_THAT(load(replaced(two_words, "\"basis\": \"printed\"", "\"basis\": \"derived\"")).problems, testing::Not(IsEmpty())) << "derived needs why";
+  EXPECT_THAT(
+      only_problem(replaced(two_words, "'rSS' EOT", "'rSS' EOX")),
+      HasSubstr("steps[0]: \"[ENQ st 'rSS' EOX BCC]\": cannot read the notation at column"));
+  EXPECT_THAT(only_problem(replaced(two_words, "\"station\": 1", "\"station\": 256")),
+              HasSubstr("given.config.station"));
+  EXPECT_THAT(only_problem(replaced(two_words, "\"1234\"", "\"12G4\"")),
+              HasSubstr("%MW020: '12G4' are no hex digits"));
+  EXPECT_THAT(only_problem(replaced(two_words, "\"wire\": \"05\"", "\"expect\": \"ACK\"")),
+              HasSubstr("a step is one of"));
+  EXPECT_THAT(
+      load(replaced(two_words, "\"basis\": \"printed\"", "\"basis\": \"derived\"")).problems,
+      testing::Not(IsEmpty()))
+      << "derived needs why";
 }
 
 TEST(Loader, TheSecondEntryFillsInWhatTheVectorDoesNotPrint) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "loader_wires";
   std::filesystem::create_directories(folder / "wires");
   std::ofstream(folder / "a.json") << two_words;
-  std::ofstream(folder / "wires" / "a.json") << R"({"xgt_cnet/rss/two_words": {"0": "FF", "1": "06 03"}, "xgt_cnet/no/such": {"0": "05"}})";
+  std::ofstream(folder / "wires" / "a.json")
+      << R"({"xgt_cnet/rss/two_words": {"0": "FF", "1": "06 03"}, "xgt_cnet/no/such": {"0": "05"}})";
   VectorSet set = load_vectors(folder, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json");
   load_wires(folder, set);
   ASSERT_EQ(set.cases.size(), 1u);
@@ -125,21 +143,26 @@ TEST(Loader, AFolderWithABrokenFileStillShowsTheOthers) {
   std::ofstream(folder / "a.json") << "[{]";
   std::ofstream(folder / "b.json") << two_words;
   std::ofstream(folder / "c.json") << two_words;
-  const VectorSet set = load_vectors(folder, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json");
+  const VectorSet set =
+      load_vectors(folder, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json");
   EXPECT_EQ(set.cases.size(), 2u);
-  EXPECT_THAT(set.problems, ElementsAre(HasSubstr("a.json: "), HasSubstr("the id xgt_cnet/rss/two_words is used twice")));
+  EXPECT_THAT(set.problems, ElementsAre(HasSubstr("a.json: "),
+                                        HasSubstr("the id xgt_cnet/rss/two_words is used twice")));
   std::filesystem::remove_all(folder);
 }
 
 TEST(Loader, OneFileAloneCanBeLoaded) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "one_vector.json";
   std::ofstream(file) << two_words;
-  EXPECT_EQ(load_vectors(file, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json").cases.size(), 1u);
+  EXPECT_EQ(
+      load_vectors(file, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json").cases.size(),
+      1u);
   std::filesystem::remove(file);
 }
 
 TEST(Loader, AnAbsentFolderSaysWhatToDo) {
-  EXPECT_THAT(load_vectors("no/such/folder").problems, ElementsAre(HasSubstr("name their folder, or one file, with --vectors")));
+  EXPECT_THAT(load_vectors("no/such/folder").problems,
+              ElementsAre(HasSubstr("name their folder, or one file, with --vectors")));
 }
 
 TEST(Filter, GlobsCrossSlashesAndExclude) {

@@ -16,19 +16,23 @@ std::string in_words(const std::string& description) {
   constexpr std::string_view unknown_key = "Object contains a property that could not be validated";
   if (!description.starts_with(unknown_key)) return description;
   const std::size_t colon = description.rfind(": ");
-  return "unknown key " + (colon == std::string::npos ? description : description.substr(colon + 2));
+  return "unknown key " +
+         (colon == std::string::npos ? description : description.substr(colon + 2));
 }
 
 }  // namespace
 
-std::vector<std::string> schema_problems(const nlohmann::json& schema, const nlohmann::json& document) {
+std::vector<std::string> schema_problems(const nlohmann::json& schema,
+                                         const nlohmann::json& document) {
   valijson::Schema compiled;
   valijson::SchemaParser parser;
   parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), compiled);
   valijson::Validator validator;
   valijson::ValidationResults results;
-  if (validator.validate(compiled, valijson::adapters::NlohmannJsonAdapter(document), &results)) return {};
-  // valijson reports the innermost problem first; the outer ones only repeat that something inside is wrong.
+  if (validator.validate(compiled, valijson::adapters::NlohmannJsonAdapter(document), &results))
+    return {};
+  // valijson reports the innermost problem first; the outer ones only repeat that something inside
+  // is wrong.
   std::vector<std::string> problems;
   valijson::ValidationResults::Error error;
   while (results.popError(error)) {

@@ -7,7 +7,9 @@
 
 namespace fieldproof {
 
-/// What is wrong with `document` under `schema`, one line each: "[3][steps][0]: ...". Empty: nothing.
-std::vector<std::string> schema_problems(const nlohmann::json& schema, const nlohmann::json& document);
+/// What is wrong with `document` under `schema`, one line each: "[3][steps][0]: ...". Empty:
+/// nothing.
+std::vector<std::string> schema_problems(const nlohmann::json& schema,
+                                         const nlohmann::json& document);
 
 }  // namespace fieldproof

@@ -35,9 +35,10 @@ inline CaseResult failure() {
   result.received_bytes = *from_hex("06 30 31 72 53 53 30 31 30 32 31 32 33 34 03 30 39");
   result.differences = {{"BCC", "0F", "09", "the sum leaves out the header"}};
   const Bytes request = *from_hex("05 30 31 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 33");
-  result.exchange = {{Event::Kind::sent, 2s, 2s + 19792us, request, "ENQ '01rSS0106%MW100' EOT 'A3'"},
-                     {Event::Kind::received, 2s + 24ms, 2s + 41708us, result.received_bytes, result.received},
-                     {Event::Kind::note, 2s + 41708us, 2s + 41708us, {}, "silence until 1041.7 ms"}};
+  result.exchange = {
+      {Event::Kind::sent, 2s, 2s + 19792us, request, "ENQ '01rSS0106%MW100' EOT 'A3'"},
+      {Event::Kind::received, 2s + 24ms, 2s + 41708us, result.received_bytes, result.received},
+      {Event::Kind::note, 2s + 41708us, 2s + 41708us, {}, "silence until 1041.7 ms"}};
   result.response_ms = {4.208};
   result.seconds = 0.0125;
   result.replay = "fieldproof run --filter xgt_cnet/rss/one_word --endpoint emulator:xbc-h";
@@ -54,18 +55,26 @@ inline CaseResult with(Verdict verdict, const std::string& id, const std::string
 }
 
 inline RunInfo run_info() {
-  return {"0.1.0", "2026-11-21T12:39:03+00:00", "emulator:xbc-h?station=1", "xbc-h", "fieldproof run", "a1b2",
+  return {"0.1.0",
+          "2026-11-21T12:39:03+00:00",
+          "emulator:xbc-h?station=1",
+          "xbc-h",
+          "fieldproof run",
+          "a1b2",
           {{"gate", "default"}, {"line", "9600-8N1"}, {"seed", "7"}}};
 }
 
-inline RunEnd run_end(int exit_code = 1) { return {"2026-11-21T12:39:05+00:00", 2.25, exit_code, false, ""}; }
+inline RunEnd run_end(int exit_code = 1) {
+  return {"2026-11-21T12:39:05+00:00", 2.25, exit_code, false, ""};
+}
 
 /// A new folder of the running test, removed with the object.
 class Folder {
  public:
   Folder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "." + test->name());
+    path_ = std::filesystem::path(testing::TempDir()) /
+            (std::string(test->test_suite_name()) + "." + test->name());
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -91,7 +100,8 @@ inline std::string read_file(const std::string& path) {
 }
 
 /// A file of results as a run leaves it; without `end` as a killed run does.
-inline void write_results(const std::string& path, const std::vector<CaseResult>& results, bool end = true) {
+inline void write_results(const std::string& path, const std::vector<CaseResult>& results,
+                          bool end = true) {
   auto writer = NdjsonWriter::create(path);
   ASSERT_TRUE(writer) << writer.error().message;
   ASSERT_TRUE(writer->write(run_info()));

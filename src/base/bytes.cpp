@@ -17,7 +17,8 @@ char hex_char(unsigned value) { return "0123456789ABCDEF"[value & 0xF]; }
 
 std::string hex_number(std::uint64_t value, int digits) {
   std::string text(static_cast<std::size_t>(digits), '0');
-  for (int i = digits - 1; i >= 0; --i, value >>= 4) text[static_cast<std::size_t>(i)] = hex_char(value & 0xF);
+  for (int i = digits - 1; i >= 0; --i, value >>= 4)
+    text[static_cast<std::size_t>(i)] = hex_char(value & 0xF);
   return text;
 }
 

@@ -15,10 +15,12 @@ TEST(Duration, ReadsNumberAndUnit) {
 }
 
 TEST(Duration, RefusesWhatIsNone) {
-  for (const char* text : {"", "5", "ms", "-1s", "1 s", "1d", "5msx", "1e3s", "nan", "inf s", "99999999999h"}) {
+  for (const char* text :
+       {"", "5", "ms", "-1s", "1 s", "1d", "5msx", "1e3s", "nan", "inf s", "99999999999h"}) {
     const Result<Duration> read = parse_duration(text);
     ASSERT_FALSE(read) << text;
-    EXPECT_EQ("'" + std::string(text) + "' is no duration; write 500us, 20ms, 1s, 10m or 8h", read.error().message);
+    EXPECT_EQ("'" + std::string(text) + "' is no duration; write 500us, 20ms, 1s, 10m or 8h",
+              read.error().message);
   }
 }
 

@@ -9,7 +9,8 @@
 namespace fieldproof {
 
 struct Error {
-  /// Verb, object, cause and what to do: "cannot open /dev/ttyUSB0: permission denied; add yourself to the group dialout"
+  /// Verb, object, cause and what to do: "cannot open /dev/ttyUSB0: permission denied; add yourself
+  /// to the group dialout"
   std::string message;
   /// The user pressed Ctrl-C.
   bool interrupted = false;

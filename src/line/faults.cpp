@@ -9,7 +9,8 @@ namespace {
 Bytes part(const Bytes& bytes, std::size_t from, std::size_t to) {
   const auto begin = bytes.begin();
   const auto size = bytes.size();
-  return {begin + static_cast<std::ptrdiff_t>(std::min(from, size)), begin + static_cast<std::ptrdiff_t>(std::min(to, size))};
+  return {begin + static_cast<std::ptrdiff_t>(std::min(from, size)),
+          begin + static_cast<std::ptrdiff_t>(std::min(to, size))};
 }
 }  // namespace
 
@@ -22,15 +23,18 @@ void FaultyDevice::receive(const Burst& burst) {
   request_end_ = burst.end();
   request_bytes_ += burst.bytes.size();
   if (faults_.echo) queue(burst.end(), burst.bytes);
-  hand_on({flipped(burst.bytes, faults_.request, first_index), burst.start, burst.character_time}, first_index);
+  hand_on({flipped(burst.bytes, faults_.request, first_index), burst.start, burst.character_time},
+          first_index);
 }
 
 /// Gives the device what truncation and loss leave of a burst whose first byte has this index.
 void FaultyDevice::hand_on(Burst burst, std::size_t first_index) {
   const ByteFaults& faults = faults_.request;
   const std::size_t end_index = first_index + burst.bytes.size();
-  if (faults.truncate) burst.bytes.resize(std::clamp(*faults.truncate, first_index, end_index) - first_index);
-  if (!faults.drop || *faults.drop < first_index || *faults.drop >= first_index + burst.bytes.size()) {
+  if (faults.truncate)
+    burst.bytes.resize(std::clamp(*faults.truncate, first_index, end_index) - first_index);
+  if (!faults.drop || *faults.drop < first_index ||
+      *faults.drop >= first_index + burst.bytes.size()) {
     if (!burst.bytes.empty()) device_.receive(burst);
     return;
   }
@@ -67,7 +71,8 @@ Time FaultyDevice::queue_reply(const Bytes& reply, Time start) {
   Duration silence{};
   std::size_t from = 0;
   const auto cut = [&](std::size_t to) {
-    queue(start + silence + static_cast<Duration::rep>(from) * character_time_, part(sent, from, to));
+    queue(start + silence + static_cast<Duration::rep>(from) * character_time_,
+          part(sent, from, to));
     from = to;
   };
   for (std::size_t i = 0; i < sent.size(); ++i) {
@@ -86,7 +91,8 @@ Time FaultyDevice::queue_reply(const Bytes& reply, Time start) {
 
 void FaultyDevice::queue(Time start, Bytes bytes) {
   if (bytes.empty()) return;
-  const auto later = std::ranges::find_if(pieces_, [start](const Piece& p) { return p.start > start; });
+  const auto later =
+      std::ranges::find_if(pieces_, [start](const Piece& p) { return p.start > start; });
   pieces_.insert(later, Piece{start, std::move(bytes)});
 }
 
@@ -96,9 +102,11 @@ Bytes FaultyDevice::flipped(Bytes bytes, const ByteFaults& faults, std::size_t f
   }
   if (faults.noise > 0) {
     for (Byte& b : bytes) {
-      // Not a standard distribution: those differ between libraries, and a seed must mean one noise.
+      // Not a standard distribution: those differ between libraries, and a seed must mean one
+      // noise.
       const auto draw = random_();
-      if (static_cast<double>(draw >> 11) * 0x1p-53 < faults.noise) b ^= static_cast<Byte>(1u << (draw & 7));
+      if (static_cast<double>(draw >> 11) * 0x1p-53 < faults.noise)
+        b ^= static_cast<Byte>(1u << (draw & 7));
     }
   }
   return bytes;

@@ -1,4 +1,5 @@
-// Faults of a line as a device that wraps another: what the bench sends to it and what it answers pass through the fault.
+// Faults of a line as a device that wraps another: what the bench sends to it and what it answers
+// pass through the fault.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +11,11 @@
 
 namespace fieldproof {
 
-/// What happens to the bytes of one direction. Bytes count from 0 within a burst (request) or a frame (reply).
+/// What happens to the bytes of one direction. Bytes count from 0 within a burst (request) or a
+/// frame (reply).
 struct ByteFaults {
-  double noise = 0;                       // probability that a byte has one bit flipped
-  std::optional<std::size_t> flip{};      // this byte is XORed with flip_mask
+  double noise = 0;                   // probability that a byte has one bit flipped
+  std::optional<std::size_t> flip{};  // this byte is XORed with flip_mask
   Byte flip_mask = 0x01;
   std::optional<std::size_t> drop{};      // this byte is lost; its time on the wire stays
   std::optional<std::size_t> truncate{};  // only so many bytes get through
@@ -22,12 +24,14 @@ struct ByteFaults {
 struct LineFaults {
   ByteFaults request{};
   ByteFaults reply{};
-  bool echo = false;                      // the request comes back, before the reply (two-wire adapter that hears itself)
-  std::optional<std::size_t> gap_after{}; // after this byte of each reply the line is silent for `gap`
+  bool echo =
+      false;  // the request comes back, before the reply (two-wire adapter that hears itself)
+  std::optional<std::size_t>
+      gap_after{};  // after this byte of each reply the line is silent for `gap`
   Duration gap{};
-  Duration late{};                        // each reply begins so much later
-  bool duplicate = false;                 // each reply comes twice, back to back
-  std::uint64_t seed = 1;                 // of the noise: the same seed gives the same noise
+  Duration late{};         // each reply begins so much later
+  bool duplicate = false;  // each reply comes twice, back to back
+  std::uint64_t seed = 1;  // of the noise: the same seed gives the same noise
 };
 
 class FaultyDevice : public Device {
@@ -53,9 +57,9 @@ class FaultyDevice : public Device {
   LineFaults faults_;
   Duration character_time_;
   std::mt19937_64 random_;
-  std::vector<Piece> pieces_;           // in the order of transmission
+  std::vector<Piece> pieces_;  // in the order of transmission
   Time request_end_{-1};
-  std::size_t request_bytes_ = 0;       // of the burst so far: the line may hand it over in parts
+  std::size_t request_bytes_ = 0;  // of the burst so far: the line may hand it over in parts
 };
 
 }  // namespace fieldproof

@@ -40,7 +40,8 @@ class Faults : public ::testing::Test {
     line.attach(faulty, n81);
     sent = line.transmit(request);
     std::vector<Burst> heard;
-    for (Burst burst = line.receive(1s); !burst.bytes.empty(); burst = line.receive(1s)) heard.push_back(burst);
+    for (Burst burst = line.receive(1s); !burst.bytes.empty(); burst = line.receive(1s))
+      heard.push_back(burst);
     return heard;
   }
   Server server;
@@ -81,7 +82,8 @@ TEST_F(Faults, NoiseKeepsItsRate) {
   FaultyDevice faulty(quiet, {.request = {.noise = 0.01}}, ct);
   faulty.receive({Bytes(100'000, 0x00), 0ns, ct});
   const Bytes& heard = quiet.heard.at(0).bytes;
-  const auto flipped = static_cast<int>(heard.size()) - static_cast<int>(std::count(heard.begin(), heard.end(), 0x00));
+  const auto flipped = static_cast<int>(heard.size()) -
+                       static_cast<int>(std::count(heard.begin(), heard.end(), 0x00));
   EXPECT_NEAR(flipped, 1000, 150);
 }
 
@@ -148,7 +150,8 @@ TEST_F(Faults, Duplicate) {
 }
 
 TEST_F(Faults, FaultsCombine) {
-  const auto heard = exchange({.reply = {.flip = 0, .truncate = 3}, .echo = true, .late = 10ms, .duplicate = true});
+  const auto heard = exchange(
+      {.reply = {.flip = 0, .truncate = 3}, .echo = true, .late = 10ms, .duplicate = true});
   ASSERT_EQ(heard.size(), 3u);
   EXPECT_EQ(heard[0].bytes, request);
   EXPECT_EQ(heard[1].bytes, (Bytes{0x21, 0x21, 0x22}));

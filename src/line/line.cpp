@@ -16,7 +16,8 @@ constexpr int most_wakes_at_one_moment = 10'000;
 bool overlap(const Burst& a, const Burst& b) { return a.start < b.end() && b.start < a.end(); }
 }  // namespace
 
-SimulatedLine::SimulatedLine(const LineSettings& bench_settings, Duplex duplex, Time now) : duplex_(duplex), now_(now) {
+SimulatedLine::SimulatedLine(const LineSettings& bench_settings, Duplex duplex, Time now)
+    : duplex_(duplex), now_(now) {
   listeners_.push_back({.settings = bench_settings, .heard = now});
 }
 
@@ -36,7 +37,8 @@ SimulatedLine::Transmitted SimulatedLine::transmit(ByteView bytes) {
 Burst SimulatedLine::receive(Time until) {
   if (inbox_.empty()) run(std::max(until, now_), true);
   if (inbox_.empty()) hear(bench);  // the part of a burst that has come so far
-  if (inbox_.empty()) return {.bytes = {}, .start = now_, .character_time = bench_settings().character_time()};
+  if (inbox_.empty())
+    return {.bytes = {}, .start = now_, .character_time = bench_settings().character_time()};
   Burst burst = std::move(inbox_.front());
   inbox_.erase(inbox_.begin());
   return burst;
@@ -49,10 +51,12 @@ void SimulatedLine::run(Time until, bool until_heard) {
     now_ = next_event(until);
     finish_transmissions();
     if (any_bit_exact_) {
-      while (hear_characters()) {}
+      while (hear_characters()) {
+      }
       forget_transmissions();
     }
-    if (until_heard && !inbox_.empty()) return;  // what is due at this moment happens first in the next call
+    if (until_heard && !inbox_.empty())
+      return;  // what is due at this moment happens first in the next call
     wake_stations();
     if (now_ == until) return;
   }
@@ -65,8 +69,10 @@ Time SimulatedLine::next_event(Time until) const {
   }
   for (std::size_t i = 0; i < listeners_.size(); ++i) {
     const Listener& l = listeners_[i];
-    if (const auto wake = l.device ? l.device->wake_at() : std::nullopt) next = std::min(next, *wake);
-    if (const auto character = l.bit_exact ? character_for(i) : std::nullopt) next = std::min(next, character->end);
+    if (const auto wake = l.device ? l.device->wake_at() : std::nullopt)
+      next = std::min(next, *wake);
+    if (const auto character = l.bit_exact ? character_for(i) : std::nullopt)
+      next = std::min(next, character->end);
   }
   return std::max(next, now_);
 }
@@ -74,7 +80,8 @@ Time SimulatedLine::next_event(Time until) const {
 void SimulatedLine::finish_transmissions() {
   for (OnAir& t : on_air_) {
     if (t.over || t.burst.end() > now_) continue;
-    for (std::size_t i = listeners_.size(); i-- > 0;) hear(i);  // the bench last: it takes the bytes away
+    for (std::size_t i = listeners_.size(); i-- > 0;)
+      hear(i);  // the bench last: it takes the bytes away
     t.over = true;
   }
   if (!any_bit_exact_) std::erase_if(on_air_, [](const OnAir& t) { return t.over; });
@@ -101,10 +108,13 @@ bool SimulatedLine::hear_characters() {
   return any;
 }
 
-/// Drops the transmissions that no bit-exact receiver is inside of any more; on an idle line all are fast again.
+/// Drops the transmissions that no bit-exact receiver is inside of any more; on an idle line all
+/// are fast again.
 void SimulatedLine::forget_transmissions() {
   std::erase_if(on_air_, [this](const OnAir& t) {
-    return t.over && std::ranges::none_of(listeners_, [&](const Listener& l) { return l.bit_exact && l.hunt_from < t.burst.end(); });
+    return t.over && std::ranges::none_of(listeners_, [&](const Listener& l) {
+             return l.bit_exact && l.hunt_from < t.burst.end();
+           });
   });
   if (!on_air_.empty()) return;
   any_bit_exact_ = false;
@@ -122,7 +132,8 @@ void SimulatedLine::wake_stations() {
       if (!wake || *wake > now_) break;
       if (hear(i)) continue;  // bytes that came before may have changed its plans
       if (wakes == most_wakes_at_one_moment) {
-        throw std::logic_error("station " + std::to_string(i) + " asks to be woken at " + std::to_string(now_.count()) +
+        throw std::logic_error("station " + std::to_string(i) + " asks to be woken at " +
+                               std::to_string(now_.count()) +
                                " ns without end; its advance must move wake_at on");
       }
       begin_transmission(i, device.advance(now_));
@@ -138,8 +149,12 @@ void SimulatedLine::begin_transmission(std::size_t sender, Bytes bytes) {
     for (std::size_t i = 0; i < listeners_.size(); ++i) hear(i);
   }
   drop_unsent_bits(bytes, from.settings);
-  const Time start = std::max(now_, from.transmits_until);  // behind what the station is still sending
-  on_air_.push_back({sender, {.bytes = std::move(bytes), .start = start, .character_time = from.settings.character_time()}});
+  const Time start =
+      std::max(now_, from.transmits_until);  // behind what the station is still sending
+  on_air_.push_back({sender,
+                     {.bytes = std::move(bytes),
+                      .start = start,
+                      .character_time = from.settings.character_time()}});
   from.transmits_until = on_air_.back().burst.end();
   for (std::size_t i = 0; i < listeners_.size(); ++i) {
     Listener& l = listeners_[i];
@@ -154,7 +169,8 @@ bool SimulatedLine::on_fast_path(std::size_t listener) const {
     if (t.sender == listener) continue;
     if (listeners_[t.sender].settings != listeners_[listener].settings) return false;
     for (const OnAir& other : on_air_) {
-      const bool disturbs = other.sender != t.sender && (other.sender != listener || duplex_ == Duplex::half);
+      const bool disturbs =
+          other.sender != t.sender && (other.sender != listener || duplex_ == Duplex::half);
       if (disturbs && overlap(t.burst, other.burst)) return false;
     }
   }
@@ -193,7 +209,8 @@ bool SimulatedLine::hear(std::size_t listener) {
 void SimulatedLine::deliver(std::size_t listener, const Burst& burst) {
   if (listener != bench) {
     listeners_[listener].device->receive(burst);
-  } else if (!inbox_.empty() && inbox_.back().end() == burst.start && inbox_.back().character_time == burst.character_time) {
+  } else if (!inbox_.empty() && inbox_.back().end() == burst.start &&
+             inbox_.back().character_time == burst.character_time) {
     inbox_.back().bytes.insert(inbox_.back().bytes.end(), burst.bytes.begin(), burst.bytes.end());
   } else {
     inbox_.push_back(burst);

@@ -1,6 +1,6 @@
-// The bench and several stations on one multi-drop line, in simulated time. Everyone hears everyone else: stations hear
-// the replies of other stations too. It carries whole bursts; only where settings differ or transmissions collide does
-// it look at single bits (uart.hpp).
+// The bench and several stations on one multi-drop line, in simulated time. Everyone hears everyone
+// else: stations hear the replies of other stations too. It carries whole bursts; only where
+// settings differ or transmissions collide does it look at single bits (uart.hpp).
 #pragma once
 
 #include <optional>
@@ -12,7 +12,8 @@
 
 namespace fieldproof {
 
-/// May one who transmits hear another who does at the same time? RS-232 and RS-422: full; two-wire RS-485: half.
+/// May one who transmits hear another who does at the same time? RS-232 and RS-422: full; two-wire
+/// RS-485: half.
 enum class Duplex { full, half };
 
 class SimulatedLine {
@@ -24,19 +25,21 @@ class SimulatedLine {
 
   explicit SimulatedLine(const LineSettings& bench, Duplex duplex = Duplex::full, Time now = {});
 
-  /// Adds a station and advances it to `now()`: it is switched on at this moment. The device must outlive the line.
+  /// Adds a station and advances it to `now()`: it is switched on at this moment. The device must
+  /// outlive the line.
   void attach(Device& device, const LineSettings& settings);
 
   Time now() const { return now_; }
   const LineSettings& bench_settings() const { return listeners_.front().settings; }
 
-  /// The bench transmits now. `now()` then stands at the end of the last stop bit, so a second call is back to back, and
-  /// everything due until then, and at that moment, has happened: a reply without delay has begun.
+  /// The bench transmits now. `now()` then stands at the end of the last stop bit, so a second call
+  /// is back to back, and everything due until then, and at that moment, has happened: a reply
+  /// without delay has begun.
   Transmitted transmit(ByteView bytes);
 
-  /// The next burst that the bench hears; `now()` then stands at its end. A burst that is not complete at `until` comes
-  /// in parts. Nothing heard: an empty burst, and `now()` stands at `until`. Time never goes back: with `until` in the
-  /// past it takes what has been heard.
+  /// The next burst that the bench hears; `now()` then stands at its end. A burst that is not
+  /// complete at `until` comes in parts. Nothing heard: an empty burst, and `now()` stands at
+  /// `until`. Time never goes back: with `until` in the past it takes what has been heard.
   Burst receive(Time until);
 
   /// Characters that the bench has dropped since the last call.
@@ -55,7 +58,8 @@ class SimulatedLine {
   struct OnAir {
     std::size_t sender = 0;
     Burst burst;
-    bool over = false;  // heard by all on the fast path; kept for receivers that are still inside it
+    bool over =
+        false;  // heard by all on the fast path; kept for receivers that are still inside it
   };
 
   void run(Time until, bool until_heard);
@@ -78,7 +82,7 @@ class SimulatedLine {
   std::vector<Burst> inbox_;  // heard by the bench, oldest first
   LineErrors errors_;
   bool any_bit_exact_ = false;
-  Burst part_;                // reused for parts of a burst
+  Burst part_;  // reused for parts of a burst
 };
 
 }  // namespace fieldproof

@@ -38,7 +38,8 @@ class Station : public Device {
   }
   Bytes all() const {
     Bytes bytes;
-    for (const Burst& burst : heard) bytes.insert(bytes.end(), burst.bytes.begin(), burst.bytes.end());
+    for (const Burst& burst : heard)
+      bytes.insert(bytes.end(), burst.bytes.begin(), burst.bytes.end());
     return bytes;
   }
 
@@ -271,7 +272,8 @@ TEST(Line, CollidingStationsAreGarbledWhereTheyOverlap) {
     heard.insert(heard.end(), burst.bytes.begin(), burst.bytes.end());
   }
   EXPECT_EQ(heard, (Bytes{0x55, 0x33}));
-  EXPECT_EQ(a.all(), (Bytes{0x5F}));  // stations hear each other clean: the collision is at the third
+  EXPECT_EQ(a.all(),
+            (Bytes{0x5F}));  // stations hear each other clean: the collision is at the third
   EXPECT_EQ(b.all(), (Bytes{0xF5, 0x33}));
 }
 
@@ -362,7 +364,8 @@ Heard by_character(const std::vector<Burst>& bursts) {
   Heard heard;
   for (const Burst& burst : bursts) {
     for (std::size_t i = 0; i < burst.bytes.size(); ++i) {
-      heard.emplace_back(burst.start + static_cast<Duration::rep>(i) * burst.character_time, burst.bytes[i]);
+      heard.emplace_back(burst.start + static_cast<Duration::rep>(i) * burst.character_time,
+                         burst.bytes[i]);
     }
   }
   return heard;
@@ -374,20 +377,25 @@ struct Spoken {
 };
 
 /// What a listener must hear, from all transmissions at once and bit by bit.
-Heard expected_at(std::size_t listener, const std::vector<Spoken>& all, const std::vector<LineSettings>& settings, Duplex duplex) {
+Heard expected_at(std::size_t listener, const std::vector<Spoken>& all,
+                  const std::vector<LineSettings>& settings, Duplex duplex) {
   Waveform wave;
   for (const auto& [sender, burst] : all) {
-    if (sender != listener) wave.add(burst, settings[sender]);
-    else if (duplex == Duplex::half) wave.mute(burst.start, burst.end());
+    if (sender != listener)
+      wave.add(burst, settings[sender]);
+    else if (duplex == Duplex::half)
+      wave.mute(burst.start, burst.end());
   }
   Heard heard;
-  for (auto c = next_character(wave, settings[listener], 0ns); c; c = next_character(wave, settings[listener], c->hunt_from)) {
+  for (auto c = next_character(wave, settings[listener], 0ns); c;
+       c = next_character(wave, settings[listener], c->hunt_from)) {
     if (c->good()) heard.emplace_back(c->start, c->value);
   }
   return heard;
 }
 
-// The line mixes whole bursts, parts and single characters; whatever the traffic, it must come to what the bits say.
+// The line mixes whole bursts, parts and single characters; whatever the traffic, it must come to
+// what the bits say.
 TEST(Line, AnyTrafficIsHeardAsTheBitsSay) {
   std::mt19937 random(20240607);
   const auto pick = [&](unsigned n) { return random() % n; };
@@ -397,7 +405,9 @@ TEST(Line, AnyTrafficIsHeardAsTheBitsSay) {
     const unsigned traffic_ms = pick(2) ? 60 : 600;  // crowded or quiet
     std::vector<LineSettings> settings;
     for (int i = 0; i < 4; ++i) {
-      settings.push_back(mixed && pick(2) ? LineSettings{pick(2) ? 9600 : 19200, pick(2) ? 7 : 8, "NEO"[pick(3)], 1} : n81);
+      settings.push_back(mixed && pick(2) ? LineSettings{pick(2) ? 9600 : 19200, pick(2) ? 7 : 8,
+                                                         "NEO"[pick(3)], 1}
+                                          : n81);
     }
     const auto frame = [&] {
       Bytes bytes(1 + pick(8));
@@ -412,7 +422,8 @@ TEST(Line, AnyTrafficIsHeardAsTheBitsSay) {
     };
     SimulatedLine line(settings[0], duplex);
     for (std::size_t i = 0; i < 3; ++i) {
-      for (auto n = pick(4); n > 0; --n) stations[i].plan.emplace(std::chrono::microseconds(1 + pick(traffic_ms * 1000)), frame());
+      for (auto n = pick(4); n > 0; --n)
+        stations[i].plan.emplace(std::chrono::microseconds(1 + pick(traffic_ms * 1000)), frame());
       Time free{};
       for (const auto& [start, bytes] : stations[i].plan) {
         speak(i + 1, bytes, std::max(start, free));
@@ -423,14 +434,18 @@ TEST(Line, AnyTrafficIsHeardAsTheBitsSay) {
     std::vector<Burst> heard;
     for (auto n = pick(4); n > 0; --n) {
       const Time moment = line.now() + std::chrono::microseconds(pick(traffic_ms * 500));
-      for (Burst burst = line.receive(moment); !burst.bytes.empty(); burst = line.receive(moment)) heard.push_back(burst);
+      for (Burst burst = line.receive(moment); !burst.bytes.empty(); burst = line.receive(moment))
+        heard.push_back(burst);
       const Bytes bytes = frame();
       speak(0, bytes, line.transmit(bytes).start);
     }
-    for (Burst burst = line.receive(5s); !burst.bytes.empty(); burst = line.receive(5s)) heard.push_back(burst);
-    EXPECT_EQ(by_character(heard), expected_at(0, all, settings, duplex)) << "bench, round " << round;
+    for (Burst burst = line.receive(5s); !burst.bytes.empty(); burst = line.receive(5s))
+      heard.push_back(burst);
+    EXPECT_EQ(by_character(heard), expected_at(0, all, settings, duplex))
+        << "bench, round " << round;
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_EQ(by_character(stations[i].heard), expected_at(i + 1, all, settings, duplex)) << "station " << i + 1 << ", round " << round;
+      EXPECT_EQ(by_character(stations[i].heard), expected_at(i + 1, all, settings, duplex))
+          << "station " << i + 1 << ", round " << round;
     }
     if (HasFailure()) return;
   }

@@ -12,7 +12,9 @@ LineSettings read(std::string_view text) {
   return settings ? *settings : LineSettings{};
 }
 
-TEST(LineSettings, ASpeedAloneMeans8N1) { EXPECT_EQ(read("19200"), (LineSettings{19200, 8, 'N', 1})); }
+TEST(LineSettings, ASpeedAloneMeans8N1) {
+  EXPECT_EQ(read("19200"), (LineSettings{19200, 8, 'N', 1}));
+}
 
 TEST(LineSettings, SpeedAndFormat) {
   EXPECT_EQ(read("9600-8N1"), (LineSettings{9600, 8, 'N', 1}));
@@ -37,7 +39,9 @@ TEST(LineSettings, ErrorsNameTheWrongPart) {
     const auto settings = parse_line_settings(text);
     return settings ? std::string("accepted") : settings.error().message;
   };
-  EXPECT_THAT(message("9601-8N1"), ::testing::HasSubstr("cannot read line settings '9601-8N1': the speed is not one of the eight"));
+  EXPECT_THAT(message("9601-8N1"),
+              ::testing::HasSubstr(
+                  "cannot read line settings '9601-8N1': the speed is not one of the eight"));
   EXPECT_THAT(message(""), ::testing::HasSubstr("the speed"));
   EXPECT_THAT(message("fast"), ::testing::HasSubstr("the speed"));
   EXPECT_THAT(message("9600-9N1"), ::testing::HasSubstr("the data bits are not 7 or 8"));

@@ -40,7 +40,9 @@ std::optional<Time> bit_boundary(const Burst& burst, const LineSettings& sender,
   const Duration inside = since % burst.character_time;
   // The start of bit k in whole nanoseconds is rounded up, so that burst_level finds bit k there.
   const auto start_of = [&](Duration::rep bit) {
-    return bit >= sender.bits_per_character() ? burst.character_time : Duration((bit * second + sender.baud - 1) / sender.baud);
+    return bit >= sender.bits_per_character()
+               ? burst.character_time
+               : Duration((bit * second + sender.baud - 1) / sender.baud);
   };
   const Duration::rep bit = inside.count() * sender.baud / second;
   return from - inside + (start_of(bit) == inside ? inside : start_of(bit + 1));
@@ -48,13 +50,17 @@ std::optional<Time> bit_boundary(const Burst& burst, const LineSettings& sender,
 
 }  // namespace
 
-void Waveform::add(const Burst& burst, const LineSettings& sender) { sources_.push_back({&burst, &sender}); }
+void Waveform::add(const Burst& burst, const LineSettings& sender) {
+  sources_.push_back({&burst, &sender});
+}
 
 void Waveform::mute(Time from, Time until) { muted_.push_back({from, until}); }
 
 bool Waveform::high(Time t) const {
-  if (std::ranges::any_of(muted_, [t](const Interval& m) { return t >= m.from && t < m.until; })) return true;
-  return std::ranges::all_of(sources_, [t](const Source& s) { return burst_level(*s.burst, *s.sender, t); });
+  if (std::ranges::any_of(muted_, [t](const Interval& m) { return t >= m.from && t < m.until; }))
+    return true;
+  return std::ranges::all_of(sources_,
+                             [t](const Source& s) { return burst_level(*s.burst, *s.sender, t); });
 }
 
 std::optional<Time> Waveform::next_boundary(Time from) const {
@@ -74,15 +80,20 @@ std::optional<Time> Waveform::falling_edge(Time from) const {
   return std::nullopt;
 }
 
-std::optional<Character> next_character(const Waveform& wave, const LineSettings& receiver, Time from) {
-  const auto middle_of = [&](Time edge, int bit) { return edge + Duration((2 * bit + 1) * second / (2 * receiver.baud)); };
+std::optional<Character> next_character(const Waveform& wave, const LineSettings& receiver,
+                                        Time from) {
+  const auto middle_of = [&](Time edge, int bit) {
+    return edge + Duration((2 * bit + 1) * second / (2 * receiver.baud));
+  };
   for (auto edge = wave.falling_edge(from); edge; edge = wave.falling_edge(from)) {
     from = middle_of(*edge, 0);
     if (wave.high(from)) continue;  // a glitch, not a start bit
     Character c{.start = *edge, .end = *edge + receiver.character_time()};
     int bit = 1;
-    for (; bit <= receiver.data_bits; ++bit) c.value |= static_cast<Byte>(wave.high(middle_of(*edge, bit)) << (bit - 1));
-    if (receiver.parity != 'N') c.parity_error = wave.high(middle_of(*edge, bit++)) != parity_bit(c.value, receiver);
+    for (; bit <= receiver.data_bits; ++bit)
+      c.value |= static_cast<Byte>(wave.high(middle_of(*edge, bit)) << (bit - 1));
+    if (receiver.parity != 'N')
+      c.parity_error = wave.high(middle_of(*edge, bit++)) != parity_bit(c.value, receiver);
     c.hunt_from = middle_of(*edge, bit);
     c.framing_error = !wave.high(c.hunt_from);
     return c;
@@ -100,12 +111,14 @@ Reading read_burst(const Burst& burst, const LineSettings& sender, const LineSet
   }
   Waveform wave;
   wave.add(sent, sender);
-  for (auto c = next_character(wave, receiver, burst.start); c; c = next_character(wave, receiver, c->hunt_from)) {
+  for (auto c = next_character(wave, receiver, burst.start); c;
+       c = next_character(wave, receiver, c->hunt_from)) {
     reading.errors.parity += c->parity_error;
     reading.errors.framing += c->framing_error;
     if (!c->good()) continue;
     if (reading.bursts.empty() || reading.bursts.back().end() != c->start) {
-      reading.bursts.push_back({.bytes = {}, .start = c->start, .character_time = receiver.character_time()});
+      reading.bursts.push_back(
+          {.bytes = {}, .start = c->start, .character_time = receiver.character_time()});
     }
     reading.bursts.back().bytes.push_back(c->value);
   }

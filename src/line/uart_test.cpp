@@ -14,7 +14,8 @@ Burst burst_of(Bytes bytes, const LineSettings& sender, Time start = 1ms) {
 /// All bytes in order, the bursts joined.
 Bytes bytes_of(const Reading& reading) {
   Bytes all;
-  for (const Burst& burst : reading.bursts) all.insert(all.end(), burst.bytes.begin(), burst.bytes.end());
+  for (const Burst& burst : reading.bursts)
+    all.insert(all.end(), burst.bytes.begin(), burst.bytes.end());
   return all;
 }
 
@@ -38,9 +39,9 @@ TEST(Uart, SevenDataBitsDropBitSeven) {
 // Start, 1 0 0 0 0 0 1 0, stop: bit 7 stands where 7E1 expects its parity.
 TEST(Uart, EightBitsReadAsSevenEven) {
   const LineSettings e71{9600, 7, 'E', 1};
-  EXPECT_EQ(bytes_of(read({0x41}, n81, e71)), (Bytes{0x41}));   // two ones, bit 7 is 0: even
-  EXPECT_EQ(bytes_of(read({0xC3}, n81, e71)), (Bytes{0x43}));   // three ones, bit 7 is 1: even
-  const Reading odd = read({0x43}, n81, e71);                   // three ones, bit 7 is 0
+  EXPECT_EQ(bytes_of(read({0x41}, n81, e71)), (Bytes{0x41}));  // two ones, bit 7 is 0: even
+  EXPECT_EQ(bytes_of(read({0xC3}, n81, e71)), (Bytes{0x43}));  // three ones, bit 7 is 1: even
+  const Reading odd = read({0x43}, n81, e71);                  // three ones, bit 7 is 0
   EXPECT_TRUE(odd.bursts.empty());
   EXPECT_EQ(odd.errors, (LineErrors{.parity = 1, .framing = 0}));
 }
@@ -53,14 +54,14 @@ TEST(Uart, SevenEvenReadAsEightBitsCarriesParityInBitSeven) {
 
 TEST(Uart, ParityBitReadAsStopBit) {
   const LineSettings e81{9600, 8, 'E', 1};
-  EXPECT_EQ(bytes_of(read({0x43}, e81, n81)), (Bytes{0x43}));   // parity 1 passes as stop bit
-  const Reading low = read({0x41}, e81, n81);                   // parity 0 does not
+  EXPECT_EQ(bytes_of(read({0x43}, e81, n81)), (Bytes{0x43}));  // parity 1 passes as stop bit
+  const Reading low = read({0x41}, e81, n81);                  // parity 0 does not
   EXPECT_TRUE(low.bursts.empty());
   EXPECT_EQ(low.errors, (LineErrors{.parity = 0, .framing = 1}));
 }
 
-// The receiver takes the stop bit as parity and the next start bit as stop bit. It then finds an edge inside the second
-// character: 0 0 0 1 0 and the idle line, 0xE8 with four ones and parity 1.
+// The receiver takes the stop bit as parity and the next start bit as stop bit. It then finds an
+// edge inside the second character: 0 0 0 1 0 and the idle line, 0xE8 with four ones and parity 1.
 TEST(Uart, MissingParityShiftsIntoTheNextCharacter) {
   const Reading reading = read({0x43, 0x43}, n81, {9600, 8, 'E', 1});
   EXPECT_TRUE(reading.bursts.empty());
@@ -75,8 +76,8 @@ TEST(Uart, EvenReadAsOddIsAlwaysAParityError) {
   EXPECT_EQ(reading.errors, (LineErrors{.parity = 256, .framing = 0}));
 }
 
-// 0x55 at 9600 is 00 11 00 11 00 11 00 11 00 11 in bits of 19200: the first ten end in a low stop bit. The next edge is
-// that of bit 12: 0 0 1 1 0 0 1 1, then idle: 0xE6.
+// 0x55 at 9600 is 00 11 00 11 00 11 00 11 00 11 in bits of 19200: the first ten end in a low stop
+// bit. The next edge is that of bit 12: 0 0 1 1 0 0 1 1, then idle: 0xE6.
 TEST(Uart, HalfSpeedReadAtDoubleSpeed) {
   const LineSettings fast{19200, 8, 'N', 1};
   const Reading reading = read({0x55}, n81, fast);
@@ -87,7 +88,8 @@ TEST(Uart, HalfSpeedReadAtDoubleSpeed) {
   EXPECT_EQ(bytes_of(read({0xFF}, n81, fast)), (Bytes{0xFE}));  // the start bit is also its bit 0
 }
 
-// The receiver samples the sender's bits 1, 4, 7, 10 ...: start 0, then bits 3 and 6 of the byte, then the idle line.
+// The receiver samples the sender's bits 1, 4, 7, 10 ...: start 0, then bits 3 and 6 of the byte,
+// then the idle line.
 TEST(Uart, TripleSpeedReadSlowly) {
   const LineSettings sender{57600, 8, 'N', 1}, receiver{19200, 8, 'N', 1};
   EXPECT_EQ(bytes_of(read({0x80}, sender, receiver)), (Bytes{0xFC}));

@@ -94,9 +94,12 @@ LsRequest parse_ls_request(ByteView frame, LsWriteOrder order) {
   const ByteView summed = frame.subspan(1, frame.size() - 4);
   request.station = hex_value(summed.first(2));
   request.command = static_cast<char>(summed[2]);
-  if (hex_value(frame.subspan(frame.size() - 3, 2)) != ls_sum(summed)) request.fault = LsFault::frame;
-  else if (request.command != 'R' && request.command != 'W') request.fault = LsFault::function;
-  else request.fault = parse_content(summed.subspan(3), order, request);
+  if (hex_value(frame.subspan(frame.size() - 3, 2)) != ls_sum(summed))
+    request.fault = LsFault::frame;
+  else if (request.command != 'R' && request.command != 'W')
+    request.fault = LsFault::function;
+  else
+    request.fault = parse_content(summed.subspan(3), order, request);
   return request;
 }
 
@@ -106,7 +109,8 @@ Bytes encode_ls_request(const LsRequest& request, LsWriteOrder order) {
   const bool write = request.command == 'W';
   const bool count_first = write && order == LsWriteOrder::count_first;
   append(frame, count_first ? count + address : address + count);
-  if (write) append_words(frame, std::span(request.data).first(std::min(request.count, ls_max_words)));
+  if (write)
+    append_words(frame, std::span(request.data).first(std::min(request.count, ls_max_words)));
   end_frame(frame);
   return frame;
 }
@@ -155,7 +159,8 @@ std::optional<unsigned> parse_ls_address(std::string_view text) {
 }
 
 Byte ls_sum(ByteView between_header_and_sum) {
-  return static_cast<Byte>(std::accumulate(between_header_and_sum.begin(), between_header_and_sum.end(), 0u));
+  return static_cast<Byte>(
+      std::accumulate(between_header_and_sum.begin(), between_header_and_sum.end(), 0u));
 }
 
 bool LsReceiver::take(Byte b) {

@@ -9,7 +9,8 @@ constexpr auto address_first = LsWriteOrder::address_first, count_first = LsWrit
 
 Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
-// The examples of 000 and 003 8.2: the manual prints the bytes but for the sum, which is added up by hand here.
+// The examples of 000 and 003 8.2: the manual prints the bytes but for the sum, which is added up
+// by hand here.
 const Bytes read_request = bytes("05 30 31 52 31 32 33 30 31 41 41 04");
 const Bytes read_ack = bytes("06 30 31 52 31 32 33 34 37 44 04");
 const Bytes read_nak = bytes("15 30 31 52 31 32 31 36 04");
@@ -25,7 +26,9 @@ Bytes request(std::string_view body) {
   return to_bytes('\x05' + std::string(body) + hex_number(sum & 0xFF, 2) + '\x04');
 }
 
-LsFault fault_of(std::string_view body, LsWriteOrder order = address_first) { return parse_ls_request(request(body), order).fault; }
+LsFault fault_of(std::string_view body, LsWriteOrder order = address_first) {
+  return parse_ls_request(request(body), order).fault;
+}
 
 TEST(LsCodec, ReadsTheManualsRequests) {
   const LsRequest read = parse_ls_request(read_request, address_first);
@@ -34,7 +37,8 @@ TEST(LsCodec, ReadsTheManualsRequests) {
   EXPECT_EQ(read.command, 'R');
   EXPECT_EQ(read.address, 0x1230u);
   EXPECT_EQ(read.count, 1u);
-  for (const auto& [frame, order] : {std::pair{write_address_first, address_first}, {write_count_first, count_first}}) {
+  for (const auto& [frame, order] :
+       {std::pair{write_address_first, address_first}, {write_count_first, count_first}}) {
     const LsRequest write = parse_ls_request(frame, order);
     EXPECT_EQ(write.fault, LsFault::none);
     EXPECT_EQ(write.command, 'W');
@@ -48,12 +52,16 @@ TEST(LsCodec, TheOrderOfAWriteIsNotGuessed) {
   // 1000, one word, 00FF; read the other way it is one word, 00FF, for 0001.
   EXPECT_EQ(parse_ls_request(request("01W1000100FF"), address_first).address, 0x1000u);
   EXPECT_EQ(parse_ls_request(request("01W1000100FF"), count_first).address, 0x0001u);
-  EXPECT_EQ(parse_ls_request(read_request, count_first).address, 0x1230u) << "the order is that of writes alone";
+  EXPECT_EQ(parse_ls_request(read_request, count_first).address, 0x1230u)
+      << "the order is that of writes alone";
 }
 
 TEST(LsCodec, WritesTheManualsFrames) {
-  EXPECT_EQ(encode_ls_request({.station = 1, .command = 'R', .address = 0x1230, .count = 1}, address_first), read_request);
-  const LsRequest write{.station = 1, .command = 'W', .address = 0x1230, .count = 1, .data = {0x00FF}};
+  EXPECT_EQ(encode_ls_request({.station = 1, .command = 'R', .address = 0x1230, .count = 1},
+                              address_first),
+            read_request);
+  const LsRequest write{
+      .station = 1, .command = 'W', .address = 0x1230, .count = 1, .data = {0x00FF}};
   EXPECT_EQ(encode_ls_request(write, address_first), write_address_first);
   EXPECT_EQ(encode_ls_request(write, count_first), write_count_first);
   const std::uint16_t read_word = 0x1234, written_word = 0x00FF;
@@ -92,7 +100,8 @@ TEST(LsCodec, EachFieldHasItsFault) {
   EXPECT_EQ(fault_of("01W1230100FF0"), LsFault::data);
   EXPECT_EQ(fault_of("01W1230100FG"), LsFault::data);
   EXPECT_EQ(fault_of("01W1230200FF"), LsFault::data);
-  EXPECT_EQ(fault_of("01W9" + std::string("1230") + std::string(36, '0'), count_first), LsFault::data);
+  EXPECT_EQ(fault_of("01W9" + std::string("1230") + std::string(36, '0'), count_first),
+            LsFault::data);
   EXPECT_EQ(fault_of("01w1230100FF"), LsFault::function);
 }
 
@@ -100,12 +109,17 @@ TEST(LsCodec, TheSumIsLookedAtFirst) {
   Bytes frame = request("01X12301");
   frame[frame.size() - 2] ^= 1;
   EXPECT_EQ(parse_ls_request(frame, address_first).fault, LsFault::frame);
-  EXPECT_EQ(parse_ls_request(bytes("05 30 31 52 31 32 33 30 31 41 04"), address_first).fault, LsFault::frame) << "one digit is missing";
-  EXPECT_EQ(parse_ls_request(bytes("05 30 31 52 31 32 33 30 31 61 61 04"), address_first).fault, LsFault::none) << "lower-case digits";
+  EXPECT_EQ(parse_ls_request(bytes("05 30 31 52 31 32 33 30 31 41 04"), address_first).fault,
+            LsFault::frame)
+      << "one digit is missing";
+  EXPECT_EQ(parse_ls_request(bytes("05 30 31 52 31 32 33 30 31 61 61 04"), address_first).fault,
+            LsFault::none)
+      << "lower-case digits";
 }
 
 TEST(LsCodec, AFrameThatCannotBeAnsweredHasNoStation) {
-  EXPECT_EQ(parse_ls_request(bytes("05 30 31 39 32 04"), address_first).station, std::nullopt) << "no command";
+  EXPECT_EQ(parse_ls_request(bytes("05 30 31 39 32 04"), address_first).station, std::nullopt)
+      << "no command";
   EXPECT_EQ(parse_ls_request(bytes("05 04"), address_first).station, std::nullopt);
   EXPECT_EQ(parse_ls_request({}, address_first).station, std::nullopt);
   EXPECT_EQ(parse_ls_request(request("0GR12301"), address_first).station, std::nullopt);
@@ -137,19 +151,41 @@ std::vector<std::string> frames_in(std::string_view text) {
 TEST(LsReceiver, FindsFrames) {
   using ::testing::ElementsAre;
   using ::testing::IsEmpty;
-  EXPECT_THAT(frames_in("\x05" "abc\x04"), ElementsAre("abc"));
-  EXPECT_THAT(frames_in("noise\x04\x05" "abc\x04" "noise\x05" "def\x04"), ElementsAre("abc", "def"));
-  EXPECT_THAT(frames_in("\x05" "abc\x04" "def\x04"), ElementsAre("abc")) << "EOT ends it for good";
-  EXPECT_THAT(frames_in("\x05" "ab\x05" "cd\x04"), ElementsAre("cd")) << "ENQ begins anew";
-  EXPECT_THAT(frames_in("\x05" "abc"), IsEmpty());
-  EXPECT_THAT(frames_in("\x05" "ab\x03\x04"), ElementsAre("ab\x03"));
+  EXPECT_THAT(frames_in("\x05"
+                        "abc\x04"),
+              ElementsAre("abc"));
+  EXPECT_THAT(frames_in("noise\x04\x05"
+                        "abc\x04"
+                        "noise\x05"
+                        "def\x04"),
+              ElementsAre("abc", "def"));
+  EXPECT_THAT(frames_in("\x05"
+                        "abc\x04"
+                        "def\x04"),
+              ElementsAre("abc"))
+      << "EOT ends it for good";
+  EXPECT_THAT(frames_in("\x05"
+                        "ab\x05"
+                        "cd\x04"),
+              ElementsAre("cd"))
+      << "ENQ begins anew";
+  EXPECT_THAT(frames_in("\x05"
+                        "abc"),
+              IsEmpty());
+  EXPECT_THAT(frames_in("\x05"
+                        "ab\x03\x04"),
+              ElementsAre("ab\x03"));
 }
 
 TEST(LsReceiver, DropsWhatHasNoEnd) {
   const std::string longest(LsReceiver::buffer_size - 2, 'x');
   EXPECT_EQ(frames_in('\x05' + longest + '\x04').size(), 1u);
   EXPECT_EQ(frames_in('\x05' + longest + "x\x04").size(), 0u);
-  EXPECT_EQ(frames_in('\x05' + longest + "xyz\x05" "abc\x04").size(), 1u);
+  EXPECT_EQ(frames_in('\x05' + longest +
+                      "xyz\x05"
+                      "abc\x04")
+                .size(),
+            1u);
 }
 
 TEST(LsReceiver, ResetForgetsTheFrameInProgress) {

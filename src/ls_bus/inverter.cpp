@@ -13,14 +13,18 @@ namespace {
 constexpr std::size_t digits_of_a_word = 4;
 
 /// The parameter at the back door's `address`, if `words` words exist from there on.
-Result<unsigned> find_parameter(const InverterParameters& parameters, std::string_view address, std::size_t words) {
+Result<unsigned> find_parameter(const InverterParameters& parameters, std::string_view address,
+                                std::size_t words) {
   const std::optional<unsigned> first = parse_ls_address(address);
-  if (!first) return fail(fmt::format("cannot find parameter '{}': it is not four hex digits such as 1230", address));
+  if (!first)
+    return fail(
+        fmt::format("cannot find parameter '{}': it is not four hex digits such as 1230", address));
   if (parameters.exist(*first, static_cast<unsigned>(words))) return *first;
   std::string known;
   for (const ParameterRange& range : inverter_ranges())
     known += fmt::format("{}{:04X}-{:04X}", known.empty() ? "" : ", ", range.first, range.last);
-  return fail(fmt::format("cannot find {} word{} at parameter {}: the inverter has {}", words, words == 1 ? "" : "s", address, known));
+  return fail(fmt::format("cannot find {} word{} at parameter {}: the inverter has {}", words,
+                          words == 1 ? "" : "s", address, known));
 }
 }  // namespace
 
@@ -37,7 +41,8 @@ void Inverter::receive(const Burst& burst) {
 LsFault Inverter::check(const LsRequest& request) const {
   if (request.fault != LsFault::none) return request.fault;
   if (!parameters_.exist(request.address, request.count)) return LsFault::range;
-  if (request.command == 'W' && !parameters_.writable(request.address, request.count)) return LsFault::rights;
+  if (request.command == 'W' && !parameters_.writable(request.address, request.count))
+    return LsFault::rights;
   return LsFault::none;
 }
 
@@ -57,8 +62,12 @@ Bytes Inverter::answer(ByteView frame) {
 Status Inverter::set(std::string_view address, std::string_view hex) {
   const Bytes digits = to_bytes(hex);
   const std::optional<std::vector<std::uint16_t>> words = ls_words(digits);
-  if (!words) return fail(fmt::format("cannot set parameter {} to '{}': write four hex digits a word", address, hex));
-  if (words->empty()) return fail(fmt::format("cannot set parameter {}: there is no value; write four hex digits a word", address));
+  if (!words)
+    return fail(
+        fmt::format("cannot set parameter {} to '{}': write four hex digits a word", address, hex));
+  if (words->empty())
+    return fail(fmt::format(
+        "cannot set parameter {}: there is no value; write four hex digits a word", address));
   const Result<unsigned> first = find_parameter(parameters_, address, words->size());
   if (!first) return first.error();
   for (unsigned i = 0; i < words->size(); ++i) parameters_.write(*first + i, (*words)[i]);
@@ -66,15 +75,18 @@ Status Inverter::set(std::string_view address, std::string_view hex) {
 }
 
 Result<std::string> Inverter::get(std::string_view address, std::size_t digits) const {
-  if (address.starts_with('@')) return fail(fmt::format("cannot get {}: an inverter has no counters", address));
+  if (address.starts_with('@'))
+    return fail(fmt::format("cannot get {}: an inverter has no counters", address));
   const std::size_t wanted = digits == 0 ? digits_of_a_word : digits;
   if (wanted % digits_of_a_word != 0)
-    return fail(fmt::format("cannot get {} digits at parameter {}: a word has four", wanted, address));
+    return fail(
+        fmt::format("cannot get {} digits at parameter {}: a word has four", wanted, address));
   const std::size_t words = wanted / digits_of_a_word;
   const Result<unsigned> first = find_parameter(parameters_, address, words);
   if (!first) return first.error();
   std::string value;
-  for (unsigned i = 0; i < words; ++i) value += hex_number(parameters_.read(*first + i), digits_of_a_word);
+  for (unsigned i = 0; i < words; ++i)
+    value += hex_number(parameters_.read(*first + i), digits_of_a_word);
   return value;
 }
 
@@ -88,8 +100,11 @@ Status Inverter::act(std::string_view action) {
 }
 
 Result<InverterConfig> parse_inverter_config(const nlohmann::json& config) {
-  constexpr std::array<std::string_view, 10> keys{"bench_line", "delay_ms",   "inter_character_floor_ms", "line",    "model",
-                                                  "neighbours", "protocol",   "rs485",                    "station", "write_order"};
+  constexpr std::array<std::string_view, 10> keys{
+      "bench_line", "delay_ms", "inter_character_floor_ms",
+      "line",       "model",    "neighbours",
+      "protocol",   "rs485",    "station",
+      "write_order"};
   constexpr const char* what = "the inverter's configuration";
   if (const Status known = known_keys(config, what, keys); !known) return known.error();
   InverterConfig inverter;

@@ -27,16 +27,20 @@ std::string shown(ByteView reply) {
   const std::string text = to_text(reply);
   if (text.size() < 4) return "no frame: " + to_hex(reply);
   const std::string body = text.substr(1, text.size() - 4);
-  if (framed(text[0], body) != Bytes(reply.begin(), reply.end())) return "wrong form: " + to_hex(reply);
+  if (framed(text[0], body) != Bytes(reply.begin(), reply.end()))
+    return "wrong form: " + to_hex(reply);
   return (text[0] == '\x06' ? "ACK " : text[0] == '\x15' ? "NAK " : "? ") + body;
 }
 
-std::string ask(Inverter& inverter, std::string_view body) { return shown(inverter.answer(enq(body))); }
+std::string ask(Inverter& inverter, std::string_view body) {
+  return shown(inverter.answer(enq(body)));
+}
 
 TEST(Inverter, ReadsAndWritesAsTheManualHasIt) {
   Inverter inverter({});
   ASSERT_TRUE(inverter.set("1230", "1234"));
-  EXPECT_EQ(to_hex(inverter.answer(*from_hex("05 30 31 52 31 32 33 30 31 41 41 04"))), "06 30 31 52 31 32 33 34 37 44 04");
+  EXPECT_EQ(to_hex(inverter.answer(*from_hex("05 30 31 52 31 32 33 30 31 41 41 04"))),
+            "06 30 31 52 31 32 33 34 37 44 04");
   EXPECT_EQ(to_hex(inverter.answer(*from_hex("05 30 31 57 31 32 33 30 31 30 30 46 46 39 42 04"))),
             "06 30 31 57 30 30 46 46 41 34 04");
   EXPECT_EQ(*inverter.get("1230", 4), "00FF");
@@ -51,7 +55,8 @@ TEST(Inverter, ReadsOneToEightWords) {
       "0FF0C33C";
   ASSERT_TRUE(inverter.set("0100", words));
   for (unsigned count = 1; count <= ls_max_words; ++count)
-    EXPECT_EQ(ask(inverter, "01R0100" + std::to_string(count)), "ACK 01R" + words.substr(0, 4 * count));
+    EXPECT_EQ(ask(inverter, "01R0100" + std::to_string(count)),
+              "ACK 01R" + words.substr(0, 4 * count));
 }
 
 TEST(Inverter, WritesOneToEightWordsAndNothingBeyond) {
@@ -181,8 +186,10 @@ TEST(Inverter, BackDoor) {
   EXPECT_TRUE(inverter.set("h0000", "123456789ABC")) << "rights do not bind it";
   EXPECT_EQ(*inverter.get("0001", 0), "5678");
   EXPECT_EQ(*inverter.get("H0000", 12), "123456789ABC");
-  EXPECT_THAT(inverter.set("1000", "0001").error().message, HasSubstr("the inverter has 0000-0003"));
-  EXPECT_THAT(inverter.set("0FFF", "00010002").error().message, HasSubstr("2 words at parameter 0FFF"));
+  EXPECT_THAT(inverter.set("1000", "0001").error().message,
+              HasSubstr("the inverter has 0000-0003"));
+  EXPECT_THAT(inverter.set("0FFF", "00010002").error().message,
+              HasSubstr("2 words at parameter 0FFF"));
   EXPECT_THAT(inverter.set("%MW100", "0001").error().message, HasSubstr("not four hex digits"));
   EXPECT_THAT(inverter.set("1230", "001").error().message, HasSubstr("four hex digits a word"));
   EXPECT_THAT(inverter.set("1230", "").error().message, HasSubstr("there is no value"));
@@ -214,7 +221,8 @@ TEST(InverterConfig, ErrorsNameTheKey) {
     return inverter ? "" : inverter.error().message;
   };
   EXPECT_THAT(error_of({{"station", 256}}), HasSubstr("station is 256"));
-  EXPECT_THAT(error_of({{"write_order", "adress_first"}}), HasSubstr("address_first or count_first"));
+  EXPECT_THAT(error_of({{"write_order", "adress_first"}}),
+              HasSubstr("address_first or count_first"));
   EXPECT_THAT(error_of({{"line", "9600-9N1"}}), HasSubstr("9600-9N1"));
   EXPECT_THAT(error_of({{"delay_ms", -1}}), HasSubstr("delay_ms"));
   EXPECT_THAT(error_of({{"write_oder", "count_first"}}), HasSubstr("did you mean 'write_order'"));

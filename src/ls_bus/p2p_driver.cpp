@@ -22,7 +22,8 @@ class LsBusP2pDriver : public P2pDriver {
   Status check(const P2pBlock& block, const PlcModel& model) const override;
   Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override;
   bool awaits_reply(const P2pBlock&) const override { return true; }
-  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const override;
+  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
+                                    PlcMemory& memory) const override;
 
   void receive(const Burst& burst, FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
@@ -50,15 +51,25 @@ Status LsBusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
     return fail("function is neither read nor write; an LS Bus client has no other (8.1.2)");
   if (block.type != 'W') return fail("type is not word; the LS Bus has no other (8.2)");
   if (block.variables.size() != 1)
-    return fail(fmt::format("there are {} variables; an LS Bus block has one, and a run of up to {} words", block.variables.size(), ls_max_words));
+    return fail(
+        fmt::format("there are {} variables; an LS Bus block has one, and a run of up to {} words",
+                    block.variables.size(), ls_max_words));
   const unsigned count = block.elements();
-  if (count == 0 || count > ls_max_words) return fail(fmt::format("size is {}; an LS Bus block has 1 to {} words (8.2)", count, ls_max_words));
+  if (count == 0 || count > ls_max_words)
+    return fail(
+        fmt::format("size is {}; an LS Bus block has 1 to {} words (8.2)", count, ls_max_words));
   const char *own = writes(block) ? "read" : "save", *partner = writes(block) ? "save" : "read";
   const std::string& text = block.variables.front().partner;
   const std::optional<unsigned> address = parse_ls_address(text);
-  if (!address) return fail(fmt::format("{} '{}' is no address of an inverter; write four hex digits, such as 1230", partner, text));
-  if (*address + count > addresses) return fail(fmt::format("{} '{}' and the {} words from there on go past FFFF", partner, text, count));
-  if (block.variables.front().own.type != 'W') return fail(fmt::format("{} is not a word of this PLC; name one such as %MW100", own));
+  if (!address)
+    return fail(
+        fmt::format("{} '{}' is no address of an inverter; write four hex digits, such as 1230",
+                    partner, text));
+  if (*address + count > addresses)
+    return fail(
+        fmt::format("{} '{}' and the {} words from there on go past FFFF", partner, text, count));
+  if (block.variables.front().own.type != 'W')
+    return fail(fmt::format("{} is not a word of this PLC; name one such as %MW100", own));
   return ok();
 }
 
@@ -68,12 +79,15 @@ Result<Bytes> LsBusP2pDriver::request(const P2pBlock& block, const PlcMemory& me
            .command = writes(block) ? 'W' : 'R',
            .address = *parse_ls_address(variable.partner),
            .count = block.elements()};
-  for (unsigned i = 0; writes(block) && i < sent_.count; ++i) sent_.data.at(i) = static_cast<std::uint16_t>(memory.read(variable.own + i));
+  for (unsigned i = 0; writes(block) && i < sent_.count; ++i)
+    sent_.data.at(i) = static_cast<std::uint16_t>(memory.read(variable.own + i));
   return encode_ls_request(sent_, write_order_);
 }
 
-std::optional<std::uint16_t> LsBusP2pDriver::take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const {
-  constexpr std::size_t code_size = 2;  // of a NAK (8.2.1; the four of 8.1.1 contradict every format)
+std::optional<std::uint16_t> LsBusP2pDriver::take(const P2pBlock& block, ByteView frame,
+                                                  PlcMemory& memory) const {
+  constexpr std::size_t code_size =
+      2;  // of a NAK (8.2.1; the four of 8.1.1 contradict every format)
   const LsReply reply = parse_ls_reply(frame);
   if (!reply.whole) return p2p_error::length;
   if (!reply.sum_right) return p2p_error::bcc;
@@ -84,13 +98,17 @@ std::optional<std::uint16_t> LsBusP2pDriver::take(const P2pBlock& block, ByteVie
   return take_ack(block, reply, memory);
 }
 
-std::uint16_t LsBusP2pDriver::take_ack(const P2pBlock& block, const LsReply& reply, PlcMemory& memory) const {
+std::uint16_t LsBusP2pDriver::take_ack(const P2pBlock& block, const LsReply& reply,
+                                       PlcMemory& memory) const {
   constexpr std::size_t digits_of_a_word = 4;
   if (reply.content.size() != digits_of_a_word * sent_.count) return p2p_error::length;
   const std::optional<std::vector<std::uint16_t>> words = ls_words(reply.content);
   if (!words) return p2p_error::not_hex;
-  if (writes(block)) return std::equal(words->begin(), words->end(), sent_.data.begin()) ? p2p_error::none : p2p_error::driver;
-  for (std::uint32_t i = 0; i < sent_.count; ++i) memory.write(block.variables.front().own + i, (*words)[i]);
+  if (writes(block))
+    return std::equal(words->begin(), words->end(), sent_.data.begin()) ? p2p_error::none
+                                                                        : p2p_error::driver;
+  for (std::uint32_t i = 0; i < sent_.count; ++i)
+    memory.write(block.variables.front().own + i, (*words)[i]);
   return p2p_error::none;
 }
 

@@ -20,21 +20,28 @@ constexpr Duration gap = 4ms;
 /// Header, body with its sum, EOT.
 Bytes frame(Byte header, std::string_view body) {
   const Bytes summed = to_bytes(body);
-  return to_bytes(static_cast<char>(header) + std::string(body) + hex_number(ls_sum(summed), 2) + '\x04');
+  return to_bytes(static_cast<char>(header) + std::string(body) + hex_number(ls_sum(summed), 2) +
+                  '\x04');
 }
 Bytes ack(std::string_view body) { return frame(ls_ack, body); }
 Bytes nak(std::string_view body) { return frame(ls_nak, body); }
 
 class LsBusP2p : public testing::Test {
  protected:
-  void set(std::string_view address, std::string_view digits) { EXPECT_TRUE(set_by_name(memory, address, digits)); }
-  std::string get(std::string_view address, std::size_t digits = 0) { return *get_by_name(memory, address, digits); }
+  void set(std::string_view address, std::string_view digits) {
+    EXPECT_TRUE(set_by_name(memory, address, digits));
+  }
+  std::string get(std::string_view address, std::size_t digits = 0) {
+    return *get_by_name(memory, address, digits);
+  }
   std::string ask(const P2pBlock& of) {
     const Status checked = driver->check(of, xbc);
     EXPECT_TRUE(checked) << checked.error().message;
     return to_text(*driver->request(of, memory));
   }
-  std::optional<std::uint16_t> answer(const P2pBlock& of, const Bytes& reply) { return driver->take(of, reply, memory); }
+  std::optional<std::uint16_t> answer(const P2pBlock& of, const Bytes& reply) {
+    return driver->take(of, reply, memory);
+  }
 
   PlcMemory memory{xbc};
   std::unique_ptr<P2pDriver> driver = make_ls_bus_p2p_driver(LsWriteOrder::address_first, gap);
@@ -43,12 +50,23 @@ class LsBusP2p : public testing::Test {
 /// The examples of 8.2, sums added up by hand.
 TEST_F(LsBusP2p, AsksAsTheExamplesDo) {
   set("%MW100", "00FF");
-  EXPECT_EQ(ask(p2p_write("1230", "%MW100")), "\x05" "01W1230100FF9B\x04");
-  EXPECT_EQ(ask(p2p_read("1230", "%MW100")), "\x05" "01R12301AA\x04");
-  EXPECT_EQ(ask(p2p_read("h1230", "%MW100", 1)), "\x05" "01R12301AA\x04");
+  EXPECT_EQ(ask(p2p_write("1230", "%MW100")),
+            "\x05"
+            "01W1230100FF9B\x04");
+  EXPECT_EQ(ask(p2p_read("1230", "%MW100")),
+            "\x05"
+            "01R12301AA\x04");
+  EXPECT_EQ(ask(p2p_read("h1230", "%MW100", 1)),
+            "\x05"
+            "01R12301AA\x04");
   driver = make_ls_bus_p2p_driver(LsWriteOrder::count_first, gap);
-  EXPECT_EQ(ask(p2p_write("1230", "%MW100")), "\x05" "01W1123000FF9B\x04");
-  EXPECT_EQ(ask(p2p_read("1230", "%MW100")), "\x05" "01R12301AA\x04") << "only a write has two orders";
+  EXPECT_EQ(ask(p2p_write("1230", "%MW100")),
+            "\x05"
+            "01W1123000FF9B\x04");
+  EXPECT_EQ(ask(p2p_read("1230", "%MW100")),
+            "\x05"
+            "01R12301AA\x04")
+      << "only a write has two orders";
 }
 
 TEST_F(LsBusP2p, EightWordsFillAFrame) {
@@ -101,10 +119,12 @@ TEST_F(LsBusP2p, RefusesParametersThatHaveNoFrame) {
     return checked ? std::string("accepted") : checked.error().message;
   };
   EXPECT_EQ(why(p2p_read("1230", "%MW100", 8)), "accepted");
-  EXPECT_THAT(why(p2p_read("1230", "%MW100", 9)), HasSubstr("size is 9; an LS Bus block has 1 to 8 words"));
+  EXPECT_THAT(why(p2p_read("1230", "%MW100", 9)),
+              HasSubstr("size is 9; an LS Bus block has 1 to 8 words"));
   EXPECT_THAT(why(p2p_read("1230", "%MX00100")), HasSubstr("type is not word"));
   for (const char* address : {"", "123", "12300", "123G", "%MW100", "h123"})
-    EXPECT_THAT(why(p2p_write(address, "%MW100")), HasSubstr("no address of an inverter")) << address;
+    EXPECT_THAT(why(p2p_write(address, "%MW100")), HasSubstr("no address of an inverter"))
+        << address;
   EXPECT_THAT(why(p2p_write("FFFF", "%MW100", 2)), HasSubstr("past FFFF"));
   EXPECT_EQ(why(p2p_write("FFFE", "%MW100", 2)), "accepted");
   P2pBlock odd = p2p_read("1230", "%MW100");
@@ -122,7 +142,8 @@ TEST_F(LsBusP2p, FindsRepliesAndTellsWhatIsNone) {
   Log log;
   const Bytes reply = ack("01R1234");
   driver->receive({to_bytes("\x05??"), 1ms, 1ms}, log);
-  EXPECT_EQ(log.broken, Broken{p2p_error::head}) << "the echo of a request, once for a run of bytes";
+  EXPECT_EQ(log.broken, Broken{p2p_error::head})
+      << "the echo of a request, once for a run of bytes";
   driver->receive({reply, 10ms, 1ms}, log);
   EXPECT_EQ(log.frames, std::vector<Bytes>{reply});
   EXPECT_EQ(driver->wake_at(), std::nullopt);
@@ -135,14 +156,20 @@ TEST_F(LsBusP2p, FindsRepliesAndTellsWhatIsNone) {
 
 TEST_F(LsBusP2p, SilenceWithoutTailEndsAFrame) {
   Log log;
-  driver->receive({to_bytes("\x06" "01R"), 10ms, 1ms}, log);
+  driver->receive({to_bytes("\x06"
+                            "01R"),
+                   10ms, 1ms},
+                  log);
   ASSERT_EQ(driver->wake_at(), 14ms + gap + 1ms + Duration(1));
   driver->advance(*driver->wake_at() - Duration(1), log);
   EXPECT_EQ(log.broken, Broken{});
   driver->advance(*driver->wake_at(), log);
   EXPECT_EQ(log.broken, Broken{p2p_error::tail});
   EXPECT_EQ(driver->wake_at(), std::nullopt);
-  driver->receive({to_bytes("\x06" "01R"), 50ms, 1ms}, log);
+  driver->receive({to_bytes("\x06"
+                            "01R"),
+                   50ms, 1ms},
+                  log);
   driver->reset();
   EXPECT_EQ(driver->wake_at(), std::nullopt);
 }

@@ -15,7 +15,8 @@ constexpr std::array<ParameterRange, 5> ranges{{
 }};
 
 const ParameterRange* range_of(unsigned address) {
-  const auto found = std::ranges::find_if(ranges, [=](const ParameterRange& r) { return r.first <= address && address <= r.last; });
+  const auto found = std::ranges::find_if(
+      ranges, [=](const ParameterRange& r) { return r.first <= address && address <= r.last; });
   return found == ranges.end() ? nullptr : &*found;
 }
 

@@ -1,7 +1,8 @@
 // ASCII frames: ':' to CR LF, at most one second between two characters (000 and 003 9.3.1 (1)).
 //
-// ':' inside a frame begins a new one. What stands between is not looked at here. The inter-character parameter of 003
-// 4.3.1 does not apply: its default of 3.5 characters would contradict the second.
+// ':' inside a frame begins a new one. What stands between is not looked at here. The
+// inter-character parameter of 003 4.3.1 does not apply: its default of 3.5 characters would
+// contradict the second.
 #pragma once
 
 #include "src/modbus/receiver.hpp"
@@ -13,8 +14,9 @@ class AsciiReceiver : public ModbusReceiver {
   /// Longest silence between two characters.
   static constexpr Duration max_gap = 1s;
 
-  /// Frames have at most ascii_max_frame characters; a longer one is dropped (service_status::too_long). Characters outside
-  /// a frame (once a run of them), and a frame without its end, are service_status::not_modbus.
+  /// Frames have at most ascii_max_frame characters; a longer one is dropped
+  /// (service_status::too_long). Characters outside a frame (once a run of them), and a frame
+  /// without its end, are service_status::not_modbus.
   void receive(const Burst& burst, FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
   void advance(Time now, FrameSink& sink) override;

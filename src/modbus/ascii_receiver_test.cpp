@@ -19,7 +19,9 @@ constexpr std::uint16_t broken = service_status::not_modbus;
 
 class AsciiReceiverTest : public ::testing::Test {
  protected:
-  void at(Time start, std::string_view text) { receiver.receive({to_bytes(text), start, character}, log); }
+  void at(Time start, std::string_view text) {
+    receiver.receive({to_bytes(text), start, character}, log);
+  }
 
   AsciiReceiver receiver;
   Log log;
@@ -46,7 +48,8 @@ TEST_F(AsciiReceiverTest, OnlyCrLfTogetherEnd) {
   at(9ms, "0\n\n\r\r");
   EXPECT_TRUE(log.frames.empty());
   at(15ms, "\n");
-  EXPECT_EQ(log.frames, Frames{to_bytes(":0107F8\r0\n\n\r\r\n")});  // no hex: counted when it is decoded
+  EXPECT_EQ(log.frames,
+            Frames{to_bytes(":0107F8\r0\n\n\r\r\n")});  // no hex: counted when it is decoded
 }
 
 TEST_F(AsciiReceiverTest, BytesBeforeTheColonCountOnceARun) {
@@ -115,7 +118,9 @@ TEST(AsciiReceiverFuzz, HowBytesAreCutIntoBurstsDoesNotMatter) {
     whole.receive({bytes, 0ms, character}, at_once);
     for (std::size_t from = 0; from < bytes.size();) {
       const std::size_t size = std::min<std::size_t>(1 + random() % 5, bytes.size() - from);
-      cut.receive({test::part(bytes, from, from + size), character * static_cast<int>(from), character}, in_parts);
+      cut.receive(
+          {test::part(bytes, from, from + size), character * static_cast<int>(from), character},
+          in_parts);
       from += size;
     }
     ASSERT_EQ(at_once.frames, in_parts.frames) << to_hex(bytes);

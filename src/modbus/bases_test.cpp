@@ -14,7 +14,9 @@ struct Placed {
   char area;
   std::uint32_t index, size;
   bool operator==(const Placed&) const = default;
-  friend void PrintTo(const Placed& p, std::ostream* out) { *out << p.area << ' ' << p.index << " size " << p.size; }
+  friend void PrintTo(const Placed& p, std::ostream* out) {
+    *out << p.area << ' ' << p.index << " size " << p.size;
+  }
 };
 
 Result<ModbusTables> tables(std::string_view name, ModbusBase base, const std::string& text) {
@@ -38,14 +40,15 @@ std::string error_of(std::string_view name, ModbusBase base, const std::string& 
   return all ? "" : all.error().message;
 }
 
-constexpr auto bit_read = ModbusBase::bit_read, bit_write = ModbusBase::bit_write, word_read = ModbusBase::word_read,
-               word_write = ModbusBase::word_write;
+constexpr auto bit_read = ModbusBase::bit_read, bit_write = ModbusBase::bit_write,
+               word_read = ModbusBase::word_read, word_write = ModbusBase::word_write;
 
 TEST(ModbusBases, Defaults) {
   EXPECT_EQ(default_modbus_bases(model("xbc-h")), (ModbusBases{"P0", "M0", "P0", "M0"}));
   EXPECT_EQ(default_modbus_bases(model("xbm-s")), (ModbusBases{"P0", "M0", "P0", "M0"}));
   EXPECT_EQ(default_modbus_bases(model("xec-h")), (ModbusBases{"I0", "M0", "I0", "M0"}));
-  for (const PlcModel& m : plc_models()) EXPECT_TRUE(place_modbus_tables(m, default_modbus_bases(m))) << m.name;
+  for (const PlcModel& m : plc_models())
+    EXPECT_TRUE(place_modbus_tables(m, default_modbus_bases(m))) << m.name;
 }
 
 // Figure 6.1.2 (000), and 003 11.3.1: 'P00110: bit 0 of word P11'.
@@ -90,16 +93,20 @@ TEST(ModbusBases, TableEndsAt9998OrWithItsArea) {
 
 TEST(ModbusBases, ErrorsNameTheBase) {
   EXPECT_EQ(error_of("xbc-h", bit_read, "Z0"),
-            "cannot place bit_read_base 'Z0' on xbc-h: the model has no such area; give a bit address such as M0010");
+            "cannot place bit_read_base 'Z0' on xbc-h: the model has no such area; give a bit "
+            "address such as M0010");
   EXPECT_EQ(error_of("xbm-s", word_write, "M256"),
-            "cannot place word_write_base 'M256' on xbm-s: it is beyond the area; give a word address such as M001");
+            "cannot place word_write_base 'M256' on xbm-s: it is beyond the area; give a word "
+            "address such as M001");
   EXPECT_THAT(error_of("xbm-s", bit_write, "M2560"), HasSubstr("bit_write_base 'M2560'"));
   EXPECT_THAT(error_of("xbc-h", word_read, "PX10"), HasSubstr("not a number"));
   EXPECT_THAT(error_of("xbc-h", bit_read, "PW10"), HasSubstr("not a number"));
-  EXPECT_THAT(error_of("xbc-h", bit_read, "D0"), HasSubstr("the type is not one that the area has"));
+  EXPECT_THAT(error_of("xbc-h", bit_read, "D0"),
+              HasSubstr("the type is not one that the area has"));
   EXPECT_THAT(error_of("xec-h", bit_read, "P0"), HasSubstr("no such area"));
   EXPECT_THAT(error_of("xbc-h", word_read, "I0"), HasSubstr("no such area"));
-  for (const char* text : {"", "%", "P", "PX", "100", "P-1", "P1 "}) EXPECT_NE(error_of("xbc-h", bit_read, text), "") << text;
+  for (const char* text : {"", "%", "P", "PX", "100", "P-1", "P1 "})
+    EXPECT_NE(error_of("xbc-h", bit_read, text), "") << text;
 }
 
 }  // namespace

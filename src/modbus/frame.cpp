@@ -26,14 +26,17 @@ ModbusFrame decode_rtu(ByteView frame) {
 }
 
 ModbusFrame decode_ascii(ByteView frame) {
-  if (frame.size() < 3 || frame[0] != colon || frame[frame.size() - 2] != cr || frame.back() != lf) {
+  if (frame.size() < 3 || frame[0] != colon || frame[frame.size() - 2] != cr ||
+      frame.back() != lf) {
     return {service_status::not_modbus};
   }
   const ByteView digits = frame.subspan(1, frame.size() - 3);
-  if (std::ranges::any_of(digits, [](Byte b) { return hex_digit(static_cast<char>(b)) < 0; })) return {service_status::not_hex};
+  if (std::ranges::any_of(digits, [](Byte b) { return hex_digit(static_cast<char>(b)) < 0; }))
+    return {service_status::not_hex};
   const std::optional<Bytes> bytes = from_hex(to_text(digits));
   if (!bytes) return {service_status::not_hex};
-  if (bytes->empty() || modbus_lrc(*bytes) != 0) return {service_status::not_modbus};  // with its LRC the sum is 0
+  if (bytes->empty() || modbus_lrc(*bytes) != 0)
+    return {service_status::not_modbus};  // with its LRC the sum is 0
   return opened(ByteView(*bytes).first(bytes->size() - 1));
 }
 }  // namespace

@@ -1,7 +1,8 @@
 // One Modbus frame: station and PDU, with the framing of its mode (000 and 003 9.3).
 //
 //   RTU    station, PDU, CRC low byte, CRC high byte
-//   ASCII  ':', station, PDU and LRC as two hex digits a byte, CR LF; replies in upper case, requests in either
+//   ASCII  ':', station, PDU and LRC as two hex digits a byte, CR LF; replies in upper case,
+//   requests in either
 #pragma once
 
 #include <cstddef>
@@ -18,8 +19,9 @@ constexpr std::size_t rtu_max_frame = 1 + modbus_max_pdu + 2;
 constexpr std::size_t ascii_max_frame = 1 + 2 * (1 + modbus_max_pdu + 1) + 2;
 
 struct ModbusFrame {
-  /// service_status (src/plc/counters.hpp): normal, or why it is none. not_modbus: too short (station, function and
-  /// check), wrong check, no ':' or CR LF. not_hex: a character that is no hex digit, or an odd number of digits.
+  /// service_status (src/plc/counters.hpp): normal, or why it is none. not_modbus: too short
+  /// (station, function and check), wrong check, no ':' or CR LF. not_hex: a character that is no
+  /// hex digit, or an odd number of digits.
   std::uint16_t fault = 0;
   Byte station = 0;
   Bytes pdu{};

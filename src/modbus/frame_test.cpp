@@ -46,34 +46,44 @@ TEST(RtuFrame, EachFlippedBitIsAWrongCheck) {
   for (std::size_t bit = 0; bit < 8 * frame.size(); ++bit) {
     Bytes spoiled = frame;
     spoiled[bit / 8] = static_cast<Byte>(spoiled[bit / 8] ^ 1 << bit % 8);
-    EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, spoiled).fault, service_status::not_modbus) << bit;
+    EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, spoiled).fault, service_status::not_modbus)
+        << bit;
   }
 }
 
 TEST(RtuFrame, LowByteOfTheCrcComesFirst) {
-  EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex("11 03 00 6B 00 03 87 76")).fault, service_status::not_modbus);
+  EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex("11 03 00 6B 00 03 87 76")).fault,
+            service_status::not_modbus);
 }
 
 TEST(RtuFrame, ShortestIsStationFunctionAndCheck) {
   EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex("02 07 41 12")).pdu, hex("07"));
-  for (const char* text : {"", "02", "02 07", "02 07 41", "FF FF", "01 7E 80"}) {  // FF FF: CRC of nothing; 7E 80: of 01
-    EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex(text)).fault, service_status::not_modbus) << text;
+  for (const char* text : {"", "02", "02 07", "02 07 41", "FF FF",
+                           "01 7E 80"}) {  // FF FF: CRC of nothing; 7E 80: of 01
+    EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex(text)).fault, service_status::not_modbus)
+        << text;
   }
 }
 
-std::uint16_t ascii_fault(std::string_view text) { return decode_modbus_frame(ModbusMode::ascii, to_bytes(text)).fault; }
+std::uint16_t ascii_fault(std::string_view text) {
+  return decode_modbus_frame(ModbusMode::ascii, to_bytes(text)).fault;
+}
 
 TEST(AsciiFrame, PublishedFrame) {
-  EXPECT_EQ(to_text(encode_modbus_frame(ModbusMode::ascii, 0x11, hex("03 00 6B 00 03"))), ":1103006B00037E\r\n");
-  EXPECT_EQ(to_text(encode_modbus_frame(ModbusMode::ascii, 0x11, hex("03 06 AE 41 56 52 43 40"))), ":110306AE4156524340CC\r\n");
-  const ModbusFrame decoded = decode_modbus_frame(ModbusMode::ascii, to_bytes(":1103006B00037E\r\n"));
+  EXPECT_EQ(to_text(encode_modbus_frame(ModbusMode::ascii, 0x11, hex("03 00 6B 00 03"))),
+            ":1103006B00037E\r\n");
+  EXPECT_EQ(to_text(encode_modbus_frame(ModbusMode::ascii, 0x11, hex("03 06 AE 41 56 52 43 40"))),
+            ":110306AE4156524340CC\r\n");
+  const ModbusFrame decoded =
+      decode_modbus_frame(ModbusMode::ascii, to_bytes(":1103006B00037E\r\n"));
   EXPECT_EQ(decoded.fault, service_status::normal);
   EXPECT_EQ(decoded.station, 0x11);
   EXPECT_EQ(decoded.pdu, hex("03 00 6B 00 03"));
 }
 
 TEST(AsciiFrame, HexInEitherCase) {
-  EXPECT_EQ(decode_modbus_frame(ModbusMode::ascii, to_bytes(":1103006b00037e\r\n")).pdu, hex("03 00 6B 00 03"));
+  EXPECT_EQ(decode_modbus_frame(ModbusMode::ascii, to_bytes(":1103006b00037e\r\n")).pdu,
+            hex("03 00 6B 00 03"));
 }
 
 TEST(AsciiFrame, Faults) {

@@ -17,7 +17,8 @@ namespace fieldproof {
 namespace {
 class ModbusPlc : public EmulatedDevice, private FrameSink {
  public:
-  ModbusPlc(ModbusMode mode, const PlcModel& model, const PortConfig& port, const ModbusTables& tables)
+  ModbusPlc(ModbusMode mode, const PlcModel& model, const PortConfig& port,
+            const ModbusTables& tables)
       : mode_(mode),
         station_(port.station),
         delay_(port.reply_delay()),
@@ -32,12 +33,15 @@ class ModbusPlc : public EmulatedDevice, private FrameSink {
     return replies_.take(now);
   }
 
-  Status set(std::string_view address, std::string_view hex) override { return set_by_name(memory_, address, hex); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return set_by_name(memory_, address, hex);
+  }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
     if (address.starts_with('@')) return get_counter(counters_, address, digits);
     return get_by_name(memory_, address, digits);
   }
-  /// power_cycle: counters, replies and frames in progress are lost; memory stays. A server answers in RUN and STOP.
+  /// power_cycle: counters, replies and frames in progress are lost; memory stays. A server answers
+  /// in RUN and STOP.
   Status act(std::string_view action) override {
     const Result<DeviceAction> known = parse_device_action(action);
     if (!known) return known.error();
@@ -71,9 +75,11 @@ class ModbusPlc : public EmulatedDevice, private FrameSink {
 };
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_modbus_plc(ModbusMode mode, std::string_view model, const nlohmann::json& config) {
+Result<std::unique_ptr<EmulatedDevice>> make_modbus_plc(ModbusMode mode, std::string_view model,
+                                                        const nlohmann::json& config) {
   constexpr std::string_view what = "the Modbus server's configuration";
-  const auto keys = port_keys({"bit_read_base", "bit_write_base", "word_read_base", "word_write_base"});
+  const auto keys =
+      port_keys({"bit_read_base", "bit_write_base", "word_read_base", "word_write_base"});
   if (config.is_object() && config.contains("role") && config["role"] == "client") {
     return fail("cannot make a Modbus server of role client; leave role out, or give server");
   }
@@ -86,7 +92,8 @@ Result<std::unique_ptr<EmulatedDevice>> make_modbus_plc(ModbusMode mode, std::st
   const Result<const PlcModel*> known = check_port_config(port);
   if (!known) return known.error();
   ModbusBases bases = default_modbus_bases(**known);
-  for (std::size_t i = 0; i < bases.size(); ++i) reader.text((std::string(modbus_base_names[i]) + "_base").c_str(), bases[i]);
+  for (std::size_t i = 0; i < bases.size(); ++i)
+    reader.text((std::string(modbus_base_names[i]) + "_base").c_str(), bases[i]);
   if (reader.error()) return *reader.error();
   const Result<ModbusTables> tables = place_modbus_tables(**known, bases);
   if (!tables) return tables.error();

@@ -62,7 +62,8 @@ TEST(ModbusPlc, PublishedExchanges) {
       {"11 10 00 01 00 02 04 00 0A 01 02 C6 F0", "11 10 00 01 00 02 12 98"},
   };
   Time now{};
-  for (const auto& [request, reply] : exchanges) EXPECT_EQ(to_hex(ask(*plc, now += 1s, hex(request))), reply) << request;
+  for (const auto& [request, reply] : exchanges)
+    EXPECT_EQ(to_hex(ask(*plc, now += 1s, hex(request))), reply) << request;
   EXPECT_EQ(*plc->get("%MW1", 8), "000A0102");
   EXPECT_EQ(*plc->get("@services", 0), "0008");
   EXPECT_EQ(*plc->get("@errors", 0), "0000");
@@ -76,14 +77,16 @@ TEST(ModbusPlc, PublishedAsciiExchange) {
 }
 
 TEST(ModbusPlc, LongestReplies) {
-  const Device plc = plc_of(ModbusMode::rtu, {{"station", 1}}), text = plc_of(ModbusMode::ascii, {{"station", 1}});
+  const Device plc = plc_of(ModbusMode::rtu, {{"station", 1}}),
+               text = plc_of(ModbusMode::ascii, {{"station", 1}});
   EXPECT_EQ(ask(*plc, 0s, rtu("01 01 00 00 07 D0")).size(), 255u);
   EXPECT_EQ(ask(*plc, 1s, rtu("01 03 00 00 00 7D")).size(), 255u);
   EXPECT_EQ(ask(*text, 0s, ascii("01 01 00 00 07 D0")).size(), 511u);
 }
 
 TEST(ModbusPlc, LongestRequests) {
-  const Bytes coils = hex("01 0F 00 00 07 B0 F6") + Bytes(246, 0xFF), words = hex("01 10 00 00 00 78 F0") + Bytes(240, 0xFF);
+  const Bytes coils = hex("01 0F 00 00 07 B0 F6") + Bytes(246, 0xFF),
+              words = hex("01 10 00 00 00 78 F0") + Bytes(240, 0xFF);
   for (const ModbusMode mode : {ModbusMode::rtu, ModbusMode::ascii}) {
     const Device plc = plc_of(mode, {{"station", 1}});
     const auto written = [&](Time at, const Bytes& content) {
@@ -121,30 +124,31 @@ void expect_silence(ModbusMode mode, const std::vector<Silence>& rows) {
 
 TEST(ModbusPlc, RtuSilence) {
   expect_silence(ModbusMode::rtu, {
-      {"another station", rtu("02 06 00 00 00 01"), "09"},
-      {"station 0", rtu("00 06 00 00 00 01"), "09"},
-      {"wrong CRC", hex("01 06 00 00 00 01 48 0B"), "0C"},
-      {"CRC high byte first", hex("01 06 00 00 00 01 0A 48"), "0C"},
-      {"three bytes", hex("01 7E 80"), "0C"},
-      {"one byte", hex("01"), "0C"},
-      {"an ASCII frame", ascii("01 06 00 00 00 01"), "0C"},
-      {"257 bytes", Bytes(257, 1), "0B"},
-  });
+                                      {"another station", rtu("02 06 00 00 00 01"), "09"},
+                                      {"station 0", rtu("00 06 00 00 00 01"), "09"},
+                                      {"wrong CRC", hex("01 06 00 00 00 01 48 0B"), "0C"},
+                                      {"CRC high byte first", hex("01 06 00 00 00 01 0A 48"), "0C"},
+                                      {"three bytes", hex("01 7E 80"), "0C"},
+                                      {"one byte", hex("01"), "0C"},
+                                      {"an ASCII frame", ascii("01 06 00 00 00 01"), "0C"},
+                                      {"257 bytes", Bytes(257, 1), "0B"},
+                                  });
 }
 
 TEST(ModbusPlc, AsciiSilence) {
-  expect_silence(ModbusMode::ascii, {
-      {"another station", ascii("02 06 00 00 00 01"), "09"},
-      {"station 0", ascii("00 06 00 00 00 01"), "09"},
-      {"wrong LRC", to_bytes(":010600000001F9\r\n"), "0C"},
-      {"odd digits", to_bytes(":010600000001F\r\n"), "0D"},
-      {"no hex digit", to_bytes(":01060000000GF8\r\n"), "0D"},
-      {"no end", to_bytes(":010600000001F8"), "0C"},
-      {"no LF", to_bytes(":010600000001F8\r"), "0C"},
-      {"no CR", to_bytes(":010600000001F8\n"), "0C"},
-      {"no colon", to_bytes("010600000001F8\r\n"), "0C"},
-      {"514 characters", to_bytes(":" + std::string(511, '0') + "\r\n"), "0B"},
-  });
+  expect_silence(ModbusMode::ascii,
+                 {
+                     {"another station", ascii("02 06 00 00 00 01"), "09"},
+                     {"station 0", ascii("00 06 00 00 00 01"), "09"},
+                     {"wrong LRC", to_bytes(":010600000001F9\r\n"), "0C"},
+                     {"odd digits", to_bytes(":010600000001F\r\n"), "0D"},
+                     {"no hex digit", to_bytes(":01060000000GF8\r\n"), "0D"},
+                     {"no end", to_bytes(":010600000001F8"), "0C"},
+                     {"no LF", to_bytes(":010600000001F8\r"), "0C"},
+                     {"no CR", to_bytes(":010600000001F8\n"), "0C"},
+                     {"no colon", to_bytes("010600000001F8\r\n"), "0C"},
+                     {"514 characters", to_bytes(":" + std::string(511, '0') + "\r\n"), "0B"},
+                 });
 }
 
 TEST(ModbusPlc, StationZeroAnswersWhereItIsItsOwn) {
@@ -210,8 +214,11 @@ TEST(ModbusPlc, DelayOnlyWithRs485) {
 }
 
 TEST(ModbusPlc, BasesFromTheConfiguration) {
-  const Device plc = plc_of(ModbusMode::rtu, {{"station", 1}, {"bit_read_base", "P0100"}, {"bit_write_base", "K0010"},
-                                              {"word_read_base", "P020"}, {"word_write_base", "D100"}});
+  const Device plc = plc_of(ModbusMode::rtu, {{"station", 1},
+                                              {"bit_read_base", "P0100"},
+                                              {"bit_write_base", "K0010"},
+                                              {"word_read_base", "P020"},
+                                              {"word_write_base", "D100"}});
   ASSERT_TRUE(plc->set("%PX0100", "01"));
   ASSERT_TRUE(plc->set("%PW20", "2020"));
   EXPECT_EQ(ask(*plc, 0s, rtu("01 02 00 00 00 01")), rtu("01 02 01 01"));
@@ -232,18 +239,27 @@ TEST(ModbusPlc, XecDefaults) {
 }
 
 TEST(ModbusPlc, KeysOfOthersArePassedOver) {
-  EXPECT_EQ(error_of({{"neighbours", {2}}, {"bench_line", "1200"}, {"protocol", "modbus-rtu"}, {"model", "xbc-h"}, {"role", "server"}}), "");
+  EXPECT_EQ(error_of({{"neighbours", {2}},
+                      {"bench_line", "1200"},
+                      {"protocol", "modbus-rtu"},
+                      {"model", "xbc-h"},
+                      {"role", "server"}}),
+            "");
 }
 
 TEST(ModbusPlc, ErrorsSayWhatIsAllowed) {
   EXPECT_EQ(error_of({{"bit_base", "P0"}}),
-            "cannot read the Modbus server's configuration: there is no key 'bit_base'; the keys are bench_line, bit_read_base, "
-            "bit_write_base, delay_ms, inter_character_floor_ms, inter_character_ms, line, mode, model, neighbours, protocol, "
+            "cannot read the Modbus server's configuration: there is no key 'bit_base'; the keys "
+            "are bench_line, bit_read_base, "
+            "bit_write_base, delay_ms, inter_character_floor_ms, inter_character_ms, line, mode, "
+            "model, neighbours, protocol, "
             "role, rs485, station, word_read_base, word_write_base");
   EXPECT_THAT(error_of({{"station", 256}}), HasSubstr("station is 256"));
   EXPECT_THAT(error_of({{"delay_ms", 15}}), HasSubstr("steps of 10 ms"));
-  EXPECT_THAT(error_of({{"word_read_base", 5}}), HasSubstr("word_read_base is 5, which is not a text"));
-  EXPECT_THAT(error_of({{"word_read_base", "Z5"}}), HasSubstr("cannot place word_read_base 'Z5' on xbc-h"));
+  EXPECT_THAT(error_of({{"word_read_base", 5}}),
+              HasSubstr("word_read_base is 5, which is not a text"));
+  EXPECT_THAT(error_of({{"word_read_base", "Z5"}}),
+              HasSubstr("cannot place word_read_base 'Z5' on xbc-h"));
   EXPECT_THAT(error_of({{"word_read_base", ""}}), HasSubstr("cannot place word_read_base"));
   EXPECT_EQ(error_of({{"role", "client"}, {"p2p", json::array()}}),
             "cannot make a Modbus server of role client; leave role out, or give server");
@@ -254,16 +270,20 @@ TEST(ModbusPlc, ErrorsSayWhatIsAllowed) {
 
 // --- On the simulated line ---
 
-const std::vector<LineSettings> rtu_lines = {{1200, 8, 'N', 1},  {2400, 8, 'E', 1},  {4800, 8, 'O', 2},  {9600, 8, 'N', 1},
-                                             {19200, 8, 'E', 1}, {38400, 8, 'N', 2}, {57600, 8, 'O', 1}, {115200, 8, 'E', 2}};
+const std::vector<LineSettings> rtu_lines = {
+    {1200, 8, 'N', 1},  {2400, 8, 'E', 1},  {4800, 8, 'O', 2},  {9600, 8, 'N', 1},
+    {19200, 8, 'E', 1}, {38400, 8, 'N', 2}, {57600, 8, 'O', 1}, {115200, 8, 'E', 2}};
 
 struct Wire {
-  Wire(ModbusMode mode, const LineSettings& line, json config = {{"station", 1}}) : settings(line), wire(line) {
+  Wire(ModbusMode mode, const LineSettings& line, json config = {{"station", 1}})
+      : settings(line), wire(line) {
     config["line"] = to_string(line);
     plc = plc_of(mode, config);
     wire.attach(*plc, line);
   }
-  Duration gap() const { return Duration(Duration::rep{385} * 100'000'000 / settings.baud); }  // 3.5 characters of 11 bits
+  Duration gap() const {
+    return Duration(Duration::rep{385} * 100'000'000 / settings.baud);
+  }  // 3.5 characters of 11 bits
   /// Everything until two seconds of silence.
   Bytes heard() {
     Bytes all;
@@ -299,7 +319,8 @@ TEST(ModbusOnALine, RtuGapsAtEverySpeed) {
   for (const LineSettings& line : rtu_lines) {
     const Duration c = line.character_time();
     for (std::size_t cut = 1; cut < request.size(); ++cut) {
-      Wire short_gap(ModbusMode::rtu, line), just(ModbusMode::rtu, line), equal(ModbusMode::rtu, line), longer(ModbusMode::rtu, line);
+      Wire short_gap(ModbusMode::rtu, line), just(ModbusMode::rtu, line),
+          equal(ModbusMode::rtu, line), longer(ModbusMode::rtu, line);
       EXPECT_TRUE(answered(short_gap, request, cut, c * 14 / 10)) << to_string(line) << ' ' << cut;
       EXPECT_TRUE(answered(just, request, cut, just.gap() - 1ns)) << to_string(line) << ' ' << cut;
       EXPECT_FALSE(answered(equal, request, cut, equal.gap())) << to_string(line) << ' ' << cut;
@@ -317,8 +338,10 @@ TEST(ModbusOnALine, InterCharacterParameterAndItsFloor) {
   };
   EXPECT_TRUE(with({{"station", 1}, {"inter_character_ms", 10}}, 10ms - 1ns));
   EXPECT_FALSE(with({{"station", 1}, {"inter_character_ms", 10}}, 10ms));
-  EXPECT_TRUE(with({{"station", 1}, {"inter_character_ms", 10}, {"inter_character_floor_ms", 20}}, 20ms - 1ns));
-  EXPECT_FALSE(with({{"station", 1}, {"inter_character_ms", 10}, {"inter_character_floor_ms", 20}}, 20ms));
+  EXPECT_TRUE(with({{"station", 1}, {"inter_character_ms", 10}, {"inter_character_floor_ms", 20}},
+                   20ms - 1ns));
+  EXPECT_FALSE(
+      with({{"station", 1}, {"inter_character_ms", 10}, {"inter_character_floor_ms", 20}}, 20ms));
 }
 
 TEST(ModbusOnALine, TwoRtuRequestsNeedASilence) {
@@ -346,7 +369,8 @@ TEST(ModbusOnALine, RtuStationsShareALine) {
 }
 
 TEST(ModbusOnALine, AsciiRepliesAtOnceWith7And8DataBits) {
-  for (const LineSettings& line : {LineSettings{9600, 7, 'E', 1}, LineSettings{1200, 7, 'N', 2}, LineSettings{115200, 8, 'N', 1}}) {
+  for (const LineSettings& line : {LineSettings{9600, 7, 'E', 1}, LineSettings{1200, 7, 'N', 2},
+                                   LineSettings{115200, 8, 'N', 1}}) {
     Wire w(ModbusMode::ascii, line);
     const auto sent = w.wire.transmit(to_bytes(":010600000001F8\r\n"));
     const Burst reply = w.wire.receive(sent.end + 2s);

@@ -5,7 +5,8 @@ namespace fieldproof {
 std::optional<ModbusP2pAddress> parse_modbus_p2p_address(std::string_view text) {
   constexpr std::string_view prefix = "0x", tables = "0134";
   constexpr std::size_t address_digits = 4;
-  if (!text.starts_with(prefix) || text.size() != prefix.size() + 1 + address_digits) return std::nullopt;
+  if (!text.starts_with(prefix) || text.size() != prefix.size() + 1 + address_digits)
+    return std::nullopt;
   ModbusP2pAddress parsed{text[prefix.size()]};
   if (tables.find(parsed.table) == std::string_view::npos) return std::nullopt;
   for (const char c : text.substr(prefix.size() + 1)) {

@@ -1,7 +1,8 @@
-// How a P2P block of a Modbus client names memory of its partner, and the function code that follows from it (000 tables
-// 6.2.2 and 10.3.2, 003 6.4.2):
+// How a P2P block of a Modbus client names memory of its partner, and the function code that
+// follows from it (000 tables 6.2.2 and 10.3.2, 003 6.4.2):
 //
-//   0x40001   the leading digit is the table, the four hex digits behind it the data address, counted from zero
+//   0x40001   the leading digit is the table, the four hex digits behind it the data address,
+//   counted from zero
 //
 //   table                  type   read   write single   write continuous
 //   0   coils              bit    01     05             0F

@@ -31,26 +31,33 @@ void put_word(Bytes& to, std::uint64_t value) {
   to.push_back(static_cast<Byte>(value));
 }
 
-/// The values of `count` elements as they stand in a frame: bits from bit 0 of the first byte on, words high byte first.
+/// The values of `count` elements as they stand in a frame: bits from bit 0 of the first byte on,
+/// words high byte first.
 Bytes read_values(const DeviceAddress& from, unsigned count, const PlcMemory& memory) {
   const bool bits = from.type == 'X';
   Bytes bytes(bits ? (count + 7) / 8 : 0);
   for (unsigned i = 0; i < count; ++i) {
-    if (bits) bytes[i / 8] = static_cast<Byte>(bytes[i / 8] | memory.read(from + i) << i % 8);
-    else put_word(bytes, memory.read(from + i));
+    if (bits)
+      bytes[i / 8] = static_cast<Byte>(bytes[i / 8] | memory.read(from + i) << i % 8);
+    else
+      put_word(bytes, memory.read(from + i));
   }
   return bytes;
 }
 
 void write_values(const DeviceAddress& to, unsigned count, ByteView bytes, PlcMemory& memory) {
   for (unsigned i = 0; i < count; ++i) {
-    if (to.type == 'X') memory.write(to + i, bytes[i / 8] >> i % 8 & 1);
-    else memory.write(to + i, static_cast<std::uint64_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]));
+    if (to.type == 'X')
+      memory.write(to + i, bytes[i / 8] >> i % 8 & 1);
+    else
+      memory.write(to + i, static_cast<std::uint64_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]));
   }
 }
 
 /// `block` was checked.
-ModbusP2pAddress partner_of(const P2pBlock& block) { return *parse_modbus_p2p_address(block.variables.front().partner); }
+ModbusP2pAddress partner_of(const P2pBlock& block) {
+  return *parse_modbus_p2p_address(block.variables.front().partner);
+}
 
 Bytes request_pdu(const P2pBlock& block, const PlcMemory& memory) {
   const ModbusP2pAddress partner = partner_of(block);
@@ -71,7 +78,8 @@ Bytes request_pdu(const P2pBlock& block, const PlcMemory& memory) {
   return pdu;
 }
 
-/// Tells the broken frames of a receiver apart: what Modbus servers count as one status has two codes in Appendix 3.3.
+/// Tells the broken frames of a receiver apart: what Modbus servers count as one status has two
+/// codes in Appendix 3.3.
 class ClientSink : public FrameSink {
  public:
   ClientSink(FrameSink& to, std::uint16_t broken) : to_(to), broken_(broken) {}
@@ -87,16 +95,20 @@ class ClientSink : public FrameSink {
 
 class ModbusP2pDriver : public P2pDriver {
  public:
-  ModbusP2pDriver(ModbusMode mode, Duration gap) : mode_(mode), receiver_(make_modbus_receiver(mode, gap)) {}
+  ModbusP2pDriver(ModbusMode mode, Duration gap)
+      : mode_(mode), receiver_(make_modbus_receiver(mode, gap)) {}
 
-  std::string_view name() const override { return mode_ == ModbusMode::rtu ? "modbus-rtu-client" : "modbus-ascii-client"; }
+  std::string_view name() const override {
+    return mode_ == ModbusMode::rtu ? "modbus-rtu-client" : "modbus-ascii-client";
+  }
   Status check(const P2pBlock& block, const PlcModel& model) const override;
   Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override {
     sent_ = request_pdu(block, memory);
     return encode_modbus_frame(mode_, static_cast<Byte>(block.station), sent_);
   }
   bool awaits_reply(const P2pBlock&) const override { return true; }
-  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView bytes, PlcMemory& memory) const override;
+  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView bytes,
+                                    PlcMemory& memory) const override;
 
   void receive(const Burst& burst, FrameSink& sink) override {
     ClientSink client(sink, service_status::head);
@@ -115,36 +127,49 @@ class ModbusP2pDriver : public P2pDriver {
 
   ModbusMode mode_;
   std::unique_ptr<ModbusReceiver> receiver_;
-  mutable Bytes sent_;  // the last PDU: the reply to a write repeats it, whatever memory holds by then
+  mutable Bytes
+      sent_;  // the last PDU: the reply to a write repeats it, whatever memory holds by then
 };
 
 Status ModbusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
   if (block.function != P2pBlock::Function::read && !writes(block))
-    return fail("function is neither read nor write; a Modbus client has no other (000 11.1.4: FFFE)");
-  if (block.type != 'X' && block.type != 'W') return fail("type is neither bit nor word; a Modbus client has no other (003 6.4.2)");
+    return fail(
+        "function is neither read nor write; a Modbus client has no other (000 11.1.4: FFFE)");
+  if (block.type != 'X' && block.type != 'W')
+    return fail("type is neither bit nor word; a Modbus client has no other (003 6.4.2)");
   if (block.variables.size() != 1)
-    return fail(fmt::format("there are {} variables; a Modbus block has one (000 table 6.2.4)", block.variables.size()));
+    return fail(fmt::format("there are {} variables; a Modbus block has one (000 table 6.2.4)",
+                            block.variables.size()));
   const bool bits = block.type == 'X';
   const unsigned most = most_elements(mode_, writes(block), bits);
   if (block.elements() == 0 || block.elements() > most)
-    return fail(fmt::format("size is {}; a {} block {}s 1 to {} {}s (003 6.4.2)", block.size, name(), writes(block) ? "write" : "read",
-                            most, bits ? "bit" : "word"));
+    return fail(fmt::format("size is {}; a {} block {}s 1 to {} {}s (003 6.4.2)", block.size,
+                            name(), writes(block) ? "write" : "read", most, bits ? "bit" : "word"));
   const char* key = writes(block) ? "save" : "read";
   const std::string& text = block.variables.front().partner;
   const auto wrong = [&](const std::string& what) {
-    return fail(fmt::format("{} '{}' {} (000 11.1.4: FFFE, Modbus address error)", key, text, what));
+    return fail(
+        fmt::format("{} '{}' {} (000 11.1.4: FFFE, Modbus address error)", key, text, what));
   };
   const std::optional<ModbusP2pAddress> partner = parse_modbus_p2p_address(text);
-  if (!partner) return wrong("is no Modbus address; write 0x, the table (0, 1, 3 or 4) and four hex digits, such as 0x40001");
+  if (!partner)
+    return wrong(
+        "is no Modbus address; write 0x, the table (0, 1, 3 or 4) and four hex digits, such as "
+        "0x40001");
   if (partner->bits() != bits)
-    return wrong(fmt::format("holds {}s, and type is {}; {}", bits ? "word" : "bit", bits ? "bit" : "word",
-                             bits ? "bits are in the tables 0 and 1" : "words are in the tables 3 and 4"));
-  if (writes(block) && !partner->writable()) return wrong("can only be read; write to the tables 0 and 4");
+    return wrong(
+        fmt::format("holds {}s, and type is {}; {}", bits ? "word" : "bit", bits ? "bit" : "word",
+                    bits ? "bits are in the tables 0 and 1" : "words are in the tables 3 and 4"));
+  if (writes(block) && !partner->writable())
+    return wrong("can only be read; write to the tables 0 and 4");
   if (partner->address + block.elements() > data_addresses)
-    return wrong(fmt::format("and the {} elements from there on go past data address FFFF", block.elements()));
+    return wrong(fmt::format("and the {} elements from there on go past data address FFFF",
+                             block.elements()));
   if (block.variables.front().own.type != block.type)
-    return fail(fmt::format("{} is not a {} of this PLC; type is {}", writes(block) ? "read" : "save", bits ? "bit" : "word",
-                            bits ? "bit: name one such as %MX00010" : "word: name one such as %MW100"));
+    return fail(
+        fmt::format("{} is not a {} of this PLC; type is {}", writes(block) ? "read" : "save",
+                    bits ? "bit" : "word",
+                    bits ? "bit: name one such as %MX00010" : "word: name one such as %MW100"));
   return ok();
 }
 
@@ -155,21 +180,26 @@ std::uint16_t ModbusP2pDriver::fault_of(const ModbusFrame& frame, ByteView bytes
   return bytes.size() < shortest ? p2p_error::length : p2p_error::bcc;
 }
 
-std::optional<std::uint16_t> ModbusP2pDriver::take(const P2pBlock& block, ByteView bytes, PlcMemory& memory) const {
+std::optional<std::uint16_t> ModbusP2pDriver::take(const P2pBlock& block, ByteView bytes,
+                                                   PlcMemory& memory) const {
   const ModbusFrame frame = decode_modbus_frame(mode_, bytes);
   if (const std::uint16_t fault = fault_of(frame, bytes); fault != p2p_error::none) return fault;
   if (frame.station != block.station) return p2p_error::station;
   return take_pdu(block, frame.pdu, memory);
 }
 
-std::uint16_t ModbusP2pDriver::take_pdu(const P2pBlock& block, ByteView pdu, PlcMemory& memory) const {
-  constexpr std::size_t exception_size = 2, echo_size = 5;  // function; exception code, or address and count or value
+std::uint16_t ModbusP2pDriver::take_pdu(const P2pBlock& block, ByteView pdu,
+                                        PlcMemory& memory) const {
+  constexpr std::size_t exception_size = 2,
+                        echo_size = 5;  // function; exception code, or address and count or value
   const Byte function = sent_.at(0);
-  if (pdu[0] == (function | exception_bit)) return pdu.size() == exception_size ? p2p_error::nak : p2p_error::length;
+  if (pdu[0] == (function | exception_bit))
+    return pdu.size() == exception_size ? p2p_error::nak : p2p_error::length;
   if (pdu[0] != function) return p2p_error::driver;
   if (writes(block)) {
     if (pdu.size() != echo_size) return p2p_error::length;
-    return std::ranges::equal(pdu, ByteView(sent_).first(echo_size)) ? p2p_error::none : p2p_error::driver;
+    return std::ranges::equal(pdu, ByteView(sent_).first(echo_size)) ? p2p_error::none
+                                                                     : p2p_error::driver;
   }
   const unsigned count = block.elements();
   const std::size_t expected = block.type == 'X' ? (count + 7) / 8 : std::size_t{2} * count;

@@ -26,21 +26,29 @@ class ModbusP2p : public testing::TestWithParam<ModbusMode> {
  protected:
   Bytes frame(std::string_view text) const { return test::framed(GetParam(), text); }
 
-  void set(std::string_view address, std::string_view digits) { EXPECT_TRUE(set_by_name(memory, address, digits)); }
-  std::string get(std::string_view address, std::size_t digits = 0) { return *get_by_name(memory, address, digits); }
+  void set(std::string_view address, std::string_view digits) {
+    EXPECT_TRUE(set_by_name(memory, address, digits));
+  }
+  std::string get(std::string_view address, std::size_t digits = 0) {
+    return *get_by_name(memory, address, digits);
+  }
   Bytes ask(const P2pBlock& of) {
     const Status checked = driver->check(of, xbc);
     EXPECT_TRUE(checked) << checked.error().message;
     return *driver->request(of, memory);
   }
-  std::optional<std::uint16_t> answer(const P2pBlock& of, std::string_view text) { return driver->take(of, frame(text), memory); }
+  std::optional<std::uint16_t> answer(const P2pBlock& of, std::string_view text) {
+    return driver->take(of, frame(text), memory);
+  }
 
   PlcMemory memory{xbc};
   const std::unique_ptr<P2pDriver> driver = make_modbus_p2p_driver(GetParam(), gap);
 };
 
 INSTANTIATE_TEST_SUITE_P(Modes, ModbusP2p, testing::Values(ModbusMode::rtu, ModbusMode::ascii),
-                         [](const auto& mode) { return mode.param == ModbusMode::rtu ? "rtu" : "ascii"; });
+                         [](const auto& mode) {
+                           return mode.param == ModbusMode::rtu ? "rtu" : "ascii";
+                         });
 
 /// The eight blocks of 000 10.3.2, with the addresses of both editions.
 TEST_P(ModbusP2p, AsksAsTheExampleDoes) {
@@ -60,7 +68,9 @@ TEST_P(ModbusP2p, AsksAsTheExampleDoes) {
   EXPECT_EQ(ask(p2p_read("0x100A0", "%MX01800", 16)), frame("01 02 00A0 0010"));
 }
 
-TEST_P(ModbusP2p, WritesAZeroBitAsZero) { EXPECT_EQ(ask(p2p_write("0x00142", "%MX0001F")), frame("01 05 0142 0000")); }
+TEST_P(ModbusP2p, WritesAZeroBitAsZero) {
+  EXPECT_EQ(ask(p2p_write("0x00142", "%MX0001F")), frame("01 05 0142 0000"));
+}
 
 TEST_P(ModbusP2p, ARunOfOneIsARun) {
   set("%MW5", "BEEF");
@@ -69,7 +79,8 @@ TEST_P(ModbusP2p, ARunOfOneIsARun) {
 }
 
 TEST_P(ModbusP2p, SavesWhatItRead) {
-  const P2pBlock words = p2p_read("0x30000", "%MW150", 2), bits = p2p_read("0x00010", "%MX01804", 10), bit = p2p_read("0x10021", "%MX01701");
+  const P2pBlock words = p2p_read("0x30000", "%MW150", 2),
+                 bits = p2p_read("0x00010", "%MX01804", 10), bit = p2p_read("0x10021", "%MX01701");
   ask(words);
   EXPECT_EQ(answer(words, "01 04 04 1234 ABCD"), p2p_error::none);
   EXPECT_EQ(get("%MW150", 8), "1234ABCD");
@@ -139,8 +150,10 @@ TEST_P(ModbusP2p, RefusesParametersThatHaveNoFrame) {
   EXPECT_THAT(why(p2p_write("0x10001", "%MX00010")), HasSubstr("can only be read"));
   EXPECT_THAT(why(p2p_read("0x10001", "%MW100")), HasSubstr("read '0x10001' holds bits"));
   EXPECT_THAT(why(p2p_read("0x40001", "%MX00010")), HasSubstr("holds words"));
-  for (const char* address : {"", "40001", "0x2", "0x20001", "0x50001", "0x4001", "0x400001", "0x4000G", "%MW100"})
-    EXPECT_THAT(why(p2p_read(address, "%MW100")), HasSubstr("no Modbus address; write 0x")) << address;
+  for (const char* address :
+       {"", "40001", "0x2", "0x20001", "0x50001", "0x4001", "0x400001", "0x4000G", "%MW100"})
+    EXPECT_THAT(why(p2p_read(address, "%MW100")), HasSubstr("no Modbus address; write 0x"))
+        << address;
   EXPECT_EQ(why(p2p_read("0x4FfFf", "%MW100")), "accepted");
   EXPECT_THAT(why(p2p_read("0x4FFFF", "%MW100", 2)), HasSubstr("past data address FFFF"));
   EXPECT_THAT(why(p2p_read("0x40001", "%MB100")), HasSubstr("type is neither bit nor word"));

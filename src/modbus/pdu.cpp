@@ -6,8 +6,8 @@
 namespace fieldproof {
 
 namespace {
-constexpr Byte read_coils = 0x01, read_inputs = 0x02, write_coil = 0x05, write_register = 0x06, write_coils = 0x0F,
-               write_registers = 0x10;
+constexpr Byte read_coils = 0x01, read_inputs = 0x02, write_coil = 0x05, write_register = 0x06,
+               write_coils = 0x0F, write_registers = 0x10;
 constexpr unsigned coil_on = 0xFF00, coil_off = 0x0000;
 
 constexpr std::array functions{
@@ -21,20 +21,30 @@ constexpr std::array functions{
     ModbusFunction{0x10, "Preset Multiple Registers", ModbusBase::word_write, 120},
 };
 
-unsigned word_at(ByteView bytes, std::size_t at) { return static_cast<unsigned>(bytes[at] << 8 | bytes[at + 1]); }
+unsigned word_at(ByteView bytes, std::size_t at) {
+  return static_cast<unsigned>(bytes[at] << 8 | bytes[at + 1]);
+}
 
 void put_word(Bytes& to, std::uint64_t value) {
   to.push_back(static_cast<Byte>(value >> 8));
   to.push_back(static_cast<Byte>(value));
 }
 
-bool writes(Byte code) { return code == write_coil || code == write_register || code == write_coils || code == write_registers; }
+bool writes(Byte code) {
+  return code == write_coil || code == write_register || code == write_coils ||
+         code == write_registers;
+}
 bool writes_one(Byte code) { return code == write_coil || code == write_register; }
-bool handles_bits(Byte code) { return code == read_coils || code == read_inputs || code == write_coil || code == write_coils; }
+bool handles_bits(Byte code) {
+  return code == read_coils || code == read_inputs || code == write_coil || code == write_coils;
+}
 
-std::size_t data_bytes(Byte code, std::uint32_t count) { return handles_bits(code) ? (count + 7) / 8 : std::size_t{2} * count; }
+std::size_t data_bytes(Byte code, std::uint32_t count) {
+  return handles_bits(code) ? (count + 7) / 8 : std::size_t{2} * count;
+}
 
-/// Everything that only the request itself can break: its length, count, byte count and the value of a coil.
+/// Everything that only the request itself can break: its length, count, byte count and the value
+/// of a coil.
 Byte check_form(ModbusRequest& request, ByteView pdu) {
   constexpr std::size_t head = 5;  // function, address, count or value
   constexpr Byte wrong = modbus_exception::value;
@@ -45,7 +55,9 @@ Byte check_form(ModbusRequest& request, ByteView pdu) {
     request.count = 1;
     request.data = pdu.subspan(3);
     const bool coil_value = second == coil_on || second == coil_off;
-    return pdu.size() != head || (request.code == write_coil && !coil_value) ? wrong : modbus_exception::none;
+    return pdu.size() != head || (request.code == write_coil && !coil_value)
+               ? wrong
+               : modbus_exception::none;
   }
   request.count = second;
   if (request.count == 0 || request.count > request.function->limit) return wrong;
@@ -73,9 +85,12 @@ Bytes read(const ModbusRequest& request, const DeviceAddress& first, const PlcMe
 Bytes write(const ModbusRequest& request, const DeviceAddress& first, PlcMemory& memory) {
   for (std::uint32_t i = 0; i < request.count; ++i) {
     std::uint64_t value = 0;
-    if (request.code == write_coil) value = word_at(request.data, 0) == coil_on;
-    else if (request.code == write_coils) value = request.data[i / 8] >> i % 8 & 1;
-    else value = word_at(request.data, std::size_t{2} * i);
+    if (request.code == write_coil)
+      value = word_at(request.data, 0) == coil_on;
+    else if (request.code == write_coils)
+      value = request.data[i / 8] >> i % 8 & 1;
+    else
+      value = word_at(request.data, std::size_t{2} * i);
     memory.write(first + i, value);
   }
   Bytes reply{request.code};
@@ -98,8 +113,10 @@ ModbusRequest parse_modbus_request(ByteView pdu) {
   return request;
 }
 
-Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& tables, PlcMemory& memory) {
-  if (request.exception != modbus_exception::none) return modbus_exception_reply(request.code, request.exception);
+Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& tables,
+                             PlcMemory& memory) {
+  if (request.exception != modbus_exception::none)
+    return modbus_exception_reply(request.code, request.exception);
   const ModbusTable& table = tables[request.function->base];
   const bool read_only = !memory.model().areas[table.first.area].write;
   if (request.address + request.count > table.size || (writes(request.code) && read_only)) {
@@ -109,6 +126,8 @@ Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& t
   return writes(request.code) ? write(request, first, memory) : read(request, first, memory);
 }
 
-Bytes modbus_exception_reply(Byte code, Byte exception) { return {static_cast<Byte>(code | 0x80), exception}; }
+Bytes modbus_exception_reply(Byte code, Byte exception) {
+  return {static_cast<Byte>(code | 0x80), exception};
+}
 
 }  // namespace fieldproof

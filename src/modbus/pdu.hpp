@@ -1,9 +1,11 @@
-// What a Modbus server does with a PDU: function code and data, without station and check (000 and 003 9.2.2, 9.3.3, 9.4,
-// Appendix 3.2). Words high byte first; the lowest bit address is bit 0 of the first byte.
+// What a Modbus server does with a PDU: function code and data, without station and check (000 and
+// 003 9.2.2, 9.3.3, 9.4, Appendix 3.2). Words high byte first; the lowest bit address is bit 0 of
+// the first byte.
 //
-// Order of checks (PROTOCOLS.md): function 01; length, count, byte count and the value of FC 05 03; range 02.
-// Decisions beyond PROTOCOLS.md:
-// - a write to a table in a read-only area (F, N): 02, as the XGT server answers with 'no such area, or not writable';
+// Order of checks (PROTOCOLS.md): function 01; length, count, byte count and the value of FC 05 03;
+// range 02. Decisions beyond PROTOCOLS.md:
+// - a write to a table in a read-only area (F, N): 02, as the XGT server answers with 'no such
+// area, or not writable';
 // - bits that pad the last byte of FC 0F are not looked at.
 #pragma once
 
@@ -17,7 +19,8 @@
 
 namespace fieldproof {
 
-/// Exception codes (9.2.2). 04 to 06 are those of a server in trouble, which the emulated one never is.
+/// Exception codes (9.2.2). 04 to 06 are those of a server in trouble, which the emulated one never
+/// is.
 namespace modbus_exception {
 constexpr Byte none = 0, function = 1, address = 2, value = 3;
 }
@@ -26,7 +29,7 @@ struct ModbusFunction {
   Byte code = 0;
   std::string_view name;  // of table 6.1.1
   ModbusBase base{};
-  unsigned limit = 0;     // bits or words
+  unsigned limit = 0;  // bits or words
 };
 
 /// 01 02 03 04 05 06 0F 10
@@ -36,18 +39,21 @@ const ModbusFunction* find_modbus_function(Byte code);
 
 struct ModbusRequest {
   Byte code = 0;
-  const ModbusFunction* function = nullptr;     // nullptr: unknown
-  Byte exception = modbus_exception::none;      // what can be told without the tables: function or value
-  std::uint32_t address = 0;                    // data address
-  std::uint32_t count = 0;                      // bits or words
-  ByteView data{};                              // to write: FC 05 and 06 the two bytes, 0F and 10 what follows the byte count
+  const ModbusFunction* function = nullptr;  // nullptr: unknown
+  Byte exception =
+      modbus_exception::none;  // what can be told without the tables: function or value
+  std::uint32_t address = 0;   // data address
+  std::uint32_t count = 0;     // bits or words
+  ByteView data{};  // to write: FC 05 and 06 the two bytes, 0F and 10 what follows the byte count
 };
 
-/// Never fails: `exception` says what is wrong. `pdu` has at least one byte and must outlive the request.
+/// Never fails: `exception` says what is wrong. `pdu` has at least one byte and must outlive the
+/// request.
 ModbusRequest parse_modbus_request(ByteView pdu);
 
 /// The PDU of the reply; a write has happened then, all of it or, with an exception, nothing.
-Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& tables, PlcMemory& memory);
+Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& tables,
+                             PlcMemory& memory);
 
 /// Function code with bit 7 set, and the exception code.
 Bytes modbus_exception_reply(Byte code, Byte exception);

@@ -13,17 +13,25 @@ using test::hex;
 using test::operator+;
 
 struct Server {
-  explicit Server(std::string_view model = "xbc-h") : Server(model, default_modbus_bases(*find_plc_model(model))) {}
+  explicit Server(std::string_view model = "xbc-h")
+      : Server(model, default_modbus_bases(*find_plc_model(model))) {}
   Server(std::string_view model, const ModbusBases& bases)
       : memory(*find_plc_model(model)), tables(*place_modbus_tables(memory.model(), bases)) {}
 
-  Bytes ask(const Bytes& pdu) { return execute_modbus_request(parse_modbus_request(pdu), tables, memory); }
+  Bytes ask(const Bytes& pdu) {
+    return execute_modbus_request(parse_modbus_request(pdu), tables, memory);
+  }
   std::string ask(std::string_view pdu) { return to_hex(ask(hex(pdu))); }
-  void set(std::string_view address, std::string_view value) { ASSERT_TRUE(set_by_name(memory, address, value)) << address; }
-  std::string get(std::string_view address, std::size_t digits = 0) { return *get_by_name(memory, address, digits); }
+  void set(std::string_view address, std::string_view value) {
+    ASSERT_TRUE(set_by_name(memory, address, value)) << address;
+  }
+  std::string get(std::string_view address, std::size_t digits = 0) {
+    return *get_by_name(memory, address, digits);
+  }
   std::string dump() {
     std::string all;
-    for (const DeviceArea& area : memory.model().areas) all += get(std::string("%") + area.letter + "W0", 4 * area.words);
+    for (const DeviceArea& area : memory.model().areas)
+      all += get(std::string("%") + area.letter + "W0", 4 * area.words);
     return all;
   }
 
@@ -107,8 +115,9 @@ TEST(ModbusPdu, FunctionCodesAndTheirBases) {
     ModbusBase base;
     unsigned limit;
   };
-  const Row rows[] = {{0x01, ModbusBase::bit_write, 2000}, {0x02, ModbusBase::bit_read, 2000},  {0x03, ModbusBase::word_write, 125},
-                      {0x04, ModbusBase::word_read, 125},  {0x05, ModbusBase::bit_write, 1},    {0x06, ModbusBase::word_write, 1},
+  const Row rows[] = {{0x01, ModbusBase::bit_write, 2000}, {0x02, ModbusBase::bit_read, 2000},
+                      {0x03, ModbusBase::word_write, 125}, {0x04, ModbusBase::word_read, 125},
+                      {0x05, ModbusBase::bit_write, 1},    {0x06, ModbusBase::word_write, 1},
                       {0x0F, ModbusBase::bit_write, 1968}, {0x10, ModbusBase::word_write, 120}};
   ASSERT_EQ(modbus_functions().size(), std::size(rows));
   for (const Row& row : rows) {
@@ -146,8 +155,11 @@ TEST(ModbusPdu, LimitsAndOnePast) {
       EXPECT_EQ(reply.size(), 252u);
     }
     for (const unsigned count : {function.limit + 1, 0u, 0xFFFFu}) {
-      const Bytes wrong = function.code < 5 || count > 2000 ? request(function.code, 0, count) : write_request(function.code, 0, count);
-      EXPECT_EQ(server.ask(wrong), modbus_exception_reply(function.code, modbus_exception::value)) << count;
+      const Bytes wrong = function.code < 5 || count > 2000
+                              ? request(function.code, 0, count)
+                              : write_request(function.code, 0, count);
+      EXPECT_EQ(server.ask(wrong), modbus_exception_reply(function.code, modbus_exception::value))
+          << count;
     }
   }
 }
@@ -166,8 +178,10 @@ TEST(ModbusPdu, WrongLengthIsAWrongValue) {
   for (const ModbusFunction& function : modbus_functions()) {
     Server server;
     const std::string before = server.dump();
-    const Bytes right = any_request(function.code, 0, 1), wrong = modbus_exception_reply(function.code, modbus_exception::value);
-    for (std::size_t size = 1; size < right.size(); ++size) EXPECT_EQ(server.ask(test::part(right, 0, size)), wrong) << size;
+    const Bytes right = any_request(function.code, 0, 1),
+                wrong = modbus_exception_reply(function.code, modbus_exception::value);
+    for (std::size_t size = 1; size < right.size(); ++size)
+      EXPECT_EQ(server.ask(test::part(right, 0, size)), wrong) << size;
     EXPECT_EQ(server.ask(right + Bytes{0}), wrong);
     EXPECT_EQ(server.dump(), before);
     EXPECT_EQ(server.ask(right)[0], function.code);
@@ -176,19 +190,22 @@ TEST(ModbusPdu, WrongLengthIsAWrongValue) {
 
 TEST(ModbusPdu, ByteCountMustMatch) {
   Server server;
-  for (const char* pdu : {"0F 00 00 00 0A 01 CD 01", "0F 00 00 00 0A 03 CD 01", "0F 00 00 00 0A 02 CD", "0F 00 00 00 0A 02 CD 01 00",
+  for (const char* pdu : {"0F 00 00 00 0A 01 CD 01", "0F 00 00 00 0A 03 CD 01",
+                          "0F 00 00 00 0A 02 CD", "0F 00 00 00 0A 02 CD 01 00",
                           "0F 00 00 00 0A 01 CD", "0F 00 00 00 08 02 CD 01", "0F 00 00 00 0A 00"}) {
     EXPECT_EQ(server.ask(pdu), "8F 03") << pdu;
   }
-  for (const char* pdu : {"10 00 00 00 02 02 CD 01 00 0A", "10 00 00 00 02 05 CD 01 00 0A", "10 00 00 00 02 04 CD 01 00",
-                          "10 00 00 00 01 01 CD", "10 00 00 00 02 02 CD 01", "10 00 00 00 01 04 CD 01 00 0A"}) {
+  for (const char* pdu : {"10 00 00 00 02 02 CD 01 00 0A", "10 00 00 00 02 05 CD 01 00 0A",
+                          "10 00 00 00 02 04 CD 01 00", "10 00 00 00 01 01 CD",
+                          "10 00 00 00 02 02 CD 01", "10 00 00 00 01 04 CD 01 00 0A"}) {
     EXPECT_EQ(server.ask(pdu), "90 03") << pdu;
   }
 }
 
 TEST(ModbusPdu, CoilValueIsFf00Or0000) {
   Server server;
-  for (const char* pdu : {"05 00 08 00 01", "05 00 08 01 00", "05 00 08 FF FF", "05 00 08 FE 00", "05 00 08 00 FF"}) {
+  for (const char* pdu :
+       {"05 00 08 00 01", "05 00 08 01 00", "05 00 08 FF FF", "05 00 08 FE 00", "05 00 08 00 FF"}) {
     EXPECT_EQ(server.ask(pdu), "85 03") << pdu;
   }
   EXPECT_EQ(server.get("%MW0"), "0000");
@@ -216,16 +233,20 @@ TEST(ModbusPdu, EndsOfEachArea) {
       const std::string bits = has_bits ? base : "M0";
       Server server(model.name, {bits, bits, base, base});
       for (const ModbusFunction& function : modbus_functions()) {
-        const bool is_bit = function.base == ModbusBase::bit_read || function.base == ModbusBase::bit_write;
+        const bool is_bit =
+            function.base == ModbusBase::bit_read || function.base == ModbusBase::bit_write;
         if (is_bit && !has_bits) continue;
-        const unsigned elements = !is_bit ? area.words : area.contacts != 0 ? area.contacts : area.words * 16;
+        const unsigned elements = !is_bit              ? area.words
+                                  : area.contacts != 0 ? area.contacts
+                                                       : area.words * 16;
         const unsigned size = std::min(elements, 9999u);
         const bool writes = function.code > 4, refused = writes && !area.write;
         const auto exception = [&](unsigned address, unsigned count) {
           const Bytes reply = server.ask(any_request(function.code, address, count));
           return reply[0] == function.code ? 0 : reply[1];
         };
-        const std::string what = std::string(model.name) + ' ' + area.letter + " function " + hex_number(function.code, 2);
+        const std::string what = std::string(model.name) + ' ' + area.letter + " function " +
+                                 hex_number(function.code, 2);
         EXPECT_EQ(exception(0, 1), refused ? 2 : 0) << what;
         EXPECT_EQ(exception(size - 1, 1), refused ? 2 : 0) << what;
         EXPECT_EQ(exception(size, 1), 2) << what;
@@ -258,7 +279,8 @@ TEST(ModbusPdu, RefusedWriteChangesNothing) {
   Server server("xbc-h", {"P0", "M1000F", "P0", "M1000"});
   const std::string before = server.dump();
   EXPECT_EQ(server.ask(write_request(0x10, 23, 2, 0xFF)), hex("90 02"));  // M1023 and one past
-  EXPECT_EQ(server.ask(write_request(0x0F, 368, 2, 0xFF)), hex("8F 02")); // M1023 bit F and one past
+  EXPECT_EQ(server.ask(write_request(0x0F, 368, 2, 0xFF)),
+            hex("8F 02"));  // M1023 bit F and one past
   EXPECT_EQ(server.dump(), before);
   EXPECT_EQ(server.ask(write_request(0x0F, 368, 1, 0xFF)), hex("0F 01 70 00 01"));
   EXPECT_EQ(server.get("%MW1022", 8), "00008000");

@@ -31,8 +31,10 @@ void RtuReceiver::finish(FrameSink& sink) {
   if (frame_.empty()) return;
   const Time end = *wake_at();
   const Bytes frame = std::exchange(frame_, {});
-  if (frame.size() > rtu_max_frame) sink.on_broken_frame(service_status::too_long);
-  else sink.on_frame(frame, end);
+  if (frame.size() > rtu_max_frame)
+    sink.on_broken_frame(service_status::too_long);
+  else
+    sink.on_frame(frame, end);
 }
 
 }  // namespace fieldproof

@@ -32,7 +32,8 @@ class RtuReceiverTest : public ::testing::Test {
 TEST_F(RtuReceiverTest, SilenceEndsTheFrame) {
   EXPECT_EQ(receiver.wake_at(), std::nullopt);
   at(10ms, hex("01 03 00"));
-  const Time known = 13ms + gap + character;  // a character that began within the time has arrived by then
+  const Time known =
+      13ms + gap + character;  // a character that began within the time has arrived by then
   EXPECT_EQ(receiver.wake_at(), known);
   receiver.advance(known - 1ns, log);
   EXPECT_TRUE(log.frames.empty());

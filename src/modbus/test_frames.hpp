@@ -31,7 +31,8 @@ inline Bytes operator+(Bytes a, const Bytes& b) {
 }
 
 inline Bytes part(const Bytes& bytes, std::size_t from, std::size_t until) {
-  return Bytes(bytes.begin() + static_cast<std::ptrdiff_t>(from), bytes.begin() + static_cast<std::ptrdiff_t>(until));
+  return Bytes(bytes.begin() + static_cast<std::ptrdiff_t>(from),
+               bytes.begin() + static_cast<std::ptrdiff_t>(until));
 }
 
 }  // namespace fieldproof::test

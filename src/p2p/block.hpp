@@ -1,4 +1,5 @@
-// One block of a P2P parameter, checked: what a P2P client does when its condition rises (000 and 003 6.2.4).
+// One block of a P2P parameter, checked: what a P2P client does when its condition rises (000 and
+// 003 6.2.4).
 #pragma once
 
 #include <cstdint>
@@ -11,24 +12,28 @@
 
 namespace fieldproof {
 
-constexpr unsigned p2p_parameters = 3;             // 1: built-in channels, 2 and 3: communication modules (003 6.2.1)
-constexpr unsigned p2p_blocks = 32;                // of a parameter
-constexpr std::size_t p2p_max_variables = 4;       // of a block (000 table 6.2.3)
-constexpr std::size_t p2p_max_bytes = 120;         // of continuous data
+constexpr unsigned p2p_parameters =
+    3;  // 1: built-in channels, 2 and 3: communication modules (003 6.2.1)
+constexpr unsigned p2p_blocks = 32;           // of a parameter
+constexpr std::size_t p2p_max_variables = 4;  // of a block (000 table 6.2.3)
+constexpr std::size_t p2p_max_bytes = 120;    // of continuous data
 
 /// Error codes of a block's STATUS (000 and 003 Appendix 3.3).
 namespace p2p_error {
-constexpr std::uint16_t none = 0, head = 0x01, tail = 0x02, bcc = 0x03, station = 0x04, driver = 0x05, send = 0x07, no_module = 0x09,
-                        time_out = 0x0A, length = 0x0B, not_hex = 0x0D, range = 0x0E, nak = 0x0F;
+constexpr std::uint16_t none = 0, head = 0x01, tail = 0x02, bcc = 0x03, station = 0x04,
+                        driver = 0x05, send = 0x07, no_module = 0x09, time_out = 0x0A,
+                        length = 0x0B, not_hex = 0x0D, range = 0x0E, nak = 0x0F;
 }
 
 /// One value, or one run of values: where it is in the partner and where in this PLC.
 struct P2pVariable {
-  std::string partner{};  // as the driver spells it: "%MW100", "0x40001", "1230"; empty: of a user frame
-  DeviceAddress own{};    // the save area of a read or receive, the read area of a write or send
+  std::string
+      partner{};  // as the driver spells it: "%MW100", "0x40001", "1230"; empty: of a user frame
+  DeviceAddress own{};  // the save area of a read or receive, the read area of a write or send
 };
 
-/// When a block fires: at the rising edge of a bit, or of a clock. Neither: a RECEIVE block, which is always armed.
+/// When a block fires: at the rising edge of a bit, or of a clock. Neither: a RECEIVE block, which
+/// is always armed.
 struct P2pCondition {
   std::optional<DeviceAddress> flag{};
   Duration period{};  // of a clock: 20 ms, 200 ms or 1 s
@@ -37,15 +42,16 @@ struct P2pCondition {
 struct P2pBlock {
   enum class Function { read, write, send, receive };
 
-  unsigned number = 0;         // 0-31
-  unsigned channel = 1;        // 1 or 2
+  unsigned number = 0;   // 0-31
+  unsigned channel = 1;  // 1 or 2
   Function function = Function::read;
-  bool continuous = false;     // a run of `size` elements from one variable on, else up to four single values
-  char type = 'W';             // of the data: X B W D L
-  unsigned size = 1;           // elements of a run; bytes of a user frame's variable
-  unsigned station = 0;        // of the partner
+  bool continuous =
+      false;        // a run of `size` elements from one variable on, else up to four single values
+  char type = 'W';  // of the data: X B W D L
+  unsigned size = 1;     // elements of a run; bytes of a user frame's variable
+  unsigned station = 0;  // of the partner
   std::vector<P2pVariable> variables{};
-  std::string frame{};         // send and receive: "GROUP.FRAME" of the user frames
+  std::string frame{};  // send and receive: "GROUP.FRAME" of the user frames
   P2pCondition condition{};
 
   bool is_user_frame() const { return function == Function::send || function == Function::receive; }

@@ -7,7 +7,9 @@ namespace fieldproof {
 
 namespace {
 /// Appendix 3.3 for what is no frame.
-std::uint16_t error_of(std::uint16_t status) { return status == service_status::not_modbus ? p2p_error::bcc : status; }
+std::uint16_t error_of(std::uint16_t status) {
+  return status == service_status::not_modbus ? p2p_error::bcc : status;
+}
 
 /// 000 11.1.4 'P2P service'.
 std::uint16_t service_code(std::uint16_t error) {
@@ -17,8 +19,9 @@ std::uint16_t service_code(std::uint16_t error) {
 }
 }  // namespace
 
-P2pClient::P2pClient(PlcMemory& memory, const P2pParameters& parameters, unsigned channel, std::unique_ptr<P2pDriver> driver,
-                     const Timing& timing, std::function<void()> saved)
+P2pClient::P2pClient(PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
+                     std::unique_ptr<P2pDriver> driver, const Timing& timing,
+                     std::function<void()> saved)
     : memory_(memory), driver_(std::move(driver)), timing_(timing), saved_(std::move(saved)) {
   for (const P2pBlock& block : parameters.blocks) {
     if (block.channel != channel) continue;
@@ -44,8 +47,10 @@ std::optional<Time> P2pClient::wake_at() const {
   std::optional<Time> wake = driver_->wake_at();
   const auto earlier = [&wake](Time at) { wake = wake ? std::min(*wake, at) : at; };
   for (const Clock& clock : clocks_) earlier(clock.next);
-  if (busy_) earlier(deadline_);
-  else if ((wanted_ | round_) != 0) earlier(std::max(now_, free_at()));
+  if (busy_)
+    earlier(deadline_);
+  else if ((wanted_ | round_) != 0)
+    earlier(std::max(now_, free_at()));
   return wake;
 }
 
@@ -137,19 +142,23 @@ void P2pClient::power_cycle() {
 
 void P2pClient::on_frame(ByteView frame, Time) {
   if (busy_ && awaits_reply_) {
-    if (const auto error = driver_->take(blocks_[*busy_], frame, memory_)) return finish(*busy_, *error);
+    if (const auto error = driver_->take(blocks_[*busy_], frame, memory_))
+      return finish(*busy_, *error);
   }
   if (!active_) return;
   for (BlockSet left = receivers_; left != 0; left &= left - 1) {
     const auto block = static_cast<std::size_t>(std::countr_zero(left));
-    if (const auto error = driver_->take(blocks_[block], frame, memory_)) return finish(block, *error);
+    if (const auto error = driver_->take(blocks_[block], frame, memory_))
+      return finish(block, *error);
   }
 }
 
 void P2pClient::on_broken_frame(std::uint16_t why) {
   if (!busy_ || !awaits_reply_) return;
-  if (why == service_status::head) noise_ = true;
-  else finish(*busy_, error_of(why));
+  if (why == service_status::head)
+    noise_ = true;
+  else
+    finish(*busy_, error_of(why));
 }
 
 void P2pClient::finish(std::size_t block, std::uint16_t error) {
@@ -159,8 +168,10 @@ void P2pClient::finish(std::size_t block, std::uint16_t error) {
   memory_.write(result.status, error);
   const DeviceAddress& count = error == p2p_error::none ? result.services : result.errors;
   memory_.write(count, memory_.read(count) + 1);  // a dword: it wraps
-  if (error == p2p_error::none) counters_.count_service();
-  else counters_.count_error(service_code(error));
+  if (error == p2p_error::none)
+    counters_.count_service();
+  else
+    counters_.count_error(service_code(error));
   if (busy_ == block) busy_.reset();
   if (saved_) saved_();
 }

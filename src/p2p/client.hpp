@@ -1,13 +1,15 @@
-// The P2P service of one channel (000 and 003 6.2-6.4, Appendix 2.1, 3.3): when which block is asked, and what comes of it.
-// How a request looks is the driver's affair.
+// The P2P service of one channel (000 and 003 6.2-6.4, Appendix 2.1, 3.3): when which block is
+// asked, and what comes of it. How a request looks is the driver's affair.
 //
-// A block fires at the rising edge of its flag, or of its clock: clocks count from power-on, the first edge comes after one
-// whole period. One transaction at a time: the blocks that have fired when the channel is free make a round, in block
-// order; what fires meanwhile waits for the next round. An edge of a block that is wanted or under way is lost, and so
-// is one in STOP or with the link disabled. A flag that is already on when the PLC goes to RUN has not risen.
+// A block fires at the rising edge of its flag, or of its clock: clocks count from power-on, the
+// first edge comes after one whole period. One transaction at a time: the blocks that have fired
+// when the channel is free make a round, in block order; what fires meanwhile waits for the next
+// round. An edge of a block that is wanted or under way is lost, and so is one in STOP or with the
+// link disabled. A flag that is already on when the PLC goes to RUN has not risen.
 //
-// A block ends normally (NDR), or with an error code (ERR, STATUS); each clears the other. The time-out runs from the last
-// byte sent; there is no retry. What has no header does not end the wait, but makes the error of the time-out 01.
+// A block ends normally (NDR), or with an error code (ERR, STATUS); each clears the other. The
+// time-out runs from the last byte sent; there is no retry. What has no header does not end the
+// wait, but makes the error of the time-out 01.
 #pragma once
 
 #include <functional>
@@ -25,15 +27,16 @@ namespace fieldproof {
 class P2pClient : public Device, private FrameSink {
  public:
   struct Timing {
-    Duration time_out{};        // after the last byte sent
-    Duration delay{};           // silence on the line before a request (000 11.2.3: RS-485 delay time)
+    Duration time_out{};  // after the last byte sent
+    Duration delay{};     // silence on the line before a request (000 11.2.3: RS-485 delay time)
     Duration character_time{};  // of its own line
   };
 
-  /// The blocks of `parameters` that are of `channel`, checked with `driver` (parameters.hpp). `memory` outlives the client;
-  /// `saved` is called when it has changed memory. It is off until `set_active`.
-  P2pClient(PlcMemory& memory, const P2pParameters& parameters, unsigned channel, std::unique_ptr<P2pDriver> driver,
-            const Timing& timing, std::function<void()> saved);
+  /// The blocks of `parameters` that are of `channel`, checked with `driver` (parameters.hpp).
+  /// `memory` outlives the client; `saved` is called when it has changed memory. It is off until
+  /// `set_active`.
+  P2pClient(PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
+            std::unique_ptr<P2pDriver> driver, const Timing& timing, std::function<void()> saved);
 
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
@@ -41,12 +44,13 @@ class P2pClient : public Device, private FrameSink {
 
   /// Looks at the flags; to be called when memory may have changed.
   void scan();
-  /// RUN and link enabled. Otherwise it is silent, and what is under way is given up without a result.
+  /// RUN and link enabled. Otherwise it is silent, and what is under way is given up without a
+  /// result.
   void set_active(bool active);
   /// Counters, and what is under way, are lost; clocks begin anew.
   void power_cycle();
-  /// Of all blocks. The status is that of the P2P service, 000 11.1.4: 4 station, 5 time-out, FFFE no such request; where
-  /// it has no code, that of Appendix 3.3.
+  /// Of all blocks. The status is that of the P2P service, 000 11.1.4: 4 station, 5 time-out, FFFE
+  /// no such request; where it has no code, that of Appendix 3.3.
   const ServiceCounters& counters() const { return counters_; }
 
  private:
@@ -83,8 +87,8 @@ class P2pClient : public Device, private FrameSink {
   std::optional<std::size_t> busy_;  // the block under way
   bool awaits_reply_ = false;        // of it; else it is done when it is sent
   Time deadline_{};
-  bool noise_ = false;               // bytes without a header came while waiting
-  Time heard_until_{};               // or sent
+  bool noise_ = false;  // bytes without a header came while waiting
+  Time heard_until_{};  // or sent
   Time now_{};
   ServiceCounters counters_;
 };

@@ -17,8 +17,9 @@ struct Bench {
     const auto json = nlohmann::json::parse(R"({"blocks": [)" + blocks + "]}");
     const Result<P2pParameters> parameters = parse_p2p_parameters(json, memory.model());
     EXPECT_TRUE(parameters) << (parameters ? "" : parameters.error().message);
-    client = std::make_unique<P2pClient>(memory, *parameters, 1, std::make_unique<test::TestDriver>(),
-                                         P2pClient::Timing{time_out, delay, character}, [this] { client->scan(); });
+    client = std::make_unique<P2pClient>(
+        memory, *parameters, 1, std::make_unique<test::TestDriver>(),
+        P2pClient::Timing{time_out, delay, character}, [this] { client->scan(); });
     client->set_active(true);
   }
 
@@ -33,7 +34,8 @@ struct Bench {
   }
   std::string get(std::string_view name) { return *get_by_name(memory, name, 0); }
 
-  /// Time passes until the client sends; "" when it does not until `until`. Then `now` is when it began.
+  /// Time passes until the client sends; "" when it does not until `until`. Then `now` is when it
+  /// began.
   std::string sent(Time until) {
     for (;;) {
       const auto wake = client->wake_at();
@@ -56,7 +58,8 @@ struct Bench {
   std::string result(unsigned block) {
     const P2pResultFlags flags = p2p_result_flags(memory.model(), 1, block);
     std::string text;
-    for (const DeviceAddress& address : {flags.ndr, flags.err, flags.status, flags.services, flags.errors})
+    for (const DeviceAddress& address :
+         {flags.ndr, flags.err, flags.status, flags.services, flags.errors})
       text += hex_number(memory.read(address), address.type == 'X' ? 1 : 2) + ' ';
     text.pop_back();
     return text;
@@ -274,7 +277,8 @@ TEST(P2pClient, PowerCycleForgetsTheTransaction) {
 }
 
 TEST(P2pClient, SavedValuesAndResultsMayBeFlags) {
-  Bench b(R"({"flag": "%MX0", "type": "bit", "read": "%MX5", "save": "%MX1"})" + ("," + block("%MX1")) + "," + block("%LX5180"));
+  Bench b(R"({"flag": "%MX0", "type": "bit", "read": "%MX5", "save": "%MX1"})" +
+          ("," + block("%MX1")) + "," + block("%LX5180"));
   b.pulse("%MX0");
   EXPECT_EQ(b.sent(), "ask 0");
   b.reply("ok");
@@ -297,7 +301,8 @@ TEST(P2pClient, DelayIsSilenceBeforeARequest) {
 }
 
 TEST(P2pClient, AUserFrameIsDoneWhenItIsSent) {
-  Bench b(R"({"function": "send", "flag": "%MX0", "frame": "A.B"}, {"function": "send", "flag": "%MX0", "frame": "A.C"})");
+  Bench b(
+      R"({"function": "send", "flag": "%MX0", "frame": "A.B"}, {"function": "send", "flag": "%MX0", "frame": "A.C"})");
   b.pulse("%MX0");
   EXPECT_EQ(b.sent(), "send A.B");
   EXPECT_EQ(b.result(0), "0 0 00 00 00");
@@ -307,7 +312,9 @@ TEST(P2pClient, AUserFrameIsDoneWhenItIsSent) {
 }
 
 TEST(P2pClient, ReceiveIsAlwaysArmed) {
-  Bench b(R"({"function": "receive", "frame": "A.B", "save": "%MW5"}, {"function": "receive", "frame": "A.C"}, )" + block("%MX0"));
+  Bench b(
+      R"({"function": "receive", "frame": "A.B", "save": "%MW5"}, {"function": "receive", "frame": "A.C"}, )" +
+      block("%MX0"));
   b.reply("got A.B");
   b.reply("got A.B");
   EXPECT_EQ(b.result(0), "1 0 00 02 00");

@@ -15,7 +15,8 @@ struct Clock {
   unsigned bit;              // of F word 9
   Duration period;
 };
-constexpr std::array clocks{Clock{"F90", "_T20MS", 0, 20ms}, Clock{"F92", "_T200MS", 2, 200ms}, Clock{"F93", "_T1S", 3, 1s}};
+constexpr std::array clocks{Clock{"F90", "_T20MS", 0, 20ms}, Clock{"F92", "_T200MS", 2, 200ms},
+                            Clock{"F93", "_T1S", 3, 1s}};
 constexpr std::uint32_t clock_word = 9;
 
 /// "F0092" and "F092" are F92.
@@ -27,26 +28,33 @@ std::string without_zeros(std::string text) {
 std::string clock_names(const PlcModel& model) {
   std::string names;
   for (const Clock& clock : clocks)
-    names += fmt::format("{}{} ({} ms)", names.empty() ? "" : ", ", model.iec ? clock.iec : clock.mk, clock.period / 1ms);
+    names += fmt::format("{}{} ({} ms)", names.empty() ? "" : ", ",
+                         model.iec ? clock.iec : clock.mk, clock.period / 1ms);
   return names;
 }
 
 bool is_clock_bit(const Clock& clock, const DeviceAddress& bit, const PlcModel& model) {
-  return !model.iec && model.areas[bit.area].letter == 'F' && bit.index == clock_word * 16 + clock.bit;
+  return !model.iec && model.areas[bit.area].letter == 'F' &&
+         bit.index == clock_word * 16 + clock.bit;
 }
 }  // namespace
 
 Result<P2pCondition> parse_p2p_condition(std::string_view flag, const PlcModel& model) {
   const auto wrong = [&model](const std::string& what) {
-    return fail(fmt::format("{}; give a bit such as %MX00000, or a clock: {}", what, clock_names(model)));
+    return fail(
+        fmt::format("{}; give a bit such as %MX00000, or a clock: {}", what, clock_names(model)));
   };
   if (flag.empty()) return wrong("there is no flag");
   const std::string name = upper(std::string(flag));
   for (const Clock& clock : clocks)
-    if (model.iec ? name == clock.iec : without_zeros(name) == clock.mk) return P2pCondition{{}, clock.period};
+    if (model.iec ? name == clock.iec : without_zeros(name) == clock.mk)
+      return P2pCondition{{}, clock.period};
   const ParsedAddress parsed = parse_address(model, flag);
-  if (!parsed) return wrong(fmt::format("flag '{}' is no bit of {}: {}", flag, model.name, describe(parsed.fault)));
-  if (parsed.address.type != 'X') return wrong(fmt::format("flag '{}' is no bit: its type is {}", flag, parsed.address.type));
+  if (!parsed)
+    return wrong(
+        fmt::format("flag '{}' is no bit of {}: {}", flag, model.name, describe(parsed.fault)));
+  if (parsed.address.type != 'X')
+    return wrong(fmt::format("flag '{}' is no bit: its type is {}", flag, parsed.address.type));
   for (const Clock& clock : clocks)
     if (is_clock_bit(clock, parsed.address, model)) return P2pCondition{{}, clock.period};
   return P2pCondition{parsed.address};

@@ -1,5 +1,6 @@
-// A P2P driver (000 table 6.2.1): how the client of one channel asks, and reads what is answered. It keeps no schedule,
-// counts nothing and sets no flag: P2pClient does. A protocol makes its emulated client of it with make_p2p_plc (p2p_plc.hpp).
+// A P2P driver (000 table 6.2.1): how the client of one channel asks, and reads what is answered.
+// It keeps no schedule, counts nothing and sets no flag: P2pClient does. A protocol makes its
+// emulated client of it with make_p2p_plc (p2p_plc.hpp).
 #pragma once
 
 #include <cstdint>
@@ -20,23 +21,29 @@ class P2pDriver {
  public:
   virtual ~P2pDriver() = default;
 
-  /// As it stands in a P2P parameter: "xgt-client", "modbus-rtu-client", "modbus-ascii-client", "ls-bus-client", "user-frames".
+  /// As it stands in a P2P parameter: "xgt-client", "modbus-rtu-client", "modbus-ascii-client",
+  /// "ls-bus-client", "user-frames".
   virtual std::string_view name() const = 0;
 
-  /// What XG5000 refuses of this driver's blocks beyond the common rules: sizes, addresses of the partner, functions.
+  /// What XG5000 refuses of this driver's blocks beyond the common rules: sizes, addresses of the
+  /// partner, functions.
   virtual Status check(const P2pBlock& block, const PlcModel& model) const = 0;
 
-  /// The request of a block, with the values of a write taken from memory. An error: it cannot be sent (STATUS 07).
+  /// The request of a block, with the values of a write taken from memory. An error: it cannot be
+  /// sent (STATUS 07).
   virtual Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const = 0;
 
   /// Does the request of such a block wait for a reply? A user frame that was sent is done.
   virtual bool awaits_reply(const P2pBlock& block) const = 0;
 
-  /// Judges a complete frame against the request of `block` and saves what was read, all or nothing: the error code, 0
-  /// for a normal end. Nothing: the frame is none of this block's (a RECEIVE block of another frame).
-  virtual std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const = 0;
+  /// Judges a complete frame against the request of `block` and saves what was read, all or
+  /// nothing: the error code, 0 for a normal end. Nothing: the frame is none of this block's (a
+  /// RECEIVE block of another frame).
+  virtual std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
+                                            PlcMemory& memory) const = 0;
 
-  /// Finds frames in what arrives: complete ones and broken ones (`why` is a service_status) go to the sink.
+  /// Finds frames in what arrives: complete ones and broken ones (`why` is a service_status) go to
+  /// the sink.
   virtual void receive(const Burst& burst, FrameSink& sink) = 0;
   virtual std::optional<Time> wake_at() const = 0;
   virtual void advance(Time now, FrameSink& sink) = 0;

@@ -36,9 +36,10 @@ Status P2pPlc::act(std::string_view action) {
   } else if (action == "link on" || action == "link off") {
     link_ = action == "link on";
   } else {
-    constexpr std::array<std::string_view, 5> names{"run", "stop", "power_cycle", "link on", "link off"};
-    return fail(fmt::format("cannot do '{}': there is no such action; use one of {}{}", action, fmt::join(names, ", "),
-                            suggestion(action, names)));
+    constexpr std::array<std::string_view, 5> names{"run", "stop", "power_cycle", "link on",
+                                                    "link off"};
+    return fail(fmt::format("cannot do '{}': there is no such action; use one of {}{}", action,
+                            fmt::join(names, ", "), suggestion(action, names)));
   }
   update_mode();
   return ok();
@@ -56,7 +57,8 @@ bool is_p2p_client(const nlohmann::json& config) {
   return config.is_object() && config.contains("role") && config["role"] == "client";
 }
 
-Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
+Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view model, const nlohmann::json& config,
+                                             const P2pDriverFactory& driver,
                                              std::initializer_list<std::string_view> own_keys) {
   constexpr std::string_view what = "the P2P client's configuration";
   std::vector<std::string_view> keys = port_keys(own_keys);
@@ -71,25 +73,30 @@ Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view model, const nlohm
   if (reader.error()) return *reader.error();
   const Result<const PlcModel*> known = check_port_config(port);
   if (!known) return known.error();
-  if (!config.contains("p2p")) return fail("cannot make a P2P client: there is no p2p; give its blocks, or role server");
+  if (!config.contains("p2p"))
+    return fail("cannot make a P2P client: there is no p2p; give its blocks, or role server");
   const Result<P2pParameters> parameters = parse_p2p_parameters(config["p2p"], **known);
   if (!parameters) return parameters.error();
 
   std::unique_ptr<P2pPlc> plc(new P2pPlc(**known, *parameters, port.run));
-  const P2pClient::Timing timing{100ms * (time_out + 1), port.reply_delay(), port.line.character_time()};
+  const P2pClient::Timing timing{100ms * (time_out + 1), port.reply_delay(),
+                                 port.line.character_time()};
   for (unsigned channel = 1; channel <= plc->channels_.size(); ++channel) {
     std::unique_ptr<P2pDriver> own = driver(port);
-    if (const Status status = check_p2p_driver(*parameters, channel, *own, **known); !status) return status.error();
-    plc->channels_[channel - 1] = std::make_unique<P2pClient>(plc->memory_, *parameters, channel, std::move(own), timing,
-                                                              [plc = plc.get()] { plc->scan(); });
+    if (const Status status = check_p2p_driver(*parameters, channel, *own, **known); !status)
+      return status.error();
+    plc->channels_[channel - 1] =
+        std::make_unique<P2pClient>(plc->memory_, *parameters, channel, std::move(own), timing,
+                                    [plc = plc.get()] { plc->scan(); });
   }
   plc->line_ = plc->channels_[parameters->channel - 1].get();
   plc->update_mode();
   return plc;
 }
 
-Result<std::unique_ptr<EmulatedDevice>> make_p2p_device(std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
-                                                        std::initializer_list<std::string_view> own_keys) {
+Result<std::unique_ptr<EmulatedDevice>> make_p2p_device(
+    std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
+    std::initializer_list<std::string_view> own_keys) {
   Result<std::unique_ptr<P2pPlc>> plc = make_p2p_plc(model, config, driver, own_keys);
   if (!plc) return plc.error();
   return std::unique_ptr<EmulatedDevice>(std::move(*plc));

@@ -13,7 +13,9 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 Result<std::unique_ptr<P2pPlc>> make(const json& config, std::string_view model = "xbc-h") {
-  return make_p2p_plc(model, config, [](const PortConfig&) { return std::make_unique<test::TestDriver>(); }, {"colour"});
+  return make_p2p_plc(model, config,
+                      [](const PortConfig&) { return std::make_unique<test::TestDriver>(); },
+                      {"colour"});
 }
 
 const json config = json::parse(R"({"role": "client", "station": 5, "p2p": {"blocks": [
@@ -109,7 +111,8 @@ TEST(P2pPlc, PowerCycleKeepsMemoryModeAndLink) {
 
 TEST(P2pPlc, UnknownActions) {
   EXPECT_EQ(plc_of(config)->act("lnk off").error().message,
-            "cannot do 'lnk off': there is no such action; use one of run, stop, power_cycle, link on, link off; did you mean "
+            "cannot do 'lnk off': there is no such action; use one of run, stop, power_cycle, link "
+            "on, link off; did you mean "
             "'link off'?");
 }
 
@@ -141,15 +144,19 @@ TEST(P2pPlc, ShowsItsParametersInN) {
 }
 
 TEST(P2pPlc, ErrorsNameTheKey) {
-  EXPECT_THAT(error_of(with({{"timeout", 1}})), HasSubstr("the P2P client's configuration: there is no key 'timeout'"));
+  EXPECT_THAT(error_of(with({{"timeout", 1}})),
+              HasSubstr("the P2P client's configuration: there is no key 'timeout'"));
   EXPECT_EQ(error_of(with({{"colour", 1}})), "");  // a key of the protocol's own
-  EXPECT_THAT(error_of(with({{"time_out", 51}})), HasSubstr("time_out is 51, which is not a number from 0 to 50"));
+  EXPECT_THAT(error_of(with({{"time_out", 51}})),
+              HasSubstr("time_out is 51, which is not a number from 0 to 50"));
   EXPECT_THAT(error_of(with({{"delay_ms", 15}})), HasSubstr("steps of 10 ms"));
-  EXPECT_EQ(error_of({{"role", "client"}}), "cannot make a P2P client: there is no p2p; give its blocks, or role server");
+  EXPECT_EQ(error_of({{"role", "client"}}),
+            "cannot make a P2P client: there is no p2p; give its blocks, or role server");
   EXPECT_THAT(make(config, "xbc_h").error().message, HasSubstr("did you mean 'xbc-h'"));
   json blocks = config;
   blocks["p2p"]["blocks"][1]["station"] = 99;
-  EXPECT_EQ(error_of(blocks), "cannot set up P2P block 1: station is 99, which this driver has not");
+  EXPECT_EQ(error_of(blocks),
+            "cannot set up P2P block 1: station is 99, which this driver has not");
 }
 
 TEST(P2pPlc, IsAskedForByItsRole) {

@@ -24,10 +24,12 @@ struct Word {
   std::string_view text;
   int meaning;
 };
-constexpr std::array functions{Word{"read", int(Function::read)}, Word{"write", int(Function::write)},
-                               Word{"send", int(Function::send)}, Word{"receive", int(Function::receive)}};
+constexpr std::array functions{
+    Word{"read", int(Function::read)}, Word{"write", int(Function::write)},
+    Word{"send", int(Function::send)}, Word{"receive", int(Function::receive)}};
 constexpr std::array commands{Word{"single", 0}, Word{"continuous", 1}};
-constexpr std::array types{Word{"bit", 'X'}, Word{"byte", 'B'}, Word{"word", 'W'}, Word{"dword", 'D'}, Word{"lword", 'L'}};
+constexpr std::array types{Word{"bit", 'X'}, Word{"byte", 'B'}, Word{"word", 'W'},
+                           Word{"dword", 'D'}, Word{"lword", 'L'}};
 
 std::string_view type_name(char type) {
   return std::ranges::find(types, int(type), &Word::meaning)->text;
@@ -37,18 +39,24 @@ std::string_view type_name(char type) {
 class BlockReader {
  public:
   BlockReader(const json& object, const PlcModel& model, P2pBlock& block, std::string what)
-      : object_(object), model_(model), block_(block), reader_(object, what), what_(std::move(what)) {}
+      : object_(object),
+        model_(model),
+        block_(block),
+        reader_(object, what),
+        what_(std::move(what)) {}
 
   Status read() {
-    constexpr std::array<std::string_view, 11> keys{"block", "channel", "command", "flag",    "frame", "function",
-                                                    "read",  "save",    "size",    "station", "type"};
+    constexpr std::array<std::string_view, 11> keys{"block", "channel",  "command", "flag",
+                                                    "frame", "function", "read",    "save",
+                                                    "size",  "station",  "type"};
     if (const Status known = known_keys(object_, what_, keys); !known) return known;
     int function = int(block_.function), continuous = block_.continuous, type = block_.type;
     reader_.whole("channel", channels, block_.channel);
     reader_.whole("station", highest_station, block_.station);
     reader_.whole("size", most_elements, block_.size);
     if (reader_.error()) return *reader_.error();
-    for (const Status& status : {word("function", functions, function), word("command", commands, continuous), word("type", types, type)})
+    for (const Status& status : {word("function", functions, function),
+                                 word("command", commands, continuous), word("type", types, type)})
       if (!status) return status;
     block_.function = static_cast<Function>(function);
     block_.continuous = continuous != 0;
@@ -60,7 +68,9 @@ class BlockReader {
   }
 
  private:
-  Error wrong(const std::string& cause) const { return fail(fmt::format("cannot read {}: {}", what_, cause)); }
+  Error wrong(const std::string& cause) const {
+    return fail(fmt::format("cannot read {}: {}", what_, cause));
+  }
 
   template <std::size_t count>
   Status word(const char* key, const std::array<Word, count>& words, int& to) {
@@ -71,7 +81,8 @@ class BlockReader {
     for (const Word& w : words) known.push_back(w.text);
     const auto found = std::ranges::find(words, text, &Word::text);
     if (found == words.end())
-      return wrong(fmt::format("{} is '{}'; use one of {}{}", key, text, fmt::join(known, ", "), suggestion(text, known)));
+      return wrong(fmt::format("{} is '{}'; use one of {}{}", key, text, fmt::join(known, ", "),
+                               suggestion(text, known)));
     to = found->meaning;
     return ok();
   }
@@ -81,7 +92,9 @@ class BlockReader {
     reader_.text("flag", flag);
     if (reader_.error()) return *reader_.error();
     if (block_.function == Function::receive)
-      return flag.empty() ? ok() : Status(wrong("a receive block has no flag: it is always armed; remove 'flag'"));
+      return flag.empty()
+                 ? ok()
+                 : Status(wrong("a receive block has no flag: it is always armed; remove 'flag'"));
     Result<P2pCondition> condition = parse_p2p_condition(flag, model_);
     if (!condition) return wrong(condition.error().message);
     block_.condition = *condition;
@@ -95,35 +108,43 @@ class BlockReader {
     if (value == object_.end()) return texts;
     const json list = value->is_array() ? *value : json::array({*value});
     for (const json& text : list) {
-      if (!text.is_string()) return wrong(fmt::format("{} is not an address, or a list of addresses", key));
+      if (!text.is_string())
+        return wrong(fmt::format("{} is not an address, or a list of addresses", key));
       texts.push_back(text.get<std::string>());
     }
     if (texts.empty() || texts.size() > p2p_max_variables)
-      return wrong(fmt::format("{} has {} addresses; a block has 1 to {} variables", key, texts.size(), p2p_max_variables));
+      return wrong(fmt::format("{} has {} addresses; a block has 1 to {} variables", key,
+                               texts.size(), p2p_max_variables));
     return texts;
   }
 
   Status read_variables() {
-    if (object_.contains("frame")) return wrong("'frame' is of send and receive blocks; remove it, or set function");
+    if (object_.contains("frame"))
+      return wrong("'frame' is of send and receive blocks; remove it, or set function");
     const bool reads = block_.function == Function::read;
     const char *own_key = reads ? "save" : "read", *partner_key = reads ? "read" : "save";
     const auto own = names(own_key), partner = names(partner_key);
     if (!own) return own.error();
     if (!partner) return partner.error();
     if (own->empty() || partner->empty())
-      return wrong(fmt::format("there is no {}; a {} block has read (where from) and save (where to)", own->empty() ? own_key : partner_key,
-                               reads ? "read" : "write"));
+      return wrong(
+          fmt::format("there is no {}; a {} block has read (where from) and save (where to)",
+                      own->empty() ? own_key : partner_key, reads ? "read" : "write"));
     if (own->size() != partner->size())
-      return wrong(fmt::format("read and save have not the same number of addresses: {} and {}", reads ? partner->size() : own->size(),
+      return wrong(fmt::format("read and save have not the same number of addresses: {} and {}",
+                               reads ? partner->size() : own->size(),
                                reads ? own->size() : partner->size()));
-    if (block_.continuous && own->size() != 1) return wrong("a continuous block has one variable; use command single, or one address");
-    if (!block_.continuous && object_.contains("size")) return wrong("size is of continuous blocks; remove it, or set command");
+    if (block_.continuous && own->size() != 1)
+      return wrong("a continuous block has one variable; use command single, or one address");
+    if (!block_.continuous && object_.contains("size"))
+      return wrong("size is of continuous blocks; remove it, or set command");
     for (std::size_t i = 0; i < own->size(); ++i) {
       const Result<DeviceAddress> address = own_address(own_key, (*own)[i], block_.elements());
       if (!address) return address.error();
       if (address->type != block_.type)
-        return wrong(fmt::format("{} '{}' is of type {}, and the block of type {}; make them equal", own_key, (*own)[i],
-                                 type_name(address->type), type_name(block_.type)));
+        return wrong(fmt::format("{} '{}' is of type {}, and the block of type {}; make them equal",
+                                 own_key, (*own)[i], type_name(address->type),
+                                 type_name(block_.type)));
       block_.variables.push_back({(*partner)[i], *address});
     }
     return ok();
@@ -136,7 +157,9 @@ class BlockReader {
     const char *own_key = sends ? "read" : "save", *other = sends ? "save" : "read";
     if (block_.frame.empty()) return wrong("there is no frame; give its name, such as GROUP.FRAME");
     for (const char* key : {other, "command", "type", "station"})
-      if (object_.contains(key)) return wrong(fmt::format("'{}' is not of a {} block; remove it", key, sends ? "send" : "receive"));
+      if (object_.contains(key))
+        return wrong(
+            fmt::format("'{}' is not of a {} block; remove it", key, sends ? "send" : "receive"));
     const auto own = names(own_key);
     if (!own) return own.error();
     for (const std::string& name : *own) {
@@ -147,14 +170,19 @@ class BlockReader {
     return ok();
   }
 
-  Result<DeviceAddress> own_address(const char* key, const std::string& name, unsigned elements) const {
+  Result<DeviceAddress> own_address(const char* key, const std::string& name,
+                                    unsigned elements) const {
     const ParsedAddress parsed = parse_address(model_, name);
-    if (!parsed) return wrong(fmt::format("{} '{}' is wrong on {}: {}", key, name, model_.name, describe(parsed.fault)));
+    if (!parsed)
+      return wrong(fmt::format("{} '{}' is wrong on {}: {}", key, name, model_.name,
+                               describe(parsed.fault)));
     if (!fits(model_, parsed.address, elements))
-      return wrong(fmt::format("{} '{}': the area ends before the last of {} elements", key, name, elements));
+      return wrong(fmt::format("{} '{}': the area ends before the last of {} elements", key, name,
+                               elements));
     const DeviceArea& area = model_.areas[parsed.address.area];
     if (std::string_view(key) == "save" && !area.write)
-      return wrong(fmt::format("save '{}': {} is read only; save in another area", name, area.letter));
+      return wrong(
+          fmt::format("save '{}': {} is read only; save in another area", name, area.letter));
     return parsed.address;
   }
 
@@ -165,20 +193,31 @@ class BlockReader {
   std::string what_;
 };
 
-Error wrong_block(unsigned number, const std::string& cause) { return fail(fmt::format("cannot set up P2P block {}: {}", number, cause)); }
+Error wrong_block(unsigned number, const std::string& cause) {
+  return fail(fmt::format("cannot set up P2P block {}: {}", number, cause));
+}
 
 /// What blocks must not have in common, and where they may be.
 Status check_together(const P2pParameters& parameters) {
   std::set<unsigned> numbers;
   std::set<std::string> received;
-  const unsigned first_channel = parameters.blocks.empty() ? parameters.channel : parameters.blocks.front().channel;
+  const unsigned first_channel =
+      parameters.blocks.empty() ? parameters.channel : parameters.blocks.front().channel;
   for (const P2pBlock& block : parameters.blocks) {
-    if (!numbers.insert(block.number).second) return wrong_block(block.number, "it is there twice; give each block a number of its own");
+    if (!numbers.insert(block.number).second)
+      return wrong_block(block.number, "it is there twice; give each block a number of its own");
     if (block.function == Function::receive && !received.insert(block.frame).second)
-      return wrong_block(block.number, fmt::format("frame {} has a receive block already; one block receives a frame (000 6.2.4)", block.frame));
+      return wrong_block(
+          block.number,
+          fmt::format(
+              "frame {} has a receive block already; one block receives a frame (000 6.2.4)",
+              block.frame));
     if (parameters.parameter != 1 && block.channel != first_channel)
-      return wrong_block(block.number, fmt::format("channel is {}; P2P {} is a module of one channel, and other blocks have channel {}",
-                                                   block.channel, parameters.parameter, first_channel));
+      return wrong_block(
+          block.number,
+          fmt::format(
+              "channel is {}; P2P {} is a module of one channel, and other blocks have channel {}",
+              block.channel, parameters.parameter, first_channel));
   }
   return ok();
 }
@@ -193,10 +232,14 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const PlcModel& mode
   reader.whole("channel", channels, parameters.channel);
   reader.boolean("link", parameters.link);
   if (reader.error()) return *reader.error();
-  if (parameters.parameter == 0 || parameters.channel == 0) return fail("cannot read p2p: parameter is 1 to 3, and channel 1 or 2");
+  if (parameters.parameter == 0 || parameters.channel == 0)
+    return fail("cannot read p2p: parameter is 1 to 3, and channel 1 or 2");
   const auto list = p2p.find("blocks");
-  if (list == p2p.end() || !list->is_array() || list->empty()) return fail("cannot read p2p: there are no blocks; give a list of them");
-  if (list->size() > p2p_blocks) return fail(fmt::format("cannot read p2p: there are {} blocks; a parameter has at most 32", list->size()));
+  if (list == p2p.end() || !list->is_array() || list->empty())
+    return fail("cannot read p2p: there are no blocks; give a list of them");
+  if (list->size() > p2p_blocks)
+    return fail(fmt::format("cannot read p2p: there are {} blocks; a parameter has at most 32",
+                            list->size()));
   for (const json& object : *list) {
     P2pBlock block;
     block.number = static_cast<unsigned>(parameters.blocks.size());
@@ -204,7 +247,8 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const PlcModel& mode
     ConfigReader number(object, fmt::format("p2p.blocks[{}]", block.number));
     if (object.is_object()) number.whole("block", p2p_blocks - 1, block.number);
     if (number.error()) return *number.error();
-    const Status status = BlockReader(object, model, block, fmt::format("P2P block {}", block.number)).read();
+    const Status status =
+        BlockReader(object, model, block, fmt::format("P2P block {}", block.number)).read();
     if (!status) return status.error();
     parameters.blocks.push_back(std::move(block));
   }
@@ -213,16 +257,21 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const PlcModel& mode
   return parameters;
 }
 
-Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const P2pDriver& driver, const PlcModel& model) {
+Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const P2pDriver& driver,
+                        const PlcModel& model) {
   const bool user_frames = driver.name() == "user-frames";
   for (const P2pBlock& block : parameters.blocks) {
     if (block.channel != channel) continue;
     if (block.is_user_frame() != user_frames) {
-      const char* cause = user_frames ? "the driver user-frames has send and receive alone"
-                                      : "a channel whose driver is {} sends and receives no user frames (000 6.2.3)";
-      return wrong_block(block.number, fmt::format(fmt::runtime(cause), driver.name()) + "; set function, or another driver");
+      const char* cause =
+          user_frames
+              ? "the driver user-frames has send and receive alone"
+              : "a channel whose driver is {} sends and receives no user frames (000 6.2.3)";
+      return wrong_block(block.number, fmt::format(fmt::runtime(cause), driver.name()) +
+                                           "; set function, or another driver");
     }
-    if (const Status status = driver.check(block, model); !status) return wrong_block(block.number, status.error().message);
+    if (const Status status = driver.check(block, model); !status)
+      return wrong_block(block.number, status.error().message);
   }
   return ok();
 }

@@ -1,12 +1,15 @@
-// A P2P parameter: up to 32 blocks, read from JSON and checked as XG5000 checks them (000 and 003 6.2.1-6.2.4, 003 6.3.2).
+// A P2P parameter: up to 32 blocks, read from JSON and checked as XG5000 checks them (000 and
+// 003 6.2.1-6.2.4, 003 6.3.2).
 //
 //   {"parameter": 1, "channel": 1, "link": true,
-//    "blocks": [{"block": 0, "channel": 1, "function": "read", "flag": "%MX00000", "command": "single", "type": "word",
+//    "blocks": [{"block": 0, "channel": 1, "function": "read", "flag": "%MX00000", "command":
+//    "single", "type": "word",
 //                "read": "%MW100", "save": "%MW200", "station": 2}, ...]}
 //
-// `flag` is a bit or a clock (condition.hpp). Stations are 0-255 (000 11.1.4 'Available range: 0~255'; the
-// 0-31 of 003 6.3.2 is what one line carries). Parameter 1 has channels 1 and 2; 2 and 3 are modules of one channel
-// (6.2.3), which may be called 1 or 2 (003 11.2.2 sets channel 2 of an XBL-C21A).
+// `flag` is a bit or a clock (condition.hpp). Stations are 0-255 (000 11.1.4 'Available range:
+// 0~255'; the 0-31 of 003 6.3.2 is what one line carries). Parameter 1 has channels 1 and 2; 2 and
+// 3 are modules of one channel (6.2.3), which may be called 1 or 2 (003 11.2.2 sets channel 2 of an
+// XBL-C21A).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,17 +23,19 @@ namespace fieldproof {
 class P2pDriver;
 
 struct P2pParameters {
-  unsigned parameter = 1;  // 1-3
-  unsigned channel = 1;    // the one that an endpoint leads to
-  bool link = true;        // link enable (000 6.2.6)
+  unsigned parameter = 1;          // 1-3
+  unsigned channel = 1;            // the one that an endpoint leads to
+  bool link = true;                // link enable (000 6.2.6)
   std::vector<P2pBlock> blocks{};  // in the order of their numbers
 };
 
-/// What holds whatever the driver is. Errors name the block and the key: "cannot set up P2P block 3: ...".
+/// What holds whatever the driver is. Errors name the block and the key: "cannot set up P2P block
+/// 3: ...".
 Result<P2pParameters> parse_p2p_parameters(const nlohmann::json& p2p, const PlcModel& model);
 
-/// What the driver of `channel` adds: user frames are for the driver user-frames alone, which has nothing else (6.2.3); and
-/// P2pDriver::check of each block of that channel.
-Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const P2pDriver& driver, const PlcModel& model);
+/// What the driver of `channel` adds: user frames are for the driver user-frames alone, which has
+/// nothing else (6.2.3); and P2pDriver::check of each block of that channel.
+Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const P2pDriver& driver,
+                        const PlcModel& model);
 
 }  // namespace fieldproof

@@ -40,7 +40,9 @@ std::string error_of(const json& p2p, std::string_view name = "xbc-h") {
   return parameters ? "" : parameters.error().message;
 }
 
-std::string error_of_block(const json& block) { return error_of({{"blocks", json::array({block})}}); }
+std::string error_of_block(const json& block) {
+  return error_of({{"blocks", json::array({block})}});
+}
 
 TEST(P2pParameters, Defaults) {
   const P2pParameters p2p = parsed({{"blocks", json::array({read})}});
@@ -63,7 +65,8 @@ TEST(P2pParameters, Defaults) {
 
 // 000 6.2.4, figure 6.2.7
 TEST(P2pParameters, EveryKey) {
-  const P2pParameters p2p = parsed(json::parse(R"({"parameter": 1, "channel": 2, "link": false, "blocks": [
+  const P2pParameters p2p =
+      parsed(json::parse(R"({"parameter": 1, "channel": 2, "link": false, "blocks": [
     {"block": 7, "channel": 2, "function": "write", "flag": "%MX01020", "command": "continuous", "type": "byte", "size": 10,
      "read": "%MB250", "save": "%PB40", "station": 2},
     {"block": 3, "channel": 1, "function": "read", "flag": "F92", "type": "bit", "read": ["%MX0", "%MX1"], "save": ["%MX2", "%MX3"], "station": 255}]})"));
@@ -80,7 +83,9 @@ TEST(P2pParameters, EveryKey) {
 }
 
 TEST(P2pParameters, UserFrames) {
-  const P2pParameters p2p = parsed({{"blocks", {with(send, {{"read", "%MW2"}, {"size", 2}}), with(receive, {{"save", "%MW0"}}), send}}});
+  const P2pParameters p2p = parsed(
+      {{"blocks",
+        {with(send, {{"read", "%MW2"}, {"size", 2}}), with(receive, {{"save", "%MW0"}}), send}}});
   EXPECT_EQ(p2p.blocks[0].frame, "TX.B");
   EXPECT_EQ(p2p.blocks[0].size, 2u);
   EXPECT_EQ(p2p.blocks[0].variables[0].own, address("%MW2"));
@@ -91,7 +96,9 @@ TEST(P2pParameters, UserFrames) {
 TEST(P2pParameters, Clocks) {
   const auto period = [](const char* flag, std::string_view name = "xbc-h") {
     const std::string m = name == "xec-h" ? "%MW1" : "%MW200";
-    return parsed({{"blocks", json::array({with(read, {{"flag", flag}, {"save", m}})})}}, name).blocks.at(0).condition.period;
+    return parsed({{"blocks", json::array({with(read, {{"flag", flag}, {"save", m}})})}}, name)
+        .blocks.at(0)
+        .condition.period;
   };
   EXPECT_EQ(period("F90"), 20ms);
   EXPECT_EQ(period("F0092"), 200ms);
@@ -106,70 +113,105 @@ TEST(P2pParameters, Clocks) {
 TEST(P2pParameters, ErrorsOfTheWhole) {
   EXPECT_EQ(error_of(json::array()), "cannot read p2p: it is not a JSON object");
   EXPECT_THAT(error_of({{"chanel", 1}}), HasSubstr("did you mean 'channel'?"));
-  EXPECT_THAT(error_of({{"parameter", 4}}), HasSubstr("parameter is 4, which is not a number from 0 to 3"));
+  EXPECT_THAT(error_of({{"parameter", 4}}),
+              HasSubstr("parameter is 4, which is not a number from 0 to 3"));
   EXPECT_THAT(error_of({{"parameter", 0}}), HasSubstr("parameter is 1 to 3"));
   EXPECT_THAT(error_of({{"channel", 3}}), HasSubstr("channel is 3"));
   EXPECT_THAT(error_of(json::object()), HasSubstr("there are no blocks"));
   EXPECT_THAT(error_of({{"blocks", json::array()}}), HasSubstr("there are no blocks"));
-  EXPECT_THAT(error_of({{"blocks", std::vector<json>(33, read)}}), HasSubstr("33 blocks; a parameter has at most 32"));
+  EXPECT_THAT(error_of({{"blocks", std::vector<json>(33, read)}}),
+              HasSubstr("33 blocks; a parameter has at most 32"));
   EXPECT_EQ(error_of({{"blocks", std::vector<json>(32, read)}}), "");
   EXPECT_EQ(error_of({{"blocks", {read, with(read, {{"block", 0}})}}}),
             "cannot set up P2P block 0: it is there twice; give each block a number of its own");
-  EXPECT_THAT(error_of({{"blocks", {receive, receive}}}), HasSubstr("P2P block 1: frame RX.B has a receive block already"));
-  EXPECT_THAT(error_of({{"parameter", 2}, {"blocks", {read, with(read, {{"channel", 2}})}}}), HasSubstr("a module of one channel"));
-  EXPECT_EQ(error_of({{"parameter", 3}, {"blocks", json::array({with(read, {{"channel", 2}})})}}), "");  // 003 11.2.2
+  EXPECT_THAT(error_of({{"blocks", {receive, receive}}}),
+              HasSubstr("P2P block 1: frame RX.B has a receive block already"));
+  EXPECT_THAT(error_of({{"parameter", 2}, {"blocks", {read, with(read, {{"channel", 2}})}}}),
+              HasSubstr("a module of one channel"));
+  EXPECT_EQ(error_of({{"parameter", 3}, {"blocks", json::array({with(read, {{"channel", 2}})})}}),
+            "");  // 003 11.2.2
   EXPECT_EQ(error_of({{"blocks", {read, with(read, {{"channel", 2}})}}}), "");
 }
 
 TEST(P2pParameters, ErrorsNameBlockAndKey) {
   EXPECT_EQ(error_of_block(1), "cannot read P2P block 0: it is not a JSON object");
-  EXPECT_THAT(error_of_block(with(read, {{"colour", 1}})), HasSubstr("P2P block 0: there is no key 'colour'; the keys are block, channel"));
-  EXPECT_THAT(error_of_block(with(read, {{"block", 32}})), HasSubstr("block is 32, which is not a number from 0 to 31"));
+  EXPECT_THAT(error_of_block(with(read, {{"colour", 1}})),
+              HasSubstr("P2P block 0: there is no key 'colour'; the keys are block, channel"));
+  EXPECT_THAT(error_of_block(with(read, {{"block", 32}})),
+              HasSubstr("block is 32, which is not a number from 0 to 31"));
   EXPECT_THAT(error_of_block(with(read, {{"channel", 0}})), HasSubstr("channel is 0; use 1 or 2"));
-  EXPECT_THAT(error_of_block(with(read, {{"station", 256}})), HasSubstr("P2P block 0: station is 256, which is not a number from 0 to 255"));
-  EXPECT_THAT(error_of_block(with(read, {{"function", "raed"}})), HasSubstr("function is 'raed'; use one of read, write, send, receive; did you mean 'read'?"));
-  EXPECT_THAT(error_of_block(with(read, {{"command", "run"}})), HasSubstr("use one of single, continuous"));
-  EXPECT_THAT(error_of_block(with(read, {{"type", "int"}})), HasSubstr("use one of bit, byte, word, dword, lword"));
+  EXPECT_THAT(error_of_block(with(read, {{"station", 256}})),
+              HasSubstr("P2P block 0: station is 256, which is not a number from 0 to 255"));
+  EXPECT_THAT(
+      error_of_block(with(read, {{"function", "raed"}})),
+      HasSubstr("function is 'raed'; use one of read, write, send, receive; did you mean 'read'?"));
+  EXPECT_THAT(error_of_block(with(read, {{"command", "run"}})),
+              HasSubstr("use one of single, continuous"));
+  EXPECT_THAT(error_of_block(with(read, {{"type", "int"}})),
+              HasSubstr("use one of bit, byte, word, dword, lword"));
 }
 
 TEST(P2pParameters, ErrorsOfTheCondition) {
   EXPECT_EQ(error_of_block(with(read, {{"flag", "%MW0"}})),
-            "cannot read P2P block 0: flag '%MW0' is no bit: its type is W; give a bit such as %MX00000, or a clock: "
+            "cannot read P2P block 0: flag '%MW0' is no bit: its type is W; give a bit such as "
+            "%MX00000, or a clock: "
             "F90 (20 ms), F92 (200 ms), F93 (1000 ms)");
-  EXPECT_THAT(error_of_block(with(read, {{"flag", "F91"}})), HasSubstr("flag 'F91' is no bit of xbc-h: it does not begin with %"));
+  EXPECT_THAT(error_of_block(with(read, {{"flag", "F91"}})),
+              HasSubstr("flag 'F91' is no bit of xbc-h: it does not begin with %"));
   EXPECT_THAT(error_of_block(without(read, "flag")), HasSubstr("there is no flag"));
-  EXPECT_THAT(error_of_block(with(receive, {{"flag", "F92"}})), HasSubstr("a receive block has no flag"));
+  EXPECT_THAT(error_of_block(with(receive, {{"flag", "F92"}})),
+              HasSubstr("a receive block has no flag"));
   EXPECT_THAT(error_of_block(without(send, "flag")), HasSubstr("there is no flag"));
-  EXPECT_THAT(error_of({{"blocks", json::array({with(read, {{"flag", "F92"}, {"save", "%MW1"}})})}}, "xec-h"), HasSubstr("_T200MS (200 ms)"));
+  EXPECT_THAT(error_of({{"blocks", json::array({with(read, {{"flag", "F92"}, {"save", "%MW1"}})})}},
+                       "xec-h"),
+              HasSubstr("_T200MS (200 ms)"));
 }
 
 TEST(P2pParameters, ErrorsOfVariables) {
-  EXPECT_THAT(error_of_block(without(read, "read")), HasSubstr("there is no read; a read block has read (where from) and save"));
+  EXPECT_THAT(error_of_block(without(read, "read")),
+              HasSubstr("there is no read; a read block has read (where from) and save"));
   EXPECT_THAT(error_of_block(without(read, "save")), HasSubstr("there is no save"));
   EXPECT_THAT(error_of_block(with(read, {{"read", 1}})), HasSubstr("read is not an address"));
-  EXPECT_THAT(error_of_block(with(read, {{"read", std::vector<std::string>(5, "%MW0")}})), HasSubstr("read has 5 addresses; a block has 1 to 4 variables"));
-  EXPECT_THAT(error_of_block(with(read, {{"read", {"%MW0", "%MW1"}}})), HasSubstr("not the same number of addresses: 2 and 1"));
-  EXPECT_THAT(error_of_block(with(read, {{"command", "continuous"}, {"read", {"%MW0", "%MW1"}}, {"save", {"%MW0", "%MW1"}}})),
+  EXPECT_THAT(error_of_block(with(read, {{"read", std::vector<std::string>(5, "%MW0")}})),
+              HasSubstr("read has 5 addresses; a block has 1 to 4 variables"));
+  EXPECT_THAT(error_of_block(with(read, {{"read", {"%MW0", "%MW1"}}})),
+              HasSubstr("not the same number of addresses: 2 and 1"));
+  EXPECT_THAT(error_of_block(with(read, {{"command", "continuous"},
+                                         {"read", {"%MW0", "%MW1"}},
+                                         {"save", {"%MW0", "%MW1"}}})),
               HasSubstr("a continuous block has one variable"));
   EXPECT_THAT(error_of_block(with(read, {{"size", 2}})), HasSubstr("size is of continuous blocks"));
-  EXPECT_THAT(error_of_block(with(read, {{"command", "continuous"}, {"size", 0}})), HasSubstr("size is 0"));
-  EXPECT_THAT(error_of_block(with(read, {{"frame", "A.B"}})), HasSubstr("'frame' is of send and receive blocks"));
-  EXPECT_THAT(error_of_block(with(read, {{"save", "%MD0"}})), HasSubstr("save '%MD0' is of type dword, and the block of type word"));
-  EXPECT_THAT(error_of_block(with(read, {{"save", "%ZW0"}})), HasSubstr("save '%ZW0' is wrong on xbc-h: the model has no such area"));
-  EXPECT_THAT(error_of_block(with(read, {{"save", "%MW1024"}})), HasSubstr("it is beyond the area"));
-  EXPECT_THAT(error_of_block(with(read, {{"command", "continuous"}, {"size", 2}, {"save", "%MW1023"}})),
-              HasSubstr("save '%MW1023': the area ends before the last of 2 elements"));
-  EXPECT_EQ(error_of_block(with(read, {{"command", "continuous"}, {"size", 2}, {"save", "%MW1022"}})), "");
-  for (const char* area : {"%FW0", "%NW0"}) EXPECT_THAT(error_of_block(with(read, {{"save", area}})), HasSubstr("is read only"));
-  EXPECT_EQ(error_of_block(with(read, {{"function", "write"}, {"read", "%FW0"}, {"save", "%MW0"}})), "");  // F may be read
+  EXPECT_THAT(error_of_block(with(read, {{"command", "continuous"}, {"size", 0}})),
+              HasSubstr("size is 0"));
+  EXPECT_THAT(error_of_block(with(read, {{"frame", "A.B"}})),
+              HasSubstr("'frame' is of send and receive blocks"));
+  EXPECT_THAT(error_of_block(with(read, {{"save", "%MD0"}})),
+              HasSubstr("save '%MD0' is of type dword, and the block of type word"));
+  EXPECT_THAT(error_of_block(with(read, {{"save", "%ZW0"}})),
+              HasSubstr("save '%ZW0' is wrong on xbc-h: the model has no such area"));
+  EXPECT_THAT(error_of_block(with(read, {{"save", "%MW1024"}})),
+              HasSubstr("it is beyond the area"));
+  EXPECT_THAT(
+      error_of_block(with(read, {{"command", "continuous"}, {"size", 2}, {"save", "%MW1023"}})),
+      HasSubstr("save '%MW1023': the area ends before the last of 2 elements"));
+  EXPECT_EQ(
+      error_of_block(with(read, {{"command", "continuous"}, {"size", 2}, {"save", "%MW1022"}})),
+      "");
+  for (const char* area : {"%FW0", "%NW0"})
+    EXPECT_THAT(error_of_block(with(read, {{"save", area}})), HasSubstr("is read only"));
+  EXPECT_EQ(error_of_block(with(read, {{"function", "write"}, {"read", "%FW0"}, {"save", "%MW0"}})),
+            "");  // F may be read
 }
 
 TEST(P2pParameters, ErrorsOfUserFrames) {
   EXPECT_THAT(error_of_block(without(send, "frame")), HasSubstr("there is no frame"));
-  EXPECT_THAT(error_of_block(with(send, {{"save", "%MW0"}})), HasSubstr("'save' is not of a send block"));
-  EXPECT_THAT(error_of_block(with(receive, {{"read", "%MW0"}})), HasSubstr("'read' is not of a receive block"));
+  EXPECT_THAT(error_of_block(with(send, {{"save", "%MW0"}})),
+              HasSubstr("'save' is not of a send block"));
+  EXPECT_THAT(error_of_block(with(receive, {{"read", "%MW0"}})),
+              HasSubstr("'read' is not of a receive block"));
   EXPECT_THAT(error_of_block(with(receive, {{"save", "%FW0"}})), HasSubstr("is read only"));
-  EXPECT_THAT(error_of_block(with(send, {{"station", 1}})), HasSubstr("'station' is not of a send block"));
+  EXPECT_THAT(error_of_block(with(send, {{"station", 1}})),
+              HasSubstr("'station' is not of a send block"));
 }
 
 TEST(P2pParameters, DriversExcludeUserFrames) {
@@ -182,16 +224,19 @@ TEST(P2pParameters, DriversExcludeUserFrames) {
   EXPECT_EQ(error(1, xgt), "");
   EXPECT_EQ(error(2, frames), "");
   EXPECT_EQ(error(2, xgt),
-            "cannot set up P2P block 1: a channel whose driver is xgt-client sends and receives no user frames (000 6.2.3); set "
+            "cannot set up P2P block 1: a channel whose driver is xgt-client sends and receives no "
+            "user frames (000 6.2.3); set "
             "function, or another driver");
-  EXPECT_THAT(error(1, frames), HasSubstr("P2P block 0: the driver user-frames has send and receive alone"));
+  EXPECT_THAT(error(1, frames),
+              HasSubstr("P2P block 0: the driver user-frames has send and receive alone"));
 }
 
 TEST(P2pParameters, DriversHaveRulesOfTheirOwn) {
   const P2pParameters p2p = parsed({{"blocks", {read, with(read, {{"station", 99}})}}});
   const Status status = check_p2p_driver(p2p, 1, test::TestDriver(), model());
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().message, "cannot set up P2P block 1: station is 99, which this driver has not");
+  EXPECT_EQ(status.error().message,
+            "cannot set up P2P block 1: station is 99, which this driver has not");
 }
 
 }  // namespace

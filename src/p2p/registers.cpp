@@ -11,9 +11,12 @@ DeviceAddress address_in(const PlcModel& model, char area, char type, std::uint3
   return {static_cast<std::uint8_t>(model.area(area) - model.areas.data()), type, false, index};
 }
 
-void write_name(PlcMemory& memory, const DeviceAddress& first, unsigned words, std::string_view name) {
+void write_name(PlcMemory& memory, const DeviceAddress& first, unsigned words,
+                std::string_view name) {
   for (unsigned i = 0; i < words; ++i) {
-    const auto letter = [name](std::size_t at) { return at < name.size() ? static_cast<unsigned char>(name[at]) : 0u; };
+    const auto letter = [name](std::size_t at) {
+      return at < name.size() ? static_cast<unsigned char>(name[at]) : 0u;
+    };
     memory.write(first + i, letter(2 * i + 1) << 8 | letter(2 * i));
   }
 }
@@ -21,8 +24,10 @@ void write_name(PlcMemory& memory, const DeviceAddress& first, unsigned words, s
 void write_block(PlcMemory& memory, unsigned parameter, const P2pBlock& block) {
   const P2pRegisters registers = p2p_registers(memory.model(), parameter, block.number);
   memory.write(registers.station, block.station);
-  const bool own_is_saved = block.function == P2pBlock::Function::read || block.function == P2pBlock::Function::receive;
-  const unsigned bytes = block.is_user_frame() ? block.size : block.elements() * type_bytes(block.type);
+  const bool own_is_saved =
+      block.function == P2pBlock::Function::read || block.function == P2pBlock::Function::receive;
+  const unsigned bytes =
+      block.is_user_frame() ? block.size : block.elements() * type_bytes(block.type);
   for (std::size_t i = 0; i < p2p_max_variables; ++i) {
     const bool used = i < block.variables.size();
     const std::string own = used ? device_name(memory.model(), block.variables[i].own) : "";
@@ -49,7 +54,8 @@ P2pResultFlags p2p_result_flags(const PlcModel& model, unsigned parameter, unsig
 P2pRegisters p2p_registers(const PlcModel& model, unsigned parameter, unsigned block) {
   P2pRegisters registers;
   registers.name_words = model.iec ? 5 : 4;
-  const std::uint32_t words_an_area = registers.name_words + 1, words_a_block = 1 + 2 * p2p_max_variables * words_an_area;
+  const std::uint32_t words_an_area = registers.name_words + 1,
+                      words_a_block = 1 + 2 * p2p_max_variables * words_an_area;
   std::uint32_t word = words_a_block * (p2p_blocks * (parameter - 1) + block);
   registers.station = address_in(model, 'N', 'W', word++);
   for (auto* areas : {&registers.read, &registers.save}) {
@@ -69,7 +75,9 @@ void write_p2p_registers(PlcMemory& memory, const P2pParameters& parameters) {
 std::string device_name(const PlcModel& model, const DeviceAddress& address) {
   const char area = model.areas[address.area].letter;
   if (address.type == 'X' && !address.contact && !model.iec) {
-    return fmt::format("%{}X{}{:X}", area, address.index / 16 == 0 ? "" : std::to_string(address.index / 16), address.index % 16);
+    return fmt::format("%{}X{}{:X}", area,
+                       address.index / 16 == 0 ? "" : std::to_string(address.index / 16),
+                       address.index % 16);
   }
   return fmt::format("%{}{}{}", area, address.type, address.index);
 }

@@ -12,7 +12,8 @@ const PlcModel& iec() { return *find_plc_model("xec-h"); }
 
 std::string named(const PlcModel& model, const P2pResultFlags& flags) {
   std::string names;
-  for (const DeviceAddress& a : {flags.ndr, flags.err, flags.status, flags.services, flags.errors}) names += device_name(model, a) + ' ';
+  for (const DeviceAddress& a : {flags.ndr, flags.err, flags.status, flags.services, flags.errors})
+    names += device_name(model, a) + ' ';
   return names;
 }
 
@@ -30,16 +31,19 @@ TEST(P2pResultFlags, PrintedAddresses) {
 std::string named(const PlcModel& model, const P2pRegisters& registers) {
   std::string names = device_name(model, registers.station);
   for (const auto* areas : {&registers.read, &registers.save})
-    for (const P2pRegisters::Area& area : *areas) names += ' ' + device_name(model, area.name) + ' ' + device_name(model, area.size);
+    for (const P2pRegisters::Area& area : *areas)
+      names += ' ' + device_name(model, area.name) + ' ' + device_name(model, area.size);
   return names;
 }
 
 // 000 and 003 Appendix 2.2
 TEST(P2pRegisters, PrintedAddresses) {
   EXPECT_EQ(named(mk(), p2p_registers(mk(), 1, 0)),
-            "%NW0 %NW1 %NW5 %NW6 %NW10 %NW11 %NW15 %NW16 %NW20 %NW21 %NW25 %NW26 %NW30 %NW31 %NW35 %NW36 %NW40");
+            "%NW0 %NW1 %NW5 %NW6 %NW10 %NW11 %NW15 %NW16 %NW20 %NW21 %NW25 %NW26 %NW30 %NW31 %NW35 "
+            "%NW36 %NW40");
   EXPECT_EQ(named(iec(), p2p_registers(iec(), 1, 0)),
-            "%NW0 %NW1 %NW6 %NW7 %NW12 %NW13 %NW18 %NW19 %NW24 %NW25 %NW30 %NW31 %NW36 %NW37 %NW42 %NW43 %NW48");
+            "%NW0 %NW1 %NW6 %NW7 %NW12 %NW13 %NW18 %NW19 %NW24 %NW25 %NW30 %NW31 %NW36 %NW37 %NW42 "
+            "%NW43 %NW48");
   const auto first = [](const PlcModel& model, unsigned parameter, unsigned block) {
     return p2p_registers(model, parameter, block).station.index;
   };
@@ -71,26 +75,40 @@ PlcMemory written(const PlcModel& model, const char* p2p) {
 }
 
 TEST(P2pRegisters, ShowARead) {
-  const PlcMemory memory = written(mk(), R"({"blocks": [{"block": 1, "flag": "F92", "read": ["%MW100", "%DW10239"],
+  const PlcMemory memory =
+      written(mk(), R"({"blocks": [{"block": 1, "flag": "F92", "read": ["%MW100", "%DW10239"],
                                              "save": ["%MW00200", "%KW1"], "station": 2}]})");
   EXPECT_EQ(*get_by_name(memory, "%NW41", 0), "0002");
-  EXPECT_EQ(*get_by_name(memory, "%NB84", 20), "254D573130300000" "0200");      // %MW100, 2 bytes
-  EXPECT_EQ(*get_by_name(memory, "%NB94", 20), "2544573130323339" "0200");      // %DW10239: all of the four words
-  EXPECT_EQ(*get_by_name(memory, "%NB104", 20), "00000000000000000000");        // no third
-  EXPECT_EQ(*get_by_name(memory, "%NB124", 20), "254D573230300000" "0200");     // saved in %MW200
-  EXPECT_EQ(*get_by_name(memory, "%NW0", 4), "0000");                           // block 0 is not set up
+  EXPECT_EQ(*get_by_name(memory, "%NB84", 20),
+            "254D573130300000"
+            "0200");  // %MW100, 2 bytes
+  EXPECT_EQ(*get_by_name(memory, "%NB94", 20),
+            "2544573130323339"
+            "0200");  // %DW10239: all of the four words
+  EXPECT_EQ(*get_by_name(memory, "%NB104", 20), "00000000000000000000");  // no third
+  EXPECT_EQ(*get_by_name(memory, "%NB124", 20),
+            "254D573230300000"
+            "0200");                                   // saved in %MW200
+  EXPECT_EQ(*get_by_name(memory, "%NW0", 4), "0000");  // block 0 is not set up
 }
 
 TEST(P2pRegisters, ShowAWrite) {
-  const PlcMemory memory = written(iec(), R"({"parameter": 2, "blocks": [{"function": "write", "flag": "_T200MS", "type": "byte",
+  const PlcMemory memory = written(
+      iec(), R"({"parameter": 2, "blocks": [{"function": "write", "flag": "_T200MS", "type": "byte",
                                               "command": "continuous", "size": 10, "read": "%MB250", "save": "%QW15.15.3", "station": 5}]})");
   EXPECT_EQ(*get_by_name(memory, "%NW1568", 0), "0005");
-  EXPECT_EQ(*get_by_name(memory, "%NB3138", 24), "254D4232353000000000" "0A00");  // read here: %MB250, 10 bytes
-  EXPECT_EQ(*get_by_name(memory, "%NB3186", 24), "25515731352E31352E33" "0A00");  // saved there: ten characters
+  EXPECT_EQ(*get_by_name(memory, "%NB3138", 24),
+            "254D4232353000000000"
+            "0A00");  // read here: %MB250, 10 bytes
+  EXPECT_EQ(*get_by_name(memory, "%NB3186", 24),
+            "25515731352E31352E33"
+            "0A00");  // saved there: ten characters
 }
 
 TEST(DeviceName, IsUnpadded) {
-  const auto name = [](const PlcModel& model, std::string_view text) { return device_name(model, parse_address(model, text).address); };
+  const auto name = [](const PlcModel& model, std::string_view text) {
+    return device_name(model, parse_address(model, text).address);
+  };
   EXPECT_EQ(name(mk(), "%MX0010A"), "%MX10A");
   EXPECT_EQ(name(mk(), "%MX0000A"), "%MXA");
   EXPECT_EQ(name(mk(), "%TX0012"), "%TX12");

@@ -1,4 +1,5 @@
-// For tests: P2P blocks of an XBC-H as parameters give them: own addresses by name, partner's as the driver spells them.
+// For tests: P2P blocks of an XBC-H as parameters give them: own addresses by name, partner's as
+// the driver spells them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +13,8 @@
 namespace fieldproof::test {
 
 /// Of station 1; `size` 0: a single variable.
-inline P2pBlock p2p_block(P2pBlock::Function function, std::string partner, std::string_view own, unsigned size = 0) {
+inline P2pBlock p2p_block(P2pBlock::Function function, std::string partner, std::string_view own,
+                          unsigned size = 0) {
   const ParsedAddress parsed = parse_address(*find_plc_model("xbc-h"), own);
   EXPECT_TRUE(parsed) << own;
   return {.function = function,

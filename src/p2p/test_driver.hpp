@@ -1,9 +1,8 @@
 // For tests: a driver whose frames are whole bursts.
 //
-//   request     "ask 3" (block 3); "send A.B" of a user frame; none where the block's station is 255
-//   reply       "ok", "error 0F"; others belong to no block
-//   received    "got A.B" ends the RECEIVE block of frame A.B
-//   broken      "broken 02": service_status 2
+//   request     "ask 3" (block 3); "send A.B" of a user frame; none where the block's station is
+//   255 reply       "ok", "error 0F"; others belong to no block received    "got A.B" ends the
+//   RECEIVE block of frame A.B broken      "broken 02": service_status 2
 #pragma once
 
 #include <charconv>
@@ -23,10 +22,12 @@ class TestDriver : public P2pDriver {
   }
   Result<Bytes> request(const P2pBlock& block, const PlcMemory&) const override {
     if (block.station == 255) return fail("no such request");
-    return to_bytes(block.is_user_frame() ? "send " + block.frame : "ask " + std::to_string(block.number));
+    return to_bytes(block.is_user_frame() ? "send " + block.frame
+                                          : "ask " + std::to_string(block.number));
   }
   bool awaits_reply(const P2pBlock& block) const override { return !block.is_user_frame(); }
-  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const override {
+  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
+                                    PlcMemory& memory) const override {
     const std::string text = to_text(frame);
     if (block.function == P2pBlock::Function::receive) {
       if (text != "got " + block.frame) return std::nullopt;
@@ -39,8 +40,10 @@ class TestDriver : public P2pDriver {
     return p2p_error::none;
   }
   void receive(const Burst& burst, FrameSink& sink) override {
-    if (const std::string text = to_text(burst.bytes); text.starts_with("broken ")) sink.on_broken_frame(code_in(text));
-    else sink.on_frame(burst.bytes, burst.end());
+    if (const std::string text = to_text(burst.bytes); text.starts_with("broken "))
+      sink.on_broken_frame(code_in(text));
+    else
+      sink.on_frame(burst.bytes, burst.end());
   }
   std::optional<Time> wake_at() const override { return std::nullopt; }
   void advance(Time, FrameSink&) override {}

@@ -18,8 +18,8 @@ struct Number {
   std::uint32_t value = 0;
 };
 
-/// A decimal number with any number of leading zeros. A hex letter is a number that the area cannot hold (%MWFFFFF is
-/// 7132 in Appendix 3.1); any other character is no number at all.
+/// A decimal number with any number of leading zeros. A hex letter is a number that the area cannot
+/// hold (%MWFFFFF is 7132 in Appendix 3.1); any other character is no number at all.
 Number read_number(std::string_view digits) {
   if (digits.empty()) return {AddressFault::form};
   Number number;
@@ -70,9 +70,11 @@ Number read_dotted(const DeviceArea& area, char type, std::string_view text) {
   const std::uint32_t slot_elements = elements_in_words(area.dotted.slot_words, type);
   const std::array limits{area.dotted.bases, area.dotted.slots, slot_elements};
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].fault != AddressFault::none || parts[i].value >= limits[i]) return {AddressFault::range};
+    if (parts[i].fault != AddressFault::none || parts[i].value >= limits[i])
+      return {AddressFault::range};
   }
-  return {AddressFault::none, (parts[0].value * area.dotted.slots + parts[1].value) * slot_elements + parts[2].value};
+  return {AddressFault::none,
+          (parts[0].value * area.dotted.slots + parts[1].value) * slot_elements + parts[2].value};
 }
 
 Number read_index(const PlcModel& model, const DeviceArea& area, char type, std::string_view text) {
@@ -98,7 +100,8 @@ ParsedAddress parse_address(const PlcModel& model, std::string_view name) {
   parsed.address.area = static_cast<std::uint8_t>(area - model.areas.data());
   const char type = name.size() < 3 ? '\0' : upper(name[2]);
   // D has no bits (7.1.4 Note); its dwords and lwords are printed as examples, and accepted.
-  if (type_bytes(type) == 0 || (type == 'X' && area->letter == 'D')) return failed(AddressFault::type);
+  if (type_bytes(type) == 0 || (type == 'X' && area->letter == 'D'))
+    return failed(AddressFault::type);
   parsed.address.type = type;
   parsed.address.contact = type == 'X' && area->contacts != 0;
   const Number number = read_index(model, *area, type, name.substr(3));

@@ -1,4 +1,5 @@
-// Device names: "%MW100", "%MX0010A", "%LX8192" (flat on XEC), "%IW0.0.0", "%DB2468" (000 7.1.4, 003 7.1.3).
+// Device names: "%MW100", "%MX0010A", "%LX8192" (flat on XEC), "%IW0.0.0", "%DB2468" (000 7.1.4,
+// 003 7.1.3).
 //
 //   element   index                                    XBM, XBC              XEC
 //   X bit     word * 16 + bit                          %MX0010A: M10 bit A   %MX170: M10 bit A
@@ -8,7 +9,8 @@
 //   D dword   word / 2; word 2n is the low half
 //   L lword   word / 4; word 4n is the lowest quarter
 //
-// U of XBM and XBC is flat, 32 words a slot: U03.07 is %UW103. Letters are accepted in either case (7.1.3 Note).
+// U of XBM and XBC is flat, 32 words a slot: U03.07 is %UW103. Letters are accepted in either case
+// (7.1.3 Note).
 #pragma once
 
 #include <cstdint>
@@ -18,21 +20,24 @@
 
 namespace fieldproof {
 
-/// What is wrong with a name, in the order in which it is looked at (PROTOCOLS.md 'order of checks').
+/// What is wrong with a name, in the order in which it is looked at (PROTOCOLS.md 'order of
+/// checks').
 enum class AddressFault { none, percent, area, type, form, range };
 
 struct DeviceAddress {
-  std::uint8_t area = 0;     // position in PlcModel::areas
-  char type = 0;             // X B W D L
-  bool contact = false;      // X of T or C
-  std::uint32_t index = 0;   // in elements of the type
+  std::uint8_t area = 0;    // position in PlcModel::areas
+  char type = 0;            // X B W D L
+  bool contact = false;     // X of T or C
+  std::uint32_t index = 0;  // in elements of the type
 
-  DeviceAddress operator+(std::uint32_t elements) const { return {area, type, contact, index + elements}; }
+  DeviceAddress operator+(std::uint32_t elements) const {
+    return {area, type, contact, index + elements};
+  }
   bool operator==(const DeviceAddress&) const = default;
 };
 
-/// `address.area` holds once the area letter was right (fault none, type, form, range), `address.type` once the type
-/// letter was (none, form, range).
+/// `address.area` holds once the area letter was right (fault none, type, form, range),
+/// `address.type` once the type letter was (none, form, range).
 struct ParsedAddress {
   AddressFault fault = AddressFault::none;
   DeviceAddress address;
@@ -43,13 +48,20 @@ struct ParsedAddress {
 /// Never fails: `fault` names the first stage that does not pass.
 ParsedAddress parse_address(const PlcModel& model, std::string_view name);
 
-/// Bytes of one element on the wire: X 1, B 1, W 2, D 4, L 8; 0 for any other letter. Either letter case.
+/// Bytes of one element on the wire: X 1, B 1, W 2, D 4, L 8; 0 for any other letter. Either letter
+/// case.
 constexpr unsigned type_bytes(char type) {
   switch (type) {
-    case 'X': case 'x': case 'B': case 'b': return 1;
-    case 'W': case 'w': return 2;
-    case 'D': case 'd': return 4;
-    case 'L': case 'l': return 8;
+    case 'X':
+    case 'x':
+    case 'B':
+    case 'b': return 1;
+    case 'W':
+    case 'w': return 2;
+    case 'D':
+    case 'd': return 4;
+    case 'L':
+    case 'l': return 8;
     default: return 0;
   }
 }

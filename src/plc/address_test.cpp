@@ -15,8 +15,8 @@ std::string parsed(std::string_view model_name, std::string_view name) {
   const ParsedAddress p = parse_address(model, name);
   constexpr std::array faults{"none", "percent", "area", "type", "form", "range"};
   if (!p) return faults[static_cast<std::size_t>(p.fault)];
-  return std::string{model.areas[p.address.area].letter, ' ', p.address.type, ' '} + (p.address.contact ? "contact " : "") +
-         std::to_string(p.address.index);
+  return std::string{model.areas[p.address.area].letter, ' ', p.address.type, ' '} +
+         (p.address.contact ? "contact " : "") + std::to_string(p.address.index);
 }
 
 TEST(DeviceAddress, ElementsOfXbc) {
@@ -36,9 +36,12 @@ TEST(DeviceAddress, BitNamesOfXbcEndInAHexBit) {
   EXPECT_EQ(parsed("xbc-h", "%MX5"), "M X 5");
   EXPECT_EQ(parsed("xbc-h", "%MXF"), "M X 15");
   EXPECT_EQ(parsed("xbc-h", "%MX1023F"), "M X 16383");
-  EXPECT_EQ(parsed("xbc-h", "%MX1024" "0"), "range");
-  EXPECT_EQ(parsed("xbc-h", "%MX0A0"), "range");  // the word is decimal
-  EXPECT_EQ(parsed("xbc-h", "%UX343"), "U X 547");    // 003: U01.02.3 = (1 * 32 + 2) words and bit 3
+  EXPECT_EQ(parsed("xbc-h",
+                   "%MX1024"
+                   "0"),
+            "range");
+  EXPECT_EQ(parsed("xbc-h", "%MX0A0"), "range");    // the word is decimal
+  EXPECT_EQ(parsed("xbc-h", "%UX343"), "U X 547");  // 003: U01.02.3 = (1 * 32 + 2) words and bit 3
   EXPECT_EQ(parsed("xbc-h", "%UX2334"), "U X 3732");  // 003: U07.09.4
   EXPECT_EQ(parsed("xbc-h", "%UW103"), "U W 103");    // 003: U03.07
 }
@@ -86,7 +89,8 @@ TEST(DeviceAddress, DottedNamesOfXec) {
 }
 
 TEST(DeviceAddress, DotsElsewhereAreNoForm) {
-  for (const char* name : {"%MW0.0.0", "%LX1.2", "%IW0.0", "%IW0.0.0.0", "%IW..", "%IW0..0", "%IW.0.0", "%IW0.0.", "%IW0.^.0"}) {
+  for (const char* name : {"%MW0.0.0", "%LX1.2", "%IW0.0", "%IW0.0.0.0", "%IW..", "%IW0..0",
+                           "%IW.0.0", "%IW0.0.", "%IW0.^.0"}) {
     EXPECT_EQ(parsed("xec-h", name), "form") << name;
   }
   EXPECT_EQ(parsed("xbc-h", "%UX00.00.0"), "form");
@@ -137,7 +141,9 @@ TEST(DeviceAddress, FirstLastAndFirstInvalidOfEveryAreaAndType) {
         const std::uint32_t elements = area.words * 2 / type_bytes(type);
         EXPECT_TRUE(parse_address(model, prefix + '0')) << prefix;
         EXPECT_TRUE(parse_address(model, prefix + std::to_string(elements - 1))) << prefix;
-        EXPECT_EQ(parse_address(model, prefix + std::to_string(elements)).fault, AddressFault::range) << prefix;
+        EXPECT_EQ(parse_address(model, prefix + std::to_string(elements)).fault,
+                  AddressFault::range)
+            << prefix;
       }
     }
   }
@@ -160,8 +166,11 @@ TEST(DeviceAddress, AnyBytesAreANameOrAFault) {
   int right = 0;
   for (int i = 0; i < 200'000; ++i) {
     std::string name(random() % 12, '\0');
-    for (char& c : name) c = random() % 8 == 0 ? static_cast<char>(random()) : likely[random() % likely.size()];
-    if (random() % 2) name = std::string{'%', "PMKFTCLNDURIQW"[random() % 14], "XBWDL"[random() % 5]} + name.substr(0, random() % 5);
+    for (char& c : name)
+      c = random() % 8 == 0 ? static_cast<char>(random()) : likely[random() % likely.size()];
+    if (random() % 2)
+      name = std::string{'%', "PMKFTCLNDURIQW"[random() % 14], "XBWDL"[random() % 5]} +
+             name.substr(0, random() % 5);
     for (const PlcModel& model : plc_models()) {
       const ParsedAddress p = parse_address(model, name);
       if (!p) continue;

@@ -20,38 +20,48 @@ std::string joined(std::span<const std::string_view> words) {
   return text;
 }
 
-std::string text_of(const json& value) { return value.is_string() ? value.get<std::string>() : std::string(); }
+std::string text_of(const json& value) {
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
 
 std::optional<double> number_in(const std::string& text) {
   double n = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(n)) return std::nullopt;
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(n))
+    return std::nullopt;
   return n;
 }
 }  // namespace
 
-Status known_keys(const json& object, std::string_view what, std::span<const std::string_view> keys) {
-  if (!object.is_object()) return fail(fmt::format("cannot read {}: it is not a JSON object", what));
+Status known_keys(const json& object, std::string_view what,
+                  std::span<const std::string_view> keys) {
+  if (!object.is_object())
+    return fail(fmt::format("cannot read {}: it is not a JSON object", what));
   for (const auto& [key, value] : object.items()) {
     if (std::ranges::find(keys, key) != keys.end()) continue;
-    return fail(fmt::format("cannot read {}: there is no key '{}'; the keys are {}{}", what, key, joined(keys),
-                            suggestion(key, keys)));
+    return fail(fmt::format("cannot read {}: there is no key '{}'; the keys are {}{}", what, key,
+                            joined(keys), suggestion(key, keys)));
   }
   return ok();
 }
 
-void ConfigReader::number(const char* key, double least, double most, const std::function<void(double)>& take) {
+void ConfigReader::number(const char* key, double least, double most,
+                          const std::function<void(double)>& take) {
   const json* value = find(key);
   if (!value) return;
-  const std::optional<double> n = value->is_number() ? std::optional(value->get<double>()) : number_in(text_of(*value));
-  if (!n || *n < least || *n > most) return wrong(key, *value, fmt::format("a number from {} to {}", least, most));
+  const std::optional<double> n =
+      value->is_number() ? std::optional(value->get<double>()) : number_in(text_of(*value));
+  if (!n || *n < least || *n > most)
+    return wrong(key, *value, fmt::format("a number from {} to {}", least, most));
   take(*n);
 }
 
 void ConfigReader::whole(const char* key, unsigned most, unsigned& to) {
   number(key, 0, most, [&](double n) {
-    if (n != std::floor(n)) wrong(key, object_[key], "a whole number");
-    else to = static_cast<unsigned>(n);
+    if (n != std::floor(n))
+      wrong(key, object_[key], "a whole number");
+    else
+      to = static_cast<unsigned>(n);
   });
 }
 
@@ -64,24 +74,32 @@ void ConfigReader::boolean(const char* key, bool& to) {
   const json* value = find(key);
   if (!value) return;
   const std::string text = value->is_string() ? value->get<std::string>() : value->dump();
-  if (text == "true" || text == "1") to = true;
-  else if (text == "false" || text == "0") to = false;
-  else wrong(key, *value, "true or false");
+  if (text == "true" || text == "1")
+    to = true;
+  else if (text == "false" || text == "0")
+    to = false;
+  else
+    wrong(key, *value, "true or false");
 }
 
 void ConfigReader::text(const char* key, std::string& to) {
   const json* value = find(key);
   if (!value) return;
-  if (value->is_string()) to = value->get<std::string>();
-  else wrong(key, *value, "a text");
+  if (value->is_string())
+    to = value->get<std::string>();
+  else
+    wrong(key, *value, "a text");
 }
 
 void ConfigReader::either(const char* key, std::string_view yes, std::string_view no, bool& to) {
   std::string word(to ? yes : no);
   text(key, word);
   if (error_) return;
-  if (word == yes || word == no) to = word == yes;
-  else error_ = fail(fmt::format("cannot read {}: {} is '{}', which is not {} or {}", what_, key, word, yes, no));
+  if (word == yes || word == no)
+    to = word == yes;
+  else
+    error_ = fail(fmt::format("cannot read {}: {} is '{}', which is not {} or {}", what_, key, word,
+                              yes, no));
 }
 
 void ConfigReader::line(const char* key, LineSettings& to) {
@@ -89,14 +107,17 @@ void ConfigReader::line(const char* key, LineSettings& to) {
   text(key, settings);
   if (error_) return;
   const Result<LineSettings> parsed = parse_line_settings(settings);
-  if (parsed) to = *parsed;
-  else error_ = parsed.error();
+  if (parsed)
+    to = *parsed;
+  else
+    error_ = parsed.error();
 }
 
 void ConfigReader::wrong(const std::string& key, const json& value, const std::string& expected) {
   if (error_) return;
   const std::string given = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  error_ = fail(fmt::format("cannot read {}: {} is {}, which is not {}", what_, key, given, expected));
+  error_ =
+      fail(fmt::format("cannot read {}: {} is {}, which is not {}", what_, key, given, expected));
 }
 
 const json* ConfigReader::find(const char* key) const {

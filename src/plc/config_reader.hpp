@@ -1,4 +1,5 @@
-// Values out of one JSON object. Numbers and booleans may be given as text: so they come from an endpoint's options.
+// Values out of one JSON object. Numbers and booleans may be given as text: so they come from an
+// endpoint's options.
 #pragma once
 
 #include <functional>
@@ -15,13 +16,16 @@
 namespace fieldproof {
 
 /// Is it an object with no other keys than these? The error lists them.
-Status known_keys(const nlohmann::json& object, std::string_view what, std::span<const std::string_view> keys);
+Status known_keys(const nlohmann::json& object, std::string_view what,
+                  std::span<const std::string_view> keys);
 
-/// A key that is absent leaves `to` as it is. The first that is wrong stays in `error`; later calls change nothing.
+/// A key that is absent leaves `to` as it is. The first that is wrong stays in `error`; later calls
+/// change nothing.
 class ConfigReader {
  public:
   /// `what` is the object in messages: "the PLC's configuration". `object` must outlive the reader.
-  ConfigReader(const nlohmann::json& object, std::string what) : object_(object), what_(std::move(what)) {}
+  ConfigReader(const nlohmann::json& object, std::string what)
+      : object_(object), what_(std::move(what)) {}
 
   const std::optional<Error>& error() const { return error_; }
 

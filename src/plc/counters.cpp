@@ -9,7 +9,8 @@
 
 namespace fieldproof {
 
-Result<std::string> get_counter(const ServiceCounters& counters, std::string_view name, std::size_t digits) {
+Result<std::string> get_counter(const ServiceCounters& counters, std::string_view name,
+                                std::size_t digits) {
   const auto number = [digits](std::uint32_t value, std::size_t least) {
     std::size_t size = digits == 0 ? least : digits;
     while (size < 8 && value >> (4 * size) != 0) ++size;
@@ -19,8 +20,9 @@ Result<std::string> get_counter(const ServiceCounters& counters, std::string_vie
   if (name == "@errors") return number(counters.errors, 4);
   if (name == "@services") return number(counters.services, 4);
   constexpr std::array<std::string_view, 3> names{"@status", "@errors", "@services"};
-  return fail(fmt::format("cannot get {}: there is no such counter; use @status, @errors or @services{}", name,
-                          suggestion(name, names)));
+  return fail(
+      fmt::format("cannot get {}: there is no such counter; use @status, @errors or @services{}",
+                  name, suggestion(name, names)));
 }
 
 }  // namespace fieldproof

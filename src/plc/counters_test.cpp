@@ -26,7 +26,8 @@ TEST(ServiceCounters, BackDoorDigits) {
   EXPECT_EQ(*get_counter(counters, "@errors", 1), "7");
   EXPECT_EQ(*get_counter(counters, "@services", 2), "12345");  // as many as it needs
   EXPECT_EQ(get_counter(counters, "@error", 0).error().message,
-            "cannot get @error: there is no such counter; use @status, @errors or @services; did you mean '@errors'?");
+            "cannot get @error: there is no such counter; use @status, @errors or @services; did "
+            "you mean '@errors'?");
 }
 
 }  // namespace

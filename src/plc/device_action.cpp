@@ -13,7 +13,8 @@ Result<DeviceAction> parse_device_action(std::string_view text) {
   if (text == "stop") return DeviceAction::stop;
   if (text == "power_cycle") return DeviceAction::power_cycle;
   constexpr std::array<std::string_view, 3> names{"run", "stop", "power_cycle"};
-  return fail(fmt::format("cannot do '{}': there is no such action; use run, stop or power_cycle{}", text, suggestion(text, names)));
+  return fail(fmt::format("cannot do '{}': there is no such action; use run, stop or power_cycle{}",
+                          text, suggestion(text, names)));
 }
 
 }  // namespace fieldproof

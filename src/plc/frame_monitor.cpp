@@ -57,8 +57,9 @@ std::string ascii_view(const MonitoredFrame& frame) {
 std::string csv_header() { return "Form,Result,Size,Time,Frame data (HEX),Frame data (ASCII)\r\n"; }
 
 std::string csv_row(const MonitoredFrame& frame, std::string_view time) {
-  return fmt::format("{},{},{},{},{},{}\r\n", frame.sent ? "Transmission" : "Reception", to_string(frame.result), frame.data.size(),
-                     time, hex_view(frame), in_quotes(ascii_view(frame)));
+  return fmt::format("{},{},{},{},{},{}\r\n", frame.sent ? "Transmission" : "Reception",
+                     to_string(frame.result), frame.data.size(), time, hex_view(frame),
+                     in_quotes(ascii_view(frame)));
 }
 
 void FrameMonitor::receive(const Burst& burst) {
@@ -75,7 +76,8 @@ void FrameMonitor::take_frames(Duration character_time) {
     const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(*length);
     Bytes frame(heard_.begin(), end);
     heard_.erase(heard_.begin(), end);
-    record(false, last_end_ - character_time * static_cast<Duration::rep>(heard_.size()), std::move(frame));
+    record(false, last_end_ - character_time * static_cast<Duration::rep>(heard_.size()),
+           std::move(frame));
   }
 }
 
@@ -109,7 +111,8 @@ Bytes FrameMonitor::advance(Time now) {
 
 Result<std::string> FrameMonitor::get(std::string_view address, std::size_t digits) const {
   if (address != "@monitor") return device_->get(address, digits);
-  return hex_number(last_ ? static_cast<unsigned>(*last_) : 0u, static_cast<int>(digits == 0 ? 2 : digits));
+  return hex_number(last_ ? static_cast<unsigned>(*last_) : 0u,
+                    static_cast<int>(digits == 0 ? 2 : digits));
 }
 
 }  // namespace fieldproof

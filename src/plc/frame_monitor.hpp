@@ -1,4 +1,5 @@
-// The frame monitor (000 11.1.3, 003 10.1.3): each frame that crosses a channel, with its form, result, size, time and data.
+// The frame monitor (000 11.1.3, 003 10.1.3): each frame that crosses a channel, with its form,
+// result, size, time and data.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,15 @@
 namespace fieldproof {
 
 /// As the manual numbers them. Its list knows no LS Bus: 7 is this project's.
-enum class FrameResult { xgt_server = 1, xgt_client, modbus_server, modbus_client, user_definition, unknown, ls_bus };
+enum class FrameResult {
+  xgt_server = 1,
+  xgt_client,
+  modbus_server,
+  modbus_client,
+  user_definition,
+  unknown,
+  ls_bus
+};
 
 /// "XGT server", "User definition frame", "Unknown"
 std::string_view to_string(FrameResult result);
@@ -20,29 +29,32 @@ std::string_view to_string(FrameResult result);
 struct MonitoredFrame {
   bool sent = false;  // form: transmission, else reception
   FrameResult result = FrameResult::unknown;
-  Time time{};        // a transmission begins, a reception ends
+  Time time{};  // a transmission begins, a reception ends
   Bytes data;
 };
 
 /// "05 30 31": view by HEX.
 std::string hex_view(const MonitoredFrame& frame);
-/// "[ENQ]01rSS0104%MW0[EOT]40": view by ASCII. What has no name is <7F>, and so are brackets in the data.
+/// "[ENQ]01rSS0104%MW0[EOT]40": view by ASCII. What has no name is <7F>, and so are brackets in the
+/// data.
 std::string ascii_view(const MonitoredFrame& frame);
 
-/// The columns of the monitor's window, with the data in both views; the file ends its lines with CR LF.
+/// The columns of the monitor's window, with the data in both views; the file ends its lines with
+/// CR LF.
 std::string csv_header();
-/// `time` as it shall stand there: the clock of the PLC, or on XBM-DxxxS the time since the first frame.
+/// `time` as it shall stand there: the clock of the PLC, or on XBM-DxxxS the time since the first
+/// frame.
 std::string csv_row(const MonitoredFrame& frame, std::string_view time);
 
 /// What the monitor must know of the protocol.
 struct MonitorRules {
-  std::function<std::optional<std::size_t>(ByteView)> frame_length;         // of the first complete frame
+  std::function<std::optional<std::size_t>(ByteView)> frame_length;  // of the first complete frame
   std::function<FrameResult(ByteView frame, bool sent)> classify;
-  Duration silence{};                                                       // ends what is no complete frame
+  Duration silence{};  // ends what is no complete frame
 };
 
-/// Passes everything on to its device, and back. Also a name of the back door: "@monitor" is the number of the last
-/// frame's result, 00 before there is one.
+/// Passes everything on to its device, and back. Also a name of the back door: "@monitor" is the
+/// number of the last frame's result, 00 before there is one.
 class FrameMonitor : public EmulatedDevice {
  public:
   using Record = std::function<void(const MonitoredFrame&)>;
@@ -54,7 +66,9 @@ class FrameMonitor : public EmulatedDevice {
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
-  Status set(std::string_view address, std::string_view hex) override { return device_->set(address, hex); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return device_->set(address, hex);
+  }
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   Status act(std::string_view action) override { return device_->act(action); }
 

@@ -23,7 +23,9 @@ class Answerer : public EmulatedDevice {
     return answer_;
   }
   Status set(std::string_view, std::string_view) override { return ok(); }
-  Result<std::string> get(std::string_view address, std::size_t) const override { return "of the device: " + std::string(address); }
+  Result<std::string> get(std::string_view address, std::size_t) const override {
+    return "of the device: " + std::string(address);
+  }
   Status act(std::string_view) override { return ok(); }
 
  private:
@@ -35,19 +37,19 @@ class Answerer : public EmulatedDevice {
 class Monitored {
  public:
   explicit Monitored(std::string_view answer = "") {
-    MonitorRules rules{
-        [](ByteView bytes) -> std::optional<std::size_t> {
-          const auto stop = std::ranges::find(bytes, '.');
-          if (stop == bytes.end()) return std::nullopt;
-          return static_cast<std::size_t>(stop - bytes.begin()) + 1;
-        },
-        [](ByteView frame, bool sent) {
-          if (frame[0] < 'A' || frame[0] > 'Z') return FrameResult::unknown;
-          return sent ? FrameResult::xgt_client : FrameResult::xgt_server;
-        },
-        20ms};
-    monitor_ = std::make_unique<FrameMonitor>(std::make_unique<Answerer>(to_bytes(answer)), std::move(rules),
-                                              [this](const MonitoredFrame& frame) { frames.push_back(frame); });
+    MonitorRules rules{[](ByteView bytes) -> std::optional<std::size_t> {
+                         const auto stop = std::ranges::find(bytes, '.');
+                         if (stop == bytes.end()) return std::nullopt;
+                         return static_cast<std::size_t>(stop - bytes.begin()) + 1;
+                       },
+                       [](ByteView frame, bool sent) {
+                         if (frame[0] < 'A' || frame[0] > 'Z') return FrameResult::unknown;
+                         return sent ? FrameResult::xgt_client : FrameResult::xgt_server;
+                       },
+                       20ms};
+    monitor_ = std::make_unique<FrameMonitor>(
+        std::make_unique<Answerer>(to_bytes(answer)), std::move(rules),
+        [this](const MonitoredFrame& frame) { frames.push_back(frame); });
   }
 
   void hear(std::string_view text, Duration pause = 0ms) {
@@ -56,7 +58,8 @@ class Monitored {
     now_ += character * static_cast<Duration::rep>(text.size());
   }
   void run(Time until) {
-    for (auto wake = monitor_->wake_at(); wake && *wake <= until; wake = monitor_->wake_at()) monitor_->advance(*wake);
+    for (auto wake = monitor_->wake_at(); wake && *wake <= until; wake = monitor_->wake_at())
+      monitor_->advance(*wake);
     now_ = std::max(now_, until);
   }
   std::string last() const { return *monitor_->get("@monitor", 0); }
@@ -117,20 +120,31 @@ TEST(FrameMonitor, WhatTheDeviceAnswersToIsOver) {
   EXPECT_TRUE(one.frames[1].sent);
 }
 
-TEST(FrameMonitor, TheBackDoorLeadsToTheDevice) { EXPECT_EQ(Monitored().get("@status"), "of the device: @status"); }
+TEST(FrameMonitor, TheBackDoorLeadsToTheDevice) {
+  EXPECT_EQ(Monitored().get("@status"), "of the device: @status");
+}
 
 TEST(FrameMonitor, ResultsHaveTheNumbersOfTheManual) {
-  const std::vector<std::string_view> printed{"XGT server", "XGT client", "Modbus server", "Modbus client", "User definition frame", "Unknown"};
-  for (std::size_t i = 0; i < printed.size(); ++i) EXPECT_EQ(to_string(static_cast<FrameResult>(i + 1)), printed[i]);
+  const std::vector<std::string_view> printed{
+      "XGT server", "XGT client", "Modbus server", "Modbus client", "User definition frame",
+      "Unknown"};
+  for (std::size_t i = 0; i < printed.size(); ++i)
+    EXPECT_EQ(to_string(static_cast<FrameResult>(i + 1)), printed[i]);
 }
 
 TEST(FrameMonitor, Views) {
   // The capture of 000 11.2.4.
-  const MonitoredFrame frame{true, FrameResult::xgt_client, {}, to_bytes("\x05" "01rSS0104%MW0\x04" "40")};
+  const MonitoredFrame frame{true,
+                             FrameResult::xgt_client,
+                             {},
+                             to_bytes("\x05"
+                                      "01rSS0104%MW0\x04"
+                                      "40")};
   EXPECT_EQ(frame.data.size(), 17u);
   EXPECT_EQ(ascii_view(frame), "[ENQ]01rSS0104%MW0[EOT]40");
   EXPECT_EQ(hex_view(frame), "05 30 31 72 53 53 30 31 30 34 25 4D 57 30 04 34 30");
-  EXPECT_EQ(ascii_view({false, FrameResult::unknown, {}, *from_hex("5B 00 FF 3C 5D")}), "<5B><00><FF><3C>]");
+  EXPECT_EQ(ascii_view({false, FrameResult::unknown, {}, *from_hex("5B 00 FF 3C 5D")}),
+            "<5B><00><FF><3C>]");
 }
 
 TEST(FrameMonitor, Csv) {

@@ -47,18 +47,22 @@ void PlcMemory::write(const DeviceAddress& address, std::uint64_t value) {
   const std::uint32_t index = address.index;
   std::uint16_t* words = words_.data() + first_word_[address.area];
   const auto put = [](std::uint16_t& word, unsigned shift, unsigned mask, std::uint64_t bits) {
-    word = static_cast<std::uint16_t>((word & ~(mask << shift)) | (static_cast<unsigned>(bits) & mask) << shift);
+    word = static_cast<std::uint16_t>((word & ~(mask << shift)) |
+                                      (static_cast<unsigned>(bits) & mask) << shift);
   };
   switch (address.type) {
     case 'X':
-      if (address.contact) contacts_[first_contact_[address.area] + index] = value & 1u;
-      else put(words[index / 16], index % 16, 1u, value);
+      if (address.contact)
+        contacts_[first_contact_[address.area] + index] = value & 1u;
+      else
+        put(words[index / 16], index % 16, 1u, value);
       return;
     case 'B': put(words[index / 2], index % 2 * 8, 0xFFu, value); return;
     default: break;
   }
   const std::uint32_t size = type_bytes(address.type) / 2;
-  for (std::uint32_t i = 0; i < size; ++i, value >>= 16) words[index * size + i] = static_cast<std::uint16_t>(value);
+  for (std::uint32_t i = 0; i < size; ++i, value >>= 16)
+    words[index * size + i] = static_cast<std::uint16_t>(value);
 }
 
 namespace {
@@ -69,32 +73,39 @@ struct Elements {
 };
 
 /// What `digits` hex digits at a device address cover.
-Result<Elements> find_elements(const PlcMemory& memory, std::string_view verb, std::string_view name, std::size_t digits) {
+Result<Elements> find_elements(const PlcMemory& memory, std::string_view verb,
+                               std::string_view name, std::size_t digits) {
   const ParsedAddress parsed = parse_address(memory.model(), name);
-  if (!parsed) return fail(fmt::format("cannot {} {} on {}: {}", verb, name, memory.model().name, describe(parsed.fault)));
+  if (!parsed)
+    return fail(fmt::format("cannot {} {} on {}: {}", verb, name, memory.model().name,
+                            describe(parsed.fault)));
   Elements elements{parsed.address, 1, type_bytes(parsed.address.type) * std::size_t{2}};
   if (digits == 0) return elements;
   if (digits % elements.digits != 0) {
-    return fail(fmt::format("cannot {} {}: {} digits are not a whole number of elements; give {} digits for each", verb, name,
-                            digits, elements.digits));
+    return fail(fmt::format(
+        "cannot {} {}: {} digits are not a whole number of elements; give {} digits for each", verb,
+        name, digits, elements.digits));
   }
   elements.count = static_cast<std::uint32_t>(digits / elements.digits);
   if (!fits(memory.model(), elements.first, elements.count)) {
-    return fail(fmt::format("cannot {} {} elements from {} on: the area ends before", verb, elements.count, name));
+    return fail(fmt::format("cannot {} {} elements from {} on: the area ends before", verb,
+                            elements.count, name));
   }
   return elements;
 }
 }  // namespace
 
 Status set_by_name(PlcMemory& memory, std::string_view address, std::string_view hex) {
-  if (hex.empty()) return fail(fmt::format("cannot set {}: there is no value; give its hex digits", address));
+  if (hex.empty())
+    return fail(fmt::format("cannot set {}: there is no value; give its hex digits", address));
   const Result<Elements> elements = find_elements(memory, "set", address, hex.size());
   if (!elements) return elements.error();
   std::vector<std::uint64_t> values;
   for (std::size_t at = 0; at < hex.size(); at += elements->digits) {
     std::uint64_t value = 0;
     for (const char c : hex.substr(at, elements->digits)) {
-      if (hex_digit(c) < 0) return fail(fmt::format("cannot set {} to {}: '{}' is not a hex digit", address, hex, c));
+      if (hex_digit(c) < 0)
+        return fail(fmt::format("cannot set {} to {}: '{}' is not a hex digit", address, hex, c));
       value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
     }
     if (elements->first.type == 'X' && value > 1) {
@@ -106,7 +117,8 @@ Status set_by_name(PlcMemory& memory, std::string_view address, std::string_view
   return ok();
 }
 
-Result<std::string> get_by_name(const PlcMemory& memory, std::string_view address, std::size_t digits) {
+Result<std::string> get_by_name(const PlcMemory& memory, std::string_view address,
+                                std::size_t digits) {
   const Result<Elements> elements = find_elements(memory, "get", address, digits);
   if (!elements) return elements.error();
   std::string hex;

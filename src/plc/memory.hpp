@@ -20,7 +20,8 @@ class PlcMemory {
 
   const PlcModel& model() const { return *model_; }
 
-  /// One element; bits are 0 or 1. Rights are not looked at. `address` must fit (std::out_of_range otherwise).
+  /// One element; bits are 0 or 1. Rights are not looked at. `address` must fit (std::out_of_range
+  /// otherwise).
   std::uint64_t read(const DeviceAddress& address) const;
   void write(const DeviceAddress& address, std::uint64_t value);
 
@@ -34,9 +35,11 @@ class PlcMemory {
   std::vector<std::uint8_t> contacts_;
 };
 
-/// The back door (emulated_device.hpp): `hex` fills as many elements as it has digits for; a bit is "00" or "01".
+/// The back door (emulated_device.hpp): `hex` fills as many elements as it has digits for; a bit is
+/// "00" or "01".
 Status set_by_name(PlcMemory& memory, std::string_view address, std::string_view hex);
 /// `digits` 0: one element.
-Result<std::string> get_by_name(const PlcMemory& memory, std::string_view address, std::size_t digits);
+Result<std::string> get_by_name(const PlcMemory& memory, std::string_view address,
+                                std::size_t digits);
 
 }  // namespace fieldproof

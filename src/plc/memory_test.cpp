@@ -86,7 +86,9 @@ TEST(PlcMemory, AreasDoNotOverlap) {
     };
     end_words([&](const DeviceAddress& a) { memory.write(a, n++); });
     n = 1;
-    end_words([&](const DeviceAddress& a) { EXPECT_EQ(memory.read(a), n++) << model.name << ' ' << model.areas[a.area].letter; });
+    end_words([&](const DeviceAddress& a) {
+      EXPECT_EQ(memory.read(a), n++) << model.name << ' ' << model.areas[a.area].letter;
+    });
   }
 }
 

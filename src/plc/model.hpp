@@ -1,4 +1,5 @@
-// The device areas of the emulated PLCs, once, as data (000 and 003 chapter 7 'Available types of device').
+// The device areas of the emulated PLCs, once, as data (000 and 003 chapter 7 'Available types of
+// device').
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,8 @@
 
 namespace fieldproof {
 
-/// Base, slot and element of dotted names: XEC I, Q and U ("%IW0.0.0"). All zero: the area has no dotted names.
+/// Base, slot and element of dotted names: XEC I, Q and U ("%IW0.0.0"). All zero: the area has no
+/// dotted names.
 struct DottedForm {
   std::uint32_t bases = 0;
   std::uint32_t slots = 0;       // a base

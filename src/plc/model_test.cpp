@@ -15,7 +15,8 @@ struct Row {
 
 std::map<char, Row> rows_of(std::string_view model) {
   std::map<char, Row> rows;
-  for (const DeviceArea& area : find_plc_model(model)->areas) rows[area.letter] = {area.last_word(), area.write};
+  for (const DeviceArea& area : find_plc_model(model)->areas)
+    rows[area.letter] = {area.last_word(), area.write};
   return rows;
 }
 
@@ -31,19 +32,42 @@ void expect_rows(std::string_view model, const std::map<char, Row>& expected) {
 
 // Typed from 000 7.1.4 '"S" type range'; U07.31 as 003 counts it.
 TEST(PlcModel, RangesOfTypeS) {
-  expect_rows("xbm-s", {{'P', {127, true}}, {'M', {255, true}}, {'K', {2559, true}}, {'F', {255, false}}, {'T', {255, true}},
-                        {'C', {255, true}}, {'L', {1279, true}}, {'N', {3935, false}}, {'D', {5119, true}}, {'U', {255, true}}});
+  expect_rows("xbm-s", {{'P', {127, true}},
+                        {'M', {255, true}},
+                        {'K', {2559, true}},
+                        {'F', {255, false}},
+                        {'T', {255, true}},
+                        {'C', {255, true}},
+                        {'L', {1279, true}},
+                        {'N', {3935, false}},
+                        {'D', {5119, true}},
+                        {'U', {255, true}}});
 }
 
 TEST(PlcModel, RangesOfTypeH) {
-  expect_rows("xbc-h", {{'P', {1023, true}}, {'M', {1023, true}}, {'K', {4095, true}}, {'F', {1023, false}}, {'T', {1023, true}},
-                        {'C', {1023, true}}, {'L', {2047, true}}, {'N', {5119, false}}, {'D', {10239, true}}, {'U', {351, true}},
+  expect_rows("xbc-h", {{'P', {1023, true}},
+                        {'M', {1023, true}},
+                        {'K', {4095, true}},
+                        {'F', {1023, false}},
+                        {'T', {1023, true}},
+                        {'C', {1023, true}},
+                        {'L', {2047, true}},
+                        {'N', {5119, false}},
+                        {'D', {10239, true}},
+                        {'U', {351, true}},
                         {'R', {10239, true}}});
 }
 
 TEST(PlcModel, RangesOfXec) {
-  expect_rows("xec-h", {{'I', {1023, true}}, {'Q', {1023, true}}, {'M', {8191, true}}, {'W', {10239, true}}, {'R', {10239, true}},
-                        {'F', {1023, false}}, {'K', {4095, true}}, {'L', {2047, true}}, {'N', {5119, false}},
+  expect_rows("xec-h", {{'I', {1023, true}},
+                        {'Q', {1023, true}},
+                        {'M', {8191, true}},
+                        {'W', {10239, true}},
+                        {'R', {10239, true}},
+                        {'F', {1023, false}},
+                        {'K', {4095, true}},
+                        {'L', {2047, true}},
+                        {'N', {5119, false}},
                         {'U', {511, true}}});
 }
 
@@ -51,7 +75,8 @@ TEST(PlcModel, OnlyTimersAndCountersHaveContacts) {
   for (const PlcModel& model : plc_models()) {
     for (const DeviceArea& area : model.areas) {
       const bool timer_or_counter = area.letter == 'T' || area.letter == 'C';
-      EXPECT_EQ(area.contacts, timer_or_counter ? area.words : 0) << model.name << ' ' << area.letter;
+      EXPECT_EQ(area.contacts, timer_or_counter ? area.words : 0)
+          << model.name << ' ' << area.letter;
     }
   }
 }

@@ -11,7 +11,8 @@ void MultiDrop::receive(const Burst& burst) {
 std::optional<Time> MultiDrop::wake_at() const {
   std::optional<Time> first;
   for (const auto& device : devices_)
-    if (const std::optional<Time> wake = device->wake_at(); wake && (!first || *wake < *first)) first = wake;
+    if (const std::optional<Time> wake = device->wake_at(); wake && (!first || *wake < *first))
+      first = wake;
   return first;
 }
 

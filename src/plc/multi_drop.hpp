@@ -1,4 +1,5 @@
-// Several stations on one line, where there is no simulated line to put them on: behind a pty or a socket.
+// Several stations on one line, where there is no simulated line to put them on: behind a pty or a
+// socket.
 #pragma once
 
 #include <memory>
@@ -12,14 +13,19 @@ namespace fieldproof {
 class MultiDrop : public EmulatedDevice {
  public:
   /// At least one device.
-  explicit MultiDrop(std::vector<std::unique_ptr<EmulatedDevice>> devices) : devices_(std::move(devices)) {}
+  explicit MultiDrop(std::vector<std::unique_ptr<EmulatedDevice>> devices)
+      : devices_(std::move(devices)) {}
 
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
-  Status set(std::string_view address, std::string_view hex) override { return devices_.front()->set(address, hex); }
-  Result<std::string> get(std::string_view address, std::size_t digits) const override { return devices_.front()->get(address, digits); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return devices_.front()->set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    return devices_.front()->get(address, digits);
+  }
   Status act(std::string_view action) override { return devices_.front()->act(action); }
 
  private:

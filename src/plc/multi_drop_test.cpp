@@ -20,7 +20,9 @@ class Talker : public EmulatedDevice {
     due_.reset();
     return to_bytes("I am " + name_);
   }
-  Status set(std::string_view address, std::string_view) override { return fail(name_ + " has no " + std::string(address)); }
+  Status set(std::string_view address, std::string_view) override {
+    return fail(name_ + " has no " + std::string(address));
+  }
   Result<std::string> get(std::string_view, std::size_t) const override { return name_; }
   Status act(std::string_view) override { return ok(); }
 

@@ -12,17 +12,29 @@ namespace {
 constexpr Duration delay_step = 10ms, longest_delay = 2550ms;
 }  // namespace
 
-Duration PortConfig::gap() const { return effective_gap(inter_character, inter_character_floor, line); }
+Duration PortConfig::gap() const {
+  return effective_gap(inter_character, inter_character_floor, line);
+}
 
 Duration effective_gap(Duration parameter, Duration floor, const LineSettings& line) {
-  const Duration default_gap(Duration::rep{77} * 1'000'000'000 / 2 / line.baud);  // 3.5 * 11 = 38.5 bits
+  const Duration default_gap(Duration::rep{77} * 1'000'000'000 / 2 /
+                             line.baud);  // 3.5 * 11 = 38.5 bits
   return std::max(parameter > Duration::zero() ? parameter : default_gap, floor);
 }
 
 std::vector<std::string_view> port_keys(std::initializer_list<std::string_view> more) {
-  std::vector<std::string_view> keys{"bench_line", "delay_ms", "inter_character_floor_ms", "inter_character_ms",
-                                     "line",       "mode",     "model",                    "neighbours",
-                                     "protocol",   "role",     "rs485",                    "station"};
+  std::vector<std::string_view> keys{"bench_line",
+                                     "delay_ms",
+                                     "inter_character_floor_ms",
+                                     "inter_character_ms",
+                                     "line",
+                                     "mode",
+                                     "model",
+                                     "neighbours",
+                                     "protocol",
+                                     "role",
+                                     "rs485",
+                                     "station"};
   keys.insert(keys.end(), more);
   std::ranges::sort(keys);
   return keys;
@@ -46,15 +58,17 @@ Result<const PlcModel*> check_port_config(const PortConfig& config) {
   if (!model) {
     std::vector<std::string_view> names;
     for (const PlcModel& m : plc_models()) names.push_back(m.name);
-    return fail(fmt::format("cannot make a PLC '{}': there is no such model; use one of {}{}", config.model, plc_model_names(),
-                            suggestion(config.model, names)));
+    return fail(fmt::format("cannot make a PLC '{}': there is no such model; use one of {}{}",
+                            config.model, plc_model_names(), suggestion(config.model, names)));
   }
   const auto wrong = [](const std::string& what) { return fail("cannot make a PLC: " + what); };
   if (config.station > 255) return wrong("station is not 0 to 255");
-  if (config.inter_character < Duration::zero() || config.inter_character_floor < Duration::zero()) {
+  if (config.inter_character < Duration::zero() ||
+      config.inter_character_floor < Duration::zero()) {
     return wrong("the inter-character time is negative; 0 means 3.5 characters");
   }
-  if (config.delay < Duration::zero() || config.delay > longest_delay || config.delay % delay_step != Duration::zero()) {
+  if (config.delay < Duration::zero() || config.delay > longest_delay ||
+      config.delay % delay_step != Duration::zero()) {
     return wrong("the delay is not 0 to 2550 ms in steps of 10 ms");
   }
   return model;

@@ -18,13 +18,13 @@ struct PortConfig {
   enum class Role { server, client };
 
   std::string model = "xbc-h";
-  unsigned station = 0;             // 0-255 (table 4.3.1; the 0-31 of 9.3 is what one line carries)
+  unsigned station = 0;  // 0-255 (table 4.3.1; the 0-31 of 9.3 is what one line carries)
   Role role = Role::server;
-  bool run = true;                  // STOP: servers keep answering, the client is silent
+  bool run = true;  // STOP: servers keep answering, the client is silent
   LineSettings line{};
-  Duration inter_character{};       // 0: 3.5 characters of 11 bits
-  Duration inter_character_floor{}; // 20 ms behind a pty or socket
-  Duration delay{};                 // of a reply, 0-2550 ms in steps of 10 ms; only with rs485
+  Duration inter_character{};        // 0: 3.5 characters of 11 bits
+  Duration inter_character_floor{};  // 20 ms behind a pty or socket
+  Duration delay{};                  // of a reply, 0-2550 ms in steps of 10 ms; only with rs485
   bool rs485 = false;
 
   /// The inter-character time that holds (effective_gap).
@@ -35,12 +35,12 @@ struct PortConfig {
   bool operator==(const PortConfig&) const = default;
 };
 
-/// The inter-character time: `parameter`, or 3.5 characters of 11 bits where it is zero, but at least `floor` (a pty or
-/// socket has no wire time).
+/// The inter-character time: `parameter`, or 3.5 characters of 11 bits where it is zero, but at
+/// least `floor` (a pty or socket has no wire time).
 Duration effective_gap(Duration parameter, Duration floor, const LineSettings& line);
 
-/// The keys of `read_port_config`, those for others (bench_line, model, neighbours, protocol), which are passed over, and
-/// `more`: for `known_keys`.
+/// The keys of `read_port_config`, those for others (bench_line, model, neighbours, protocol),
+/// which are passed over, and `more`: for `known_keys`.
 std::vector<std::string_view> port_keys(std::initializer_list<std::string_view> more = {});
 
 /// station, role, mode, line, inter_character_ms, inter_character_floor_ms, delay_ms, rs485.

@@ -11,10 +11,11 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 TEST(EffectiveGap, DefaultFloorAndParameter) {
-  const LineSettings line;  // 9600 bit/s
+  const LineSettings line;                                        // 9600 bit/s
   EXPECT_EQ(effective_gap(0ms, 0ms, line), Duration(4'010'416));  // 38.5 bits
   EXPECT_EQ(effective_gap(0ms, 0ms, {.baud = 115200}), Duration(334'201));
-  EXPECT_EQ(effective_gap(0ms, 0ms, {.baud = 9600, .data_bits = 7, .parity = 'E'}), Duration(4'010'416));  // always 11 bits
+  EXPECT_EQ(effective_gap(0ms, 0ms, {.baud = 9600, .data_bits = 7, .parity = 'E'}),
+            Duration(4'010'416));  // always 11 bits
   EXPECT_EQ(effective_gap(1ms, 0ms, line), 1ms);
   EXPECT_EQ(effective_gap(1ms, 20ms, line), 20ms);
   EXPECT_EQ(effective_gap(50ms, 20ms, line), 50ms);
@@ -29,13 +30,22 @@ TEST(PortConfig, GapAndDelayThatHold) {
 }
 
 TEST(PortConfig, EveryKey) {
-  const json config = json::parse(R"({"station": "255", "role": "client", "mode": "stop", "line": "19200-7E2", "delay_ms": 50,
+  const json config = json::parse(
+      R"({"station": "255", "role": "client", "mode": "stop", "line": "19200-7E2", "delay_ms": 50,
                                       "inter_character_ms": 2.5, "inter_character_floor_ms": 20, "rs485": true})");
   PortConfig port;
   ConfigReader reader(config, "it");
   read_port_config(reader, port);
   ASSERT_FALSE(reader.error());
-  EXPECT_EQ(port, (PortConfig{"xbc-h", 255, PortConfig::Role::client, false, {19200, 7, 'E', 2}, 2500us, 20ms, 50ms, true}));
+  EXPECT_EQ(port, (PortConfig{"xbc-h",
+                              255,
+                              PortConfig::Role::client,
+                              false,
+                              {19200, 7, 'E', 2},
+                              2500us,
+                              20ms,
+                              50ms,
+                              true}));
 }
 
 TEST(PortConfig, TheFirstErrorStays) {
@@ -44,14 +54,17 @@ TEST(PortConfig, TheFirstErrorStays) {
   ConfigReader reader(config, "it");
   read_port_config(reader, port);
   ASSERT_TRUE(reader.error());
-  EXPECT_EQ(reader.error()->message, "cannot read it: station is 256, which is not a number from 0 to 255");
+  EXPECT_EQ(reader.error()->message,
+            "cannot read it: station is 256, which is not a number from 0 to 255");
   EXPECT_EQ(port, PortConfig{});
 }
 
 TEST(PortConfig, KeysAreSortedForTheMessage) {
-  EXPECT_EQ(known_keys({{"colour", 1}}, "it", port_keys({"answer", "zoo"})).error().message,
-            "cannot read it: there is no key 'colour'; the keys are answer, bench_line, delay_ms, inter_character_floor_ms, "
-            "inter_character_ms, line, mode, model, neighbours, protocol, role, rs485, station, zoo");
+  EXPECT_EQ(
+      known_keys({{"colour", 1}}, "it", port_keys({"answer", "zoo"})).error().message,
+      "cannot read it: there is no key 'colour'; the keys are answer, bench_line, delay_ms, "
+      "inter_character_floor_ms, "
+      "inter_character_ms, line, mode, model, neighbours, protocol, role, rs485, station, zoo");
 }
 
 TEST(CheckPortConfig, LimitsAndOnePast) {

@@ -24,16 +24,17 @@ struct ModuleKind {
   bool built_in = false;
   bool cnet = true;
 };
-constexpr std::array module_kinds{ModuleKind{"built-in", true}, ModuleKind{"xbl-c21a"}, ModuleKind{"xbl-c41a"},
-                                  ModuleKind{"xbl-emta", false, false}};
-constexpr std::array<std::string_view, 8> drivers{"user-frames",       "xgt-server",          "modbus-rtu-server",
-                                                  "modbus-ascii-server", "xgt-client",        "modbus-rtu-client",
-                                                  "modbus-ascii-client", "ls-bus-client"};
+constexpr std::array module_kinds{ModuleKind{"built-in", true}, ModuleKind{"xbl-c21a"},
+                                  ModuleKind{"xbl-c41a"}, ModuleKind{"xbl-emta", false, false}};
+constexpr std::array<std::string_view, 8> drivers{
+    "user-frames", "xgt-server",        "modbus-rtu-server",   "modbus-ascii-server",
+    "xgt-client",  "modbus-rtu-client", "modbus-ascii-client", "ls-bus-client"};
 
 template <std::size_t N>
-Error not_one_of(const char* key, const std::string& given, const std::array<std::string_view, N>& names) {
-  return fail(fmt::format("cannot read {}: {} is '{}', which is none of {}{}", what, key, given, fmt::join(names, ", "),
-                          suggestion(given, names)));
+Error not_one_of(const char* key, const std::string& given,
+                 const std::array<std::string_view, N>& names) {
+  return fail(fmt::format("cannot read {}: {} is '{}', which is none of {}{}", what, key, given,
+                          fmt::join(names, ", "), suggestion(given, names)));
 }
 
 Result<ModuleKind> module_kind(const std::string& name) {
@@ -51,7 +52,8 @@ Result<double> version_number(std::string text) {
   double number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error == std::errc{} && end == digits.data() + digits.size() && number >= 0) return number;
-  return fail(fmt::format("cannot read {}: version is '{}', which is not a version such as \"1.4\"", what, text));
+  return fail(fmt::format("cannot read {}: version is '{}', which is not a version such as \"1.4\"",
+                          what, text));
 }
 
 Result<UdataModule> read_module(ConfigReader& reader) {
@@ -71,9 +73,13 @@ Result<UdataModule> read_module(ConfigReader& reader) {
   reader.boolean("module_hangs", module.hangs);
   if (reader.error()) return *reader.error();
   if (known->built_in != (module.slot == 0))
-    return fail(fmt::format("cannot read {}: slot is {}; the built-in channels are slot 0, and nothing else is", what, module.slot));
-  if (module.channel == 0) return fail(fmt::format("cannot read {}: channel is 0; it is 1 or 2", what));
-  if (std::ranges::find(drivers, driver) == drivers.end()) return not_one_of("driver", driver, drivers);
+    return fail(fmt::format(
+        "cannot read {}: slot is {}; the built-in channels are slot 0, and nothing else is", what,
+        module.slot));
+  if (module.channel == 0)
+    return fail(fmt::format("cannot read {}: channel is 0; it is 1 or 2", what));
+  if (std::ranges::find(drivers, driver) == drivers.end())
+    return not_one_of("driver", driver, drivers);
   module.user_frames = driver == "user-frames";
   const Result<double> number = version_number(version);
   if (!number) return number.error();
@@ -84,7 +90,8 @@ Result<UdataModule> read_module(ConfigReader& reader) {
 }  // namespace
 
 Result<UdataConfig> parse_udata_config(std::string_view model, const json& config) {
-  const auto keys = port_keys({"channel", "driver", "instructions", "link", "module", "module_hangs", "slot", "version"});
+  const auto keys = port_keys(
+      {"channel", "driver", "instructions", "link", "module", "module_hangs", "slot", "version"});
   if (const Status known = known_keys(config, what, keys); !known) return known.error();
   UdataConfig parsed;
   parsed.port.model = model;
@@ -94,12 +101,16 @@ Result<UdataConfig> parse_udata_config(std::string_view model, const json& confi
   const Result<const PlcModel*> plc = check_port_config(parsed.port);
   if (!plc) return plc.error();
   parsed.plc = *plc;
-  if (parsed.plc->name == "xbm-s") return fail("cannot make a UDATA port of xbm-s: 003 2.2 lists no version of XBM for UDATA; use xbc-h or xec-h");
+  if (parsed.plc->name == "xbm-s")
+    return fail(
+        "cannot make a UDATA port of xbm-s: 003 2.2 lists no version of XBM for UDATA; use xbc-h "
+        "or xec-h");
   const Result<UdataModule> module = read_module(reader);
   if (!module) return module.error();
   parsed.module = *module;
   const json instructions = config.value("instructions", json::array());
-  if (!instructions.is_array()) return fail(fmt::format("cannot read {}: instructions is no array", what));
+  if (!instructions.is_array())
+    return fail(fmt::format("cannot read {}: instructions is no array", what));
   for (std::size_t i = 0; i < instructions.size(); ++i) {
     Result<UdataInstruction> one = read_udata_instruction(instructions[i], i, *parsed.plc);
     if (!one) return one.error();

@@ -1,4 +1,5 @@
-// The JSON of a UDATA port (vectors/README.md, `given.config`): its module, and the instructions of its program.
+// The JSON of a UDATA port (vectors/README.md, `given.config`): its module, and the instructions of
+// its program.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,7 +19,8 @@ struct UdataConfig {
   std::vector<UdataInstruction> instructions;
 };
 
-/// Errors name the instruction and the key. XBC has the MK instructions, XEC those of IEC, XBM none (003 2.2).
+/// Errors name the instruction and the key. XBC has the MK instructions, XEC those of IEC, XBM none
+/// (003 2.2).
 Result<UdataConfig> parse_udata_config(std::string_view model, const nlohmann::json& config);
 
 }  // namespace fieldproof

@@ -42,7 +42,8 @@ class OperandReader {
   const std::optional<Error>& error() const { return error_; }
 
   /// Of one of `types`, with `count` elements.
-  DeviceAddress address(const char* key, std::string_view types, Access access, std::uint32_t count = 1) {
+  DeviceAddress address(const char* key, std::string_view types, Access access,
+                        std::uint32_t count = 1) {
     const auto found = object_.find(key);
     if (found == object_.end()) return wrong(key, "is missing", types);
     if (!found->is_string()) return wrong(key, "is " + found->dump(), types);
@@ -51,11 +52,18 @@ class OperandReader {
     if (!parsed) return wrong(key, fmt::format("is '{}': {}", name, describe(parsed.fault)), types);
     const DeviceAddress at = parsed.address;
     const DeviceArea& area = model_.areas[at.area];
-    if (types.find(at.type) == std::string_view::npos) return wrong(key, fmt::format("is '{}'", name), types);
-    if (access == Access::write && !area.write) return wrong(key, fmt::format("is '{}': {} is read only", name, area.letter), types);
-    if (!iec_ && at.type != 'X' && std::string_view("PMKLUDR").find(area.letter) == std::string_view::npos)
+    if (types.find(at.type) == std::string_view::npos)
+      return wrong(key, fmt::format("is '{}'", name), types);
+    if (access == Access::write && !area.write)
+      return wrong(key, fmt::format("is '{}': {} is read only", name, area.letter), types);
+    if (!iec_ && at.type != 'X' &&
+        std::string_view("PMKLUDR").find(area.letter) == std::string_view::npos)
       return wrong(key, fmt::format("is '{}': operands lie in P M K L U D or R", name), types);
-    if (!fits(model_, at, count)) return wrong(key, fmt::format("is '{}': {} elements from there on do not fit into {}", name, count, area.letter), types);
+    if (!fits(model_, at, count))
+      return wrong(key,
+                   fmt::format("is '{}': {} elements from there on do not fit into {}", name, count,
+                               area.letter),
+                   types);
     return at;
   }
   std::optional<DeviceAddress> output(const char* key, std::string_view types) {
@@ -67,7 +75,8 @@ class OperandReader {
     DeviceAddress at = address(key, iec_ ? "BW" : "W", access);
     if (error_) return at;
     if (at.type == 'W') at = {at.area, 'B', false, at.index * 2};
-    if (!fits(model_, at, count)) wrong(key, fmt::format("leaves less than {} bytes to the end of its area", count), "W");
+    if (!fits(model_, at, count))
+      wrong(key, fmt::format("leaves less than {} bytes to the end of its area", count), "W");
     return at;
   }
   UdataOperand operand(const char* key) {
@@ -78,16 +87,21 @@ class OperandReader {
   std::uint16_t number(const char* key, unsigned most, std::optional<std::uint16_t> otherwise) {
     const auto found = object_.find(key);
     if (found == object_.end() && otherwise) return *otherwise;
-    const auto right = [most](const json& value) { return value.is_number_integer() && value >= 0 && value <= most; };
+    const auto right = [most](const json& value) {
+      return value.is_number_integer() && value >= 0 && value <= most;
+    };
     if (found != object_.end() && right(*found)) return found->get<std::uint16_t>();
     const std::string given = found == object_.end() ? "is missing" : "is " + found->dump();
-    say(fmt::format("{} {}; give a number from 0 to {}{}", key, given, most, otherwise ? "" : " or the address of a word"));
+    say(fmt::format("{} {}; give a number from 0 to {}{}", key, given, most,
+                    otherwise ? "" : " or the address of a word"));
     return 0;
   }
 
  private:
   DeviceAddress wrong(const char* key, const std::string& why, std::string_view types) {
-    const char* example = types.starts_with('X') ? "a bit (\"%MX00100\")" : types == "BW" ? "a byte or word (\"%MB200\")" : "a word (\"%MW100\")";
+    const char* example = types.starts_with('X') ? "a bit (\"%MX00100\")"
+                          : types == "BW"        ? "a byte or word (\"%MB200\")"
+                                                 : "a word (\"%MW100\")";
     say(fmt::format("{} {}; give the address of {}", key, why, example));
     return {};
   }
@@ -103,29 +117,37 @@ class OperandReader {
 };
 
 Result<Form> form_of(const json& object, const std::string& what, const PlcModel& model) {
-  const std::string name = object.is_object() && object.contains("instruction") && object["instruction"].is_string() ? object["instruction"].get<std::string>() : "";
+  const std::string name =
+      object.is_object() && object.contains("instruction") && object["instruction"].is_string()
+          ? object["instruction"].get<std::string>()
+          : "";
   std::vector<std::string_view> names;
   for (const Form& form : forms) {
     if (form.iec != model.iec) continue;
     if (form.name == name) return form;
     names.push_back(form.name);
   }
-  return fail(fmt::format("cannot read {}: '{}' is no UDATA instruction of {}; use one of {}{}", what, name, model.name,
-                          fmt::join(names, ", "), suggestion(name, names)));
+  return fail(fmt::format("cannot read {}: '{}' is no UDATA instruction of {}; use one of {}{}",
+                          what, name, model.name, fmt::join(names, ", "), suggestion(name, names)));
 }
 
 std::vector<std::string_view> keys_of(const Form& form) {
   std::vector<std::string_view> keys{"instruction", "request", "slot", "channel"};
-  if (form.operation == Operation::dtr || form.operation == Operation::rts) keys.push_back("value");
-  else keys.insert(keys.end(), {"data", "size"});
-  if (form.iec) keys.insert(keys.end(), {"base", "done", "status"});
-  else keys.push_back("info");
+  if (form.operation == Operation::dtr || form.operation == Operation::rts)
+    keys.push_back("value");
+  else
+    keys.insert(keys.end(), {"data", "size"});
+  if (form.iec)
+    keys.insert(keys.end(), {"base", "done", "status"});
+  else
+    keys.push_back("info");
   return keys;
 }
 
 }  // namespace
 
-Result<UdataInstruction> read_udata_instruction(const json& object, std::size_t number, const PlcModel& model) {
+Result<UdataInstruction> read_udata_instruction(const json& object, std::size_t number,
+                                                const PlcModel& model) {
   std::string what = fmt::format("instruction {}", number);
   const Result<Form> form = form_of(object, what, model);
   if (!form) return form.error();
@@ -152,7 +174,8 @@ Result<UdataInstruction> read_udata_instruction(const json& object, std::size_t 
       break;
     default: one.value = reader.operand("value");
   }
-  one.status = one.iec ? reader.output("status", "W") : reader.address("info", "W", Access::write, info_words);
+  one.status = one.iec ? reader.output("status", "W")
+                       : reader.address("info", "W", Access::write, info_words);
   if (one.iec) one.done = reader.output("done", "X");
   if (reader.error()) return *reader.error();
   return one;

@@ -42,7 +42,10 @@ TEST(UdataInstruction, MissesAModuleThatIsElsewhereOrNoCnet) {
 }
 
 TEST(UdataInstruction, TakesChannelOneOrTwo) {
-  for (const auto& [channel, status] : {std::pair{0, udata_status::channel}, {1, udata_status::parameters}, {2, udata_status::done}, {3, udata_status::channel}}) {
+  for (const auto& [channel, status] : {std::pair{0, udata_status::channel},
+                                        {1, udata_status::parameters},
+                                        {2, udata_status::done},
+                                        {3, udata_status::channel}}) {
     UdataInstruction one = sending();
     one.channel.constant = static_cast<std::uint16_t>(channel);
     EXPECT_EQ(checked(one), status) << channel;
@@ -50,7 +53,10 @@ TEST(UdataInstruction, TakesChannelOneOrTwo) {
 }
 
 TEST(UdataInstruction, SendsOneTo1024Bytes) {
-  for (const auto& [size, status] : {std::pair{0, udata_status::value}, {1, udata_status::done}, {1024, udata_status::done}, {1025, udata_status::value}}) {
+  for (const auto& [size, status] : {std::pair{0, udata_status::value},
+                                     {1, udata_status::done},
+                                     {1024, udata_status::done},
+                                     {1025, udata_status::value}}) {
     UdataInstruction one = sending();
     one.value.constant = static_cast<std::uint16_t>(size);
     EXPECT_EQ(checked(one), status) << size;

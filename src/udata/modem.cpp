@@ -19,7 +19,8 @@ constexpr std::string_view dial = "ATDT", deliver = "deliver ";
 
 bool dials(std::string_view command) {
   return command.starts_with(dial) && command.size() > dial.size() &&
-         std::ranges::all_of(command.substr(dial.size()), [](char c) { return c >= '0' && c <= '9'; });
+         std::ranges::all_of(command.substr(dial.size()),
+                             [](char c) { return c >= '0' && c <= '9'; });
 }
 
 }  // namespace
@@ -78,7 +79,9 @@ void Modem::take_sms(Time now) {
   if (config_.network) report(now, "$006" + end);
 }
 
-std::optional<Time> Modem::wake_at() const { return replies_.wake_at(reports_.wake_at(std::nullopt)); }
+std::optional<Time> Modem::wake_at() const {
+  return replies_.wake_at(reports_.wake_at(std::nullopt));
+}
 
 Bytes Modem::advance(Time now) {
   now_ = std::max(now_, now);
@@ -94,8 +97,11 @@ const bool* Modem::switch_at(std::string_view address) const {
 
 Status Modem::set(std::string_view address, std::string_view hex) {
   bool* const one = const_cast<bool*>(switch_at(address));
-  if (!one) return fail(fmt::format("cannot set {}: a modem has no memory; use @dtr, @rts or @network", address));
-  if (hex != "00" && hex != "01") return fail(fmt::format("cannot set {} to {}: it is 00 or 01", address, hex));
+  if (!one)
+    return fail(
+        fmt::format("cannot set {}: a modem has no memory; use @dtr, @rts or @network", address));
+  if (hex != "00" && hex != "01")
+    return fail(fmt::format("cannot set {} to {}: it is 00 or 01", address, hex));
   *one = hex == "01";
   return ok();
 }
@@ -107,17 +113,20 @@ Result<std::string> Modem::get(std::string_view address, std::size_t digits) con
   std::string hex;
   for (const Byte b : passed_on_) hex += hex_number(b, 2);
   if (digits != 0 && hex.size() != digits)
-    return fail(fmt::format("cannot get {} digits of @data: the other modem has received {} bytes", digits, passed_on_.size()));
+    return fail(fmt::format("cannot get {} digits of @data: the other modem has received {} bytes",
+                            digits, passed_on_.size()));
   return hex;
 }
 
 Status Modem::act(std::string_view action) {
   if (action.starts_with(deliver)) {
-    if (!connected_) return fail("cannot deliver: no modem is connected; dial with ATDT and a number first");
+    if (!connected_)
+      return fail("cannot deliver: no modem is connected; dial with ATDT and a number first");
     reply(now_, std::string(action.substr(deliver.size())));
     return ok();
   }
-  if (action != "power_cycle") return fail(fmt::format("cannot do '{}': use power_cycle or deliver TEXT", action));
+  if (action != "power_cycle")
+    return fail(fmt::format("cannot do '{}': use power_cycle or deliver TEXT", action));
   connected_ = false;
   command_.clear();
   passed_on_.clear();

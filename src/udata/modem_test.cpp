@@ -111,7 +111,8 @@ TEST(Modem, NeedsDtrAndRts) {
 TEST(Modem, RefusesWhatItDoesNotKnow) {
   const auto typo = make_modem(json{{"modem", "bsm-856"}});
   ASSERT_FALSE(typo);
-  EXPECT_THAT(typo.error().message, HasSubstr("modem is 'bsm-856', which is not rcu-890 or bsm-856r"));
+  EXPECT_THAT(typo.error().message,
+              HasSubstr("modem is 'bsm-856', which is not rcu-890 or bsm-856r"));
   Wired one;
   EXPECT_THAT(one.modem->set("%MW0", "0000").error().message, HasSubstr("a modem has no memory"));
   EXPECT_THAT(one.modem->act("stop").error().message, HasSubstr("power_cycle or deliver TEXT"));

@@ -11,14 +11,19 @@ namespace {
 constexpr std::size_t most_held = 16;  // the manual does not say how many; PROTOCOLS
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_udata_port(std::string_view model, const nlohmann::json& config) {
+Result<std::unique_ptr<EmulatedDevice>> make_udata_port(std::string_view model,
+                                                        const nlohmann::json& config) {
   const Result<UdataConfig> parsed = parse_udata_config(model, config);
   if (!parsed) return parsed.error();
   return std::unique_ptr<EmulatedDevice>(std::make_unique<UdataPort>(*parsed));
 }
 
 UdataPort::UdataPort(const UdataConfig& config)
-    : memory_(*config.plc), module_(config.module), program_(config.instructions, config.module), gap_(config.port.gap()), run_(config.port.run) {}
+    : memory_(*config.plc),
+      module_(config.module),
+      program_(config.instructions, config.module),
+      gap_(config.port.gap()),
+      run_(config.port.run) {}
 
 void UdataPort::receive(const Burst& burst) {
   if (burst.bytes.empty()) return;
@@ -46,7 +51,8 @@ void UdataPort::end_datum() {
 std::optional<Time> UdataPort::wake_at() const {
   std::optional<Time> first = program_.wake_at();
   // A character that begins at the last moment is complete, and heard, one character time later.
-  if (!heard_.empty()) first = std::min(first.value_or(Time::max()), last_end_ + gap_ + character_time_ + Duration(1));
+  if (!heard_.empty())
+    first = std::min(first.value_or(Time::max()), last_end_ + gap_ + character_time_ + Duration(1));
   return queue_.wake_at(first);
 }
 
@@ -58,8 +64,10 @@ Bytes UdataPort::advance(Time now) {
 }
 
 void UdataPort::scan() {
-  if (run_) program_.scan(memory_, *this);
-  else program_.look(memory_);
+  if (run_)
+    program_.scan(memory_, *this);
+  else
+    program_.look(memory_);
 }
 
 void UdataPort::send(Bytes data) {
@@ -81,10 +89,13 @@ Status UdataPort::set(std::string_view address, std::string_view hex) {
 }
 
 Result<std::string> UdataPort::get(std::string_view address, std::size_t digits) const {
-  const auto level = [digits](bool on) { return hex_number(on, static_cast<int>(digits == 0 ? 2 : digits)); };
+  const auto level = [digits](bool on) {
+    return hex_number(on, static_cast<int>(digits == 0 ? 2 : digits));
+  };
   if (address == "@dtr") return level(dtr_);
   if (address == "@rts") return level(rts_);
-  return address.starts_with('@') ? get_counter(counters_, address, digits) : get_by_name(memory_, address, digits);
+  return address.starts_with('@') ? get_counter(counters_, address, digits)
+                                  : get_by_name(memory_, address, digits);
 }
 
 Status UdataPort::act(std::string_view action) {

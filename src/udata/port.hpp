@@ -1,5 +1,5 @@
-// An emulated XGB port that works with UDATA instructions (003 6.6): its module buffers what arrives, and the program
-// of the PLC takes it, sends, and moves DTR and RTS.
+// An emulated XGB port that works with UDATA instructions (003 6.6): its module buffers what
+// arrives, and the program of the PLC takes it, sends, and moves DTR and RTS.
 #pragma once
 
 #include <deque>
@@ -17,16 +17,18 @@ class UdataPort : public EmulatedDevice, private UdataChannel {
  public:
   explicit UdataPort(const UdataConfig& config);
 
-  /// A datum ends when the line is silent for the inter-character time (003 4.3.1), or is 1024 bytes long.
+  /// A datum ends when the line is silent for the inter-character time (003 4.3.1), or is 1024
+  /// bytes long.
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
   Status set(std::string_view address, std::string_view hex) override;
-  /// Also "@dtr" and "@rts": 01 while the control line is set. Counters: each datum sent or received is a service, one
-  /// that is lost because nothing takes them an error.
+  /// Also "@dtr" and "@rts": 01 while the control line is set. Counters: each datum sent or
+  /// received is a service, one that is lost because nothing takes them an error.
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
-  /// power_cycle: what was received, the counters and the control lines are lost; memory and mode stay.
+  /// power_cycle: what was received, the counters and the control lines are lost; memory and mode
+  /// stay.
   Status act(std::string_view action) override;
 
  private:
@@ -54,6 +56,7 @@ class UdataPort : public EmulatedDevice, private UdataChannel {
 };
 
 /// In its power-on state. Errors: parse_udata_config.
-Result<std::unique_ptr<EmulatedDevice>> make_udata_port(std::string_view model, const nlohmann::json& config);
+Result<std::unique_ptr<EmulatedDevice>> make_udata_port(std::string_view model,
+                                                        const nlohmann::json& config);
 
 }  // namespace fieldproof

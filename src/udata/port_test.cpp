@@ -22,7 +22,8 @@ constexpr const char* mk = R"j([
 /// A port at the other end of a simulated line.
 class Port {
  public:
-  explicit Port(json config = json::object(), const char* instructions = mk, std::string_view model = "xbc-h") {
+  explicit Port(json config = json::object(), const char* instructions = mk,
+                std::string_view model = "xbc-h") {
     config["instructions"] = json::parse(instructions);
     auto made = make_udata_port(model, config);
     if (!made) throw std::runtime_error(made.error().message);
@@ -30,8 +31,12 @@ class Port {
     line_.attach(*device_, {});
   }
 
-  void set(std::string_view address, std::string_view hex) { ASSERT_TRUE(device_->set(address, hex)); }
-  std::string get(std::string_view address, std::size_t digits = 0) const { return *device_->get(address, digits); }
+  void set(std::string_view address, std::string_view hex) {
+    ASSERT_TRUE(device_->set(address, hex));
+  }
+  std::string get(std::string_view address, std::size_t digits = 0) const {
+    return *device_->get(address, digits);
+  }
   void act(std::string_view action) { ASSERT_TRUE(device_->act(action)); }
   /// A rising edge of M10 bit `bit`.
   void request(unsigned bit) {
@@ -202,11 +207,16 @@ TEST(UdataPort, WithoutLinkNothingIsReceived) {
 }
 
 TEST(UdataPort, VersionsOfBuiltInChannelsDoNotMatter) {
-  constexpr const char* sending = R"j([{"instruction": "SNDUDATA", "request": "%MX00100", "slot": 0, "channel": 1, "data": "%DW100", "size": 1, "info": "%DW200"}])j";
+  constexpr const char* sending =
+      R"j([{"instruction": "SNDUDATA", "request": "%MX00100", "slot": 0, "channel": 1, "data": "%DW100", "size": 1, "info": "%DW200"}])j";
   Port built_in(json{{"module", "built-in"}, {"version", "1.0"}}, sending);
   built_in.request(0);
   EXPECT_EQ(built_in.get("%DW200"), "0001");
-  for (const auto& [version, status] : {std::pair{"1.3", "0007"}, {"V1.39", "0007"}, {"1.4", "0001"}, {"V1.40", "0001"}, {"2.0", "0001"}}) {
+  for (const auto& [version, status] : {std::pair{"1.3", "0007"},
+                                        {"V1.39", "0007"},
+                                        {"1.4", "0001"},
+                                        {"V1.40", "0001"},
+                                        {"2.0", "0001"}}) {
     Port port(json{{"version", version}});
     port.set("%DW90", "0001");
     port.request(0);

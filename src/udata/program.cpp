@@ -20,7 +20,8 @@ void set_error_flag(const UdataInstruction& instruction, bool error, PlcMemory& 
 }  // namespace
 
 void UdataProgram::scan(PlcMemory& memory, UdataChannel& channel) {
-  // Results can raise requests in a circle: a program that keeps itself busy gets so many scans at once.
+  // Results can raise requests in a circle: a program that keeps itself busy gets so many scans at
+  // once.
   for (std::size_t left = instructions_.size() + 1; left > 0; --left) {
     bool executed = false;
     for (std::size_t i = 0; i < instructions_.size(); ++i) {
@@ -47,7 +48,8 @@ void UdataProgram::execute(std::size_t i, PlcMemory& memory, UdataChannel& chann
   set_error_flag(instruction, misses_module(instruction, module_), memory);
   std::uint16_t status = check_udata(instruction, module_, memory);
   // 6.6.2 and 6.6.6 print no time-out: what a module has not handed over is no data.
-  if (status == udata_status::done && module_.hangs && instruction.operation != Operation::receive) {
+  if (status == udata_status::done && module_.hangs &&
+      instruction.operation != Operation::receive) {
     states_[i].waits = true;
     status = udata_status::before;
   } else if (status == udata_status::done) {
@@ -56,7 +58,8 @@ void UdataProgram::execute(std::size_t i, PlcMemory& memory, UdataChannel& chann
   put_status(instruction, status, memory);
 }
 
-std::uint16_t UdataProgram::carry_out(const UdataInstruction& instruction, PlcMemory& memory, UdataChannel& channel) {
+std::uint16_t UdataProgram::carry_out(const UdataInstruction& instruction, PlcMemory& memory,
+                                      UdataChannel& channel) {
   switch (instruction.operation) {
     case Operation::send: channel.send(read_data(instruction, memory)); break;
     case Operation::dtr: channel.set_dtr(instruction.value.read(memory) == 1); break;

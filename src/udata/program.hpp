@@ -1,4 +1,5 @@
-// A program of UDATA instructions: a pure state machine that is scanned whenever memory has changed.
+// A program of UDATA instructions: a pure state machine that is scanned whenever memory has
+// changed.
 #pragma once
 
 #include <optional>
@@ -27,8 +28,9 @@ class UdataProgram {
   UdataProgram(std::vector<UdataInstruction> instructions, const UdataModule& module)
       : module_(module), instructions_(std::move(instructions)), states_(instructions_.size()) {}
 
-  /// Executes each instruction whose request has risen since the last scan, in program order, until no result raises
-  /// another one. A request that rises while its instruction waits for the module is lost.
+  /// Executes each instruction whose request has risen since the last scan, in program order, until
+  /// no result raises another one. A request that rises while its instruction waits for the module
+  /// is lost.
   void scan(PlcMemory& memory, UdataChannel& channel);
 
   /// Takes the requests as they are, without executing anything: STOP.
@@ -37,7 +39,8 @@ class UdataProgram {
   /// Forgets edges and what waits: power-on.
   void reset() { states_.assign(instructions_.size(), {}); }
 
-  /// Time-outs. `wake_at` lies in the past until `advance` has told an instruction when its second begins.
+  /// Time-outs. `wake_at` lies in the past until `advance` has told an instruction when its second
+  /// begins.
   std::optional<Time> wake_at() const;
   /// Returns whether a result was written: then there is something to scan.
   bool advance(Time now, PlcMemory& memory);
@@ -45,12 +48,13 @@ class UdataProgram {
  private:
   struct State {
     bool requested = false;
-    bool waits = false;               // for a module that hangs
+    bool waits = false;  // for a module that hangs
     std::optional<Time> give_up{};
   };
   bool rises(std::size_t i, const PlcMemory& memory);
   void execute(std::size_t i, PlcMemory& memory, UdataChannel& channel);
-  std::uint16_t carry_out(const UdataInstruction& instruction, PlcMemory& memory, UdataChannel& channel);
+  std::uint16_t carry_out(const UdataInstruction& instruction, PlcMemory& memory,
+                          UdataChannel& channel);
 
   UdataModule module_;
   std::vector<UdataInstruction> instructions_;

@@ -1,4 +1,5 @@
-// The frame of a SEND or RECEIVE block, with what the block says of its variables (000 6.2.4, 003 6.5.5).
+// The frame of a SEND or RECEIVE block, with what the block says of its variables (000 6.2.4,
+// 003 6.5.5).
 #pragma once
 
 #include "src/base/result.hpp"
@@ -7,8 +8,9 @@
 
 namespace fieldproof::user_frames {
 
-/// Errors say what is wrong with `frame`, `read`, `save` or `size` of the block: an unknown frame, one of the other
-/// direction, more or fewer addresses than variables without memory, addresses that cannot hold them.
+/// Errors say what is wrong with `frame`, `read`, `save` or `size` of the block: an unknown frame,
+/// one of the other direction, more or fewer addresses than variables without memory, addresses
+/// that cannot hold them.
 Result<UserFrame> frame_of_block(const FrameDefinition& definition, const P2pBlock& block);
 
 }  // namespace fieldproof::user_frames

@@ -88,14 +88,18 @@ unsigned value_of(CheckMethod method, const CheckOptions& options, ByteView byte
 
 std::span<const CheckMethodFacts> check_methods() { return methods; }
 
-const CheckMethodFacts& facts_of(CheckMethod method) { return *std::ranges::find(methods, method, &CheckMethodFacts::method); }
+const CheckMethodFacts& facts_of(CheckMethod method) {
+  return *std::ranges::find(methods, method, &CheckMethodFacts::method);
+}
 
 const CheckMethodFacts* find_check_method(std::string_view name) {
   const auto found = std::ranges::find(methods, name, &CheckMethodFacts::name);
   return found == methods.end() ? nullptr : &*found;
 }
 
-std::size_t check_size(CheckMethod method, bool ascii) { return facts_of(method).bytes * (ascii ? 2 : 1); }
+std::size_t check_size(CheckMethod method, bool ascii) {
+  return facts_of(method).bytes * (ascii ? 2 : 1);
+}
 
 Bytes compute_check(CheckMethod method, const CheckOptions& options, ByteView covered) {
   const unsigned value = value_of(method, options, covered);

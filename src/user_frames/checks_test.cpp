@@ -41,7 +41,9 @@ TEST(UserFrameChecks, ExclusiveOrStartsAtAllOnes) {
   EXPECT_EQ(from_zero(CheckMethod::byte_xor, nine), "31");
 }
 
-TEST(UserFrameChecks, ASumCanStartAtAllOnes) { EXPECT_EQ(check("byte_sum", nine, {.start = 0xFF}), "DC"); }
+TEST(UserFrameChecks, ASumCanStartAtAllOnes) {
+  EXPECT_EQ(check("byte_sum", nine, {.start = 0xFF}), "DC");
+}
 
 /// The published check values of CRC-16/MODBUS and CRC-16/ARC, low byte first.
 TEST(UserFrameChecks, Crc16HasThePublishedValues) {
@@ -50,7 +52,8 @@ TEST(UserFrameChecks, Crc16HasThePublishedValues) {
   EXPECT_EQ(from_zero(CheckMethod::crc_16, nine), "3D BB");
 }
 
-/// 3231 + 3433 + 3635 + 3837 + 0039 = D509; high byte first 3132 + 3334 + 3536 + 3738 + 3900 = 109D4.
+/// 3231 + 3433 + 3635 + 3837 + 0039 = D509; high byte first 3132 + 3334 + 3536 + 3738 + 3900 =
+/// 109D4.
 TEST(UserFrameChecks, WordSumAddsWordsAndALeftOverByte) {
   EXPECT_EQ(check("word_sum", nine), "09 D5");
   EXPECT_EQ(check("word_sum", nine, {.low_first = false}), "09 D4");
@@ -72,7 +75,9 @@ TEST(UserFrameChecks, DleAbIsTheBccOfDf1) {
 }
 
 /// BCC = (exclusive or of the data block) xor 13.
-TEST(UserFrameChecks, DleSiemensIsTheBccOf3964R) { EXPECT_EQ(check("dle_siemens", Bytes{0x41, 0x42, 0x10, 0x03}), "10"); }
+TEST(UserFrameChecks, DleSiemensIsTheBccOf3964R) {
+  EXPECT_EQ(check("dle_siemens", Bytes{0x41, 0x42, 0x10, 0x03}), "10");
+}
 
 TEST(UserFrameChecks, AsciiConversionDoublesTheLength) {
   EXPECT_EQ(check("byte_sum", nine, {.ascii = true}), "44 44");
@@ -83,7 +88,9 @@ TEST(UserFrameChecks, AsciiConversionDoublesTheLength) {
 
 /// 000 7.1.5: 05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 sums up to 3A4.
 TEST(UserFrameChecks, ByteSumIsTheBccOfXgtCnet) {
-  EXPECT_EQ(check("byte_sum", *from_hex("05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04"), {.ascii = true}), "41 34");
+  EXPECT_EQ(check("byte_sum", *from_hex("05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04"),
+                  {.ascii = true}),
+            "41 34");
 }
 
 TEST(UserFrameChecks, LgisCrcIsNotMadeUp) {

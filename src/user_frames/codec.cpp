@@ -13,12 +13,15 @@ namespace {
 using State = FrameMatch::State;
 
 /// The segments from `from` on, of known size, at offset `at`.
-State match_sized(const UserFrame& frame, std::size_t from, ByteView bytes, std::size_t at, std::vector<std::size_t>& ends) {
-  for (std::size_t i = from; i < frame.segments.size() && frame.segments[i].kind != Segment::Kind::rest; ++i) {
+State match_sized(const UserFrame& frame, std::size_t from, ByteView bytes, std::size_t at,
+                  std::vector<std::size_t>& ends) {
+  for (std::size_t i = from;
+       i < frame.segments.size() && frame.segments[i].kind != Segment::Kind::rest; ++i) {
     const Segment& segment = frame.segments[i];
     const std::size_t have = std::min(segment.size, bytes.size() - at);
     if (segment.kind == Segment::Kind::constant &&
-        !std::equal(segment.bytes.begin(), segment.bytes.begin() + static_cast<std::ptrdiff_t>(have),
+        !std::equal(segment.bytes.begin(),
+                    segment.bytes.begin() + static_cast<std::ptrdiff_t>(have),
                     bytes.begin() + static_cast<std::ptrdiff_t>(at)))
       return State::no;
     if (have < segment.size) return State::partial;
@@ -28,7 +31,8 @@ State match_sized(const UserFrame& frame, std::size_t from, ByteView bytes, std:
   return State::complete;
 }
 
-/// `rest` ends where the tail stands first; without constants in the tail, where the silence begins.
+/// `rest` ends where the tail stands first; without constants in the tail, where the silence
+/// begins.
 FrameMatch match_rest(const UserFrame& frame, FrameMatch match, ByteView bytes, bool ended) {
   const std::size_t begin = match.length(), position = match.ends.size();
   std::size_t tail_size = 0;
@@ -39,10 +43,12 @@ FrameMatch match_rest(const UserFrame& frame, FrameMatch match, ByteView bytes, 
   }
   match.state = State::partial;
   if (bytes.size() < begin + tail_size || (!has_constant && !ended)) return match;
-  for (std::size_t at = has_constant ? begin : bytes.size() - tail_size; at + tail_size <= bytes.size(); ++at) {
+  for (std::size_t at = has_constant ? begin : bytes.size() - tail_size;
+       at + tail_size <= bytes.size(); ++at) {
     std::vector<std::size_t> ends = match.ends;
     ends.push_back(at);
-    if (match_sized(frame, position + 1, bytes, at, ends) == State::complete) return {State::complete, std::move(ends)};
+    if (match_sized(frame, position + 1, bytes, at, ends) == State::complete)
+      return {State::complete, std::move(ends)};
   }
   return match;
 }
@@ -71,12 +77,14 @@ Bytes due_check(const UserFrame& frame, const FrameMatch& match, ByteView bytes)
   if (position == frame.segments.size()) return {};
   const Segment& check = frame.segments[position];
   const std::size_t begin = check.first == 0 ? 0 : match.ends[check.first - 1];
-  return compute_check(check.method, check.options, bytes.subspan(begin, match.ends[check.last] - begin));
+  return compute_check(check.method, check.options,
+                       bytes.subspan(begin, match.ends[check.last] - begin));
 }
 
 bool check_holds(const UserFrame& frame, const FrameMatch& match, ByteView bytes) {
   const std::size_t position = check_position(frame);
-  return position == frame.segments.size() || std::ranges::equal(match.part(bytes, position), due_check(frame, match, bytes));
+  return position == frame.segments.size() ||
+         std::ranges::equal(match.part(bytes, position), due_check(frame, match, bytes));
 }
 
 Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, PlcMemory& memory) {
@@ -100,13 +108,16 @@ Result<Bytes> build_frame(const UserFrame& frame, const PlcMemory& memory) {
   for (const Segment& segment : frame.segments) {
     Bytes part = segment.bytes;
     if (segment.in_block && !segment.memory)
-      return fail(fmt::format("cannot send {}: the memory of {} is given by a P2P block, and there is none", frame.name, segment.name));
+      return fail(
+          fmt::format("cannot send {}: the memory of {} is given by a P2P block, and there is none",
+                      frame.name, segment.name));
     if (segment.kind == Segment::Kind::data) {
-      const Bytes held = read_bytes(memory, *segment.memory, bytes_in_memory(frame, segment, segment.size));
+      const Bytes held =
+          read_bytes(memory, *segment.memory, bytes_in_memory(frame, segment, segment.size));
       const std::optional<Bytes> value = converted(segment.convert, swapped(segment.swap, held));
       if (!value)
-        return fail(fmt::format("cannot send {}: {} at {} holds {}, which are not ASCII hex digits", frame.name, segment.name,
-                                segment.address, to_hex(held)));
+        return fail(fmt::format("cannot send {}: {} at {} holds {}, which are not ASCII hex digits",
+                                frame.name, segment.name, segment.address, to_hex(held)));
       part = *value;
     }
     if (segment.kind == Segment::Kind::check) part.assign(segment.size, 0);
@@ -115,8 +126,9 @@ Result<Bytes> build_frame(const UserFrame& frame, const PlcMemory& memory) {
   }
   const Bytes check = due_check(frame, match, bytes);
   if (!check.empty())
-    std::ranges::copy(
-        check, bytes.end() - static_cast<std::ptrdiff_t>(match.length() - match.ends[check_position(frame)] + check.size()));
+    std::ranges::copy(check, bytes.end() - static_cast<std::ptrdiff_t>(
+                                               match.length() - match.ends[check_position(frame)] +
+                                               check.size()));
   return bytes;
 }
 

@@ -18,7 +18,8 @@ struct FrameMatch {
   ByteView part(ByteView frame, std::size_t segment) const;
 };
 
-/// Do `bytes` begin with `frame`, or could they? Constants are compared, checks are not. `ended`: nothing more comes.
+/// Do `bytes` begin with `frame`, or could they? Constants are compared, checks are not. `ended`:
+/// nothing more comes.
 FrameMatch match_frame(const UserFrame& frame, ByteView bytes, bool ended = false);
 
 /// The check that the frame should carry; empty where it has none. `match` is complete.
@@ -31,7 +32,8 @@ bool check_holds(const UserFrame& frame, const FrameMatch& match, ByteView bytes
 enum class Stored { yes, not_hex, beyond_area };
 Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, PlcMemory& memory);
 
-/// The bytes of a sent frame. The error names the variable whose memory does not hold hex digits, or is a P2P block's.
+/// The bytes of a sent frame. The error names the variable whose memory does not hold hex digits,
+/// or is a P2P block's.
 Result<Bytes> build_frame(const UserFrame& frame, const PlcMemory& memory);
 
 }  // namespace fieldproof::user_frames

@@ -31,7 +31,9 @@ class Frames : public testing::Test {
   FrameMatch match(std::string_view name, std::string_view hex, bool ended = false) const {
     return match_frame(frame(name), *from_hex(hex), ended);
   }
-  State state(std::string_view name, std::string_view hex, bool ended = false) const { return match(name, hex, ended).state; }
+  State state(std::string_view name, std::string_view hex, bool ended = false) const {
+    return match(name, hex, ended).state;
+  }
   bool holds(std::string_view name, std::string_view hex) const {
     const Bytes bytes = *from_hex(hex);
     return check_holds(frame(name), match_frame(frame(name), bytes), bytes);
@@ -90,13 +92,15 @@ TEST_F(Frames, AllVariablesAreStoredOrNone) {
 }
 
 TEST_F(Frames, MoreThanTheAreaHoldsIsNotStored) {
-  const std::string small = R"j({"title": "t", "groups": {"G": {"type": "receive", "tail": [{"hex": "03"}],
+  const std::string small =
+      R"j({"title": "t", "groups": {"G": {"type": "receive", "tail": [{"hex": "03"}],
     "frames": {"F": {"body": [{"fixed": 2, "memory": "%MW0"}, {"variable": true, "memory": "%MW1023"}]}}}}})j";
   Result<FrameDefinition> end = parse_frame_definition(small, "end.json");
   ASSERT_TRUE(end) << end.error().message;
   const UserFrame& one = end->frames.front();
   const Bytes bytes = *from_hex("11 22 33 44 55 03");
-  EXPECT_EQ(store(one, match_frame(one, bytes), bytes, memory), Stored::beyond_area);  // 3 bytes from the last word on
+  EXPECT_EQ(store(one, match_frame(one, bytes), bytes, memory),
+            Stored::beyond_area);  // 3 bytes from the last word on
   EXPECT_EQ(*get_by_name(memory, "%MW0", 0), "0000");
 }
 

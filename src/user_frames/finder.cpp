@@ -24,7 +24,8 @@ FrameFinder::Found FrameFinder::find(bool ended) const {
   Found best;
   for (const UserFrame* frame : frames_) {
     FrameMatch match = match_frame(*frame, heard_, ended);
-    if (match.state == FrameMatch::State::complete && check_holds(*frame, match, heard_)) return {std::move(match), frame};
+    if (match.state == FrameMatch::State::complete && check_holds(*frame, match, heard_))
+      return {std::move(match), frame};
     if (match.state > best.match.state) best.match = std::move(match);
   }
   return best;
@@ -55,11 +56,14 @@ void FrameFinder::pass_over(Sink& sink) {
 }
 
 void FrameFinder::take(const Found& found, Time now, Sink& sink) {
-  const Bytes frame(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(found.match.length()));
+  const Bytes frame(heard_.begin(),
+                    heard_.begin() + static_cast<std::ptrdiff_t>(found.match.length()));
   heard_.erase(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(frame.size()));
   passing_over_ = false;
-  if (found.frame) sink.on_user_frame(*found.frame, found.match, frame, now);
-  else sink.on_no_frame(service_status::bcc);
+  if (found.frame)
+    sink.on_user_frame(*found.frame, found.match, frame, now);
+  else
+    sink.on_no_frame(service_status::bcc);
 }
 
 std::optional<Time> FrameFinder::wake_at() const {

@@ -1,8 +1,10 @@
-// Finds user frames in what arrives (suites/user_frames/definitions/README.md 'What the device does').
+// Finds user frames in what arrives (suites/user_frames/definitions/README.md 'What the device
+// does').
 //
-// Bytes that can belong to no frame are passed over until one begins. The first frame of the list that is complete is
-// found. One of fixed size ends with its last byte; a variable one where its tail stands first or, without constants in the
-// tail, when nothing has come for longer than the inter-character time. That time also ends an incomplete frame.
+// Bytes that can belong to no frame are passed over until one begins. The first frame of the list
+// that is complete is found. One of fixed size ends with its last byte; a variable one where its
+// tail stands first or, without constants in the tail, when nothing has come for longer than the
+// inter-character time. That time also ends an incomplete frame.
 #pragma once
 
 #include <optional>
@@ -18,8 +20,10 @@ class FrameFinder {
   class Sink {
    public:
     /// `bytes` are `frame`, its check is right; nothing is stored yet.
-    virtual void on_user_frame(const UserFrame& frame, const FrameMatch& match, ByteView bytes, Time end) = 0;
-    /// service_status: head (bytes of no frame, once a run of them), tail (cut off, or too long), bcc.
+    virtual void on_user_frame(const UserFrame& frame, const FrameMatch& match, ByteView bytes,
+                               Time end) = 0;
+    /// service_status: head (bytes of no frame, once a run of them), tail (cut off, or too long),
+    /// bcc.
     virtual void on_no_frame(std::uint16_t why) = 0;
 
    protected:
@@ -27,7 +31,8 @@ class FrameFinder {
   };
 
   /// `frames` must outlive the finder. `gap`: the inter-character time.
-  FrameFinder(std::vector<const UserFrame*> frames, Duration gap) : frames_(std::move(frames)), gap_(gap) {}
+  FrameFinder(std::vector<const UserFrame*> frames, Duration gap)
+      : frames_(std::move(frames)), gap_(gap) {}
 
   void receive(const Burst& burst, Sink& sink);
   /// When silence ends what was heard.

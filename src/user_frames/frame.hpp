@@ -1,5 +1,5 @@
-// User-defined frames as data (000 6.2.5, 003 6.5): segments of a frame, frames of a definition. Made by
-// parse_frame_definition (definition.hpp) alone, which keeps the limits.
+// User-defined frames as data (000 6.2.5, 003 6.5): segments of a frame, frames of a definition.
+// Made by parse_frame_definition (definition.hpp) alone, which keeps the limits.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,9 @@ struct Segment {
   enum class Kind {
     constant,  // `bytes`
     data,      // `size` bytes of the frame, from or to memory
-    rest,      // as many bytes as come before the tail; the last of the body. Sent: as many as the P2P block says
-    check      // `size` bytes: `method` over segments `first` to `last`
+    rest,  // as many bytes as come before the tail; the last of the body. Sent: as many as the P2P
+           // block says
+    check  // `size` bytes: `method` over segments `first` to `last`
   };
 
   Kind kind = Kind::constant;
@@ -38,17 +39,17 @@ struct Segment {
   std::string name;       // "body 2", or what the definition calls it
   std::size_t size = 0;   // bytes in the frame; 0: rest
 
-  Bytes bytes;                          // constant
+  Bytes bytes;  // constant
 
   std::optional<DeviceAddress> memory;  // data, rest; none: any bytes, which are forgotten
   std::string address;                  // the same as written: "%MW200"
   bool in_block = false;                // a P2P block gives the memory
   Convert convert = Convert::none;
-  std::size_t swap = 1;                 // bytes that are turned round: 2, 4, 8; 1: none
+  std::size_t swap = 1;  // bytes that are turned round: 2, 4, 8; 1: none
 
   CheckMethod method = CheckMethod::byte_sum;
   CheckOptions options;
-  std::size_t first = 0, last = 0;      // positions in UserFrame::segments, both covered
+  std::size_t first = 0, last = 0;  // positions in UserFrame::segments, both covered
 
   bool operator==(const Segment&) const = default;
 };

@@ -15,7 +15,8 @@ using user_frames::UserFrame;
 namespace {
 
 /// The frames of RECEIVE blocks, in the order of the definition.
-std::vector<const UserFrame*> armed_frames(const FrameDefinition& definition, std::span<const P2pBlock> blocks) {
+std::vector<const UserFrame*> armed_frames(const FrameDefinition& definition,
+                                           std::span<const P2pBlock> blocks) {
   std::vector<const UserFrame*> frames = user_frames::received_frames(definition);
   std::erase_if(frames, [blocks](const UserFrame* frame) {
     return std::ranges::none_of(blocks, [frame](const P2pBlock& block) {
@@ -34,7 +35,8 @@ class UserFrameP2pDriver : public P2pDriver {
 
   Status check(const P2pBlock& block, const PlcModel& model) const override {
     if (definition_.plc != &model)
-      return fail(std::string("the definition is for ") + std::string(definition_.plc->name) + ", not for " + std::string(model.name) +
+      return fail(std::string("the definition is for ") + std::string(definition_.plc->name) +
+                  ", not for " + std::string(model.name) +
                   "; set plc in the definition, or use that model");
     const Result<UserFrame> frame = frame_of_block(definition_, block);
     return frame ? ok() : Status(frame.error());
@@ -45,7 +47,8 @@ class UserFrameP2pDriver : public P2pDriver {
   }
   bool awaits_reply(const P2pBlock&) const override { return false; }
 
-  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView bytes, PlcMemory& memory) const override {
+  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView bytes,
+                                    PlcMemory& memory) const override {
     if (block.function != P2pBlock::Function::receive || block.frame != found_) return std::nullopt;
     const UserFrame frame = *frame_of_block(definition_, block);
     switch (store(frame, match_frame(frame, bytes, true), bytes, memory)) {
@@ -72,7 +75,8 @@ class UserFrameP2pDriver : public P2pDriver {
   class Heard : public FrameFinder::Sink {
    public:
     Heard(UserFrameP2pDriver& driver, FrameSink& to) : driver_(driver), to_(to) {}
-    void on_user_frame(const UserFrame& frame, const FrameMatch&, ByteView bytes, Time end) override {
+    void on_user_frame(const UserFrame& frame, const FrameMatch&, ByteView bytes,
+                       Time end) override {
       driver_.found_ = frame.name;
       to_.on_frame(bytes, end);
     }
@@ -90,7 +94,9 @@ class UserFrameP2pDriver : public P2pDriver {
 
 }  // namespace
 
-std::unique_ptr<P2pDriver> make_user_frame_p2p_driver(FrameDefinition definition, std::span<const P2pBlock> blocks, Duration gap) {
+std::unique_ptr<P2pDriver> make_user_frame_p2p_driver(FrameDefinition definition,
+                                                      std::span<const P2pBlock> blocks,
+                                                      Duration gap) {
   return std::make_unique<UserFrameP2pDriver>(std::move(definition), blocks, gap);
 }
 

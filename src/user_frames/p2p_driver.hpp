@@ -1,13 +1,16 @@
 // The P2P driver 'user frame definition': SEND and RECEIVE blocks (000 6.2.4 3), 4); 003 6.5.5).
 //
-// SEND builds its frame from memory and is done with that; nothing is waited for. RECEIVE is always armed: a frame that
-// comes whole and with a right check is stored, whether anybody asked for it or not. A frame that has no RECEIVE block
-// is not looked for. A frame with a wrong check is ignored (003 6.5.1).
+// SEND builds its frame from memory and is done with that; nothing is waited for. RECEIVE is always
+// armed: a frame that comes whole and with a right check is stored, whether anybody asked for it or
+// not. A frame that has no RECEIVE block is not looked for. A frame with a wrong check is ignored
+// (003 6.5.1).
 //
-// Where the definition says `"memory": true`, the block gives the addresses, in the order of the variables (READ1, SAVE1 of
-// figures 6.2.8 and 6.2.9), and its `size` is that of the sent variable whose size is open (SIZE1).
+// Where the definition says `"memory": true`, the block gives the addresses, in the order of the
+// variables (READ1, SAVE1 of figures 6.2.8 and 6.2.9), and its `size` is that of the sent variable
+// whose size is open (SIZE1).
 //
-// What is received but cannot be stored ends RECEIVE with 0D (no hex digits) or 0E (the area ends before).
+// What is received but cannot be stored ends RECEIVE with 0D (no hex digits) or 0E (the area ends
+// before).
 #pragma once
 
 #include <memory>
@@ -19,7 +22,8 @@
 namespace fieldproof {
 
 /// `blocks`: whose RECEIVE blocks arm a frame. `gap`: the inter-character time.
-std::unique_ptr<P2pDriver> make_user_frame_p2p_driver(user_frames::FrameDefinition definition, std::span<const P2pBlock> blocks,
+std::unique_ptr<P2pDriver> make_user_frame_p2p_driver(user_frames::FrameDefinition definition,
+                                                      std::span<const P2pBlock> blocks,
                                                       Duration gap);
 
 }  // namespace fieldproof

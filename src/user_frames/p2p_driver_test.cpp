@@ -32,9 +32,11 @@ constexpr const char* frames = R"j({
   }
 })j";
 
-P2pBlock block(Function function, std::string frame, std::vector<std::string_view> own = {}, unsigned size = 1) {
+P2pBlock block(Function function, std::string frame, std::vector<std::string_view> own = {},
+               unsigned size = 1) {
   P2pBlock made{.function = function, .size = size, .variables = {}, .frame = std::move(frame)};
-  for (const std::string_view name : own) made.variables.push_back({"", parse_address(xbc, name).address});
+  for (const std::string_view name : own)
+    made.variables.push_back({"", parse_address(xbc, name).address});
   return made;
 }
 P2pBlock send(std::string frame, std::vector<std::string_view> own = {}, unsigned size = 1) {
@@ -58,8 +60,12 @@ class UserFrameP2p : public testing::Test, private FrameSink {
     const Status checked = driver->check(one, model);
     return checked ? std::string("accepted") : checked.error().message;
   }
-  void set(std::string_view address, std::string_view digits) { EXPECT_TRUE(set_by_name(memory, address, digits)); }
-  std::string get(std::string_view address, std::size_t digits = 0) { return *get_by_name(memory, address, digits); }
+  void set(std::string_view address, std::string_view digits) {
+    EXPECT_TRUE(set_by_name(memory, address, digits));
+  }
+  std::string get(std::string_view address, std::size_t digits = 0) {
+    return *get_by_name(memory, address, digits);
+  }
   std::string ask(const P2pBlock& of) {
     const Result<Bytes> bytes = driver->request(of, memory);
     return bytes ? to_hex(*bytes) : bytes.error().message;
@@ -73,7 +79,9 @@ class UserFrameP2p : public testing::Test, private FrameSink {
     return results;
   }
 
-  void wait_until_just_before_the_end() { driver->advance(*driver->wake_at() - Duration(1), *this); }
+  void wait_until_just_before_the_end() {
+    driver->advance(*driver->wake_at() - Duration(1), *this);
+  }
 
   std::vector<P2pBlock> blocks;
   std::unique_ptr<P2pDriver> driver;
@@ -82,9 +90,12 @@ class UserFrameP2p : public testing::Test, private FrameSink {
  private:
   void on_frame(ByteView frame, Time) override {
     for (const P2pBlock& one : blocks)
-      if (const auto code = driver->take(one, frame, memory)) results.push_back(one.frame + " " + hex_number(*code, 2));
+      if (const auto code = driver->take(one, frame, memory))
+        results.push_back(one.frame + " " + hex_number(*code, 2));
   }
-  void on_broken_frame(std::uint16_t why) override { results.push_back("broken " + hex_number(why, 2)); }
+  void on_broken_frame(std::uint16_t why) override {
+    results.push_back("broken " + hex_number(why, 2));
+  }
 
   std::vector<std::string> results;
   Time now{};
@@ -93,7 +104,8 @@ class UserFrameP2p : public testing::Test, private FrameSink {
 using Results = std::vector<std::string>;
 
 TEST_F(UserFrameP2p, SendsFromTheMemoryOfDefinitionOrBlock) {
-  set_up({send("TX.FIXED"), send("TX.SIZED", {"%MW300", "%MB605"}), send("TX.OPEN", {"%MW002"}, 2)});
+  set_up(
+      {send("TX.FIXED"), send("TX.SIZED", {"%MW300", "%MB605"}), send("TX.OPEN", {"%MW002"}, 2)});
   set("%MW100", "1234");
   set("%MW300", "4142");
   set("%MB605", "43");
@@ -116,12 +128,14 @@ TEST_F(UserFrameP2p, StoresWhatComesUnasked) {
   EXPECT_EQ(get("%MW200"), "1234");
   EXPECT_EQ(hear("02 42 41 42 43 03 0D"), Results{"RX.SIZED 00"});
   EXPECT_EQ(get("%MW220", 8), "41420000");
-  EXPECT_EQ(hear("02 53 03 58"), Results{"RX.SHORT 00"}) << "a frame without variables is received too";
+  EXPECT_EQ(hear("02 53 03 58"), Results{"RX.SHORT 00"})
+      << "a frame without variables is received too";
 }
 
 TEST_F(UserFrameP2p, OnlyFramesWithABlockAreArmed) {
   set_up({receive("LINE.ONE")});
-  EXPECT_EQ(hear("3E 41"), Results{"LINE.ONE 00"}) << "LINE.TWO, which stands first, would wait for one byte more";
+  EXPECT_EQ(hear("3E 41"), Results{"LINE.ONE 00"})
+      << "LINE.TWO, which stands first, would wait for one byte more";
   EXPECT_EQ(get("%MB440"), "41");
   EXPECT_EQ(hear("02 53 03 58"), Results{"broken 01"});
 }
@@ -156,14 +170,20 @@ TEST_F(UserFrameP2p, RefusesParametersThatDoNotFitTheDefinition) {
   set_up({});
   EXPECT_THAT(why(send("TX.FIXE")), HasSubstr("there is no frame 'TX.FIXE'"));
   EXPECT_THAT(why(send("TX.FIXE")), HasSubstr("did you mean 'TX.FIXED'"));
-  EXPECT_THAT(why(send("RX.FIXED")), HasSubstr("frame RX.FIXED is received; name a frame of a send group"));
+  EXPECT_THAT(why(send("RX.FIXED")),
+              HasSubstr("frame RX.FIXED is received; name a frame of a send group"));
   EXPECT_THAT(why(receive("TX.FIXED")), HasSubstr("is sent; name a frame of a receive group"));
-  EXPECT_THAT(why(send("TX.FIXED", {"%MW0"})), HasSubstr("read has 1 addresses, and frame TX.FIXED has 0 variables"));
-  EXPECT_THAT(why(send("TX.SIZED", {"%MW0"})), HasSubstr("has 2 variables whose memory is the block's; give one for each"));
+  EXPECT_THAT(why(send("TX.FIXED", {"%MW0"})),
+              HasSubstr("read has 1 addresses, and frame TX.FIXED has 0 variables"));
+  EXPECT_THAT(why(send("TX.SIZED", {"%MW0"})),
+              HasSubstr("has 2 variables whose memory is the block's; give one for each"));
   EXPECT_THAT(why(receive("RX.SIZED", {"%MX00000"})), HasSubstr("save of body 1 is a bit"));
-  EXPECT_THAT(why(send("TX.OPEN", {"%MW1023"}, 4)), HasSubstr("read of body 1: the area ends before the last of 4 bytes"));
-  EXPECT_THAT(why(send("TX.OPEN", {"%MW0"}, 512)), HasSubstr("frame TX.OPEN has 1027 bytes; it may have 1024"));
-  EXPECT_THAT(why(send("TX.FIXED"), *find_plc_model("xec-h")), HasSubstr("the definition is for xbc-h, not for xec-h"));
+  EXPECT_THAT(why(send("TX.OPEN", {"%MW1023"}, 4)),
+              HasSubstr("read of body 1: the area ends before the last of 4 bytes"));
+  EXPECT_THAT(why(send("TX.OPEN", {"%MW0"}, 512)),
+              HasSubstr("frame TX.OPEN has 1027 bytes; it may have 1024"));
+  EXPECT_THAT(why(send("TX.FIXED"), *find_plc_model("xec-h")),
+              HasSubstr("the definition is for xbc-h, not for xec-h"));
 }
 
 }  // namespace

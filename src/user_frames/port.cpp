@@ -18,15 +18,16 @@ namespace {
 constexpr std::string_view send_verb = "send ";
 }  // namespace
 
-UserFramePort::UserFramePort(const user_frames::FrameDefinition& definition, const PortConfig& config)
+UserFramePort::UserFramePort(const user_frames::FrameDefinition& definition,
+                             const PortConfig& config)
     : definition_(definition),
       memory_(*definition.plc),
       delay_(config.reply_delay()),
       run_(config.run),
       finder_(user_frames::received_frames(definition_), config.gap()) {}
 
-Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(const user_frames::FrameDefinition& definition,
-                                                               const nlohmann::json& config) {
+Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(
+    const user_frames::FrameDefinition& definition, const nlohmann::json& config) {
   const std::string what = "the port's configuration";
   if (const Status known = known_keys(config, what, port_keys()); !known) return known.error();
   PortConfig port;
@@ -43,8 +44,10 @@ void UserFramePort::receive(const Burst& burst) {
   now_ = std::max(now_, burst.end());
 }
 
-void UserFramePort::on_user_frame(const UserFrame& frame, const FrameMatch& match, ByteView bytes, Time end) {
-  if (store(frame, match, bytes, memory_) != user_frames::Stored::yes) return counters_.count_error(service_status::not_hex);
+void UserFramePort::on_user_frame(const UserFrame& frame, const FrameMatch& match, ByteView bytes,
+                                  Time end) {
+  if (store(frame, match, bytes, memory_) != user_frames::Stored::yes)
+    return counters_.count_error(service_status::not_hex);
   counters_.count_service();
   if (frame.answer.empty()) return;
   Result<Bytes> answer = build_frame(*definition_.find(frame.answer), memory_);
@@ -61,10 +64,13 @@ Bytes UserFramePort::advance(Time now) {
   return queue_.take(now);
 }
 
-Status UserFramePort::set(std::string_view address, std::string_view hex) { return set_by_name(memory_, address, hex); }
+Status UserFramePort::set(std::string_view address, std::string_view hex) {
+  return set_by_name(memory_, address, hex);
+}
 
 Result<std::string> UserFramePort::get(std::string_view address, std::size_t digits) const {
-  return address.starts_with('@') ? get_counter(counters_, address, digits) : get_by_name(memory_, address, digits);
+  return address.starts_with('@') ? get_counter(counters_, address, digits)
+                                  : get_by_name(memory_, address, digits);
 }
 
 Status UserFramePort::send(std::string_view name) {
@@ -73,10 +79,12 @@ Status UserFramePort::send(std::string_view name) {
     std::vector<std::string_view> names;
     for (const UserFrame& one : definition_.frames)
       if (one.sent) names.push_back(one.name);
-    return fail(fmt::format(
-        "cannot send '{}': {}; {}{}", name, frame ? "this frame is received" : "there is no such frame",
-        names.empty() ? "the definition has no frame to send" : fmt::format("the first one to send is {}", names.front()),
-        suggestion(name, names)));
+    return fail(fmt::format("cannot send '{}': {}; {}{}", name,
+                            frame ? "this frame is received" : "there is no such frame",
+                            names.empty()
+                                ? "the definition has no frame to send"
+                                : fmt::format("the first one to send is {}", names.front()),
+                            suggestion(name, names)));
   }
   if (!run_) return ok();  // P2P rests in STOP
   Result<Bytes> bytes = build_frame(*frame, memory_);

@@ -23,15 +23,17 @@ class UserFramePort : public EmulatedDevice, private user_frames::FrameFinder::S
   /// Memory of the definition's PLC.
   Status set(std::string_view address, std::string_view hex) override;
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
-  /// Also "send GROUP.FRAME". power_cycle: what was half received and the counters are lost; memory and mode stay.
+  /// Also "send GROUP.FRAME". power_cycle: what was half received and the counters are lost; memory
+  /// and mode stay.
   Status act(std::string_view action) override;
 
  private:
-  friend Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(const user_frames::FrameDefinition&,
-                                                                        const nlohmann::json&);
+  friend Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(
+      const user_frames::FrameDefinition&, const nlohmann::json&);
   UserFramePort(const user_frames::FrameDefinition& definition, const PortConfig& config);
 
-  void on_user_frame(const user_frames::UserFrame& frame, const user_frames::FrameMatch& match, ByteView bytes, Time end) override;
+  void on_user_frame(const user_frames::UserFrame& frame, const user_frames::FrameMatch& match,
+                     ByteView bytes, Time end) override;
   void on_no_frame(std::uint16_t why) override { counters_.count_error(why); }
   Status send(std::string_view name);
 
@@ -45,8 +47,9 @@ class UserFramePort : public EmulatedDevice, private user_frames::FrameFinder::S
   ServiceCounters counters_;
 };
 
-/// In its power-on state. `config`: port_config.hpp; station and role change nothing. Errors name the key.
-Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(const user_frames::FrameDefinition& definition,
-                                                               const nlohmann::json& config);
+/// In its power-on state. `config`: port_config.hpp; station and role change nothing. Errors name
+/// the key.
+Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(
+    const user_frames::FrameDefinition& definition, const nlohmann::json& config);
 
 }  // namespace fieldproof

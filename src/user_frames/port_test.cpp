@@ -61,7 +61,9 @@ class Port {
     const auto value = device_->get(address, digits);
     return value ? *value : value.error().message;
   }
-  void set(std::string_view address, std::string_view hex) { ASSERT_TRUE(device_->set(address, hex)); }
+  void set(std::string_view address, std::string_view hex) {
+    ASSERT_TRUE(device_->set(address, hex));
+  }
   EmulatedDevice& device() { return *device_; }
   std::string act(std::string_view action) {
     const Status done = device_->act(action);
@@ -86,8 +88,8 @@ TEST(UserFramePort, SendsWhatItsMemoryHolds) {
 TEST(UserFramePort, AMemoryWithoutHexDigitsIsNotSent) {
   Port port;
   port.set("%MW300", "31324758");
-  EXPECT_THAT(port.act("send OUT.TEXT"),
-              HasSubstr("cannot send OUT.TEXT: body 0 at %MW300 holds 31 32 47 58, which are not ASCII hex digits"));
+  EXPECT_THAT(port.act("send OUT.TEXT"), HasSubstr("cannot send OUT.TEXT: body 0 at %MW300 holds "
+                                                   "31 32 47 58, which are not ASCII hex digits"));
 }
 
 TEST(UserFramePort, WithoutABlockOpenMemoryIsNotSentAndNotStored) {
@@ -96,15 +98,18 @@ TEST(UserFramePort, WithoutABlockOpenMemoryIsNotSentAndNotStored) {
                                                                "B": {"body": [{"variable": true, "memory": true}]}}},
     "IN": {"type": "receive", "head": [{"text": "I"}], "frames": {"C": {"body": [{"fixed": 2, "memory": true}]}}}}})j");
   for (const char* action : {"send OUT.A", "send OUT.B"})
-    EXPECT_THAT(port.act(action), HasSubstr("the memory of body 0 is given by a P2P block, and there is none"));
+    EXPECT_THAT(port.act(action),
+                HasSubstr("the memory of body 0 is given by a P2P block, and there is none"));
   port.say("49 41 42");
   EXPECT_EQ(port.get("@services"), "0001");
 }
 
 TEST(UserFramePort, AnUnknownFrameIsAnErrorThatNamesTheNearest) {
   Port port;
-  EXPECT_THAT(port.act("send OUT.DATE"),
-              HasSubstr("there is no such frame; the first one to send is OUT.DATA; did you mean 'OUT.DATA'?"));
+  EXPECT_THAT(
+      port.act("send OUT.DATE"),
+      HasSubstr(
+          "there is no such frame; the first one to send is OUT.DATA; did you mean 'OUT.DATA'?"));
   EXPECT_THAT(port.act("send IN.SET"), HasSubstr("this frame is received"));
   EXPECT_THAT(port.act("sned OUT.DATA"), HasSubstr("or send GROUP.FRAME"));
 }

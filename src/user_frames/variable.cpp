@@ -14,7 +14,8 @@ std::optional<Bytes> converted(Convert convert, ByteView bytes) {
   }
   if (bytes.size() % 2 != 0) return std::nullopt;
   for (std::size_t i = 0; i < bytes.size(); i += 2) {
-    const int high = hex_digit(static_cast<char>(bytes[i])), low = hex_digit(static_cast<char>(bytes[i + 1]));
+    const int high = hex_digit(static_cast<char>(bytes[i])),
+              low = hex_digit(static_cast<char>(bytes[i + 1]));
     if (high < 0 || low < 0) return std::nullopt;
     out.push_back(static_cast<Byte>(high << 4 | low));
   }
@@ -23,7 +24,8 @@ std::optional<Bytes> converted(Convert convert, ByteView bytes) {
 
 Bytes swapped(std::size_t group, ByteView bytes) {
   Bytes out(bytes.begin(), bytes.end());
-  for (auto at = out.begin(); static_cast<std::size_t>(out.end() - at) >= group; at += static_cast<std::ptrdiff_t>(group))
+  for (auto at = out.begin(); static_cast<std::size_t>(out.end() - at) >= group;
+       at += static_cast<std::ptrdiff_t>(group))
     std::reverse(at, at + static_cast<std::ptrdiff_t>(group));
   return out;
 }
@@ -56,7 +58,8 @@ void write_bytes(PlcMemory& memory, const DeviceAddress& address, ByteView bytes
     std::uint64_t value = memory.read(address + i);
     for (std::size_t k = 0; k < each && i * each + k < bytes.size(); ++k) {
       const unsigned shift = static_cast<unsigned>(8 * (each - 1 - k));
-      value = (value & ~(std::uint64_t{0xFF} << shift)) | std::uint64_t{bytes[i * each + k]} << shift;
+      value = (value & ~(std::uint64_t{0xFF} << shift)) | std::uint64_t{bytes[i * each + k]}
+                                                              << shift;
     }
     memory.write(address + i, value);
   }

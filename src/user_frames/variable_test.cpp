@@ -9,10 +9,13 @@ std::string convert(Convert how, std::string_view hex) {
   const std::optional<Bytes> bytes = converted(how, *from_hex(hex));
   return bytes ? to_hex(*bytes) : "none";
 }
-std::string swap(std::size_t group, std::string_view hex) { return to_hex(swapped(group, *from_hex(hex))); }
+std::string swap(std::size_t group, std::string_view hex) {
+  return to_hex(swapped(group, *from_hex(hex)));
+}
 
 TEST(UserFrameVariable, HexToAsciiDoubles) {
-  EXPECT_EQ(convert(Convert::hex_to_ascii, "12 34 56 78"), "31 32 33 34 35 36 37 38");  // 000 6.2.5 3) C)
+  EXPECT_EQ(convert(Convert::hex_to_ascii, "12 34 56 78"),
+            "31 32 33 34 35 36 37 38");  // 000 6.2.5 3) C)
   EXPECT_EQ(convert(Convert::hex_to_ascii, "AB"), "41 42");
 }
 
@@ -39,9 +42,15 @@ TEST(UserFrameVariable, AnIncompleteGroupStays) {
 
 class Memory : public testing::Test {
  protected:
-  DeviceAddress at(std::string_view name) const { return parse_address(memory.model(), name).address; }
-  std::string read(std::string_view name, std::size_t count) const { return to_hex(read_bytes(memory, at(name), count)); }
-  void write(std::string_view name, std::string_view hex) { write_bytes(memory, at(name), *from_hex(hex)); }
+  DeviceAddress at(std::string_view name) const {
+    return parse_address(memory.model(), name).address;
+  }
+  std::string read(std::string_view name, std::size_t count) const {
+    return to_hex(read_bytes(memory, at(name), count));
+  }
+  void write(std::string_view name, std::string_view hex) {
+    write_bytes(memory, at(name), *from_hex(hex));
+  }
 
   PlcMemory memory{*find_plc_model("xbc-h")};
 };

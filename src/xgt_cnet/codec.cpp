@@ -10,7 +10,9 @@ namespace fieldproof {
 namespace {
 constexpr std::size_t first_of_content = 6;  // header, station, command, type or number
 
-std::string_view as_text(ByteView bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+std::string_view as_text(ByteView bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 bool all_hex(std::string_view digits) {
   return std::ranges::all_of(digits, [](char c) { return hex_digit(c) >= 0; });
@@ -57,29 +59,41 @@ struct Envelope {
 XgtFault check_bcc(ByteView frame, std::size_t tail) {
   const std::string_view bcc = as_text(frame).substr(tail + 1, 2);
   if (bcc.size() < 2) return {XgtCheck::bcc, 0, "BCC", "is missing", 0, tail + 1};
-  // Hex digits are accepted in either case (7.1.3 Note: only the main command tells the cases apart).
-  if (hex_value(bcc) != xgt_bcc(frame.first(tail + 1))) return {XgtCheck::bcc, 0, "BCC", "is wrong", 0, tail + 1};
+  // Hex digits are accepted in either case (7.1.3 Note: only the main command tells the cases
+  // apart).
+  if (hex_value(bcc) != xgt_bcc(frame.first(tail + 1)))
+    return {XgtCheck::bcc, 0, "BCC", "is wrong", 0, tail + 1};
   return {};
 }
 
 Envelope open_envelope(ByteView frame, bool request) {
   Envelope e;
   const std::string_view text = as_text(frame);
-  const bool head = !frame.empty() && (request ? frame[0] == xgt_enq : frame[0] == xgt_ack || frame[0] == xgt_nak);
-  if (!head) e.fault.note({XgtCheck::head, 0, "header", request ? "is not ENQ" : "is not ACK or NAK", 0, 0});
-  const std::size_t tail = std::min(text.find(static_cast<char>(request ? xgt_eot : xgt_etx)), text.size());
-  if (tail == text.size()) e.fault.note({XgtCheck::tail, 0, "tail", request ? "EOT is missing" : "ETX is missing", 0, tail});
+  const bool head = !frame.empty() &&
+                    (request ? frame[0] == xgt_enq : frame[0] == xgt_ack || frame[0] == xgt_nak);
+  if (!head)
+    e.fault.note({XgtCheck::head, 0, "header", request ? "is not ENQ" : "is not ACK or NAK", 0, 0});
+  const std::size_t tail =
+      std::min(text.find(static_cast<char>(request ? xgt_eot : xgt_etx)), text.size());
+  if (tail == text.size())
+    e.fault.note(
+        {XgtCheck::tail, 0, "tail", request ? "EOT is missing" : "ETX is missing", 0, tail});
   const std::string_view body = text.substr(0, tail);
-  const auto field = [body](std::size_t at, std::size_t size) { return body.substr(std::min(at, body.size()), size); };
+  const auto field = [body](std::size_t at, std::size_t size) {
+    return body.substr(std::min(at, body.size()), size);
+  };
 
   const std::string_view station = field(1, 2);
   const std::int64_t number = hex_value(station);
-  if (station.size() < 2 || number < 0) e.fault.note({XgtCheck::station, 0, "station", "is not two hex digits", 0, 1});
-  else e.station = static_cast<unsigned>(number);
+  if (station.size() < 2 || number < 0)
+    e.fault.note({XgtCheck::station, 0, "station", "is not two hex digits", 0, 1});
+  else
+    e.station = static_cast<unsigned>(number);
 
   e.command = body.size() > 3 ? body[3] : '\0';
   e.kind = field(4, 2);
-  if (e.command >= 'a' && e.command <= 'z' && tail < text.size()) e.fault.note(check_bcc(frame, tail));
+  if (e.command >= 'a' && e.command <= 'z' && tail < text.size())
+    e.fault.note(check_bcc(frame, tail));
   e.content = Cursor(field(first_of_content, std::string_view::npos), first_of_content);
   return e;
 }
@@ -98,7 +112,8 @@ class ContentReader {
   }
 
  private:
-  void wrong(XgtCheck check, std::uint16_t code, std::string_view field, std::string_view problem, std::size_t offset) {
+  void wrong(XgtCheck check, std::uint16_t code, std::string_view field, std::string_view problem,
+             std::size_t offset) {
     request_.fault.note({check, code, field, problem, block_, offset});
   }
 
@@ -115,16 +130,20 @@ class ContentReader {
   void read_registration() {
     const std::size_t offset = in_.offset();
     const std::string_view what = in_.take(3);
-    request_.content = what.size() == 3 && upper(what[0]) == 'R' ? service_of('R', what.substr(1)) : XgtService::unknown;
+    request_.content = what.size() == 3 && upper(what[0]) == 'R' ? service_of('R', what.substr(1))
+                                                                 : XgtService::unknown;
     if (request_.content == XgtService::unknown) {
-      return wrong(XgtCheck::registration_content, xgt_error::data, "registration format", "is neither RSS nor RSB", offset);
+      return wrong(XgtCheck::registration_content, xgt_error::data, "registration format",
+                   "is neither RSS nor RSB", offset);
     }
     read_content();
   }
 
   void read_content() {
-    const bool write = request_.content == XgtService::write_blocks || request_.content == XgtService::write_run;
-    const bool run = request_.content == XgtService::read_run || request_.content == XgtService::write_run;
+    const bool write =
+        request_.content == XgtService::write_blocks || request_.content == XgtService::write_run;
+    const bool run =
+        request_.content == XgtService::read_run || request_.content == XgtService::write_run;
     if (run ? read_run(write) : read_blocks(write)) check_surplus();
   }
 
@@ -133,8 +152,10 @@ class ContentReader {
     const std::size_t offset = in_.offset();
     const int blocks = number(XgtCheck::block_count, "block count");
     const bool too_many = blocks > static_cast<int>(xgt_max_blocks);
-    if (blocks == 0) wrong(XgtCheck::block_count, xgt_error::data, "block count", "is zero", offset);
-    if (too_many) wrong(XgtCheck::block_count, xgt_error::blocks, "block count", "is more than 16", offset);
+    if (blocks == 0)
+      wrong(XgtCheck::block_count, xgt_error::data, "block count", "is zero", offset);
+    if (too_many)
+      wrong(XgtCheck::block_count, xgt_error::blocks, "block count", "is more than 16", offset);
     if (blocks <= 0 || too_many) return false;
     for (block_ = 1; block_ <= static_cast<unsigned>(blocks); ++block_) {
       XgtBlock& block = request_.block[block_ - 1];
@@ -156,7 +177,8 @@ class ContentReader {
     const unsigned bytes = element_bytes(block);
     if (block.name.size() > 2 && upper(block.name[2]) == 'X') {
       const std::size_t name_offset = in_.offset() - block.name.size();
-      wrong(XgtCheck::type, xgt_error::type, "name", "is of bits, which have no continuous read or write", name_offset);
+      wrong(XgtCheck::type, xgt_error::type, "name",
+            "is of bits, which have no continuous read or write", name_offset);
     }
     const std::size_t offset = in_.offset();
     const int count = number(XgtCheck::count, "number of data");
@@ -174,8 +196,11 @@ class ContentReader {
     const std::size_t offset = in_.offset();
     const int length = number(XgtCheck::name_length, "name length");
     const bool too_long = length > static_cast<int>(xgt_max_name);
-    if (length == 0) wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is zero", offset);
-    if (too_long) wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is more than 16", offset);
+    if (length == 0)
+      wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is zero", offset);
+    if (too_long)
+      wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is more than 16",
+            offset);
     if (length <= 0 || too_long) return false;
     const std::size_t name_offset = in_.offset();
     block.name = in_.take(static_cast<std::size_t>(length));
@@ -184,7 +209,9 @@ class ContentReader {
     return false;
   }
 
-  static unsigned element_bytes(const XgtBlock& block) { return block.name.size() > 2 ? type_bytes(block.name[2]) : 0; }
+  static unsigned element_bytes(const XgtBlock& block) {
+    return block.name.size() > 2 ? type_bytes(block.name[2]) : 0;
+  }
 
   bool read_data(XgtBlock& block, std::size_t digits) {
     const std::size_t offset = in_.offset();
@@ -193,18 +220,23 @@ class ContentReader {
       wrong(XgtCheck::data, xgt_error::data, "data", "is cut short", offset);
       return false;
     }
-    if (!all_hex(block.data)) wrong(XgtCheck::data, xgt_error::not_hex, "data", "is not hex", offset);
+    if (!all_hex(block.data))
+      wrong(XgtCheck::data, xgt_error::not_hex, "data", "is not hex", offset);
     return true;
   }
 
   void check_bit(const XgtBlock& block) {
-    if (upper(block.name[2]) != 'X' || hex_value(block.data) == 0 || hex_value(block.data) == 1) return;
-    wrong(XgtCheck::bit_value, xgt_error::data, "data", "is not 00 or 01", in_.offset() - block.data.size());
+    if (upper(block.name[2]) != 'X' || hex_value(block.data) == 0 || hex_value(block.data) == 1)
+      return;
+    wrong(XgtCheck::bit_value, xgt_error::data, "data", "is not 00 or 01",
+          in_.offset() - block.data.size());
   }
 
   void check_surplus() {
     block_ = 0;
-    if (in_.left() > 0) wrong(XgtCheck::surplus, xgt_error::surplus, "surplus", "follows the last field", in_.offset());
+    if (in_.left() > 0)
+      wrong(XgtCheck::surplus, xgt_error::surplus, "surplus", "follows the last field",
+            in_.offset());
   }
 
   Cursor in_;
@@ -274,9 +306,11 @@ XgtRequest parse_request(ByteView frame) {
     request.service = command == 'X' ? XgtService::register_monitor : XgtService::run_monitor;
     const std::int64_t number = e.kind.size() < 2 ? -1 : hex_value(e.kind);
     if (number < 0 || number >= xgt_registrations) {
-      const std::uint16_t code = command == 'X' ? xgt_error::register_number : xgt_error::execute_number;
+      const std::uint16_t code =
+          command == 'X' ? xgt_error::register_number : xgt_error::execute_number;
       const std::string_view problem = number < 0 ? "is not two hex digits" : "is not 00 to 0F";
-      request.fault.note({XgtCheck::registration_number, code, "registration number", problem, 0, 4});
+      request.fault.note(
+          {XgtCheck::registration_number, code, "registration number", problem, 0, 4});
     } else {
       request.registration = static_cast<unsigned>(number);
     }
@@ -297,8 +331,10 @@ XgtRequest parse_request(ByteView frame) {
 void encode_request(const XgtRequest& request, Bytes& out) {
   const std::size_t begin = out.size();
   begin_frame(out, xgt_enq, request.station, request.command, request.kind);
-  if (request.service == XgtService::register_monitor) append(out, request.content == XgtService::read_run ? "RSB" : "RSS");
-  const bool run = request.content == XgtService::read_run || request.content == XgtService::write_run;
+  if (request.service == XgtService::register_monitor)
+    append(out, request.content == XgtService::read_run ? "RSB" : "RSS");
+  const bool run =
+      request.content == XgtService::read_run || request.content == XgtService::write_run;
   if (run) {
     append_name(out, request.block[0].name);
     append_number(out, request.count);
@@ -320,7 +356,8 @@ bool read_reply_block(Cursor& in, XgtReply& reply, unsigned number) {
   const std::string_view digits = in.take(2);
   const std::int64_t bytes = digits.size() < 2 ? -1 : hex_value(digits);
   if (bytes < 0) {
-    reply.fault.note({XgtCheck::count, 0, "number of data", "is not two hex digits", number, offset});
+    reply.fault.note(
+        {XgtCheck::count, 0, "number of data", "is not two hex digits", number, offset});
     return false;
   }
   const std::size_t data_offset = in.offset();
@@ -329,7 +366,8 @@ bool read_reply_block(Cursor& in, XgtReply& reply, unsigned number) {
     reply.fault.note({XgtCheck::count, 0, "data", "is cut short", number, data_offset});
     return false;
   }
-  if (!all_hex(data)) reply.fault.note({XgtCheck::data, 0, "data", "is not hex", number, data_offset});
+  if (!all_hex(data))
+    reply.fault.note({XgtCheck::data, 0, "data", "is not hex", number, data_offset});
   reply.data[number - 1] = data;
   reply.blocks = number;
   return true;
@@ -341,25 +379,30 @@ void read_reply_blocks(Cursor in, XgtReply& reply) {
   const std::string_view digits = in.take(2);
   const std::int64_t blocks = digits.size() < 2 ? -1 : hex_value(digits);
   if (blocks < 1 || blocks > xgt_max_blocks) {
-    return reply.fault.note({XgtCheck::block_count, 0, "block count", "is not 01 to 10", 0, offset});
+    return reply.fault.note(
+        {XgtCheck::block_count, 0, "block count", "is not 01 to 10", 0, offset});
   }
   for (unsigned i = 1; i <= static_cast<unsigned>(blocks); ++i) {
     if (!read_reply_block(in, reply, i)) return;
   }
-  if (in.left() > 0) reply.fault.note({XgtCheck::surplus, 0, "surplus", "follows the last block", 0, in.offset()});
+  if (in.left() > 0)
+    reply.fault.note({XgtCheck::surplus, 0, "surplus", "follows the last block", 0, in.offset()});
 }
 
 void read_ack(Cursor content, XgtReply& reply) {
   const char command = upper(reply.command);
   if (command == 'R') return read_reply_blocks(content, reply);
   if (command != 'Y') {
-    if (content.left() > 0) reply.fault.note({XgtCheck::surplus, 0, "surplus", "follows the last field", 0, content.offset()});
+    if (content.left() > 0)
+      reply.fault.note(
+          {XgtCheck::surplus, 0, "surplus", "follows the last field", 0, content.offset()});
     return;
   }
   Cursor run = content;
   const std::string_view digits = run.take(2);
   const std::int64_t bytes = digits.size() < 2 ? -1 : hex_value(digits);
-  if (bytes < 0 || run.left() != static_cast<std::size_t>(bytes) * 2) return read_reply_blocks(content, reply);
+  if (bytes < 0 || run.left() != static_cast<std::size_t>(bytes) * 2)
+    return read_reply_blocks(content, reply);
   read_reply_block(content, reply, 1);
 }
 
@@ -367,9 +410,12 @@ void read_nak(Cursor content, XgtReply& reply) {
   const std::size_t offset = content.offset();
   const std::string_view digits = content.take(4);
   const std::int64_t code = digits.size() < 4 ? -1 : hex_value(digits);
-  if (code < 0) return reply.fault.note({XgtCheck::data, 0, "error code", "is not four hex digits", 0, offset});
+  if (code < 0)
+    return reply.fault.note({XgtCheck::data, 0, "error code", "is not four hex digits", 0, offset});
   reply.error = static_cast<std::uint16_t>(code);
-  if (content.left() > 0) reply.fault.note({XgtCheck::surplus, 0, "surplus", "follows the error code", 0, content.offset()});
+  if (content.left() > 0)
+    reply.fault.note(
+        {XgtCheck::surplus, 0, "surplus", "follows the error code", 0, content.offset()});
 }
 }  // namespace
 
@@ -388,8 +434,10 @@ XgtReply parse_reply(ByteView frame) {
     reply.fault.note({XgtCheck::command, 0, "command", "is not RSS, RSB, WSS, WSB, X or Y", 0, 3});
     return reply;
   }
-  if (reply.ack) read_ack(e.content, reply);
-  else read_nak(e.content, reply);
+  if (reply.ack)
+    read_ack(e.content, reply);
+  else
+    read_nak(e.content, reply);
   return reply;
 }
 

@@ -5,9 +5,10 @@
 //   ACK      ACK station command type|number content ETX [BCC]
 //   NAK      NAK station command type|number code ETX [BCC]
 //
-// Numbers are hex digits, most significant first; BCC follows a lower-case command: the low byte of the sum from header
-// to tail. Values hold views into the frame that they were parsed from. Parsing never fails and never reads past the
-// frame: `fault` says what is wrong first, in the order of PROTOCOLS.md 'order of checks'.
+// Numbers are hex digits, most significant first; BCC follows a lower-case command: the low byte of
+// the sum from header to tail. Values hold views into the frame that they were parsed from. Parsing
+// never fails and never reads past the frame: `fault` says what is wrong first, in the order of
+// PROTOCOLS.md 'order of checks'.
 #pragma once
 
 #include <array>
@@ -22,31 +23,51 @@ namespace fieldproof {
 constexpr Byte xgt_enq = 0x05, xgt_ack = 0x06, xgt_nak = 0x15, xgt_eot = 0x04, xgt_etx = 0x03;
 
 constexpr unsigned xgt_max_blocks = 16;
-constexpr unsigned xgt_max_name = 16;      // characters
-constexpr unsigned xgt_max_run = 120;      // bytes of RSB and WSB: 60 words
+constexpr unsigned xgt_max_name = 16;  // characters
+constexpr unsigned xgt_max_run = 120;  // bytes of RSB and WSB: 60 words
 constexpr unsigned xgt_registrations = 16;
 
 /// Error codes of the server (Appendix 3.1).
 namespace xgt_error {
-constexpr std::uint16_t blocks = 0x0003, name_length = 0x0004, type = 0x0007, data = 0x0011, not_registered = 0x0090,
-                        execute_number = 0x0190, register_number = 0x0290, area = 0x1132, size = 0x1232, surplus = 0x1234,
-                        mixed_types = 0x1332, not_hex = 0x1432, range = 0x7132;
+constexpr std::uint16_t blocks = 0x0003, name_length = 0x0004, type = 0x0007, data = 0x0011,
+                        not_registered = 0x0090, execute_number = 0x0190, register_number = 0x0290,
+                        area = 0x1132, size = 0x1232, surplus = 0x1234, mixed_types = 0x1332,
+                        not_hex = 0x1432, range = 0x7132;
 }
 
-/// What a frame is checked for, in this order. A fault before `registration_number` draws silence, not NAK.
+/// What a frame is checked for, in this order. A fault before `registration_number` draws silence,
+/// not NAK.
 enum class XgtCheck : std::uint8_t {
-  head, tail, bcc, station, command,
-  registration_number, registered, registration_content,
-  block_count, name_length, percent, area, type, equal_types, number_form, count, range, data, bit_value, surplus,
+  head,
+  tail,
+  bcc,
+  station,
+  command,
+  registration_number,
+  registered,
+  registration_content,
+  block_count,
+  name_length,
+  percent,
+  area,
+  type,
+  equal_types,
+  number_form,
+  count,
+  range,
+  data,
+  bit_value,
+  surplus,
   none,
 };
 
 /// The first thing that is wrong.
 struct XgtFault {
   XgtCheck check = XgtCheck::none;
-  std::uint16_t code = 0;      // server error code; 0 where the server is silent, and in faults of replies
-  std::string_view field{};      // "name length"
-  std::string_view problem{};    // "is not hex"
+  std::uint16_t code =
+      0;  // server error code; 0 where the server is silent, and in faults of replies
+  std::string_view field{};    // "name length"
+  std::string_view problem{};  // "is not hex"
   unsigned block = 0;          // from 1; 0: not in a block
   std::size_t offset = 0;      // of the field in the frame
 
@@ -60,7 +81,15 @@ struct XgtFault {
 /// "block 2, name length is more than 16 (NAK 0004)"
 std::string describe(const XgtFault& fault);
 
-enum class XgtService : std::uint8_t { unknown, read_blocks, read_run, write_blocks, write_run, register_monitor, run_monitor };
+enum class XgtService : std::uint8_t {
+  unknown,
+  read_blocks,
+  read_run,
+  write_blocks,
+  write_run,
+  register_monitor,
+  run_monitor
+};
 
 struct XgtBlock {
   std::string_view name{};  // "%MW100"
@@ -69,15 +98,15 @@ struct XgtBlock {
 
 struct XgtRequest {
   unsigned station = 0;
-  char command = 0;        // r R w W x X y Y, as sent
-  std::string_view kind{};   // type or registration number, as sent: "SS", "sb", "09"
+  char command = 0;         // r R w W x X y Y, as sent
+  std::string_view kind{};  // type or registration number, as sent: "SS", "sb", "09"
   XgtService service = XgtService::unknown;
   XgtService content = XgtService::unknown;  // what is read or written; of X: what is registered
   unsigned registration = 0;
-  unsigned blocks = 0;     // as parsed; the fault says whether the frame announced others
+  unsigned blocks = 0;  // as parsed; the fault says whether the frame announced others
   std::array<XgtBlock, xgt_max_blocks> block{};
-  unsigned count = 0;      // elements of RSB and WSB
-  XgtFault fault{};        // names are looked at as far as their type letter: areas depend on the model
+  unsigned count = 0;  // elements of RSB and WSB
+  XgtFault fault{};    // names are looked at as far as their type letter: areas depend on the model
 
   bool has_bcc() const { return command >= 'a' && command <= 'z'; }
 };
@@ -101,7 +130,8 @@ struct XgtReply {
   bool has_bcc() const { return command >= 'a' && command <= 'z'; }
 };
 
-/// The reply to Y is printed with and without a block count; it is read as the one whose lengths add up.
+/// The reply to Y is printed with and without a block count; it is read as the one whose lengths
+/// add up.
 XgtReply parse_reply(ByteView frame);
 void encode_reply(const XgtReply& reply, Bytes& out);
 

@@ -40,43 +40,56 @@ void expect_printed_reply(std::string_view wire) {
   EXPECT_EQ(to_hex(encoded(reply)), wire);
 }
 
-// The frames below are typed from the 'ASCII value' rows of 000 7.1.5 with the errata of the vectors applied (names and
-// tails printed wrong); BCC added by hand where the manual prints none.
+// The frames below are typed from the 'ASCII value' rows of 000 7.1.5 with the errata of the
+// vectors applied (names and tails printed wrong); BCC added by hand where the manual prints none.
 TEST(XgtCodec, PrintedRequests) {
-  expect_printed_request("05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 34");  // (1)(b), BCC A4 printed
+  expect_printed_request(
+      "05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 34");  // (1)(b), BCC A4 printed
   expect_printed_request("05 32 30 52 53 53 30 31 30 36 25 4D 57 31 30 30 04");
-  expect_printed_request("05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38");  // (1)(e)
-  expect_printed_request("05 31 30 72 53 42 30 36 25 4D 57 31 30 30 30 35 04 39 36");                          // (2)(b)
-  expect_printed_request("05 30 41 72 53 42 30 36 25 4D 57 30 30 30 30 32 04 41 32");                          // (2)(e)
-  expect_printed_request("05 32 30 77 53 53 30 31 30 36 25 4D 57 31 30 30 30 30 45 32 04 38 30");              // (3)(b)
-  expect_printed_request("05 30 31 77 53 53 30 31 30 36 25 4D 57 32 33 30 30 30 46 46 04 39 38");              // (3)(e)
-  expect_printed_request("05 31 30 77 53 42 30 36 25 4D 57 31 30 30 30 32 31 31 31 31 32 32 32 32 04 32 34");  // (4)(b)
-  expect_printed_request("05 30 31 77 53 42 30 36 25 44 57 30 30 30 30 31 41 41 31 35 04 37 35");              // (4)(e)
-  expect_printed_request("05 30 31 78 30 31 52 53 53 30 31 30 36 25 4D 57 30 30 30 04 35 42");                 // (5)(e)
+  expect_printed_request(
+      "05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38");  // (1)(e)
+  expect_printed_request("05 31 30 72 53 42 30 36 25 4D 57 31 30 30 30 35 04 39 36");  // (2)(b)
+  expect_printed_request("05 30 41 72 53 42 30 36 25 4D 57 30 30 30 30 32 04 41 32");  // (2)(e)
+  expect_printed_request(
+      "05 32 30 77 53 53 30 31 30 36 25 4D 57 31 30 30 30 30 45 32 04 38 30");  // (3)(b)
+  expect_printed_request(
+      "05 30 31 77 53 53 30 31 30 36 25 4D 57 32 33 30 30 30 46 46 04 39 38");  // (3)(e)
+  expect_printed_request(
+      "05 31 30 77 53 42 30 36 25 4D 57 31 30 30 30 32 31 31 31 31 32 32 32 32 04 32 34");  // (4)(b)
+  expect_printed_request(
+      "05 30 31 77 53 42 30 36 25 44 57 30 30 30 30 31 41 41 31 35 04 37 35");  // (4)(e)
+  expect_printed_request(
+      "05 30 31 78 30 31 52 53 53 30 31 30 36 25 4D 57 30 30 30 04 35 42");  // (5)(e)
   expect_printed_request("05 30 31 58 30 31 52 53 53 30 31 30 36 25 4D 57 30 30 30 04");
   expect_printed_request("05 31 30 79 30 39 04 34 43");  // (6)(b)
   expect_printed_request("05 30 31 59 30 31 04");        // (6)(e)
-  expect_printed_request("05 30 31 72 53 53 30 31 30 34 25 4D 57 30 04 34 30");  // 11.2.4, BCC 40 printed
+  expect_printed_request(
+      "05 30 31 72 53 53 30 31 30 34 25 4D 57 30 04 34 30");  // 11.2.4, BCC 40 printed
 }
 
 TEST(XgtCodec, PrintedReplies) {
-  expect_printed_reply("06 32 30 72 53 53 30 31 30 32 41 39 46 33 03 33 39");                          // (1)(c)
-  expect_printed_reply("06 30 31 72 53 53 30 32 30 32 31 32 33 34 30 32 35 36 37 38 03 34 43");        // (1)(e)
-  expect_printed_reply("06 31 30 72 53 42 30 31 30 32 31 31 32 32 03 46 41");                          // (2)(c)
-  expect_printed_reply("06 30 41 72 53 42 30 31 30 34 31 32 33 34 35 36 37 38 03 45 41");              // (2)(e)
-  expect_printed_reply("06 32 30 77 53 53 03 38 38");                                                  // (3)(c)
-  expect_printed_reply("06 31 30 57 53 42 03");                                                        // (4)(c)
-  expect_printed_reply("06 31 30 78 30 39 03 34 42");                                                  // (5)(c)
-  expect_printed_reply("06 31 30 79 30 39 30 31 30 32 39 31 38 33 03 45 34");                          // (6)(c) 1)
-  expect_printed_reply("06 31 30 79 30 39 30 34 39 31 38 33 41 41 42 42 03 38 42");                    // (6)(c) 2)
-  expect_printed_reply("06 30 31 79 30 31 30 31 30 32 32 33 34 32 03 44 32");                          // (6)(e)
-  expect_printed_reply("15 32 30 72 53 53 31 31 33 32 03 35 39");                                      // (1)(d)
-  expect_printed_reply("15 32 30 57 53 53 34 32 35 32 03");                                            // (3)(d)
-  expect_printed_reply("15 31 30 78 30 39 31 31 33 32 03 32 31");                                      // (5)(d)
+  expect_printed_reply("06 32 30 72 53 53 30 31 30 32 41 39 46 33 03 33 39");  // (1)(c)
+  expect_printed_reply(
+      "06 30 31 72 53 53 30 32 30 32 31 32 33 34 30 32 35 36 37 38 03 34 43");             // (1)(e)
+  expect_printed_reply("06 31 30 72 53 42 30 31 30 32 31 31 32 32 03 46 41");              // (2)(c)
+  expect_printed_reply("06 30 41 72 53 42 30 31 30 34 31 32 33 34 35 36 37 38 03 45 41");  // (2)(e)
+  expect_printed_reply("06 32 30 77 53 53 03 38 38");                                      // (3)(c)
+  expect_printed_reply("06 31 30 57 53 42 03");                                            // (4)(c)
+  expect_printed_reply("06 31 30 78 30 39 03 34 42");                                      // (5)(c)
+  expect_printed_reply("06 31 30 79 30 39 30 31 30 32 39 31 38 33 03 45 34");        // (6)(c) 1)
+  expect_printed_reply("06 31 30 79 30 39 30 34 39 31 38 33 41 41 42 42 03 38 42");  // (6)(c) 2)
+  expect_printed_reply("06 30 31 79 30 31 30 31 30 32 32 33 34 32 03 44 32");        // (6)(e)
+  expect_printed_reply("15 32 30 72 53 53 31 31 33 32 03 35 39");                    // (1)(d)
+  expect_printed_reply("15 32 30 57 53 53 34 32 35 32 03");                          // (3)(d)
+  expect_printed_reply("15 31 30 78 30 39 31 31 33 32 03 32 31");                    // (5)(d)
 }
 
 TEST(XgtCodec, FieldsOfARequest) {
-  const Bytes frame = enq("1FwSs0206%MW230" "00FF" "05%mw10" "1a2B");
+  const Bytes frame =
+      enq("1FwSs0206%MW230"
+          "00FF"
+          "05%mw10"
+          "1a2B");
   const XgtRequest r = parse_request(frame);
   EXPECT_FALSE(r.fault) << describe(r.fault);
   EXPECT_EQ(r.station, 0x1Fu);
@@ -128,7 +141,8 @@ TEST(XgtCodec, FaultsAreNamed) {
       {"01WSS0105%MX1011", 0x0011, "block 1, data is not 00 or 01 (NAK 0011)"},
       {"01WSS0105%MX100G", 0x1432, "block 1, data is not hex (NAK 1432)"},
       {"01WSS0105%MX10012", 0x1234, "surplus follows the last field (NAK 1234)"},
-      {"01RSB05%MX1001", 0x0007, "name is of bits, which have no continuous read or write (NAK 0007)"},
+      {"01RSB05%MX1001", 0x0007,
+       "name is of bits, which have no continuous read or write (NAK 0007)"},
       {"01RSB05%MW10%4", 0x0011, "number of data is not hex (NAK 0011)"},
       {"01RSB05%MW1000", 0x0011, "number of data is zero (NAK 0011)"},
       {"01RSB05%MW10", 0x0011, "number of data is cut short (NAK 0011)"},
@@ -201,7 +215,9 @@ TEST(XgtCodec, FieldsOfReplies) {
   ASSERT_EQ(r.blocks, 2u);
   EXPECT_EQ(r.data[0], "AA");
   EXPECT_EQ(r.data[1], "BB");
-  const Bytes refused = nak("FFW" "SB1132");
+  const Bytes refused =
+      nak("FFW"
+          "SB1132");
   r = parse_reply(refused);
   EXPECT_FALSE(r.fault) << describe(r.fault);
   EXPECT_FALSE(r.ack);
@@ -226,7 +242,8 @@ TEST(XgtCodec, FaultsOfReplies) {
 
 TEST(XgtCodec, SixteenBlocksAndNames) {
   std::string body = "01wSS10";
-  for (unsigned i = 0; i < 16; ++i) body += std::string("10%ML000000000000") + hex_char(i % 10) + "0123456789ABCDEF";
+  for (unsigned i = 0; i < 16; ++i)
+    body += std::string("10%ML000000000000") + hex_char(i % 10) + "0123456789ABCDEF";
   const Bytes frame = enq(body);
   EXPECT_EQ(frame.size(), 1u + 7 + 16 * (2 + 16 + 16) + 3);  // 555
   const XgtRequest r = parse_request(frame);
@@ -235,11 +252,17 @@ TEST(XgtCodec, SixteenBlocksAndNames) {
   EXPECT_EQ(encoded(r), frame);
 }
 
-/// Every frame cut at every length (always a fault), and with every byte changed, is parsed in a buffer of exactly its
-/// size, so that a sanitizer sees any byte read past it.
+/// Every frame cut at every length (always a fault), and with every byte changed, is parsed in a
+/// buffer of exactly its size, so that a sanitizer sees any byte read past it.
 TEST(XgtCodec, DamagedFramesNeverReadPastTheEnd) {
-  const Bytes frames[] = {enq("01rSS0206%MW02006%PW001"), enq("01wSB06%DW00002AA15BB26"), enq("01x01RSB06%MW00002"), enq("01y01"),
-                          ack("01rSS0202123402" "5678"),   nak("01rSS1132"),             ack("01y01049183AABB")};
+  const Bytes frames[] = {enq("01rSS0206%MW02006%PW001"),
+                          enq("01wSB06%DW00002AA15BB26"),
+                          enq("01x01RSB06%MW00002"),
+                          enq("01y01"),
+                          ack("01rSS0202123402"
+                              "5678"),
+                          nak("01rSS1132"),
+                          ack("01y01049183AABB")};
   for (const Bytes& frame : frames) {
     for (std::size_t size = 0; size < frame.size(); ++size) {
       const Bytes cut(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(size));
@@ -259,10 +282,14 @@ TEST(XgtCodec, DamagedFramesNeverReadPastTheEnd) {
 
 TEST(XgtCodec, RandomBytesNeverReadPastTheEnd) {
   std::mt19937 random(20140301);
-  constexpr std::string_view likely = "\x05\x06\x15\x04\x03" "01rRwWxXyYSSSB%MWXBDL0123456789ABCDEF";
+  constexpr std::string_view likely =
+      "\x05\x06\x15\x04\x03"
+      "01rRwWxXyYSSSB%MWXBDL0123456789ABCDEF";
   for (int i = 0; i < 100'000; ++i) {
     Bytes bytes(random() % 60);
-    for (Byte& b : bytes) b = random() % 4 == 0 ? static_cast<Byte>(random()) : static_cast<Byte>(likely[random() % likely.size()]);
+    for (Byte& b : bytes)
+      b = random() % 4 == 0 ? static_cast<Byte>(random())
+                            : static_cast<Byte>(likely[random() % likely.size()]);
     const XgtRequest request = parse_request(bytes);
     const XgtReply reply = parse_reply(bytes);
     ASSERT_LE(request.blocks, xgt_max_blocks);

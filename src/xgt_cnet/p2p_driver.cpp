@@ -12,11 +12,14 @@ namespace fieldproof {
 namespace {
 bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function::write; }
 
-std::size_t digits_of(const P2pBlock& block) { return std::size_t{2} * type_bytes(block.type) * block.elements(); }
+std::size_t digits_of(const P2pBlock& block) {
+  return std::size_t{2} * type_bytes(block.type) * block.elements();
+}
 
 std::string digits_in(const PlcMemory& memory, const P2pBlock& block, const DeviceAddress& first) {
   std::string digits;
-  for (unsigned i = 0; i < block.elements(); ++i) digits += hex_number(memory.read(first + i), static_cast<int>(2 * type_bytes(block.type)));
+  for (unsigned i = 0; i < block.elements(); ++i)
+    digits += hex_number(memory.read(first + i), static_cast<int>(2 * type_bytes(block.type)));
   return digits;
 }
 
@@ -24,7 +27,8 @@ void save(PlcMemory& memory, DeviceAddress to, std::string_view digits) {
   const std::size_t size = std::size_t{2} * type_bytes(to.type);
   for (; !digits.empty(); digits.remove_prefix(size), to = to + 1) {
     std::uint64_t value = 0;
-    for (const char c : digits.substr(0, size)) value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
+    for (const char c : digits.substr(0, size))
+      value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
     memory.write(to, value);
   }
 }
@@ -57,8 +61,10 @@ std::uint16_t check_data(const XgtReply& reply, const P2pBlock& block, const Plc
 
 std::uint16_t check_reply(const XgtReply& reply, const P2pBlock& block, const PlcModel& model) {
   if (reply.fault.check <= XgtCheck::bcc) return error_of(reply.fault);
-  if (reply.fault.check == XgtCheck::station || reply.station != block.station) return p2p_error::station;
-  const bool same_service = reply.command == (writes(block) ? 'w' : 'r') && reply.kind.size() == 2 &&
+  if (reply.fault.check == XgtCheck::station || reply.station != block.station)
+    return p2p_error::station;
+  const bool same_service = reply.command == (writes(block) ? 'w' : 'r') &&
+                            reply.kind.size() == 2 &&
                             upper(reply.kind[1]) == (block.continuous ? 'B' : 'S');
   if (!same_service) return p2p_error::driver;
   if (reply.fault) return error_of(reply.fault);
@@ -79,24 +85,32 @@ Status XgtP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
   for (const P2pVariable& variable : block.variables) {
     const std::string& name = variable.partner;
     const auto is_index = [](char c) { return hex_digit(c) >= 0 || c == '.'; };
-    if (name.size() < 4 || name.size() > xgt_max_name || name[0] != '%' || type_bytes(name[2]) == 0 ||
+    if (name.size() < 4 || name.size() > xgt_max_name || name[0] != '%' ||
+        type_bytes(name[2]) == 0 ||
         !std::ranges::all_of(std::string_view(name).substr(3), is_index))
-      return fail(fmt::format("{} '{}' is no device name of the partner; give one such as %MW100", key, name));
+      return fail(fmt::format("{} '{}' is no device name of the partner; give one such as %MW100",
+                              key, name));
     if (upper(name[2]) != block.type)
-      return fail(fmt::format("{} '{}' is not of the block's type; its type letter is {}", key, name, block.type));
+      return fail(fmt::format("{} '{}' is not of the block's type; its type letter is {}", key,
+                              name, block.type));
   }
   if (!block.continuous) return ok();
-  if (block.type == 'X') return fail("bits are not read or written as a run; use command single (003 6.3.2)");
+  if (block.type == 'X')
+    return fail("bits are not read or written as a run; use command single (003 6.3.2)");
   const unsigned most = p2p_max_bytes / type_bytes(block.type);
   if (block.size > most)
-    return fail(fmt::format("size is {}; a run has at most {} bytes: {} elements of this type", block.size, p2p_max_bytes, most));
+    return fail(fmt::format("size is {}; a run has at most {} bytes: {} elements of this type",
+                            block.size, p2p_max_bytes, most));
   return ok();
 }
 
 Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const PlcMemory& memory) const {
-  XgtRequest request{.station = block.station, .command = writes(block) ? 'w' : 'r', .kind = block.continuous ? "SB" : "SS"};
-  request.content = writes(block) ? (block.continuous ? XgtService::write_run : XgtService::write_blocks)
-                                  : (block.continuous ? XgtService::read_run : XgtService::read_blocks);
+  XgtRequest request{.station = block.station,
+                     .command = writes(block) ? 'w' : 'r',
+                     .kind = block.continuous ? "SB" : "SS"};
+  request.content = writes(block)
+                        ? (block.continuous ? XgtService::write_run : XgtService::write_blocks)
+                        : (block.continuous ? XgtService::read_run : XgtService::read_blocks);
   request.service = request.content;
   request.blocks = static_cast<unsigned>(block.variables.size());
   request.count = block.elements();
@@ -111,11 +125,13 @@ Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const PlcMemory& memo
   return bytes;
 }
 
-std::optional<std::uint16_t> XgtP2pDriver::take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const {
+std::optional<std::uint16_t> XgtP2pDriver::take(const P2pBlock& block, ByteView frame,
+                                                PlcMemory& memory) const {
   const XgtReply reply = parse_reply(frame);
   const std::uint16_t error = check_reply(reply, block, memory.model());
   if (error == p2p_error::none && !writes(block)) {
-    for (std::size_t i = 0; i < block.variables.size(); ++i) save(memory, block.variables[i].own, reply.data[i]);
+    for (std::size_t i = 0; i < block.variables.size(); ++i)
+      save(memory, block.variables[i].own, reply.data[i]);
   }
   return error;
 }

@@ -1,8 +1,10 @@
-// The P2P driver 'XGT client' (000 6.2.3, 003 6.3): single variables go as one RSS or WSS of up to four blocks, a run as RSB
-// or WSB, in lower case with BCC and unpadded names (PROTOCOLS.md 'P2P client').
+// The P2P driver 'XGT client' (000 6.2.3, 003 6.3): single variables go as one RSS or WSS of up to
+// four blocks, a run as RSB or WSB, in lower case with BCC and unpadded names (PROTOCOLS.md 'P2P
+// client').
 //
-// Error codes of Appendix 3.3: a reply that repeats another command or type is of another driver, 05; one with more
-// values than asked for, or fewer, is 0B, and 0E where the surplus would run over the end of the save area.
+// Error codes of Appendix 3.3: a reply that repeats another command or type is of another driver,
+// 05; one with more values than asked for, or fewer, is 0B, and 0E where the surplus would run over
+// the end of the save area.
 #pragma once
 
 #include <string>
@@ -23,7 +25,8 @@ class XgtP2pDriver : public P2pDriver {
   Status check(const P2pBlock& block, const PlcModel& model) const override;
   Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override;
   bool awaits_reply(const P2pBlock&) const override { return true; }
-  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const override;
+  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
+                                    PlcMemory& memory) const override;
 
   void receive(const Burst& burst, FrameSink& sink) override { receiver_.receive(burst, sink); }
   std::optional<Time> wake_at() const override { return receiver_.wake_at(); }

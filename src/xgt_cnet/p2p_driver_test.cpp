@@ -21,7 +21,9 @@ using ::testing::HasSubstr;
 
 Result<std::unique_ptr<P2pPlc>> make(const json& block, const std::string& model = "xbc-h") {
   const json config{{"p2p", {{"blocks", json::array({block})}}}};
-  return make_p2p_plc(model, config, [](const PortConfig& port) { return std::make_unique<XgtP2pDriver>(port.gap()); });
+  return make_p2p_plc(model, config, [](const PortConfig& port) {
+    return std::make_unique<XgtP2pDriver>(port.gap());
+  });
 }
 
 json block(const json& changes = json::object()) {
@@ -58,7 +60,8 @@ struct Bench {
   }
   /// "NDR ERR STATUS services errors"
   std::string result() {
-    return get("%LX5120") + ' ' + get("%LX5121") + ' ' + get("%LW513") + ' ' + get("%LD257") + ' ' + get("%LD258");
+    return get("%LX5120") + ' ' + get("%LX5121") + ' ' + get("%LW513") + ' ' + get("%LD257") + ' ' +
+           get("%LD258");
   }
   /// Time passes until the block has ended.
   std::string result_in_the_end() {
@@ -71,7 +74,9 @@ struct Bench {
 };
 
 const std::string normal = "01 00 0000 00000001 00000000";
-std::string ended(std::string_view status) { return "00 01 " + std::string(status) + " 00000000 00000001"; }
+std::string ended(std::string_view status) {
+  return "00 01 " + std::string(status) + " 00000000 00000001";
+}
 
 // 000 11.2.4: 'ENQ 01rSS0104%MW0 EOT 40'
 TEST(XgtP2pDriver, CaptureOfTheManual) {
@@ -88,9 +93,16 @@ TEST(XgtP2pDriver, ReadsASingleVariable) {
 }
 
 TEST(XgtP2pDriver, ReadsFourVariablesAtOnce) {
-  Bench b(json{{"type", "dword"}, {"read", {"%MD1", "%DD2", "%LD3", "%KD4"}}, {"save", {"%DD10", "%DD0", "%MD5", "%DD11"}}});
+  Bench b(json{{"type", "dword"},
+               {"read", {"%MD1", "%DD2", "%LD3", "%KD4"}},
+               {"save", {"%DD10", "%DD0", "%MD5", "%DD11"}}});
   EXPECT_EQ(b.request(), enq("02rSS0404%MD104%DD204%LD304%KD4"));
-  b.reply(ack("02rSS04" "0411111111" "0422222222" "0433333333" "0444444444"));
+  b.reply(
+      ack("02rSS04"
+          "0411111111"
+          "0422222222"
+          "0433333333"
+          "0444444444"));
   EXPECT_EQ(b.get("%DD10", 16), "1111111144444444");
   EXPECT_EQ(b.get("%DD0"), "22222222");
   EXPECT_EQ(b.get("%MD5"), "33333333");
@@ -104,7 +116,12 @@ TEST(XgtP2pDriver, ReadsBits) {
 }
 
 TEST(XgtP2pDriver, ReadsARun) {
-  Bench b(json{{"command", "continuous"}, {"type", "dword"}, {"size", 2}, {"read", "%MD50"}, {"save", "%DD10"}, {"station", 0x1F}});
+  Bench b(json{{"command", "continuous"},
+               {"type", "dword"},
+               {"size", 2},
+               {"read", "%MD50"},
+               {"save", "%DD10"},
+               {"station", 0x1F}});
   EXPECT_EQ(b.request(), enq("1FrSB05%MD5002"));
   b.reply(ack("1FrSB010812345678CAFEBABE"));
   EXPECT_EQ(b.get("%DD10", 16), "12345678CAFEBABE");
@@ -126,7 +143,12 @@ TEST(XgtP2pDriver, WritesSingleVariables) {
 
 // 000 6.2.4: 10 bytes from M125 on are written from P20 on
 TEST(XgtP2pDriver, WritesARun) {
-  Bench b(json{{"function", "write"}, {"command", "continuous"}, {"type", "byte"}, {"size", 10}, {"read", "%MB250"}, {"save", "%PB40"}});
+  Bench b(json{{"function", "write"},
+               {"command", "continuous"},
+               {"type", "byte"},
+               {"size", 10},
+               {"read", "%MB250"},
+               {"save", "%PB40"}});
   b.set("%MB250", "0102030405060708090A");
   EXPECT_EQ(b.request(), enq("02wSB05%PB400A0102030405060708090A"));
   b.reply(ack("02wSB"));
@@ -153,15 +175,26 @@ TEST(XgtP2pDriver, RepliesThatAreNotAccepted) {
   Bytes wrong_bcc = ack("02rSS0102A9F3");
   wrong_bcc.back() ^= 1;
   const BadReply cases[] = {
-      {to_bytes("02rSS0102A9F3"), "0001"},  {to_bytes("\x06" "02rSS0102"), "0002"},
-      {wrong_bcc, "0003"},                  {ack("03rSS0102A9F3"), "0004"},
-      {ack("G2rSS0102A9F3"), "0004"},       {ack("02RSS0102A9F3"), "0005"},
-      {ack("02rSB0102A9F3"), "0005"},       {ack("02wSS"), "0005"},
-      {ack("02rXX0102A9F3"), "0005"},       {ack("02rSS0101A9"), "000B"},
-      {ack("02rSS0202A9F302A9F3"), "000B"}, {ack("02rSS0102A9F300"), "000B"},
-      {ack("02rSS0102A9"), "000B"},         {ack("02rSS0104A9F3A9F3"), "000B"},
-      {ack("02rSS"), "000B"},               {ack("02rSS0102A9G3"), "000D"},
-      {nak("02rSS7132"), "000F"},           {Bytes{}, "000A"},
+      {to_bytes("02rSS0102A9F3"), "0001"},
+      {to_bytes("\x06"
+                "02rSS0102"),
+       "0002"},
+      {wrong_bcc, "0003"},
+      {ack("03rSS0102A9F3"), "0004"},
+      {ack("G2rSS0102A9F3"), "0004"},
+      {ack("02RSS0102A9F3"), "0005"},
+      {ack("02rSB0102A9F3"), "0005"},
+      {ack("02wSS"), "0005"},
+      {ack("02rXX0102A9F3"), "0005"},
+      {ack("02rSS0101A9"), "000B"},
+      {ack("02rSS0202A9F302A9F3"), "000B"},
+      {ack("02rSS0102A9F300"), "000B"},
+      {ack("02rSS0102A9"), "000B"},
+      {ack("02rSS0104A9F3A9F3"), "000B"},
+      {ack("02rSS"), "000B"},
+      {ack("02rSS0102A9G3"), "000D"},
+      {nak("02rSS7132"), "000F"},
+      {Bytes{}, "000A"},
   };
   for (const BadReply& c : cases) {
     Bench b;
@@ -173,7 +206,10 @@ TEST(XgtP2pDriver, RepliesThatAreNotAccepted) {
 }
 
 TEST(XgtP2pDriver, RepliesToAWrite) {
-  for (const BadReply& c : {BadReply{ack("02wSS00"), "000B"}, {ack("02wSB"), "0005"}, {ack("02rSS"), "0005"}, {nak("02wSS1132"), "000F"}}) {
+  for (const BadReply& c : {BadReply{ack("02wSS00"), "000B"},
+                            {ack("02wSB"), "0005"},
+                            {ack("02rSS"), "0005"},
+                            {nak("02wSS1132"), "000F"}}) {
     Bench b(json{{"function", "write"}});
     b.request();
     b.reply(c.bytes);
@@ -201,22 +237,35 @@ TEST(XgtP2pDriver, NoiseBeforeTheReplyIsPassedOver) {
 
 /// A longest run fills the limit of every type, and one more is refused.
 TEST(XgtP2pDriver, ARunHasAtMost120Bytes) {
-  for (const auto& [type, letter, most] : {std::tuple{"byte", "B", 120}, {"word", "W", 60}, {"dword", "D", 30}, {"lword", "L", 15}}) {
+  for (const auto& [type, letter, most] :
+       {std::tuple{"byte", "B", 120}, {"word", "W", 60}, {"dword", "D", 30}, {"lword", "L", 15}}) {
     const auto error = [&, t = type, l = std::string(letter)](int size) {
-      return error_of({{"command", "continuous"}, {"type", t}, {"size", size}, {"read", "%M" + l + "0"}, {"save", "%D" + l + "0"}});
+      return error_of({{"command", "continuous"},
+                       {"type", t},
+                       {"size", size},
+                       {"read", "%M" + l + "0"},
+                       {"save", "%D" + l + "0"}});
     };
     EXPECT_EQ(error(most), "");
-    EXPECT_THAT(error(most + 1), HasSubstr("P2P block 0: size is " + std::to_string(most + 1) + "; a run has at most 120 bytes"));
+    EXPECT_THAT(error(most + 1), HasSubstr("P2P block 0: size is " + std::to_string(most + 1) +
+                                           "; a run has at most 120 bytes"));
   }
 }
 
 TEST(XgtP2pDriver, WhatIsRefused) {
-  EXPECT_EQ(error_of({{"read", "MW100"}}), "cannot set up P2P block 0: read 'MW100' is no device name of the partner; give one such as %MW100");
-  for (const char* name : {"%MW", "%MW10g", "%MZ100", "%MW00000000000001", ""}) EXPECT_THAT(error_of({{"read", name}}), HasSubstr("no device name")) << name;
+  EXPECT_EQ(error_of({{"read", "MW100"}}),
+            "cannot set up P2P block 0: read 'MW100' is no device name of the partner; give one "
+            "such as %MW100");
+  for (const char* name : {"%MW", "%MW10g", "%MZ100", "%MW00000000000001", ""})
+    EXPECT_THAT(error_of({{"read", name}}), HasSubstr("no device name")) << name;
   EXPECT_EQ(error_of({{"read", "%MW0000000000001"}}), "");  // 16 characters
-  EXPECT_THAT(error_of({{"read", "%MD100"}}), HasSubstr("read '%MD100' is not of the block's type; its type letter is W"));
-  EXPECT_THAT(error_of({{"function", "write"}, {"save", "%MD1"}}), HasSubstr("save '%MD1' is not of the block's type"));
-  EXPECT_THAT(error_of({{"command", "continuous"}, {"type", "bit"}, {"read", "%MX0"}, {"save", "%MX1"}}), HasSubstr("use command single"));
+  EXPECT_THAT(error_of({{"read", "%MD100"}}),
+              HasSubstr("read '%MD100' is not of the block's type; its type letter is W"));
+  EXPECT_THAT(error_of({{"function", "write"}, {"save", "%MD1"}}),
+              HasSubstr("save '%MD1' is not of the block's type"));
+  EXPECT_THAT(
+      error_of({{"command", "continuous"}, {"type", "bit"}, {"read", "%MX0"}, {"save", "%MX1"}}),
+      HasSubstr("use command single"));
 }
 
 TEST(XgtP2pDriver, TalksToAServer) {
@@ -227,7 +276,9 @@ TEST(XgtP2pDriver, TalksToAServer) {
     {"flag": "F92", "read": ["%MW100", "%DW5"], "save": ["%MW200", "%MW300"], "station": 2},
     {"flag": "F92", "function": "write", "command": "continuous", "size": 60, "read": "%DW0", "save": "%DW100", "station": 2},
     {"flag": "F93", "read": "%MW256", "save": "%MW201", "station": 2}]}})");
-  const auto client = make_p2p_plc("xbc-h", config, [](const PortConfig& port) { return std::make_unique<XgtP2pDriver>(port.gap()); });
+  const auto client = make_p2p_plc("xbc-h", config, [](const PortConfig& port) {
+    return std::make_unique<XgtP2pDriver>(port.gap());
+  });
   ASSERT_TRUE(client) << client.error().message;
   SimulatedLine wire(line);
   wire.attach(**client, line);
@@ -241,7 +292,7 @@ TEST(XgtP2pDriver, TalksToAServer) {
   EXPECT_EQ(*(*server)->get("%DW159", 0), "1234");
   EXPECT_EQ(*(*client)->get("%LD257", 0), "0000000A");  // every 200 ms
   EXPECT_EQ(*(*client)->get("%LD260", 0), "0000000A");
-  EXPECT_EQ(*(*client)->get("%LW525", 0), "000F");      // beyond the area of the partner
+  EXPECT_EQ(*(*client)->get("%LW525", 0), "000F");  // beyond the area of the partner
   EXPECT_EQ(*(*client)->get("%LD264", 0), "00000002");
 }
 

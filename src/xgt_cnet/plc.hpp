@@ -22,9 +22,12 @@ class Plc : public EmulatedDevice {
   std::optional<Time> wake_at() const override { return server_.wake_at(); }
   Bytes advance(Time now) override { return server_.advance(now); }
 
-  Status set(std::string_view address, std::string_view hex) override { return set_by_name(memory_, address, hex); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return set_by_name(memory_, address, hex);
+  }
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
-  /// power_cycle: registrations, counters and frames in progress are lost; memory stays. A server answers in RUN and STOP.
+  /// power_cycle: registrations, counters and frames in progress are lost; memory stays. A server
+  /// answers in RUN and STOP.
   Status act(std::string_view action) override;
 
  private:

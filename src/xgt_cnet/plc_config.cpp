@@ -6,7 +6,8 @@ namespace fieldproof {
 
 Result<PortConfig> parse_plc_config(std::string_view model, const nlohmann::json& config) {
   constexpr std::string_view what = "the PLC's configuration";
-  if (config.is_object() && config.contains("p2p")) return fail("cannot make a PLC: a server has no p2p; remove it, or give role client");
+  if (config.is_object() && config.contains("p2p"))
+    return fail("cannot make a PLC: a server has no p2p; remove it, or give role client");
   if (const Status status = known_keys(config, what, port_keys()); !status) return status.error();
   PortConfig plc;
   plc.model = model;

@@ -43,7 +43,8 @@ TEST(PlcConfig, EveryKey) {
 }
 
 TEST(PlcConfig, TextOfEndpointOptions) {
-  const PortConfig plc = parsed({{"station", "7"}, {"rs485", "1"}, {"delay_ms", "10"}, {"inter_character_ms", "1.5"}});
+  const PortConfig plc =
+      parsed({{"station", "7"}, {"rs485", "1"}, {"delay_ms", "10"}, {"inter_character_ms", "1.5"}});
   EXPECT_EQ(plc.station, 7u);
   EXPECT_TRUE(plc.rs485);
   EXPECT_EQ(plc.delay, 10ms);
@@ -53,19 +54,29 @@ TEST(PlcConfig, TextOfEndpointOptions) {
 }
 
 TEST(PlcConfig, KeysOfOthersArePassedOver) {
-  EXPECT_EQ(parsed({{"neighbours", {2, 3}}, {"bench_line", "1200"}, {"protocol", "xgt-cnet"}, {"model", "xbc-h"}}), PortConfig{});
+  EXPECT_EQ(parsed({{"neighbours", {2, 3}},
+                    {"bench_line", "1200"},
+                    {"protocol", "xgt-cnet"},
+                    {"model", "xbc-h"}}),
+            PortConfig{});
 }
 
 TEST(PlcConfig, ErrorsSayWhatIsAllowed) {
   EXPECT_EQ(error_of({{"stations", 1}}),
-            "cannot read the PLC's configuration: there is no key 'stations'; the keys are bench_line, delay_ms, inter_character_floor_ms, "
-            "inter_character_ms, line, mode, model, neighbours, protocol, role, rs485, station; did you mean 'station'?");
-  EXPECT_EQ(error_of({{"station", 256}}), "cannot read the PLC's configuration: station is 256, which is not a number from 0 to 255");
-  for (const json& wrong : {json(-1), json("x"), json(""), json("1x"), json("nan"), json(true), json(nullptr), json::array()}) {
+            "cannot read the PLC's configuration: there is no key 'stations'; the keys are "
+            "bench_line, delay_ms, inter_character_floor_ms, "
+            "inter_character_ms, line, mode, model, neighbours, protocol, role, rs485, station; "
+            "did you mean 'station'?");
+  EXPECT_EQ(
+      error_of({{"station", 256}}),
+      "cannot read the PLC's configuration: station is 256, which is not a number from 0 to 255");
+  for (const json& wrong : {json(-1), json("x"), json(""), json("1x"), json("nan"), json(true),
+                            json(nullptr), json::array()}) {
     EXPECT_THAT(error_of({{"station", wrong}}), HasSubstr("a number from 0 to 255")) << wrong;
   }
   EXPECT_THAT(error_of({{"station", 1.5}}), HasSubstr("a whole number"));
-  EXPECT_THAT(error_of({{"role", "master"}}), HasSubstr("role is 'master', which is not client or server"));
+  EXPECT_THAT(error_of({{"role", "master"}}),
+              HasSubstr("role is 'master', which is not client or server"));
   EXPECT_THAT(error_of({{"mode", 1}}), HasSubstr("mode is 1, which is not a text"));
   EXPECT_THAT(error_of({{"mode", "pause"}}), HasSubstr("run or stop"));
   EXPECT_THAT(error_of({{"line", "9601"}}), HasSubstr("cannot read line settings '9601'"));
@@ -75,7 +86,8 @@ TEST(PlcConfig, ErrorsSayWhatIsAllowed) {
 }
 
 TEST(PlcConfig, AServerHasNoP2p) {
-  EXPECT_EQ(error_of({{"p2p", json::object()}}), "cannot make a PLC: a server has no p2p; remove it, or give role client");
+  EXPECT_EQ(error_of({{"p2p", json::object()}}),
+            "cannot make a PLC: a server has no p2p; remove it, or give role client");
 }
 
 }  // namespace

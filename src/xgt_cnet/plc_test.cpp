@@ -69,7 +69,9 @@ TEST(Plc, PowerCycleKeepsMemoryAlone) {
   const auto plc = plc_of({.station = 1});
   ASSERT_TRUE(plc->set("%MW0", "1234"));
   EXPECT_EQ(ask(*plc, 0ms, "01X00RSS0104%MW0"), "ACK 01X00");
-  plc->receive({to_bytes("\x05" "01"), 1s, 1ms});
+  plc->receive({to_bytes("\x05"
+                         "01"),
+                1s, 1ms});
   ASSERT_TRUE(plc->act("power_cycle"));
   EXPECT_EQ(plc->wake_at(), std::nullopt);
   EXPECT_EQ(*plc->get("@services", 0), "0000");
@@ -92,7 +94,9 @@ TEST(Plc, DelayOnlyWithRs485) {
 TEST(Plc, InterCharacterTimeAndItsFloor) {
   const auto answers = [](const PortConfig& config, Duration silence) {
     const auto plc = plc_of(config);
-    plc->receive({to_bytes("\x05" "01RSS"), 0ms, 1ms});
+    plc->receive({to_bytes("\x05"
+                           "01RSS"),
+                  0ms, 1ms});
     plc->receive({to_bytes("0104%MW0\x04"), 6ms + silence, 1ms});
     const auto wake = plc->wake_at();
     return wake && !plc->advance(*wake).empty();
@@ -101,8 +105,10 @@ TEST(Plc, InterCharacterTimeAndItsFloor) {
   EXPECT_FALSE(answers({.station = 1}, Duration(4'010'417)));
   EXPECT_TRUE(answers({.station = 1, .inter_character = 10ms}, 10ms));
   EXPECT_FALSE(answers({.station = 1, .inter_character = 10ms}, 10ms + 1ns));
-  EXPECT_TRUE(answers({.station = 1, .inter_character = 10ms, .inter_character_floor = 20ms}, 20ms));
-  EXPECT_FALSE(answers({.station = 1, .inter_character = 10ms, .inter_character_floor = 20ms}, 20ms + 1ns));
+  EXPECT_TRUE(
+      answers({.station = 1, .inter_character = 10ms, .inter_character_floor = 20ms}, 20ms));
+  EXPECT_FALSE(
+      answers({.station = 1, .inter_character = 10ms, .inter_character_floor = 20ms}, 20ms + 1ns));
 }
 
 // --- On the simulated line ---
@@ -145,7 +151,9 @@ TEST(PlcOnALine, MissingTailIsCountedBySilenceAlone) {
   const auto plc = plc_of({.station = 1});
   SimulatedLine wire(line);
   wire.attach(*plc, line);
-  wire.transmit(to_bytes("\x05" "01RSS0104%MW0"));
+  wire.transmit(
+      to_bytes("\x05"
+               "01RSS0104%MW0"));
   EXPECT_TRUE(wire.receive(wire.now() + 1s).bytes.empty());
   EXPECT_EQ(*plc->get("@status", 0), "02");
 }
@@ -154,7 +162,8 @@ TEST(PlcOnALine, MissingTailIsCountedBySilenceAlone) {
 
 TEST(MakePlc, ErrorsNameTheParameter) {
   EXPECT_EQ(error_of({.model = "xbc_h"}),
-            "cannot make a PLC 'xbc_h': there is no such model; use one of xbc-h, xbm-s, xec-h; did you mean 'xbc-h'?");
+            "cannot make a PLC 'xbc_h': there is no such model; use one of xbc-h, xbm-s, xec-h; "
+            "did you mean 'xbc-h'?");
   EXPECT_THAT(error_of({.station = 256}), HasSubstr("station is not 0 to 255"));
   EXPECT_THAT(error_of({.delay = 15ms}), HasSubstr("steps of 10 ms"));
   EXPECT_THAT(error_of({.delay = 2560ms}), HasSubstr("0 to 2550 ms"));

@@ -10,11 +10,14 @@ constexpr std::size_t command_at = 3;
 constexpr int bcc_size = 2;
 }  // namespace
 
-FrameReceiver::FrameReceiver(Side side, Duration gap) : side_(side), tail_(side == Side::server ? xgt_eot : xgt_etx), gap_(gap) {
+FrameReceiver::FrameReceiver(Side side, Duration gap)
+    : side_(side), tail_(side == Side::server ? xgt_eot : xgt_etx), gap_(gap) {
   frame_.reserve(64);
 }
 
-bool FrameReceiver::is_head(Byte b) const { return side_ == Side::server ? b == xgt_enq : b == xgt_ack || b == xgt_nak; }
+bool FrameReceiver::is_head(Byte b) const {
+  return side_ == Side::server ? b == xgt_enq : b == xgt_ack || b == xgt_nak;
+}
 
 void FrameReceiver::receive(const Burst& burst, FrameSink& sink) {
   if (burst.bytes.empty()) return;
@@ -49,7 +52,8 @@ void FrameReceiver::take(Byte b, Time end, FrameSink& sink) {
       }
       frame_.push_back(b);
       if (b != tail_) return;
-      if (frame_.size() > command_at + 1 && frame_[command_at] >= 'a' && frame_[command_at] <= 'z') {
+      if (frame_.size() > command_at + 1 && frame_[command_at] >= 'a' &&
+          frame_[command_at] <= 'z') {
         state_ = State::bcc;
         bcc_missing_ = bcc_size;
         return;

@@ -10,7 +10,8 @@
 namespace fieldproof {
 
 /// A frame: header to tail, and BCC after a lower-case command; it ends with its last stop bit.
-/// No frame: service_status::head (bytes outside a frame, once a run of them), tail, or bcc (the BCC never came).
+/// No frame: service_status::head (bytes outside a frame, once a run of them), tail, or bcc (the
+/// BCC never came).
 class FrameReceiver {
  public:
   /// From the header on; more without a tail is dropped (PROTOCOLS.md).

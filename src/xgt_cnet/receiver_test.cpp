@@ -60,21 +60,26 @@ TEST_F(FrameReceiverTest, BytesBeforeTheHeaderCountOnceARun) {
   EXPECT_EQ(log.frames, Frames{enq("01Y01")});
   EXPECT_EQ(log.broken, Broken{1});
   text_at(100ms, "a");
-  text_at(101ms, "b");            // the same run
+  text_at(101ms, "b");  // the same run
   text_at(101ms + character + gap, "c");
   EXPECT_EQ(log.broken, (Broken{1, 1}));
-  text_at(200ms, "d");            // after a gap: another
+  text_at(200ms, "d");  // after a gap: another
   EXPECT_EQ(log.broken, (Broken{1, 1, 1}));
 }
 
 TEST_F(FrameReceiverTest, HeaderInsideAFrameRestartsIt) {
-  at(0ms, to_bytes("\x05" "01RSS0106%M") + enq("01Y01"));
+  at(0ms, to_bytes("\x05"
+                   "01RSS0106%M") +
+              enq("01Y01"));
   EXPECT_EQ(log.frames, Frames{enq("01Y01")});
   EXPECT_EQ(log.broken, Broken{2});
 }
 
 TEST_F(FrameReceiverTest, HeaderInPlaceOfTheBccRestartsIt) {
-  at(0ms, to_bytes("\x05" "01y01\x04" "4") + enq("01Y01"));
+  at(0ms, to_bytes("\x05"
+                   "01y01\x04"
+                   "4") +
+              enq("01Y01"));
   EXPECT_EQ(log.frames, Frames{enq("01Y01")});
   EXPECT_EQ(log.broken, Broken{3});
 }
@@ -87,21 +92,28 @@ TEST_F(FrameReceiverTest, TwoFramesBackToBack) {
 }
 
 TEST_F(FrameReceiverTest, GapEqualToTheTimeIsOneFrame) {
-  text_at(0ms, "\x05" "01");
+  text_at(0ms,
+          "\x05"
+          "01");
   text_at(3ms + gap, "Y01\x04");
   EXPECT_EQ(log.frames, Frames{enq("01Y01")});
 }
 
 TEST_F(FrameReceiverTest, LongerGapEndsTheFrame) {
-  text_at(0ms, "\x05" "01");
+  text_at(0ms,
+          "\x05"
+          "01");
   text_at(3ms + gap + 1ns, "Y01\x04");
   EXPECT_TRUE(log.frames.empty());
   EXPECT_EQ(log.broken, (Broken{2, 1}));  // no tail; then bytes without a header
 }
 
 TEST_F(FrameReceiverTest, SilenceEndsTheFrameByTheClock) {
-  text_at(0ms, "\x05" "01");
-  const Time wake = 3ms + gap + character + 1ns;  // a character that begins in time has arrived by then
+  text_at(0ms,
+          "\x05"
+          "01");
+  const Time wake =
+      3ms + gap + character + 1ns;  // a character that begins in time has arrived by then
   EXPECT_EQ(receiver.wake_at(), wake);
   receiver.advance(wake - 1ns, log);
   EXPECT_TRUE(log.broken.empty());
@@ -111,7 +123,10 @@ TEST_F(FrameReceiverTest, SilenceEndsTheFrameByTheClock) {
 }
 
 TEST_F(FrameReceiverTest, SilenceInPlaceOfTheBcc) {
-  text_at(0ms, "\x05" "01y01\x04" "4");
+  text_at(0ms,
+          "\x05"
+          "01y01\x04"
+          "4");
   ASSERT_TRUE(receiver.wake_at());
   receiver.advance(*receiver.wake_at(), log);
   EXPECT_EQ(log.broken, Broken{3});
@@ -119,10 +134,16 @@ TEST_F(FrameReceiverTest, SilenceInPlaceOfTheBcc) {
 
 TEST_F(FrameReceiverTest, BufferHolds1024Bytes) {
   const std::string filling(FrameReceiver::max_frame - 5, 'x');
-  text_at(0ms, "\x05" "01Y" + filling + "\x04");
+  text_at(0ms,
+          "\x05"
+          "01Y" +
+              filling + "\x04");
   ASSERT_EQ(log.frames.size(), 1u);
   EXPECT_EQ(log.frames[0].size(), FrameReceiver::max_frame);
-  text_at(2s, "\x05" "01Y" + filling + "x\x04");
+  text_at(2s,
+          "\x05"
+          "01Y" +
+              filling + "x\x04");
   EXPECT_EQ(log.frames.size(), 1u);
   EXPECT_EQ(log.broken, Broken{2});
 }
@@ -135,7 +156,9 @@ TEST_F(FrameReceiverTest, LongFrameMayHaveItsBcc) {
 
 TEST_F(FrameReceiverTest, ShortestFrames) {
   text_at(0ms, "\x05\x04");
-  text_at(100ms, "\x05" "01\x04");
+  text_at(100ms,
+          "\x05"
+          "01\x04");
   EXPECT_EQ(log.frames.size(), 2u);
 }
 
@@ -149,7 +172,9 @@ TEST(FrameReceiverOfClient, AckAndNakEndWithEtx) {
 
 TEST(FrameReceiverFuzz, HowBytesAreCutIntoBurstsDoesNotMatter) {
   std::mt19937 random(1965);
-  constexpr std::string_view likely = "\x05\x05\x04\x04" "01rSRXyw%MW19";
+  constexpr std::string_view likely =
+      "\x05\x05\x04\x04"
+      "01rSRXyw%MW19";
   for (int round = 0; round < 2000; ++round) {
     Bytes bytes(random() % 80);
     for (Byte& b : bytes) b = static_cast<Byte>(likely[random() % likely.size()]);

@@ -13,36 +13,60 @@ std::uint64_t value_of(std::string_view hex) {
   return value;
 }
 
-bool writes(XgtService content) { return content == XgtService::write_blocks || content == XgtService::write_run; }
-bool is_run(XgtService content) { return content == XgtService::read_run || content == XgtService::write_run; }
+bool writes(XgtService content) {
+  return content == XgtService::write_blocks || content == XgtService::write_run;
+}
+bool is_run(XgtService content) {
+  return content == XgtService::read_run || content == XgtService::write_run;
+}
 
 XgtFault name_fault(AddressFault fault) {
   switch (fault) {
-    case AddressFault::percent: return {XgtCheck::percent, xgt_error::data, "name", "does not begin with %", 0, 0};
-    case AddressFault::area: return {XgtCheck::area, xgt_error::area, "name", "is of an area that the model does not have", 0, 0};
-    case AddressFault::type: return {XgtCheck::type, xgt_error::type, "name", "is of a type that the area does not have", 0, 0};
-    case AddressFault::form: return {XgtCheck::number_form, xgt_error::data, "name", "has no number", 0, 0};
-    case AddressFault::range: return {XgtCheck::range, xgt_error::range, "name", "is beyond the area", 0, 0};
+    case AddressFault::percent:
+      return {XgtCheck::percent, xgt_error::data, "name", "does not begin with %", 0, 0};
+    case AddressFault::area:
+      return {XgtCheck::area,
+              xgt_error::area,
+              "name",
+              "is of an area that the model does not have",
+              0,
+              0};
+    case AddressFault::type:
+      return {XgtCheck::type,
+              xgt_error::type,
+              "name",
+              "is of a type that the area does not have",
+              0,
+              0};
+    case AddressFault::form:
+      return {XgtCheck::number_form, xgt_error::data, "name", "has no number", 0, 0};
+    case AddressFault::range:
+      return {XgtCheck::range, xgt_error::range, "name", "is beyond the area", 0, 0};
     case AddressFault::none: break;
   }
   return {};
 }
 
-/// A registration number as it stands in the reply: upper-case hex; one that is none as it was sent, but such that the
-/// reply keeps its form.
+/// A registration number as it stands in the reply: upper-case hex; one that is none as it was
+/// sent, but such that the reply keeps its form.
 std::string_view replied_number(std::string_view sent, std::array<char, 2>& number) {
   number = {'0', '0'};
   if (sent.size() == number.size() && hex_value(sent) >= 0) {
-    for (std::size_t i = 0; i < sent.size(); ++i) number[i] = hex_char(static_cast<unsigned>(hex_digit(sent[i])));
+    for (std::size_t i = 0; i < sent.size(); ++i)
+      number[i] = hex_char(static_cast<unsigned>(hex_digit(sent[i])));
   } else {
-    for (std::size_t i = 0; i < sent.size(); ++i) number[i] = sent[i] > ' ' && sent[i] < '\x7F' ? sent[i] : '0';
+    for (std::size_t i = 0; i < sent.size(); ++i)
+      number[i] = sent[i] > ' ' && sent[i] < '\x7F' ? sent[i] : '0';
   }
   return {number.data(), number.size()};
 }
 }  // namespace
 
 XgtServer::XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay)
-    : memory_(memory), station_(station), delay_(delay), receiver_(FrameReceiver::Side::server, gap) {}
+    : memory_(memory),
+      station_(station),
+      delay_(delay),
+      receiver_(FrameReceiver::Side::server, gap) {}
 
 Bytes XgtServer::advance(Time now) {
   receiver_.advance(now, *this);
@@ -60,14 +84,16 @@ void XgtServer::on_frame(ByteView frame, Time end) {
   XgtRequest request = parse_request(frame);
   const XgtCheck check = request.fault.check;
   if (check == XgtCheck::bcc) return counters_.count_error(service_status::bcc);
-  if (check == XgtCheck::station || request.station != station_) return counters_.count_error(service_status::station);
+  if (check == XgtCheck::station || request.station != station_)
+    return counters_.count_error(service_status::station);
   if (check == XgtCheck::command) return counters_.count_error(service_status::head);
 
   Addresses addresses;
   check_names(request, addresses);
   XgtReply reply{.station = request.station, .command = request.command, .kind = request.kind};
   std::array<char, 2> number;
-  const bool numbered = request.service == XgtService::register_monitor || request.service == XgtService::run_monitor;
+  const bool numbered =
+      request.service == XgtService::register_monitor || request.service == XgtService::run_monitor;
   if (numbered) reply.kind = replied_number(request.kind, number);
   if (request.fault) {
     reply.ack = false;
@@ -86,7 +112,8 @@ void XgtServer::on_frame(ByteView frame, Time end) {
 void XgtServer::check_names(XgtRequest& request, Addresses& addresses) const {
   if (request.service == XgtService::run_monitor) {
     if (registrations_[request.registration].content == XgtService::unknown) {
-      request.fault.note({XgtCheck::registered, xgt_error::not_registered, "registration number", "is not registered", 0, 4});
+      request.fault.note({XgtCheck::registered, xgt_error::not_registered, "registration number",
+                          "is not registered", 0, 4});
     }
     return;
   }
@@ -95,15 +122,20 @@ void XgtServer::check_names(XgtRequest& request, Addresses& addresses) const {
     const ParsedAddress parsed = parse_address(model, request.block[i].name);
     addresses[i] = parsed.address;
     XgtFault fault = name_fault(parsed.fault);
-    const bool area_known = parsed.fault != AddressFault::percent && parsed.fault != AddressFault::area;
+    const bool area_known =
+        parsed.fault != AddressFault::percent && parsed.fault != AddressFault::area;
     if (area_known && writes(request.content) && !model.areas[parsed.address.area].write) {
-      fault.note({XgtCheck::area, xgt_error::area, "name", "is of an area that is read only", 0, 0});
+      fault.note(
+          {XgtCheck::area, xgt_error::area, "name", "is of an area that is read only", 0, 0});
     }
-    if (addresses[i].type != 0 && addresses[0].type != 0 && addresses[i].type != addresses[0].type) {
-      fault.note({XgtCheck::equal_types, xgt_error::mixed_types, "name", "is of another type than the first", 0, 0});
+    if (addresses[i].type != 0 && addresses[0].type != 0 &&
+        addresses[i].type != addresses[0].type) {
+      fault.note({XgtCheck::equal_types, xgt_error::mixed_types, "name",
+                  "is of another type than the first", 0, 0});
     }
     if (!fault && is_run(request.content) && !fits(model, parsed.address, request.count)) {
-      fault.note({XgtCheck::range, xgt_error::range, "number of data", "goes beyond the area", 0, 0});
+      fault.note(
+          {XgtCheck::range, xgt_error::range, "number of data", "goes beyond the area", 0, 0});
     }
     fault.block = is_run(request.content) ? 0 : i + 1;
     request.fault.note(fault);
@@ -113,7 +145,8 @@ void XgtServer::check_names(XgtRequest& request, Addresses& addresses) const {
 void XgtServer::execute(const XgtRequest& request, const Addresses& addresses, XgtReply& reply) {
   data_size_ = 0;
   switch (request.service) {
-    case XgtService::read_blocks: return read_blocks(std::span(addresses).first(request.blocks), reply);
+    case XgtService::read_blocks:
+      return read_blocks(std::span(addresses).first(request.blocks), reply);
     case XgtService::read_run:
       reply.with_block_count = true;
       return add_data(addresses[0], request.count, reply);
@@ -126,7 +159,8 @@ void XgtServer::execute(const XgtRequest& request, const Addresses& addresses, X
     }
     case XgtService::run_monitor: {
       const Registration& r = registrations_[request.registration];
-      return r.content == XgtService::read_run ? add_data(r.addresses[0], r.count, reply) : read_blocks(r.addresses, reply);
+      return r.content == XgtService::read_run ? add_data(r.addresses[0], r.count, reply)
+                                               : read_blocks(r.addresses, reply);
     }
     default: return write(request, addresses);
   }
@@ -142,7 +176,8 @@ void XgtServer::add_data(const DeviceAddress& first, unsigned count, XgtReply& r
   const unsigned digits = 2 * type_bytes(first.type);
   for (unsigned i = 0; i < count; ++i) {
     const std::uint64_t value = memory_.read(first + i);
-    for (unsigned d = digits; d-- > 0;) data_[data_size_++] = hex_char(static_cast<unsigned>(value >> (4 * d)));
+    for (unsigned d = digits; d-- > 0;)
+      data_[data_size_++] = hex_char(static_cast<unsigned>(value >> (4 * d)));
   }
   reply.data[reply.blocks++] = {begin, count * std::size_t{digits}};
 }
@@ -150,7 +185,8 @@ void XgtServer::add_data(const DeviceAddress& first, unsigned count, XgtReply& r
 /// Everything has been checked: a write is all or nothing.
 void XgtServer::write(const XgtRequest& request, const Addresses& addresses) {
   if (request.content == XgtService::write_blocks) {
-    for (unsigned i = 0; i < request.blocks; ++i) memory_.write(addresses[i], value_of(request.block[i].data));
+    for (unsigned i = 0; i < request.blocks; ++i)
+      memory_.write(addresses[i], value_of(request.block[i].data));
     return;
   }
   const std::size_t digits = 2 * type_bytes(addresses[0].type);

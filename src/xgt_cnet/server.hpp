@@ -1,8 +1,10 @@
-// The XGT dedicated server of one channel: RSS RSB WSS WSB X Y (000 and 003 chapter 7, Appendix 3.1; PROTOCOLS.md
-// 'XGT Cnet server'). It answers in RUN and STOP. Decisions beyond PROTOCOLS.md:
+// The XGT dedicated server of one channel: RSS RSB WSS WSB X Y (000 and 003 chapter 7,
+// Appendix 3.1; PROTOCOLS.md 'XGT Cnet server'). It answers in RUN and STOP. Decisions beyond
+// PROTOCOLS.md:
 // - a BCC is accepted in either case of its hex digits;
 // - an unknown command or type counts with status 1;
-// - a registration number that is cut short, or not printable, is filled up with 0 in the NAK, which so keeps its form;
+// - a registration number that is cut short, or not printable, is filled up with 0 in the NAK,
+// which so keeps its form;
 // - a registration number is replied in upper-case hex, as other numbers are;
 // - name length or number of data that is not hex: 0011.
 #pragma once
@@ -21,7 +23,8 @@ namespace fieldproof {
 
 class XgtServer : private FrameSink {
  public:
-  /// `gap`: inter-character time. `delay`: from the end of a request to its reply. `memory` outlives the server.
+  /// `gap`: inter-character time. `delay`: from the end of a request to its reply. `memory`
+  /// outlives the server.
   XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay);
 
   void receive(const Burst& burst) { receiver_.receive(burst, *this); }
@@ -57,7 +60,8 @@ class XgtServer : private FrameSink {
   ServiceCounters counters_;
   std::array<Registration, xgt_registrations> registrations_;
   ReplyQueue replies_;
-  std::array<char, 2 * xgt_max_run + 16> data_;   // digits of the reply in progress; 16 LWords have 256
+  std::array<char, 2 * xgt_max_run + 16>
+      data_;  // digits of the reply in progress; 16 LWords have 256
   std::size_t data_size_ = 0;
 };
 

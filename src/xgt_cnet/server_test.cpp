@@ -52,7 +52,9 @@ std::string repeated(std::string_view text, int times) {
 
 // --- The manual's examples, byte for byte (000 7.1.5) ---
 
-std::string exchange(unsigned station, const std::vector<std::pair<std::string, std::string>>& memory, std::string_view request) {
+std::string exchange(unsigned station,
+                     const std::vector<std::pair<std::string, std::string>>& memory,
+                     std::string_view request) {
   Bench bench("xbc-h", station);
   for (const auto& [address, hex] : memory) bench.set(address, hex);
   const Bytes bytes = *from_hex(request);
@@ -61,27 +63,36 @@ std::string exchange(unsigned station, const std::vector<std::pair<std::string, 
 }
 
 TEST(XgtServerManual, ReadOfTwoWords) {
-  EXPECT_EQ(exchange(1, {{"%MW20", "1234"}, {"%PW1", "5678"}},
-                     "05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38"),
-            "06 30 31 72 53 53 30 32 30 32 31 32 33 34 30 32 35 36 37 38 03 34 43");
+  EXPECT_EQ(
+      exchange(1, {{"%MW20", "1234"}, {"%PW1", "5678"}},
+               "05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38"),
+      "06 30 31 72 53 53 30 32 30 32 31 32 33 34 30 32 35 36 37 38 03 34 43");
 }
 
 TEST(XgtServerManual, ReadOfOneWord) {
-  EXPECT_EQ(exchange(0x20, {{"%MW100", "A9F3"}}, "05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 34"),
+  EXPECT_EQ(exchange(0x20, {{"%MW100", "A9F3"}},
+                     "05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 34"),
             "06 32 30 72 53 53 30 31 30 32 41 39 46 33 03 33 39");
 }
 
 TEST(XgtServerManual, ContinuousRead) {
-  EXPECT_EQ(exchange(0x0A, {{"%MW0", "12345678"}}, "05 30 41 72 53 42 30 36 25 4D 57 30 30 30 30 32 04 41 32"),
+  EXPECT_EQ(exchange(0x0A, {{"%MW0", "12345678"}},
+                     "05 30 41 72 53 42 30 36 25 4D 57 30 30 30 30 32 04 41 32"),
             "06 30 41 72 53 42 30 31 30 34 31 32 33 34 35 36 37 38 03 45 41");
 }
 
 TEST(XgtServerManual, Writes) {
-  EXPECT_EQ(exchange(0x20, {}, "05 32 30 77 53 53 30 31 30 36 25 4D 57 31 30 30 30 30 45 32 04 38 30"), "06 32 30 77 53 53 03 38 38");
-  EXPECT_EQ(exchange(1, {}, "05 30 31 57 53 53 30 31 30 36 25 4D 57 32 33 30 30 30 46 46 04"), "06 30 31 57 53 53 03");
-  EXPECT_EQ(exchange(0x10, {}, "05 31 30 77 53 42 30 36 25 4D 57 31 30 30 30 32 31 31 31 31 32 32 32 32 04 32 34"),
-            "06 31 30 77 53 42 03 37 36");
-  EXPECT_EQ(exchange(1, {}, "05 30 31 77 53 42 30 36 25 44 57 30 30 30 30 31 41 41 31 35 04 37 35"), "06 30 31 77 53 42 03 37 36");
+  EXPECT_EQ(
+      exchange(0x20, {}, "05 32 30 77 53 53 30 31 30 36 25 4D 57 31 30 30 30 30 45 32 04 38 30"),
+      "06 32 30 77 53 53 03 38 38");
+  EXPECT_EQ(exchange(1, {}, "05 30 31 57 53 53 30 31 30 36 25 4D 57 32 33 30 30 30 46 46 04"),
+            "06 30 31 57 53 53 03");
+  EXPECT_EQ(
+      exchange(0x10, {},
+               "05 31 30 77 53 42 30 36 25 4D 57 31 30 30 30 32 31 31 31 31 32 32 32 32 04 32 34"),
+      "06 31 30 77 53 42 03 37 36");
+  EXPECT_EQ(exchange(1, {}, "05 30 31 77 53 42 30 36 25 44 57 30 30 30 30 31 41 41 31 35 04 37 35"),
+            "06 30 31 77 53 42 03 37 36");
 }
 
 TEST(XgtServerManual, RegistrationAndExecution) {
@@ -93,13 +104,16 @@ TEST(XgtServerManual, RegistrationAndExecution) {
     bench.now += 1s;
     return to_hex(bench.server.advance(bench.now));
   };
-  EXPECT_EQ(wire("05 30 31 78 30 31 52 53 53 30 31 30 36 25 4D 57 30 30 30 04 35 42"), "06 30 31 78 30 31 03 34 33");
+  EXPECT_EQ(wire("05 30 31 78 30 31 52 53 53 30 31 30 36 25 4D 57 30 30 30 04 35 42"),
+            "06 30 31 78 30 31 03 34 33");
   bench.set("%MW0", "2342");
-  EXPECT_EQ(wire("05 30 31 79 30 31 04 34 34"), "06 30 31 79 30 31 30 31 30 32 32 33 34 32 03 44 32");
+  EXPECT_EQ(wire("05 30 31 79 30 31 04 34 34"),
+            "06 30 31 79 30 31 30 31 30 32 32 33 34 32 03 44 32");
 }
 
 TEST(XgtServerManual, RefusalOfAnArea) {
-  EXPECT_EQ(exchange(0x20, {}, "05 32 30 72 53 53 30 31 30 36 25 5A 57 31 30 30 04 42 31"), "15 32 30 72 53 53 31 31 33 32 03 35 39");
+  EXPECT_EQ(exchange(0x20, {}, "05 32 30 72 53 53 30 31 30 36 25 5A 57 31 30 30 04 42 31"),
+            "15 32 30 72 53 53 31 31 33 32 03 35 39");
 }
 
 // --- Services ---
@@ -127,7 +141,9 @@ TEST(XgtServer, WritesEveryType) {
   EXPECT_EQ(b.get("%MW10"), "045A");
   EXPECT_EQ(b.ask("01WSS0105%MW101234"), "ACK 01WSS");
   EXPECT_EQ(b.get("%MW10"), "1234");
-  EXPECT_EQ(b.ask("01WSS0105%MD10" "CAFEBABE"), "ACK 01WSS");
+  EXPECT_EQ(b.ask("01WSS0105%MD10"
+                  "CAFEBABE"),
+            "ACK 01WSS");
   EXPECT_EQ(b.get("%MW20", 8), "BABECAFE");
   EXPECT_EQ(b.ask("01WSS0105%ML100123456789ABCDEF"), "ACK 01WSS");
   EXPECT_EQ(b.get("%MW40", 16), "CDEF89AB45670123");
@@ -135,7 +151,9 @@ TEST(XgtServer, WritesEveryType) {
   EXPECT_EQ(b.get("%MW50", 8), "B2A100C3");
   EXPECT_EQ(b.ask("01WSB05%MD60021234567889ABCDEF"), "ACK 01WSB");
   EXPECT_EQ(b.get("%MW120", 16), "56781234CDEF89AB");
-  EXPECT_EQ(b.ask("01WSB06%MW13002" "1a2B3c4D"), "ACK 01WSB");
+  EXPECT_EQ(b.ask("01WSB06%MW13002"
+                  "1a2B3c4D"),
+            "ACK 01WSB");
   EXPECT_EQ(b.get("%MW129", 16), "00001A2B3C4D0000");
 }
 
@@ -159,7 +177,8 @@ TEST(XgtServer, LimitsOfBlocksAndNames) {
   EXPECT_EQ(b.ask("01rSS0100"), "NAK 01rSS0004");
   EXPECT_EQ(b.ask("01rSB10%MW000000000000001"), "ACK 01rSB01021234");
   EXPECT_EQ(b.ask("01rSB11%MW0000000000000001"), "NAK 01rSB0004");
-  EXPECT_EQ(b.ask("01rSS10" + repeated("10%ML0000000000000", 16)), "ACK 01rSS10" + repeated("080000000000001234", 16));
+  EXPECT_EQ(b.ask("01rSS10" + repeated("10%ML0000000000000", 16)),
+            "ACK 01rSS10" + repeated("080000000000001234", 16));
 }
 
 TEST(XgtServer, LimitsOfRuns) {
@@ -177,7 +196,8 @@ TEST(XgtServer, LimitsOfRuns) {
   EXPECT_EQ(b.ask("01RSB04%MB079"), "NAK 01RSB1232");
   EXPECT_EQ(b.ask("01RSB04%MD01F"), "NAK 01RSB1232");
   EXPECT_EQ(b.ask("01RSB04%ML010"), "NAK 01RSB1232");
-  EXPECT_EQ(b.ask("01wSB04%MW03C" + repeated("A55A", 60)), "ACK 01wSB");  // 260 bytes: longer than the stated 256
+  EXPECT_EQ(b.ask("01wSB04%MW03C" + repeated("A55A", 60)),
+            "ACK 01wSB");  // 260 bytes: longer than the stated 256
   EXPECT_EQ(b.get("%MW59"), "A55A");
   EXPECT_EQ(b.get("%MW60"), "0000");
   EXPECT_EQ(b.ask("01wSB04%MW03D" + repeated("A55A", 61)), "NAK 01wSB1232");
@@ -200,7 +220,8 @@ TEST(XgtServer, LetterCase) {
   Bench b("xbc-h", 0x1F);
   b.set("%MW100", "ABCD");
   EXPECT_EQ(b.ask("1Frss0106%mw100"), "ACK 1Frss0102ABCD");
-  EXPECT_EQ(b.ask("1fRsB06%Mw10001"), "ACK 1FRsB0102ABCD");  // the station in the reply is its own, in upper case
+  EXPECT_EQ(b.ask("1fRsB06%Mw10001"),
+            "ACK 1FRsB0102ABCD");  // the station in the reply is its own, in upper case
   EXPECT_EQ(b.ask("1FX0arss0106%mw100"), "ACK 1FX0A");
   EXPECT_EQ(b.ask("1Fy0A"), "ACK 1Fy0A0102ABCD");
   EXPECT_EQ(b.ask("1Fwss0106%mw100abcd"), "ACK 1Fwss");
@@ -215,26 +236,45 @@ struct Refused {
 
 TEST(XgtServerErrors, EveryCode) {
   const Refused cases[] = {
-      {"01rSS1105%MW10", "0003"},       {"01rSS0111%MW00000000000010", "0004"},
-      {"01rSS0105%MK10", "0007"},       {"01rSS0106%DX100", "0007"},
-      {"01rSB05%MX1001", "0007"},       {"01wSB05%MX100100", "0007"},
-      {"01rSS0105$MW10", "0011"},       {"01rSS0105MW010", "0011"},
-      {"01rSS0105MW0", "0011"},         {"01rSS0105%MW^&", "0011"},
-      {"01rSS0105%MWM", "0011"},        {"01rSS0104%MWM", "0011"},
-      {"01rSB05%MW10%4", "0011"},       {"01rSB05%MW1000", "0011"},
-      {"01wSS0105%MX1011", "0011"},     {"01wSS0105%MX1002", "0011"},
-      {"01rSS0005%MW10", "0011"},       {"01rSS0205%MW10", "0011"},
-      {"01rSS0105%IW10", "1132"},       {"01rSS0105%^W10", "1132"},
-      {"01wSS0105%FW101234", "1132"},   {"01wSS0105%NW101234", "1132"},
-      {"01wSB05%FW10011234", "1132"},   {"01wSS0105%FX1001", "1132"},
-      {"01rSS0101%", "1132"},           {"01rSS0102%M", "0007"},
-      {"01rSS0103%MW", "0011"},         {"01wSB05%MW1040AA5512", "1232"},
-      {"01rSS0105%MW10000", "1234"},    {"01rSB05%MW10020", "1234"},
-      {"01wSB05%MW100112345", "1234"},  {"01rSS0205%MW1005%MB10", "1332"},
+      {"01rSS1105%MW10", "0003"},
+      {"01rSS0111%MW00000000000010", "0004"},
+      {"01rSS0105%MK10", "0007"},
+      {"01rSS0106%DX100", "0007"},
+      {"01rSB05%MX1001", "0007"},
+      {"01wSB05%MX100100", "0007"},
+      {"01rSS0105$MW10", "0011"},
+      {"01rSS0105MW010", "0011"},
+      {"01rSS0105MW0", "0011"},
+      {"01rSS0105%MW^&", "0011"},
+      {"01rSS0105%MWM", "0011"},
+      {"01rSS0104%MWM", "0011"},
+      {"01rSB05%MW10%4", "0011"},
+      {"01rSB05%MW1000", "0011"},
+      {"01wSS0105%MX1011", "0011"},
+      {"01wSS0105%MX1002", "0011"},
+      {"01rSS0005%MW10", "0011"},
+      {"01rSS0205%MW10", "0011"},
+      {"01rSS0105%IW10", "1132"},
+      {"01rSS0105%^W10", "1132"},
+      {"01wSS0105%FW101234", "1132"},
+      {"01wSS0105%NW101234", "1132"},
+      {"01wSB05%FW10011234", "1132"},
+      {"01wSS0105%FX1001", "1132"},
+      {"01rSS0101%", "1132"},
+      {"01rSS0102%M", "0007"},
+      {"01rSS0103%MW", "0011"},
+      {"01wSB05%MW1040AA5512", "1232"},
+      {"01rSS0105%MW10000", "1234"},
+      {"01rSB05%MW10020", "1234"},
+      {"01wSB05%MW100112345", "1234"},
+      {"01rSS0205%MW1005%MB10", "1332"},
       {"01rSS0207%MX000005%MW10", "1332"},
-      {"01wSS0105%MW10AA%5", "1432"},   {"01wSB05%MW1001AA%5", "1432"},
-      {"01rSS0108%MWFFFFF", "7132"},    {"01rSS0106%MW00A", "7132"},
-      {"01rSS0107%MW1024", "7132"},     {"01rSB07%MW102302", "7132"},
+      {"01wSS0105%MW10AA%5", "1432"},
+      {"01wSB05%MW1001AA%5", "1432"},
+      {"01rSS0108%MWFFFFF", "7132"},
+      {"01rSS0106%MW00A", "7132"},
+      {"01rSS0107%MW1024", "7132"},
+      {"01rSB07%MW102302", "7132"},
       {"01wSB07%MW10230211112222", "7132"},
   };
   for (const Refused& c : cases) {
@@ -253,22 +293,23 @@ TEST(XgtServerErrors, EveryCode) {
 /// Two faults in one request, each pair one step of the order of checks.
 TEST(XgtServerErrors, OrderOfChecks) {
   const Refused cases[] = {
-      {"01RSS1111%MW00000000000000", "0003"},    // block count before name length
-      {"01RSS0111$MW00000000000000", "0004"},    // name length before %
-      {"01RSS0105$ZW10", "0011"},                // % before area
-      {"01RSS0105%ZK10", "1132"},                // area before type
-      {"01RSS0205%MK1005%MW10", "0007"},         // type before equal types
-      {"01RSS0205%MW1005%MB^^", "1332"},         // equal types before form
-      {"01RSB05%MW^^3D", "0011"},                // form before count
-      {"01RSB07%MW10233D", "1232"},              // count before range
-      {"01WSS0107%MW1024XXXX", "7132"},          // range before data digits
-      {"01WSS0207%MX10000G07%MX100102", "1432"}, // data digits before bit value
-      {"01WSS0107%MX1000021", "0011"},           // bit value before surplus
-      {"01RSS0207%MW102404%ZW0", "1132"},        // each check goes over all blocks before the next one
+      {"01RSS1111%MW00000000000000", "0003"},     // block count before name length
+      {"01RSS0111$MW00000000000000", "0004"},     // name length before %
+      {"01RSS0105$ZW10", "0011"},                 // % before area
+      {"01RSS0105%ZK10", "1132"},                 // area before type
+      {"01RSS0205%MK1005%MW10", "0007"},          // type before equal types
+      {"01RSS0205%MW1005%MB^^", "1332"},          // equal types before form
+      {"01RSB05%MW^^3D", "0011"},                 // form before count
+      {"01RSB07%MW10233D", "1232"},               // count before range
+      {"01WSS0107%MW1024XXXX", "7132"},           // range before data digits
+      {"01WSS0207%MX10000G07%MX100102", "1432"},  // data digits before bit value
+      {"01WSS0107%MX1000021", "0011"},            // bit value before surplus
+      {"01RSS0207%MW102404%ZW0", "1132"},  // each check goes over all blocks before the next one
   };
   for (const Refused& c : cases) {
     Bench b;
-    EXPECT_EQ(b.ask(c.body), std::string("NAK ") + std::string(c.body).substr(0, 5) + c.code) << c.body;
+    EXPECT_EQ(b.ask(c.body), std::string("NAK ") + std::string(c.body).substr(0, 5) + c.code)
+        << c.body;
   }
 }
 
@@ -292,10 +333,15 @@ TEST(XgtServerErrors, LastAndFirstInvalidOfEveryAreaInEveryModel) {
           return hex_number(name.size(), 2) + name;
         };
         const std::string value(2 * type_bytes(type), '7');
-        EXPECT_EQ(b.ask("01RSS01" + named(elements - 1)).substr(0, 9), "ACK 01RSS") << model.name << named(elements - 1);
-        EXPECT_EQ(b.ask("01RSS01" + named(elements)), "NAK 01RSS7132") << model.name << named(elements);
-        EXPECT_EQ(b.ask("01RSB" + named(elements - 1) + "02"), "NAK 01RSB7132") << model.name << named(elements - 1);
-        EXPECT_EQ(b.ask("01WSS01" + named(elements - 1) + value), area.write ? "ACK 01WSS" : "NAK 01WSS1132") << model.name << area.letter;
+        EXPECT_EQ(b.ask("01RSS01" + named(elements - 1)).substr(0, 9), "ACK 01RSS")
+            << model.name << named(elements - 1);
+        EXPECT_EQ(b.ask("01RSS01" + named(elements)), "NAK 01RSS7132")
+            << model.name << named(elements);
+        EXPECT_EQ(b.ask("01RSB" + named(elements - 1) + "02"), "NAK 01RSB7132")
+            << model.name << named(elements - 1);
+        EXPECT_EQ(b.ask("01WSS01" + named(elements - 1) + value),
+                  area.write ? "ACK 01WSS" : "NAK 01WSS1132")
+            << model.name << area.letter;
       }
     }
   }
@@ -308,7 +354,8 @@ TEST(XgtServerMonitor, SixteenRegistrationsReplacedAndExecuted) {
   for (unsigned i = 0; i < 16; ++i) {
     const std::string number = hex_number(i, 2);
     b.set("%MW" + std::to_string(i), hex_number(0x1000 + i, 4));
-    EXPECT_EQ(b.ask("01x" + number + "RSS0105%MW" + (i < 10 ? "0" : "") + std::to_string(i)), "ACK 01x" + number);
+    EXPECT_EQ(b.ask("01x" + number + "RSS0105%MW" + (i < 10 ? "0" : "") + std::to_string(i)),
+              "ACK 01x" + number);
   }
   for (unsigned i = 0; i < 16; ++i) {
     const std::string number = hex_number(i, 2);
@@ -332,12 +379,28 @@ TEST(XgtServerMonitor, ReadsTheValueOfTheMoment) {
 
 TEST(XgtServerMonitor, Refusals) {
   const Refused cases[] = {
-      {"01x10RSS0104%MW0", "0290"}, {"01xFFRSS0104%MW0", "0290"},   {"01x0GRSS0104%MW0", "0290"}, {"01x10RSS1104%MW0", "0290"},
-      {"01x00WSS0104%MW0", "0011"}, {"01x00", "0011"},              {"01x00RSD0104%MW0", "0011"}, {"01x00RSS1104%MW0", "0003"},
-      {"01x00RSS0104%ZW0", "1132"}, {"01x00RSB04%MX001", "0007"},   {"01x00RSB04%MW03D", "1232"}, {"01x00RSS0107%MW1024", "7132"},
-      {"01x00RSS0104%MW00", "1234"}, {"01x00RSB07%MW102302", "7132"},
-      {"01y10", "0190"},            {"01yFF", "0190"},              {"01y0G", "0190"},            {"01y00", "0090"},
-      {"01y0000", "0090"},          {"01y10" "00", "0190"},
+      {"01x10RSS0104%MW0", "0290"},
+      {"01xFFRSS0104%MW0", "0290"},
+      {"01x0GRSS0104%MW0", "0290"},
+      {"01x10RSS1104%MW0", "0290"},
+      {"01x00WSS0104%MW0", "0011"},
+      {"01x00", "0011"},
+      {"01x00RSD0104%MW0", "0011"},
+      {"01x00RSS1104%MW0", "0003"},
+      {"01x00RSS0104%ZW0", "1132"},
+      {"01x00RSB04%MX001", "0007"},
+      {"01x00RSB04%MW03D", "1232"},
+      {"01x00RSS0107%MW1024", "7132"},
+      {"01x00RSS0104%MW00", "1234"},
+      {"01x00RSB07%MW102302", "7132"},
+      {"01y10", "0190"},
+      {"01yFF", "0190"},
+      {"01y0G", "0190"},
+      {"01y00", "0090"},
+      {"01y0000", "0090"},
+      {"01y10"
+       "00",
+       "0190"},
   };
   for (const Refused& c : cases) {
     Bench b;
@@ -354,7 +417,9 @@ TEST(XgtServerMonitor, SurplusAndNumbersCutShort) {
   EXPECT_EQ(b.ask("01x"), "NAK 01x000290");
   EXPECT_EQ(b.ask("01y0"), "NAK 01y000190");
   EXPECT_EQ(b.ask("01xffRSS0104%MW0"), "NAK 01xFF0290");
-  EXPECT_EQ(b.ask("01Y\x03" "2"), "NAK 01Y020190");  // a control character in the reply would break its form
+  EXPECT_EQ(b.ask("01Y\x03"
+                  "2"),
+            "NAK 01Y020190");  // a control character in the reply would break its form
 }
 
 TEST(XgtServerMonitor, RegistrationsAreVolatile) {
@@ -402,7 +467,9 @@ TEST(XgtServerStatus, SilenceIsCounted) {
   expect(1, 6, 1);
   EXPECT_EQ(b.ask("01R"), "");
   expect(1, 7, 1);
-  EXPECT_EQ(b.send(to_bytes("\x05" "01RSS0104%MW0")), "");
+  EXPECT_EQ(b.send(to_bytes("\x05"
+                            "01RSS0104%MW0")),
+            "");
   expect(1, 7, 1);  // it may still go on
   ASSERT_TRUE(b.server.wake_at());
   EXPECT_TRUE(b.server.advance(*b.server.wake_at()).empty());
@@ -466,12 +533,20 @@ TEST(XgtServerTime, NoWireTime) {
 
 TEST(XgtServerFuzz, RandomBytesAlwaysLeaveAServerThatAnswers) {
   std::mt19937 random(2014);
-  constexpr std::string_view likely = "\x05\x05\x04\x04" "0101rRwWxXyYSSSBRSSRSB%MWXBDL0123456789ABCDEF.";
+  constexpr std::string_view likely =
+      "\x05\x05\x04\x04"
+      "0101rRwWxXyYSSSBRSSRSB%MWXBDL0123456789ABCDEF.";
   Bench b("xec-h");
   for (int i = 0; i < 50'000; ++i) {
     Bytes bytes(random() % 60);
-    for (Byte& byte : bytes) byte = random() % 16 == 0 ? static_cast<Byte>(random()) : static_cast<Byte>(likely[random() % likely.size()]);
-    if (random() % 2) bytes = to_bytes("\x05" "01") + bytes + to_bytes("\x04");
+    for (Byte& byte : bytes)
+      byte = random() % 16 == 0 ? static_cast<Byte>(random())
+                                : static_cast<Byte>(likely[random() % likely.size()]);
+    if (random() % 2)
+      bytes = to_bytes(
+                  "\x05"
+                  "01") +
+              bytes + to_bytes("\x04");
     b.now += random() % 2 ? Duration(1ms) : Duration(1s);
     b.server.receive({bytes, b.now, character});
     b.now += character * static_cast<int>(bytes.size());
@@ -485,8 +560,14 @@ TEST(XgtServerFuzz, RandomBytesAlwaysLeaveAServerThatAnswers) {
 /// Like the fuzz loop, but of requests that are nearly right: one byte of a good frame is changed.
 TEST(XgtServerFuzz, NearlyRightRequestsAreAnsweredInOneForm) {
   std::mt19937 random(7);
-  const std::string bodies[] = {"01RSS0206%MW02006%PW001", "01WSS0205%MX100105%MX1100", "01RSB06%MW00010", "01WSB06%DW00002AA15BB26",
-                                "01X01RSS0106%MW000",      "01X02RSB06%MB00010",        "01Y01",           "01Y02"};
+  const std::string bodies[] = {"01RSS0206%MW02006%PW001",
+                                "01WSS0205%MX100105%MX1100",
+                                "01RSB06%MW00010",
+                                "01WSB06%DW00002AA15BB26",
+                                "01X01RSS0106%MW000",
+                                "01X02RSB06%MB00010",
+                                "01Y01",
+                                "01Y02"};
   Bench b;
   int answered = 0;
   for (int i = 0; i < 50'000; ++i) {

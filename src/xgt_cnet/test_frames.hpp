@@ -24,7 +24,8 @@ inline Bytes enq(std::string_view body) { return framed('\x05', body, '\x04'); }
 inline Bytes ack(std::string_view body) { return framed('\x06', body, '\x03'); }
 inline Bytes nak(std::string_view body) { return framed('\x15', body, '\x03'); }
 
-/// A reply as text: "ACK 01rSS01021234", "NAK 01rSS1132", "" for silence; its BCC is checked and left out.
+/// A reply as text: "ACK 01rSS01021234", "NAK 01rSS1132", "" for silence; its BCC is checked and
+/// left out.
 inline std::string shown(ByteView reply) {
   if (reply.empty()) return "";
   const std::string text = to_text(reply);
@@ -32,7 +33,8 @@ inline std::string shown(ByteView reply) {
   if (tail == std::string::npos || tail == 0) return "no frame: " + to_hex(reply);
   const std::string body = text.substr(1, tail - 1);
   const std::string head = text[0] == '\x06' ? "ACK" : text[0] == '\x15' ? "NAK" : "?";
-  if (framed(text[0], body, '\x03') != Bytes(reply.begin(), reply.end())) return "wrong check: " + to_hex(reply);
+  if (framed(text[0], body, '\x03') != Bytes(reply.begin(), reply.end()))
+    return "wrong check: " + to_hex(reply);
   return head + ' ' + body;
 }
 

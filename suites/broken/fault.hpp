@@ -18,10 +18,11 @@ struct FaultOf {
   std::string_view name;
   std::string_view what;
   Make make;
-  std::string_view caught_by;     // the case that must turn red
-  std::string_view message;       // part of its message, or a field that differs
-  std::string_view neighbours{};  // filter of what runs with it; empty: the cases of the same vector; or `alone`
-  unsigned station = 1;           // the fault shows at this station
+  std::string_view caught_by;  // the case that must turn red
+  std::string_view message;    // part of its message, or a field that differs
+  std::string_view
+      neighbours{};  // filter of what runs with it; empty: the cases of the same vector; or `alone`
+  unsigned station = 1;  // the fault shows at this station
 };
 
 /// nullptr when unknown.

@@ -10,7 +10,8 @@ void SendQueue::put(Sendings sendings, Time from) {
     if (sending.bytes.empty()) continue;
     const Time due = from + sending.after;
     const auto behind =
-        std::upper_bound(pending_.begin(), pending_.end(), due, [](Time time, const Pending& other) { return time < other.due; });
+        std::upper_bound(pending_.begin(), pending_.end(), due,
+                         [](Time time, const Pending& other) { return time < other.due; });
     pending_.insert(behind, {due, std::move(sending)});
   }
 }

@@ -1,5 +1,6 @@
-// The suite against devices that it starts, as a user would: the built tool, the device in a process of its own, a pty
-// between. Most of the time of a run is waiting, so several run at once. For tests.
+// The suite against devices that it starts, as a user would: the built tool, the device in a
+// process of its own, a pty between. Most of the time of a run is waiting, so several run at once.
+// For tests.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,12 +23,12 @@ namespace fieldproof {
 
 /// One run of the tool.
 struct Trial {
-  std::string name;      // unique
-  std::string device;    // command that starts it, with {tty} and options: "PROGRAM {tty}?station=1"
+  std::string name;    // unique
+  std::string device;  // command that starts it, with {tty} and options: "PROGRAM {tty}?station=1"
   std::string profile = "xbc-h";
-  std::string vectors{}; // a file; empty: all
-  std::string filter{};  // empty: all
-  std::string waivers{}; // a file; empty: none
+  std::string vectors{};  // a file; empty: all
+  std::string filter{};   // empty: all
+  std::string waivers{};  // a file; empty: none
 };
 
 struct SuiteRun {
@@ -40,9 +41,11 @@ struct SuiteRun {
 inline SuiteRun run_trial(Trial trial, const std::string& folder) {
   const auto start = std::chrono::steady_clock::now();
   constexpr std::string_view mark = "{folder}";
-  if (const std::size_t at = trial.device.find(mark); at != std::string::npos) trial.device.replace(at, mark.size(), folder);
-  std::vector<std::string> arguments{"run",           "--endpoint",    "exec:" + trial.device, "--profile", trial.profile,
-                                     "--allow-write", "all,P,Q,U,H", "--out",              folder};
+  if (const std::size_t at = trial.device.find(mark); at != std::string::npos)
+    trial.device.replace(at, mark.size(), folder);
+  std::vector<std::string> arguments{"run",         "--endpoint",  "exec:" + trial.device,
+                                     "--profile",   trial.profile, "--allow-write",
+                                     "all,P,Q,U,H", "--out",       folder};
   if (!trial.vectors.empty()) arguments.insert(arguments.end(), {"--vectors", trial.vectors});
   if (!trial.filter.empty()) arguments.insert(arguments.end(), {"--filter", trial.filter});
   if (!trial.waivers.empty()) arguments.insert(arguments.end(), {"--waivers", trial.waivers});
@@ -51,13 +54,15 @@ inline SuiteRun run_trial(Trial trial, const std::string& folder) {
   // The whole suite under sanitizers on a busy machine.
   run.tool = Process(tool_arguments(std::move(arguments))).wait(Process::Limit(280));
   const Result<RunLog> log =
-      read_ndjson(folder + "/results.ndjson", [&run](const CaseResult& result) { run.results.emplace(result.id, result); });
+      read_ndjson(folder + "/results.ndjson",
+                  [&run](const CaseResult& result) { run.results.emplace(result.id, result); });
   if (!log) run.tool.err += log.error().message;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
 }
 
-/// Runs the trial of each test that GoogleTest has selected, several at once, before the tests ask for the results.
+/// Runs the trial of each test that GoogleTest has selected, several at once, before the tests ask
+/// for the results.
 class SuiteRuns : public testing::Environment {
  public:
   /// The trial of a test ("Catches/late_answer"), if it has one.
@@ -92,7 +97,8 @@ class SuiteRuns : public testing::Environment {
   }
 
   void work() {
-    for (std::size_t i; (i = next_++) < queue_.size();) runs_.at(queue_[i].name).set_value(run_trial(queue_[i], folder_ / queue_[i].name));
+    for (std::size_t i; (i = next_++) < queue_.size();)
+      runs_.at(queue_[i].name).set_value(run_trial(queue_[i], folder_ / queue_[i].name));
   }
 
   TrialOf trial_of_;
@@ -118,12 +124,14 @@ inline std::string neighbours_of(const std::string& id) {
 /// The line of the verdict, or a field that it shows as different.
 inline bool names(const CaseResult& result, std::string_view what) {
   if (result.message.find(what) != std::string::npos) return true;
-  return std::ranges::any_of(result.differences,
-                             [what](const Difference& one) { return one.field.find(what) != std::string::npos; });
+  return std::ranges::any_of(result.differences, [what](const Difference& one) {
+    return one.field.find(what) != std::string::npos;
+  });
 }
 
 /// The case must have failed, and its message, which is returned, must name the fault.
-inline std::string expect_caught(const SuiteRun& run, const std::string& id, std::string_view message) {
+inline std::string expect_caught(const SuiteRun& run, const std::string& id,
+                                 std::string_view message) {
   EXPECT_EQ(run.tool.code, 1) << run.tool.out << run.tool.err;
   const auto found = run.results.find(id);
   if (found == run.results.end()) {
@@ -132,8 +140,10 @@ inline std::string expect_caught(const SuiteRun& run, const std::string& id, std
   }
   const CaseResult& result = found->second;
   EXPECT_EQ(result.verdict, Verdict::fail) << id << ": " << result.message;
-  EXPECT_TRUE(names(result, message)) << "the message does not name '" << message << "': " << result.message;
-  EXPECT_NE(run.tool.out.find(result.section), std::string::npos) << "the clause is not in the block of the case";
+  EXPECT_TRUE(names(result, message))
+      << "the message does not name '" << message << "': " << result.message;
+  EXPECT_NE(run.tool.out.find(result.section), std::string::npos)
+      << "the clause is not in the block of the case";
   return result.message;
 }
 
@@ -143,7 +153,8 @@ inline std::size_t expect_healthy(const SuiteRun& run, std::size_t enough) {
   std::size_t passed = 0;
   for (const auto& [id, result] : run.results) {
     passed += result.verdict == Verdict::pass;
-    EXPECT_FALSE(result.verdict == Verdict::fail || result.verdict == Verdict::error) << id << ": " << result.message;
+    EXPECT_FALSE(result.verdict == Verdict::fail || result.verdict == Verdict::error)
+        << id << ": " << result.message;
   }
   EXPECT_GT(passed, enough);
   return passed;

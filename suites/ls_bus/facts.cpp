@@ -1,8 +1,8 @@
 #include "suites/ls_bus/facts.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -16,7 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 8> keys{"error", "exists", "first", "last", "max_frame", "max_words", "model", "write"};
+constexpr std::array<std::string_view, 8> keys{"error",     "exists",    "first", "last",
+                                               "max_frame", "max_words", "model", "write"};
 
 std::optional<unsigned> address_in(const json& facts, const char* key) {
   const std::string text = facts.value(key, "");
@@ -26,16 +27,21 @@ std::optional<unsigned> address_in(const json& facts, const char* key) {
 }
 
 Status check_parameters(const json& facts) {
-  const std::optional<unsigned> first = address_in(facts, "first"), last = address_in(facts, "last");
-  if (!first || !last || *last < *first) return fail("first and last are parameter addresses of four hex digits");
-  if (!facts.contains("write") && !facts.contains("exists")) return fail("a fact about parameters says write or exists");
+  const std::optional<unsigned> first = address_in(facts, "first"),
+                                last = address_in(facts, "last");
+  if (!first || !last || *last < *first)
+    return fail("first and last are parameter addresses of four hex digits");
+  if (!facts.contains("write") && !facts.contains("exists"))
+    return fail("a fact about parameters says write or exists");
   const InverterParameters parameters;
   for (unsigned address = *first; address <= *last; ++address) {
     const bool exists = parameters.exist(address, 1), write = parameters.writable(address, 1);
     if (exists != facts.value("exists", true))
-      return fail(fmt::format("{:04X}: the table says that it {}", address, exists ? "exists" : "does not exist"));
+      return fail(fmt::format("{:04X}: the table says that it {}", address,
+                              exists ? "exists" : "does not exist"));
     if (write != facts.value("write", write))
-      return fail(fmt::format("{:04X}: the table has it {}", address, write ? "writable" : "read only"));
+      return fail(
+          fmt::format("{:04X}: the table has it {}", address, write ? "writable" : "read only"));
   }
   return ok();
 }
@@ -47,8 +53,10 @@ Status check_number(const json& facts, const char* key, std::size_t has) {
 }
 
 Status check_error(const std::string& code) {
-  constexpr std::array known{LsFault::frame, LsFault::address, LsFault::data, LsFault::function, LsFault::rights};
-  if (std::ranges::any_of(known, [&](LsFault fault) { return ls_error_code(fault) == code; })) return ok();
+  constexpr std::array known{LsFault::frame, LsFault::address, LsFault::data, LsFault::function,
+                             LsFault::rights};
+  if (std::ranges::any_of(known, [&](LsFault fault) { return ls_error_code(fault) == code; }))
+    return ok();
   return fail(fmt::format("the emulated inverter has no error code '{}'", code));
 }
 
@@ -56,8 +64,10 @@ Status check_error(const std::string& code) {
 
 Status check_fact(const json& facts) {
   for (const auto& [key, value] : facts.items())
-    if (std::ranges::find(keys, key) == keys.end()) return fail(fmt::format("unknown fact '{}'{}", key, suggestion(key, keys)));
-  if (facts.value("model", "") != "inverter") return fail("a fact of the LS Bus has model inverter");
+    if (std::ranges::find(keys, key) == keys.end())
+      return fail(fmt::format("unknown fact '{}'{}", key, suggestion(key, keys)));
+  if (facts.value("model", "") != "inverter")
+    return fail("a fact of the LS Bus has model inverter");
   if (facts.size() == 1) return fail("a fact says something besides its model");
   if (facts.contains("first") || facts.contains("last"))
     if (const Status right = check_parameters(facts); !right) return right;

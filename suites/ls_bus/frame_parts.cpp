@@ -1,8 +1,8 @@
 #include "suites/ls_bus/frame_parts.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <numeric>
 #include <utility>
 
@@ -38,7 +38,9 @@ std::string_view header_name(Byte b) {
 /// Printable text of a piece; control and high bytes as <05>.
 std::string shown(ByteView bytes) {
   std::string text;
-  for (const Byte b : bytes) text += b >= 0x20 && b < 0x7F ? std::string(1, static_cast<char>(b)) : fmt::format("<{:02X}>", b);
+  for (const Byte b : bytes)
+    text +=
+        b >= 0x20 && b < 0x7F ? std::string(1, static_cast<char>(b)) : fmt::format("<{:02X}>", b);
   return text;
 }
 
@@ -58,14 +60,16 @@ class Reader {
   std::vector<Field> read() {
     if (frame_.empty()) return {};
     const bool headed = is_header(frame_[0]);
-    add("header", 1, std::string(header_name(frame_[0])), headed ? "" : "a frame begins with ENQ, ACK or NAK");
+    add("header", 1, std::string(header_name(frame_[0])),
+        headed ? "" : "a frame begins with ENQ, ACK or NAK");
     if (!headed) {
       take("foreign bytes", frame_.size() - 1);
       return std::move(fields_);
     }
     hex("station", 2);
     const ByteView command = take("command", 1);
-    if (!command.empty() && command[0] != 'R' && command[0] != 'W') fields_.back().problem = "neither R nor W";
+    if (!command.empty() && command[0] != 'R' && command[0] != 'W')
+      fields_.back().problem = "neither R nor W";
     content(command.empty() ? '\0' : static_cast<char>(command[0]));
     if (left() > 0) {
       take("surplus", left());
@@ -73,7 +77,8 @@ class Reader {
     }
     sum();
     if (end_ < frame_.size()) add("tail", 1, "EOT");
-    if (pos_ < frame_.size()) add("surplus", frame_.size() - pos_, shown(frame_.subspan(pos_)), "nothing follows EOT");
+    if (pos_ < frame_.size())
+      add("surplus", frame_.size() - pos_, shown(frame_.subspan(pos_)), "nothing follows EOT");
     return std::move(fields_);
   }
 
@@ -88,7 +93,8 @@ class Reader {
   /// Up to `size` bytes of the content; no field where there are none.
   ByteView take(std::string name, std::size_t size) {
     const ByteView bytes = frame_.subspan(pos_, std::min(size, left()));
-    if (!bytes.empty()) add(std::move(name), bytes.size(), shown(bytes), bytes.size() < size ? "cut short" : "");
+    if (!bytes.empty())
+      add(std::move(name), bytes.size(), shown(bytes), bytes.size() < size ? "cut short" : "");
     return bytes;
   }
 
@@ -126,22 +132,26 @@ class Reader {
     if (count_ == 0 || count_ > max_words) fields_.back().problem = "not 1 to 8";
   }
 
-  /// `digits` of data, a field a word. The count of a request says how many there are, whatever is there.
+  /// `digits` of data, a field a word. The count of a request says how many there are, whatever is
+  /// there.
   void words(std::size_t digits) {
     const bool several = digits > digits_of_a_word;
     for (unsigned i = 1; digits > 0 && left() > 0; ++i) {
       hex(several ? fmt::format("data {}", i) : "data", digits_of_a_word);
       digits -= std::min(digits, digits_of_a_word);
     }
-    if (digits > 0 && !fields_.empty() && fields_.back().problem.empty()) fields_.back().problem = "words are missing behind it";
+    if (digits > 0 && !fields_.empty() && fields_.back().problem.empty())
+      fields_.back().problem = "words are missing behind it";
   }
 
   void error_code() {
     if (left() == 0) return;
     const std::string code = shown(take("error code", left()));
     const std::string_view meaning = error_meaning(code);
-    if (!meaning.empty()) fields_.back().text = fmt::format("{} {}", code, meaning);
-    else if (code.size() != 2) fields_.back().problem = "an error code has two characters";
+    if (!meaning.empty())
+      fields_.back().text = fmt::format("{} {}", code, meaning);
+    else if (code.size() != 2)
+      fields_.back().problem = "an error code has two characters";
   }
 
   void sum() {
@@ -160,7 +170,8 @@ class Reader {
     std::string hint;
     if (given == digits(right + frame_[0])) hint = "; this one takes the header in";
     if (given == digits(right + frame_[0] + eot)) hint = "; this one takes header and tail in";
-    return fmt::format("{} is right: low byte of the sum {:04X} between header and sum{}", digits(right), right, hint);
+    return fmt::format("{} is right: low byte of the sum {:04X} between header and sum{}",
+                       digits(right), right, hint);
   }
 
   ByteView frame_;
@@ -174,7 +185,8 @@ class Reader {
 }  // namespace
 
 std::string_view error_meaning(std::string_view code) {
-  const auto found = std::ranges::find(errors, code, &std::pair<std::string_view, std::string_view>::first);
+  const auto found =
+      std::ranges::find(errors, code, &std::pair<std::string_view, std::string_view>::first);
   return found == errors.end() ? std::string_view() : found->second;
 }
 
@@ -197,9 +209,12 @@ std::vector<WriteReading> write_readings(ByteView frame) {
   for (const bool count_first : {false, true}) {
     const ByteView address = content.subspan(count_first ? 1 : 0, digits_of_a_word);
     if (!is_hex(address)) continue;
-    const auto count = static_cast<unsigned>(std::max(0, hex_digit(static_cast<char>(content[count_first ? 0 : digits_of_a_word]))));
-    const auto words = static_cast<unsigned>((data_digits + digits_of_a_word - 1) / digits_of_a_word);
-    readings.push_back({to_text(address), std::max({count, words, 1u}), count_first, count * digits_of_a_word == data_digits});
+    const auto count = static_cast<unsigned>(
+        std::max(0, hex_digit(static_cast<char>(content[count_first ? 0 : digits_of_a_word]))));
+    const auto words =
+        static_cast<unsigned>((data_digits + digits_of_a_word - 1) / digits_of_a_word);
+    readings.push_back({to_text(address), std::max({count, words, 1u}), count_first,
+                        count * digits_of_a_word == data_digits});
   }
   return readings;
 }

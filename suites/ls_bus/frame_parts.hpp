@@ -1,5 +1,6 @@
 // LS Bus frames taken apart for people: `frame`, the field-by-field difference, the end of a frame.
-// Shares no code with the emulator (src/ls_bus): what is shown to be wrong must not depend on what answers.
+// Shares no code with the emulator (src/ls_bus): what is shown to be wrong must not depend on what
+// answers.
 #pragma once
 
 #include <optional>
@@ -11,12 +12,12 @@ namespace fieldproof::ls_bus {
 
 constexpr Byte enq = 0x05, ack = 0x06, nak = 0x15, eot = 0x04;
 
-/// Length of the first complete frame: header to EOT (000 8.1.1). A header inside a frame ends it, and so it does a run of
-/// bytes before a header.
+/// Length of the first complete frame: header to EOT (000 8.1.1). A header inside a frame ends it,
+/// and so it does a run of bytes before a header.
 std::optional<std::size_t> frame_length(ByteView bytes);
 
-/// The parts of a request, ACK or NAK (000 8.2), as far as it can be read. A write is shown with the address first,
-/// unless it adds up with the count first alone; its count then says so.
+/// The parts of a request, ACK or NAK (000 8.2), as far as it can be read. A write is shown with
+/// the address first, unless it adds up with the count first alone; its count then says so.
 std::vector<Field> explain(ByteView frame);
 
 /// A write request in one of its two orders.

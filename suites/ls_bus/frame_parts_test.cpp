@@ -14,7 +14,8 @@ Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
 std::string part(ByteView frame, std::string_view name) {
   for (const Field& field : explain(frame))
-    if (field.name == name) return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
+    if (field.name == name)
+      return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
   return "absent";
 }
 
@@ -39,8 +40,8 @@ TEST(LsExplain, NamesEveryPartOfTheManualsExamples) {
 }
 
 TEST(LsExplain, FieldsCoverTheFrameWithoutHoles) {
-  for (const Bytes& frame :
-       {read_request, read_ack, write_count_first, write_nak, bytes("05 30 31 52 04"), bytes("06 04"), bytes("05")}) {
+  for (const Bytes& frame : {read_request, read_ack, write_count_first, write_nak,
+                             bytes("05 30 31 52 04"), bytes("06 04"), bytes("05")}) {
     std::size_t at = 0;
     for (const Field& field : explain(frame)) {
       EXPECT_EQ(field.offset, at) << field.name << " of " << to_hex(frame);
@@ -89,7 +90,8 @@ TEST(LsExplain, SaysWhatIsWrongWithASum) {
   EXPECT_THAT(part(wrong, "SUM"), HasSubstr("7D is right"));
   const std::string body = "01R1234";  // its sum is 17D
   EXPECT_THAT(part(to_bytes('\x06' + body + "83\x04"), "SUM"), HasSubstr("takes the header in"));
-  EXPECT_THAT(part(to_bytes('\x06' + body + "87\x04"), "SUM"), HasSubstr("takes header and tail in"));
+  EXPECT_THAT(part(to_bytes('\x06' + body + "87\x04"), "SUM"),
+              HasSubstr("takes header and tail in"));
   EXPECT_THAT(part(to_bytes('\x06' + body + "7d\x04"), "SUM"), HasSubstr("lower-case"));
 }
 

@@ -1,7 +1,7 @@
 #include "suites/ls_bus/protocol.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "src/ls_bus/inverter.hpp"
@@ -23,87 +23,125 @@ std::string station_text(int station) { return hex_number(static_cast<unsigned>(
 /// Would a reply to this request have one word of data?
 bool reads_one_word(ByteView request) {
   const auto behind_header = std::find(request.rbegin(), request.rend(), enq).base();
-  const ByteView frame = behind_header == request.begin() ? request : ByteView(behind_header - 1, request.end());
+  const ByteView frame =
+      behind_header == request.begin() ? request : ByteView(behind_header - 1, request.end());
   return frame.size() > count_at && frame[command_at] == 'R' && frame[count_at] == '1';
 }
 
-Result<std::unique_ptr<EmulatedDevice>> make_client(std::string_view model, const nlohmann::json& config) {
+Result<std::unique_ptr<EmulatedDevice>> make_client(std::string_view model,
+                                                    const nlohmann::json& config) {
   bool address_first = true;
   ConfigReader reader(config, "the LS Bus client's configuration");
   reader.either("write_order", "address_first", "count_first", address_first);
   if (reader.error()) return *reader.error();
-  const LsWriteOrder order = address_first ? LsWriteOrder::address_first : LsWriteOrder::count_first;
+  const LsWriteOrder order =
+      address_first ? LsWriteOrder::address_first : LsWriteOrder::count_first;
   return make_p2p_device(
-      model, config, [order](const PortConfig& port) { return make_ls_bus_p2p_driver(order, port.gap()); }, {"write_order"});
+      model, config,
+      [order](const PortConfig& port) { return make_ls_bus_p2p_driver(order, port.gap()); },
+      {"write_order"});
 }
 
 class LsBus : public Protocol {
  public:
   /// `count_first`: the order of writes that a device declares; nothing: it declares none.
-  explicit LsBus(std::optional<bool> count_first = {}) : order_(count_first), count_first_(count_first.value_or(false)) {}
+  explicit LsBus(std::optional<bool> count_first = {})
+      : order_(count_first), count_first_(count_first.value_or(false)) {}
 
   std::string_view name() const override { return "ls-bus"; }
   std::vector<std::string> models() const override { return {"inverter"}; }
 
   /// In role client the device is the PLC that asks the inverter.
-  bool has_model(std::string_view model) const override { return Protocol::has_model(model) || find_plc_model(model); }
+  bool has_model(std::string_view model) const override {
+    return Protocol::has_model(model) || find_plc_model(model);
+  }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
+                                                      const nlohmann::json& config) const override {
     if (!has_model(model))
-      return fail(fmt::format("cannot make a device '{}': the LS Bus has the inverter, and in role client {}", model, plc_model_names()));
-    if (is_p2p_client(config)) return make_client(find_plc_model(model) ? model : plc_models().front().name, config);
-    if (find_plc_model(model)) return fail(fmt::format("cannot make {} an LS Bus server: a PLC is its client; set role client, or use the inverter", model));
+      return fail(fmt::format(
+          "cannot make a device '{}': the LS Bus has the inverter, and in role client {}", model,
+          plc_model_names()));
+    if (is_p2p_client(config))
+      return make_client(find_plc_model(model) ? model : plc_models().front().name, config);
+    if (find_plc_model(model))
+      return fail(
+          fmt::format("cannot make {} an LS Bus server: a PLC is its client; set role client, or "
+                      "use the inverter",
+                      model));
     return make_inverter(config);
   }
 
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
-  std::optional<std::size_t> frame_length(ByteView bytes) const override { return ls_bus::frame_length(bytes); }
+  std::optional<std::size_t> frame_length(ByteView bytes) const override {
+    return ls_bus::frame_length(bytes);
+  }
   std::vector<Field> explain(ByteView frame) const override { return ls_bus::explain(frame); }
   FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = !frame.empty() && frame[0] == enq;
-    return request == (client == sent) && faultless(explain(frame)) ? FrameResult::ls_bus : FrameResult::unknown;
+    return request == (client == sent) && faultless(explain(frame)) ? FrameResult::ls_bus
+                                                                    : FrameResult::unknown;
   }
 
-  /// Parameter 0000, which inverters have for their model: one word, or two where the tested request reads one. So no reply
-  /// to the tested request has its length and its command.
+  /// Parameter 0000, which inverters have for their model: one word, or two where the tested
+  /// request reads one. So no reply to the tested request has its length and its command.
   Bytes probe(int station, ByteView tested) const override {
     return request(fmt::format("{}R0000{}", station_text(station), reads_one_word(tested) ? 2 : 1));
   }
 
   bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
     const std::size_t words = probe[count_at] == '2' ? 2 : 1;
-    return reply.size() == command_at + 1 + 4 * words + 3 && reply[0] == ack && reply[command_at] == 'R';
+    return reply.size() == command_at + 1 + 4 * words + 3 && reply[0] == ack &&
+           reply[command_at] == 'R';
   }
 
-  Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
+  Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
+                                            std::string_view hex) const override {
     return ls_bus::write_requests(station_text(station), address, hex, count_first_);
   }
-  Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
+  Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
+                                           std::size_t digits) const override {
     return ls_bus::read_requests(station_text(station), address, digits);
   }
   Status write_reply(ByteView reply) const override { return ls_bus::write_reply(reply); }
-  Result<std::string> read_reply(ByteView reply) const override { return ls_bus::read_reply(reply); }
-  std::vector<Written> written_by(ByteView request) const override { return ls_bus::written_by(request, order_); }
+  Result<std::string> read_reply(ByteView reply) const override {
+    return ls_bus::read_reply(reply);
+  }
+  std::vector<Written> written_by(ByteView request) const override {
+    return ls_bus::written_by(request, order_);
+  }
 
-  Result<std::unique_ptr<Protocol>> configured(std::string_view, const nlohmann::json& config) const override {
+  Result<std::unique_ptr<Protocol>> configured(std::string_view,
+                                               const nlohmann::json& config) const override {
     bool address_first = true;
     ConfigReader reader(config, "the inverter's configuration");
     reader.either("write_order", "address_first", "count_first", address_first);
     if (reader.error()) return *reader.error();
     const bool declared = config.contains("write_order");
-    return std::unique_ptr<Protocol>(std::make_unique<LsBus>(declared ? std::optional(!address_first) : std::nullopt));
+    return std::unique_ptr<Protocol>(
+        std::make_unique<LsBus>(declared ? std::optional(!address_first) : std::nullopt));
   }
-  std::string spell(std::string_view, std::uint32_t word) const override { return "h" + hex_number(word, 4); }
-  std::vector<Place> places(const Written& written) const override { return ls_bus::places(written); }
-  std::optional<Written> named(std::string_view address, std::size_t digits) const override { return ls_bus::named(address, digits); }
-  std::optional<std::string> moved(std::string_view address, int words) const override { return ls_bus::moved(address, words); }
+  std::string spell(std::string_view, std::uint32_t word) const override {
+    return "h" + hex_number(word, 4);
+  }
+  std::vector<Place> places(const Written& written) const override {
+    return ls_bus::places(written);
+  }
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
+    return ls_bus::named(address, digits);
+  }
+  std::optional<std::string> moved(std::string_view address, int words) const override {
+    return ls_bus::moved(address, words);
+  }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return reply ? std::vector<AddressField>() : ls_bus::address_fields(frame, count_first_);
   }
   /// A parameter may be the run command: a motor turns.
   std::string_view output_areas() const override { return parameter_area; }
 
-  Status check_fact(const nlohmann::json& facts) const override { return ls_bus::check_fact(facts); }
+  Status check_fact(const nlohmann::json& facts) const override {
+    return ls_bus::check_fact(facts);
+  }
 
  private:
   std::optional<bool> order_;

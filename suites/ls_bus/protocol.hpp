@@ -1,5 +1,5 @@
-// The LS Bus between an XGB and LS inverters (000 and 003 chapter 8) for the harness. The device under test is the
-// inverter.
+// The LS Bus between an XGB and LS inverters (000 and 003 chapter 8) for the harness. The device
+// under test is the inverter.
 #pragma once
 
 #include "harness/protocol.hpp"

@@ -31,16 +31,20 @@ TEST(LsBusProtocol, MakesAnInverter) {
   const auto device = protocol().make_device("inverter", {{"station", 10}});
   ASSERT_TRUE(device) << device.error().message;
   ASSERT_TRUE((*device)->set("1230", "1234"));
-  EXPECT_EQ(*protocol().read_reply(answer_of(**device, protocol().read_requests(10, "1230", 4)->front())), "1234");
+  EXPECT_EQ(
+      *protocol().read_reply(answer_of(**device, protocol().read_requests(10, "1230", 4)->front())),
+      "1234");
   EXPECT_THAT(protocol().make_device("s100", json::object()).error().message, HasSubstr("'s100'"));
-  EXPECT_THAT(protocol().make_device("inverter", {{"station", 256}}).error().message, HasSubstr("station"));
+  EXPECT_THAT(protocol().make_device("inverter", {{"station", 256}}).error().message,
+              HasSubstr("station"));
   EXPECT_EQ(protocol().station_bytes(10), to_bytes("0A"));
 }
 
 TEST(LsBusProtocol, TheProbeIsAnsweredByAHealthyInverter) {
   const auto device = protocol().make_device("inverter", {{"station", 1}});
   ASSERT_TRUE(device);
-  for (const Bytes& tested : {Bytes{}, request("01R12301"), request("01R12308"), request("01W1230100FF")}) {
+  for (const Bytes& tested :
+       {Bytes{}, request("01R12301"), request("01R12308"), request("01W1230100FF")}) {
     const Bytes probe = protocol().probe(1, tested);
     EXPECT_TRUE(protocol().is_reply_to_probe(probe, answer_of(**device, probe))) << to_hex(tested);
   }
@@ -49,8 +53,10 @@ TEST(LsBusProtocol, TheProbeIsAnsweredByAHealthyInverter) {
 TEST(LsBusProtocol, NoReplyToTheTestedRequestLooksLikeTheProbes) {
   const auto device = protocol().make_device("inverter", {{"station", 1}});
   ASSERT_TRUE(device);
-  std::vector<Bytes> requests{request("01W1230100FF"), request("01X12301"), request("01R13001"), request("01R12309")};
-  for (unsigned count = 1; count <= 8; ++count) requests.push_back(request("01R1230" + std::to_string(count)));
+  std::vector<Bytes> requests{request("01W1230100FF"), request("01X12301"), request("01R13001"),
+                              request("01R12309")};
+  for (unsigned count = 1; count <= 8; ++count)
+    requests.push_back(request("01R1230" + std::to_string(count)));
   Bytes begun_anew = to_bytes(
       "\x05"
       "01R12308");
@@ -60,7 +66,8 @@ TEST(LsBusProtocol, NoReplyToTheTestedRequestLooksLikeTheProbes) {
   for (const Bytes& tested : requests) {
     const Bytes reply = answer_of(**device, tested);
     ASSERT_FALSE(reply.empty()) << to_hex(tested);
-    EXPECT_FALSE(protocol().is_reply_to_probe(protocol().probe(1, tested), reply)) << to_hex(tested);
+    EXPECT_FALSE(protocol().is_reply_to_probe(protocol().probe(1, tested), reply))
+        << to_hex(tested);
   }
 }
 
@@ -80,8 +87,10 @@ TEST(LsBusFacts, AreCheckedAgainstTheTables) {
     const Status status = protocol().check_fact(json::parse(facts));
     return status ? "" : status.error().message;
   };
-  EXPECT_EQ(error_of(R"({"model": "inverter", "first": "0009", "last": "000F", "write": false})"), "");
-  EXPECT_EQ(error_of(R"({"model": "inverter", "first": "1000", "last": "11FF", "exists": false})"), "");
+  EXPECT_EQ(error_of(R"({"model": "inverter", "first": "0009", "last": "000F", "write": false})"),
+            "");
+  EXPECT_EQ(error_of(R"({"model": "inverter", "first": "1000", "last": "11FF", "exists": false})"),
+            "");
   EXPECT_EQ(error_of(R"({"model": "inverter", "max_words": 8})"), "");
   EXPECT_EQ(error_of(R"({"model": "inverter", "max_frame": 44})"), "");
   EXPECT_EQ(error_of(R"({"model": "inverter", "error": "WM"})"), "");
@@ -89,13 +98,19 @@ TEST(LsBusFacts, AreCheckedAgainstTheTables) {
               HasSubstr("0008: the table has it writable"));
   EXPECT_THAT(error_of(R"({"model": "inverter", "first": "0FFF", "last": "1000", "write": true})"),
               HasSubstr("1000: the table says"));
-  EXPECT_THAT(error_of(R"({"model": "inverter", "first": "12FF", "last": "1300", "exists": false})"), HasSubstr("12FF"));
-  EXPECT_THAT(error_of(R"({"model": "inverter", "first": "0FFF", "write": true})"), HasSubstr("first and last"));
-  EXPECT_THAT(error_of(R"({"model": "inverter", "first": "0003", "last": "0000", "write": false})"), HasSubstr("first and last"));
+  EXPECT_THAT(
+      error_of(R"({"model": "inverter", "first": "12FF", "last": "1300", "exists": false})"),
+      HasSubstr("12FF"));
+  EXPECT_THAT(error_of(R"({"model": "inverter", "first": "0FFF", "write": true})"),
+              HasSubstr("first and last"));
+  EXPECT_THAT(error_of(R"({"model": "inverter", "first": "0003", "last": "0000", "write": false})"),
+              HasSubstr("first and last"));
   EXPECT_THAT(error_of(R"({"model": "inverter", "max_words": 9})"), HasSubstr("the table has 8"));
-  EXPECT_THAT(error_of(R"({"model": "inverter", "max_frame": 256})"), HasSubstr("the table has 44"));
+  EXPECT_THAT(error_of(R"({"model": "inverter", "max_frame": 256})"),
+              HasSubstr("the table has 44"));
   EXPECT_THAT(error_of(R"({"model": "inverter", "error": "12"})"), HasSubstr("'12'"));
-  EXPECT_THAT(error_of(R"({"model": "inverter", "max_word": 8})"), HasSubstr("did you mean 'max_words'"));
+  EXPECT_THAT(error_of(R"({"model": "inverter", "max_word": 8})"),
+              HasSubstr("did you mean 'max_words'"));
   EXPECT_THAT(error_of(R"({"model": "xbc-h", "max_words": 8})"), HasSubstr("model inverter"));
   EXPECT_THAT(error_of(R"({"model": "inverter"})"), HasSubstr("besides its model"));
 }
@@ -104,7 +119,8 @@ TEST(Monitor, KnowsRequestsAndReplies) {
   const Bytes request = protocol().probe(1, {});
   EXPECT_EQ(protocol().monitor_result(request, true, true), FrameResult::ls_bus);
   EXPECT_EQ(protocol().monitor_result(request, false, false), FrameResult::ls_bus);
-  EXPECT_EQ(protocol().monitor_result(request, true, false), FrameResult::unknown) << "its own echo";
+  EXPECT_EQ(protocol().monitor_result(request, true, false), FrameResult::unknown)
+      << "its own echo";
   EXPECT_EQ(protocol().monitor_result(to_bytes("01R"), false, false), FrameResult::unknown);
 }
 

@@ -1,6 +1,6 @@
+#include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
-#include <fmt/format.h>
 
 #include "harness/notation/checks.hpp"
 #include "harness/notation/notation.hpp"
@@ -16,19 +16,23 @@ constexpr Byte start = ':', carriage_return = 0x0D, line_feed = 0x0A;
 
 std::size_t find_from(ByteView bytes, Byte wanted, std::size_t from) {
   const auto rest = bytes.subspan(std::min(from, bytes.size()));
-  return static_cast<std::size_t>(std::ranges::find(rest, wanted) - rest.begin()) + bytes.size() - rest.size();
+  return static_cast<std::size_t>(std::ranges::find(rest, wanted) - rest.begin()) + bytes.size() -
+         rest.size();
 }
 
-/// Where the digits of a frame end: at CR, at LF or a new start where CR is missing, or with the frame.
+/// Where the digits of a frame end: at CR, at LF or a new start where CR is missing, or with the
+/// frame.
 std::size_t end_of_digits(ByteView frame) {
-  return std::min({find_from(frame, carriage_return, 1), find_from(frame, line_feed, 1), find_from(frame, start, 1)});
+  return std::min({find_from(frame, carriage_return, 1), find_from(frame, line_feed, 1),
+                   find_from(frame, start, 1)});
 }
 
 /// The bytes that the hex pairs from `at` on stand for, up to the first that is none.
 Bytes decoded(ByteView frame, std::size_t at, std::size_t end) {
   Bytes bytes;
   for (; at + 1 < end; at += 2) {
-    const int high = hex_digit(static_cast<char>(frame[at])), low = hex_digit(static_cast<char>(frame[at + 1]));
+    const int high = hex_digit(static_cast<char>(frame[at])),
+              low = hex_digit(static_cast<char>(frame[at + 1]));
     if (high < 0 || low < 0) break;
     bytes.push_back(static_cast<Byte>(high * 16 + low));
   }
@@ -38,7 +42,9 @@ Bytes decoded(ByteView frame, std::size_t at, std::size_t end) {
 class Ascii : public Framing {
  public:
   std::string_view protocol_name() const override { return "modbus-ascii"; }
-  Bytes station_bytes(int station) const override { return to_bytes(hex_number(static_cast<unsigned>(station), 2)); }
+  Bytes station_bytes(int station) const override {
+    return to_bytes(hex_number(static_cast<unsigned>(station), 2));
+  }
 
   Bytes wrap(ByteView message) const override {
     std::string text = ":";
@@ -66,18 +72,23 @@ class Ascii : public Framing {
 
   std::vector<Field> explain(ByteView frame) const override {
     if (frame.empty()) return {};
-    if (frame[0] != start) return {{"foreign bytes", 0, frame.size(), print_bytes(frame), "a frame begins with a colon"}};
+    if (frame[0] != start)
+      return {
+          {"foreign bytes", 0, frame.size(), print_bytes(frame), "a frame begins with a colon"}};
     const std::size_t end = end_of_digits(frame);
     const Bytes bytes = decoded(frame, 1, end);
     const std::size_t decoded_end = 1 + bytes.size() * 2;
     const bool whole = decoded_end == end && !bytes.empty();
     std::vector<Field> fields{{"header", 0, 1, ":", ""}};
     for (Part& part : message_parts(ByteView(bytes).first(bytes.size() - (whole ? 1 : 0)))) {
-      fields.push_back({std::move(part.name), 1 + part.at * 2, part.size * 2, std::move(part.text), std::move(part.problem)});
+      fields.push_back({std::move(part.name), 1 + part.at * 2, part.size * 2, std::move(part.text),
+                        std::move(part.problem)});
       note_lower_case(frame, fields.back());
     }
-    if (whole) fields.push_back(check_field(frame, end - check_size));
-    else add_rest(frame, decoded_end, end, fields);
+    if (whole)
+      fields.push_back(check_field(frame, end - check_size));
+    else
+      add_rest(frame, decoded_end, end, fields);
     add_tail(frame, end, fields);
     return fields;
   }
@@ -86,7 +97,8 @@ class Ascii : public Framing {
 
   std::vector<Bytes> messages(ByteView bytes) const override {
     std::vector<Bytes> found;
-    for (std::size_t at = find_from(bytes, start, 0); at < bytes.size(); at = find_from(bytes, start, at + 1)) {
+    for (std::size_t at = find_from(bytes, start, 0); at < bytes.size();
+         at = find_from(bytes, start, at + 1)) {
       const ByteView frame = bytes.subspan(at);
       const std::size_t end = end_of_digits(frame);
       Bytes message = decoded(frame, 1, end);
@@ -116,26 +128,30 @@ class Ascii : public Framing {
     unsigned sum = 0;
     for (Byte b : decoded(frame, 1, at)) sum += b;
     const bool uncomplemented = upper(text) == hex_number(sum & 0xFF, 2);
-    field.problem = fmt::format("{} is right: the two's complement of the sum {:02X}{}", right, sum & 0xFF,
-                                uncomplemented ? "; this one is the sum itself" : "");
+    field.problem = fmt::format("{} is right: the two's complement of the sum {:02X}{}", right,
+                                sum & 0xFF, uncomplemented ? "; this one is the sum itself" : "");
     return field;
   }
 
-  static void add_rest(ByteView frame, std::size_t at, std::size_t end, std::vector<Field>& fields) {
+  static void add_rest(ByteView frame, std::size_t at, std::size_t end,
+                       std::vector<Field>& fields) {
     if (at >= end) return;
     const bool odd = end - at == 1 && hex_digit(static_cast<char>(frame[at])) >= 0;
-    fields.push_back({odd ? "odd digit" : "not hex", at, end - at, print_bytes(frame.subspan(at, end - at)),
+    fields.push_back({odd ? "odd digit" : "not hex", at, end - at,
+                      print_bytes(frame.subspan(at, end - at)),
                       odd ? "an odd number of digits" : "not two hex digits a byte"});
   }
 
   static void add_tail(ByteView frame, std::size_t end, std::vector<Field>& fields) {
     if (end == frame.size()) {
-      fields.back().problem += fields.back().problem.empty() ? "no CR LF follows" : "; no CR LF follows";
+      fields.back().problem +=
+          fields.back().problem.empty() ? "no CR LF follows" : "; no CR LF follows";
       return;
     }
     const ByteView tail = frame.subspan(end);
     const bool right = tail.size() == 2 && tail[0] == carriage_return && tail[1] == line_feed;
-    fields.push_back({"tail", end, tail.size(), print_bytes(tail), right ? "" : "a frame ends with CR LF"});
+    fields.push_back(
+        {"tail", end, tail.size(), print_bytes(tail), right ? "" : "a frame ends with CR LF"});
   }
 };
 

@@ -1,7 +1,7 @@
 #include "suites/modbus/facts.hpp"
 
-#include <array>
 #include <fmt/format.h>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "src/modbus/bases.hpp"
@@ -18,8 +18,11 @@ using nlohmann::json;
 Status compare(const json& facts, const json& row) {
   for (const auto& [key, due] : facts.items()) {
     if (key == "table") continue;
-    if (!row.contains(key)) return fail(fmt::format("the table {} has no column '{}'", facts["table"].dump(), key));
-    if (row[key] != due) return fail(fmt::format("the table has {} = {}, the manual {}", key, row[key].dump(), due.dump()));
+    if (!row.contains(key))
+      return fail(fmt::format("the table {} has no column '{}'", facts["table"].dump(), key));
+    if (row[key] != due)
+      return fail(
+          fmt::format("the table has {} = {}, the manual {}", key, row[key].dump(), due.dump()));
   }
   return ok();
 }
@@ -29,9 +32,13 @@ Status check_function(const json& facts) {
   const std::optional<Bytes> code = from_hex(facts.value("code", ""));
   const FunctionCode* known = code && code->size() == 1 ? find_function(code->front()) : nullptr;
   const ModbusFunction* emulated = known ? find_modbus_function(known->code) : nullptr;
-  if (!emulated) return fail(fmt::format("no function code '{}'; a code is two hex digits", facts.value("code", "")));
+  if (!emulated)
+    return fail(
+        fmt::format("no function code '{}'; a code is two hex digits", facts.value("code", "")));
   const json common{{"code", hex_number(known->code, 2)}, {"address", known->address}};
-  json row{{"name", emulated->name}, {"limit", emulated->limit}, {"base", modbus_base_names[static_cast<std::size_t>(emulated->base)]}};
+  json row{{"name", emulated->name},
+           {"limit", emulated->limit},
+           {"base", modbus_base_names[static_cast<std::size_t>(emulated->base)]}};
   row.update(common);
   if (const Status agrees = compare(facts, row); !agrees) return agrees;
   json explained{{"name", known->name}, {"limit", known->limit}, {"base", known->base}};
@@ -40,20 +47,26 @@ Status check_function(const json& facts) {
 }
 
 /// 9.2.2 and Appendix 3.2 name the first three codes differently.
-constexpr std::array<std::string_view, 4> names_of_9_2_2{"", "Function code error", "Address error", "Data setting error"};
+constexpr std::array<std::string_view, 4> names_of_9_2_2{"", "Function code error", "Address error",
+                                                         "Data setting error"};
 
 Status check_exception(const json& facts) {
   const std::optional<Bytes> code = from_hex(facts.value("code", ""));
-  const std::string_view meaning = code && code->size() == 1 ? exception_meaning(code->front()) : std::string_view();
+  const std::string_view meaning =
+      code && code->size() == 1 ? exception_meaning(code->front()) : std::string_view();
   if (meaning.empty()) return fail(fmt::format("no exception code '{}'", facts.value("code", "")));
   const Byte number = code->front();
-  const bool of_9_2_2 = number < names_of_9_2_2.size() && facts.value("name", "") == names_of_9_2_2[number];
-  return compare(facts, {{"code", hex_number(number, 2)}, {"name", of_9_2_2 ? names_of_9_2_2[number] : meaning}});
+  const bool of_9_2_2 =
+      number < names_of_9_2_2.size() && facts.value("name", "") == names_of_9_2_2[number];
+  return compare(facts, {{"code", hex_number(number, 2)},
+                         {"name", of_9_2_2 ? names_of_9_2_2[number] : meaning}});
 }
 
 Status check_default_bases(const json& facts) {
   const PlcModel* model = find_plc_model(facts.value("model", ""));
-  if (!model) return fail(fmt::format("no model '{}'; there are {}", facts.value("model", ""), plc_model_names()));
+  if (!model)
+    return fail(
+        fmt::format("no model '{}'; there are {}", facts.value("model", ""), plc_model_names()));
   json row{{"model", model->name}};
   const ModbusBases bases = default_modbus_bases(*model);
   for (std::size_t i = 0; i < bases.size(); ++i) row[std::string(modbus_base_names[i])] = bases[i];
@@ -72,7 +85,9 @@ Status check_fact(const json& facts) {
   if (table == "exception_code") return check_exception(facts);
   if (table == "default_bases") return check_default_bases(facts);
   if (table == "data_address") return check_data_address(facts);
-  return fail(fmt::format("no table '{}'; there are function_code, exception_code, default_bases and data_address", table));
+  return fail(fmt::format(
+      "no table '{}'; there are function_code, exception_code, default_bases and data_address",
+      table));
 }
 
 }  // namespace fieldproof::modbus

@@ -1,4 +1,5 @@
-// What the `table` vectors of Modbus state, checked against the tables of the emulator and of this suite.
+// What the `table` vectors of Modbus state, checked against the tables of the emulator and of this
+// suite.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -20,12 +20,14 @@ class Framing {
   /// The message of a frame; its check is not judged. Empty where it holds none.
   virtual Bytes unwrap(ByteView frame) const = 0;
 
-  /// Length of the first complete frame, request or reply. Bytes that begin no frame count as a piece of their own.
+  /// Length of the first complete frame, request or reply. Bytes that begin no frame count as a
+  /// piece of their own.
   virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
   virtual std::vector<Field> explain(ByteView frame) const = 0;
   virtual Duration frame_gap(Duration character_time) const = 0;
 
-  /// Every message that a device could read in these bytes, whole or damaged: several frames, a frame after noise.
+  /// Every message that a device could read in these bytes, whole or damaged: several frames, a
+  /// frame after noise.
   virtual std::vector<Bytes> messages(ByteView bytes) const = 0;
 };
 

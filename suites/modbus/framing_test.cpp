@@ -12,13 +12,19 @@ Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
 std::string part(const Framing& framing, ByteView frame, std::string_view name) {
   for (const Field& field : framing.explain(frame))
-    if (field.name == name) return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
+    if (field.name == name)
+      return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
   return "absent";
 }
-std::string rtu(std::string_view hex, std::string_view name) { return part(rtu_framing(), bytes(hex), name); }
-std::string ascii(std::string_view text, std::string_view name) { return part(ascii_framing(), to_bytes(text), name); }
+std::string rtu(std::string_view hex, std::string_view name) {
+  return part(rtu_framing(), bytes(hex), name);
+}
+std::string ascii(std::string_view text, std::string_view name) {
+  return part(ascii_framing(), to_bytes(text), name);
+}
 
-// Published frames: Modbus over serial line 1.02, and the manual's examples (000 9.4) with their CRC.
+// Published frames: Modbus over serial line 1.02, and the manual's examples (000 9.4) with their
+// CRC.
 constexpr std::string_view read_request = "01 03 00 6B 00 03 74 17";
 constexpr std::string_view read_reply = "01 03 06 13 12 3D 12 40 4F 46 48";
 constexpr std::string_view ascii_request = ":0103006B00038E\r\n";
@@ -38,7 +44,8 @@ TEST(ExplainRtu, NamesThePartsOfTheManualsExamples) {
 TEST(ExplainRtu, TellsRequestsFromRepliesOfTheSameLength) {
   EXPECT_THAT(rtu("01 01 03 12 31 05 49 D8", "function code"), HasSubstr("reply"));
   EXPECT_THAT(rtu("01 01 00 13 00 13 8C 02", "function code"), HasSubstr("request"));
-  EXPECT_THAT(rtu("01 01 03 00 00 01 FD 8E", "function code"), HasSubstr("reply")) << "both fit: 24 coils, or a request at 0300";
+  EXPECT_THAT(rtu("01 01 03 00 00 01 FD 8E", "function code"), HasSubstr("reply"))
+      << "both fit: 24 coils, or a request at 0300";
   EXPECT_THAT(rtu("01 0F 00 13 00 0A 24 09", "function code"), HasSubstr("reply"));
   EXPECT_THAT(rtu("01 0F 00 13 00 0A 02 CD 01 72 CB", "function code"), HasSubstr("request"));
 }
@@ -50,7 +57,8 @@ TEST(ExplainRtu, SaysWhatIsWrongWithACrc) {
 }
 
 TEST(ExplainRtu, SaysWhatIsWrongWithCountsAndValues) {
-  EXPECT_THAT(rtu("01 03 05 13 12 3D 12 40 4F 00 00", "byte count"), HasSubstr("6 bytes of data follow"));
+  EXPECT_THAT(rtu("01 03 05 13 12 3D 12 40 4F 00 00", "byte count"),
+              HasSubstr("6 bytes of data follow"));
   EXPECT_THAT(rtu("01 03 00 00 00 7E 00 00", "count"), HasSubstr("not 1 to 125 words"));
   EXPECT_THAT(rtu("01 05 00 08 00 01 00 00", "value"), HasSubstr("neither FF00"));
   EXPECT_THAT(rtu("01 0F 00 13 00 0A 01 CD 00 00", "byte count"), HasSubstr("02 is right"));
@@ -88,9 +96,12 @@ TEST(ExplainAscii, SaysWhatIsWrongWithTheFrame) {
 }
 
 TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
-  for (const auto& [framing, frame] : {std::pair{&rtu_framing(), bytes(read_request)}, {&rtu_framing(), bytes(read_reply)},
-                                       {&rtu_framing(), bytes("01 0F 00 13 00 0A 02 CD 01 72 CB")}, {&rtu_framing(), bytes("01 83 02 C0 F1 00")},
-                                       {&ascii_framing(), to_bytes(ascii_request)}, {&ascii_framing(), to_bytes(":01030G6B")}}) {
+  for (const auto& [framing, frame] : {std::pair{&rtu_framing(), bytes(read_request)},
+                                       {&rtu_framing(), bytes(read_reply)},
+                                       {&rtu_framing(), bytes("01 0F 00 13 00 0A 02 CD 01 72 CB")},
+                                       {&rtu_framing(), bytes("01 83 02 C0 F1 00")},
+                                       {&ascii_framing(), to_bytes(ascii_request)},
+                                       {&ascii_framing(), to_bytes(":01030G6B")}}) {
     std::size_t at = 0;
     for (const Field& field : framing->explain(frame)) {
       EXPECT_EQ(field.offset, at) << field.name;
@@ -107,7 +118,8 @@ TEST(Explain, AnyBytesAreReadWithoutHarm) {
     for (unsigned i = 0; i < state % 23; ++i) {
       state = state * 1103515245u + 12345u;
       const std::string_view likely = ":01030F10\r\n\x01\x03\x0F\x10\x83";
-      frame.push_back((state >> 16) % 8 ? static_cast<Byte>(likely[(state >> 16) % likely.size()]) : static_cast<Byte>(state >> 24));
+      frame.push_back((state >> 16) % 8 ? static_cast<Byte>(likely[(state >> 16) % likely.size()])
+                                        : static_cast<Byte>(state >> 24));
     }
     state = state * 1103515245u + 12345u;
     for (const Framing* framing : {&rtu_framing(), &ascii_framing()}) {
@@ -135,7 +147,9 @@ TEST(FrameLength, RtuEndsByFunctionCodeAndCrc) {
 }
 
 TEST(FrameLength, AsciiEndsAtLineFeedOrTheNextColon) {
-  const auto length = [](std::string_view text) { return ascii_framing().frame_length(to_bytes(text)); };
+  const auto length = [](std::string_view text) {
+    return ascii_framing().frame_length(to_bytes(text));
+  };
   EXPECT_EQ(length(ascii_request), ascii_request.size());
   EXPECT_EQ(length(":0103006B00038E\r"), std::nullopt);
   EXPECT_EQ(length(":01:0103"), 3u);
@@ -153,8 +167,10 @@ TEST(Messages, FindsEveryRequestThatADeviceCouldRead) {
   EXPECT_THAT(rtu_framing().messages(bytes("01 03 00 6B 00 03 74 17 01 06 00 08 00 03 48 09")),
               ElementsAre(bytes("01 03 00 6B 00 03"), bytes("01 06 00 08 00 03")));
   EXPECT_THAT(rtu_framing().messages(bytes("55 01 06 00 08 00 03 48 09")),
-              ElementsAre(bytes("55 01 06 00 08 00 03 48 09"), bytes("01 06 00 08 00 03"))) << "after noise";
-  EXPECT_THAT(ascii_framing().messages(to_bytes(":0103:0106000800038E\r\n")), ElementsAre(bytes("01"), bytes("01 06 00 08 00 03")));
+              ElementsAre(bytes("55 01 06 00 08 00 03 48 09"), bytes("01 06 00 08 00 03")))
+      << "after noise";
+  EXPECT_THAT(ascii_framing().messages(to_bytes(":0103:0106000800038E\r\n")),
+              ElementsAre(bytes("01"), bytes("01 06 00 08 00 03")));
 }
 
 }  // namespace

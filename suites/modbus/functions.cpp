@@ -38,6 +38,8 @@ const FunctionCode* find_function(Byte code) {
   return found == functions.end() ? nullptr : &*found;
 }
 
-std::string_view exception_meaning(Byte code) { return code < exceptions.size() ? exceptions[code] : std::string_view(); }
+std::string_view exception_meaning(Byte code) {
+  return code < exceptions.size() ? exceptions[code] : std::string_view();
+}
 
 }  // namespace fieldproof::modbus

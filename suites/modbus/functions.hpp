@@ -1,4 +1,5 @@
-// The function and exception codes of the XGB Modbus servers as data (000 Table 6.1.1, 9.2.2, 9.3.3, 9.4).
+// The function and exception codes of the XGB Modbus servers as data (000
+// Table 6.1.1, 9.2.2, 9.3.3, 9.4).
 #pragma once
 
 #include <cstdint>
@@ -11,13 +12,14 @@ namespace fieldproof::modbus {
 
 struct FunctionCode {
   Byte code = 0;
-  std::string_view name;     // as the manual prints it
-  std::string_view base;     // whose address is data address 0: "bit_write" is bit_write_base of given.config
+  std::string_view name;  // as the manual prints it
+  std::string_view
+      base;  // whose address is data address 0: "bit_write" is bit_write_base of given.config
   std::string_view address;  // "0XXXX"
   std::uint32_t limit = 0;   // bits or words a request
   bool bits = false;
   bool write = false;
-  bool many = false;         // a write with count and byte count
+  bool many = false;  // a write with count and byte count
 };
 
 std::span<const FunctionCode> function_codes();

@@ -1,7 +1,7 @@
 #include "suites/modbus/memory_requests.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -21,7 +21,7 @@ constexpr std::size_t bytes_at_once = 2 * words_at_once;
 struct Place {
   bool bits = false;
   bool writable = false;
-  std::uint32_t size = 0;     // of the table
+  std::uint32_t size = 0;  // of the table
   char type = 0;
   std::uint32_t address = 0;  // data address of the first element
   std::uint32_t width = 0;    // data addresses an element: bits or words
@@ -32,46 +32,54 @@ std::optional<ModbusBase> table_of(const Bases& bases, const DeviceAddress& firs
   using enum ModbusBase;
   for (const ModbusBase base : {bits ? bit_write : word_write, bits ? bit_read : word_read}) {
     const DeviceAddress& begin = bases.tables[base].first;
-    if (begin.area == first.area && begin.contact == first.contact && begin.index <= first.index) return base;
+    if (begin.area == first.area && begin.contact == first.contact && begin.index <= first.index)
+      return base;
   }
   return std::nullopt;
 }
 
 Result<Place> place_of(const Bases& bases, std::string_view name) {
-  if (name.starts_with('@')) return fail(fmt::format("{} is a counter, which no function code reaches", name));
+  if (name.starts_with('@'))
+    return fail(fmt::format("{} is a counter, which no function code reaches", name));
   const ParsedAddress parsed = parse_address(*bases.model, name);
   if (!parsed) return fail(fmt::format("cannot reach {}: {}", name, describe(parsed.fault)));
   DeviceAddress first = parsed.address;
   const bool bits = first.type == 'X' || first.type == 'B';
-  const std::uint32_t width = first.type == 'X' ? 1 : first.type == 'B' ? 8 : type_bytes(first.type) / 2;
+  const std::uint32_t width = first.type == 'X'   ? 1
+                              : first.type == 'B' ? 8
+                                                  : type_bytes(first.type) / 2;
   first.index *= width;
   const std::optional<ModbusBase> base = table_of(bases, first, bits);
   if (!base) return fail(fmt::format("{} lies outside the Modbus bases of the device", name));
   const ModbusTable& table = bases.tables[*base];
   const bool writable = *base == ModbusBase::bit_write || *base == ModbusBase::word_write;
-  return Place{bits, writable, table.size, parsed.address.type, first.index - table.first.index, width};
+  return Place{bits, writable, table.size, parsed.address.type, first.index - table.first.index,
+               width};
 }
 
 struct Slice {
   std::uint32_t address = 0;
-  std::uint32_t count = 0;   // bits or words
-  std::size_t digit = 0;     // of the first element
+  std::uint32_t count = 0;  // bits or words
+  std::size_t digit = 0;    // of the first element
   std::size_t digits = 0;
 };
 
 /// Cuts `digits` of memory into parts of one request each, of at most `most` elements.
-Result<std::vector<Slice>> parts_of(const Place& place, std::string_view name, std::size_t digits, std::size_t most) {
+Result<std::vector<Slice>> parts_of(const Place& place, std::string_view name, std::size_t digits,
+                                    std::size_t most) {
   const std::size_t element = type_bytes(place.type) * 2;
   if (digits == 0 || digits % element != 0)
-    return fail(fmt::format("{} digits are not a whole number of elements of {} ({} digits each)", digits, name, element));
+    return fail(fmt::format("{} digits are not a whole number of elements of {} ({} digits each)",
+                            digits, name, element));
   const std::size_t elements = digits / element;
   if (place.address + elements * place.width > place.size)
     return fail(fmt::format("{} lies past data address {}, the last one", name, place.size - 1));
   std::vector<Slice> parts;
   for (std::size_t done = 0; done < elements; done += most) {
     const std::size_t count = std::min(most, elements - done);
-    parts.push_back({static_cast<std::uint32_t>(place.address + done * place.width), static_cast<std::uint32_t>(count * place.width),
-                     done * element, count * element});
+    parts.push_back({static_cast<std::uint32_t>(place.address + done * place.width),
+                     static_cast<std::uint32_t>(count * place.width), done * element,
+                     count * element});
   }
   return parts;
 }
@@ -91,11 +99,13 @@ Bytes message_of(int station, Byte function, std::uint32_t address, std::uint32_
 /// A bit for each pair of digits, the first in bit 0 of the first byte.
 Bytes packed_bits(const Bytes& values) {
   Bytes bytes((values.size() + 7) / 8);
-  for (std::size_t i = 0; i < values.size(); ++i) bytes[i / 8] |= static_cast<Byte>((values[i] & 1) << (i % 8));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    bytes[i / 8] |= static_cast<Byte>((values[i] & 1) << (i % 8));
   return bytes;
 }
 
-/// Words in the order of their addresses; an element of several stands most significant first, in words of `width`.
+/// Words in the order of their addresses; an element of several stands most significant first, in
+/// words of `width`.
 Bytes words_in_order(const Bytes& values, std::uint32_t width) {
   Bytes bytes;
   for (std::size_t element = 0; element < values.size(); element += width * 2)
@@ -116,16 +126,21 @@ std::optional<std::string> refusal(ByteView message, ByteView reply) {
 
 unsigned word_at(ByteView bytes, std::size_t at) { return bytes[at] * 256u + bytes[at + 1]; }
 
-/// Functions of the Modbus standard that write and that the manual does not have: a file, a mask, read and write.
+/// Functions of the Modbus standard that write and that the manual does not have: a file, a mask,
+/// read and write.
 bool writes_elsewhere(Byte function) { return function >= 0x15 && function <= 0x17; }
 
 /// `count` data addresses of a table.
-Protocol::Written memory_at(const Bases& bases, const FunctionCode& function, std::uint32_t data_address, std::uint32_t count) {
+Protocol::Written memory_at(const Bases& bases, const FunctionCode& function,
+                            std::uint32_t data_address, std::uint32_t count) {
   const bool inputs = function.base == "bit_read" || function.base == "word_read";
   using enum ModbusBase;
-  const ModbusTable& table = bases.tables[function.bits ? (inputs ? bit_read : bit_write) : inputs ? word_read : word_write];
+  const ModbusTable& table = bases.tables[function.bits ? (inputs ? bit_read : bit_write)
+                                          : inputs      ? word_read
+                                                        : word_write];
   Protocol::Written memory = memory_of(*bases.model, table.first + data_address, count, "");
-  memory.address = memory.contacts ? fmt::format("%{}X{}", memory.area, memory.first_word) : fmt::format("%{}W{}", memory.area, memory.first_word);
+  memory.address = memory.contacts ? fmt::format("%{}X{}", memory.area, memory.first_word)
+                                   : fmt::format("%{}W{}", memory.area, memory.first_word);
   return memory;
 }
 
@@ -149,28 +164,36 @@ const Bases& default_bases() {
 
 Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config) {
   const PlcModel* known = model.empty() ? &plc_models().front() : find_plc_model(model);
-  if (!known) return fail(fmt::format("there is no model '{}'; use one of {}", model, plc_model_names()));
+  if (!known)
+    return fail(fmt::format("there is no model '{}'; use one of {}", model, plc_model_names()));
   ModbusBases bases = default_modbus_bases(*known);
   ConfigReader reader(config, "the Modbus bases");
-  for (std::size_t i = 0; i < bases.size(); ++i) reader.text((std::string(modbus_base_names[i]) + "_base").c_str(), bases[i]);
+  for (std::size_t i = 0; i < bases.size(); ++i)
+    reader.text((std::string(modbus_base_names[i]) + "_base").c_str(), bases[i]);
   if (reader.error()) return *reader.error();
   const Result<ModbusTables> tables = place_modbus_tables(*known, bases);
   if (!tables) return tables.error();
   return Bases{known, *tables};
 }
 
-Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station, std::string_view address, std::string_view hex) {
+Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station,
+                                          std::string_view address, std::string_view hex) {
   const Result<Place> place = place_of(bases, address);
   if (!place) return place.error();
-  if (!place->writable) return fail(fmt::format("{} is read only with the bases of the device (function codes 02 and 04)", address));
-  const std::size_t most = place->type == 'X' ? bytes_at_once * 8 : bytes_at_once / type_bytes(place->type);
+  if (!place->writable)
+    return fail(fmt::format(
+        "{} is read only with the bases of the device (function codes 02 and 04)", address));
+  const std::size_t most =
+      place->type == 'X' ? bytes_at_once * 8 : bytes_at_once / type_bytes(place->type);
   const Result<std::vector<Slice>> parts = parts_of(*place, address, hex.size(), most);
   if (!parts) return parts.error();
   std::vector<Bytes> requests;
   for (const Slice& part : *parts) {
     const std::optional<Bytes> values = from_hex(hex.substr(part.digit, part.digits));
     if (!values) return fail(fmt::format("'{}' is not hex", hex));
-    const Bytes data = place->type == 'X' ? packed_bits(*values) : place->bits ? *values : words_in_order(*values, place->width);
+    const Bytes data = place->type == 'X' ? packed_bits(*values)
+                       : place->bits      ? *values
+                                          : words_in_order(*values, place->width);
     Bytes message = message_of(station, place->bits ? 0x0F : 0x10, part.address, part.count);
     message.push_back(static_cast<Byte>(data.size()));
     message.insert(message.end(), data.begin(), data.end());
@@ -179,13 +202,17 @@ Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& b
   return requests;
 }
 
-Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& bases, int station, std::string_view address, std::size_t digits) {
+Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& bases, int station,
+                                         std::string_view address, std::size_t digits) {
   const Result<Place> place = place_of(bases, address);
   if (!place) return place.error();
   const bool as_it_stands = place->type == 'B' || place->type == 'W';  // else one element a request
-  const Result<std::vector<Slice>> parts = parts_of(*place, address, digits, as_it_stands ? bytes_at_once / type_bytes(place->type) : 1);
+  const Result<std::vector<Slice>> parts =
+      parts_of(*place, address, digits, as_it_stands ? bytes_at_once / type_bytes(place->type) : 1);
   if (!parts) return parts.error();
-  const Byte function = place->bits ? (place->writable ? 0x01 : 0x02) : place->writable ? 0x03 : 0x04;
+  const Byte function = place->bits       ? (place->writable ? 0x01 : 0x02)
+                        : place->writable ? 0x03
+                                          : 0x04;
   std::vector<Bytes> requests;
   for (const Slice& part : *parts) {
     if (place->width <= 1 || place->bits) {
@@ -199,7 +226,8 @@ Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& ba
 }
 
 Status write_reply(const Framing& framing, ByteView reply) {
-  if (const std::optional<std::string> why = refusal(framing.unwrap(reply), reply)) return fail(*why);
+  if (const std::optional<std::string> why = refusal(framing.unwrap(reply), reply))
+    return fail(*why);
   return ok();
 }
 
@@ -212,7 +240,8 @@ Result<std::string> read_reply(const Framing& framing, ByteView reply) {
   return digits;
 }
 
-std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases, ByteView request) {
+std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases,
+                                          ByteView request) {
   std::vector<Protocol::Written> result;
   for (const Bytes& message : framing.messages(request)) {
     if (message.size() < 2) continue;
@@ -226,7 +255,10 @@ std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& b
     }
     // A device may believe the count or the byte count.
     const std::uint32_t bytes = known->many && message.size() > 6 ? message[6] : 0;
-    const std::uint32_t count = known->many ? std::max<std::uint32_t>(word_at(message, 4), known->bits ? bytes * 8 : bytes / 2) : 1;
+    const std::uint32_t count =
+        known->many
+            ? std::max<std::uint32_t>(word_at(message, 4), known->bits ? bytes * 8 : bytes / 2)
+            : 1;
     result.push_back(memory_at(bases, *known, word_at(message, 2), count));
   }
   return result;
@@ -235,7 +267,8 @@ std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& b
 std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written& written) {
   std::vector<Protocol::Place> result;
   for (Protocol::Place& place : places_on(*bases.model, written)) {
-    const bool by_words = place_of(bases, place.address) && place_of(bases, place.address)->writable;
+    const bool by_words =
+        place_of(bases, place.address) && place_of(bases, place.address)->writable;
     if (by_words || written.contacts || !place.declared) {
       result.push_back(std::move(place));
       continue;
@@ -247,9 +280,11 @@ std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written&
   return result;
 }
 
-std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases, ByteView frame, bool reply) {
+std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases,
+                                                   ByteView frame, bool reply) {
   const Bytes message = framing.unwrap(frame);
-  const FunctionCode* known = message.size() >= address_at + address_size ? find_function(message[1]) : nullptr;
+  const FunctionCode* known =
+      message.size() >= address_at + address_size ? find_function(message[1]) : nullptr;
   if (!known || (reply && !known->write)) return {};
   const bool counted = known->many || !known->write;
   const std::uint32_t count = counted && message.size() >= 6 ? word_at(message, 4) : 1;
@@ -258,7 +293,8 @@ std::vector<Protocol::AddressField> address_fields(const Framing& framing, const
            memory_at(bases, *known, word_at(message, address_at), count)}};
 }
 
-std::optional<Bytes> moved_field(const Framing& framing, ByteView frame, const Protocol::AddressField& field, int words) {
+std::optional<Bytes> moved_field(const Framing& framing, ByteView frame,
+                                 const Protocol::AddressField& field, int words) {
   const Bytes message = framing.unwrap(frame);
   const FunctionCode* known = find_function(message[1]);
   const int units = known->bits && !field.names.contacts ? words * 16 : words;

@@ -1,5 +1,6 @@
-// Device memory through Modbus, as the bases of a device place it in the four tables: what lies in the two writable ones is
-// written and read (function codes 01, 03, 0F, 10), what lies in the others is read (02, 04). The rest has no data address.
+// Device memory through Modbus, as the bases of a device place it in the four tables: what lies in
+// the two writable ones is written and read (function codes 01, 03, 0F, 10), what lies in the
+// others is read (02, 04). The rest has no data address.
 #pragma once
 
 #include <string_view>
@@ -23,21 +24,27 @@ Result<Bases> declared_bases(std::string_view model, const nlohmann::json& confi
 
 /// Few enough words a request for a frame of 255 characters (PROTOCOLS.md, ASCII), and any server.
 /// Errors say why there is no way.
-Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station, std::string_view address, std::string_view hex);
-Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& bases, int station, std::string_view address, std::size_t digits);
+Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station,
+                                          std::string_view address, std::string_view hex);
+Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& bases, int station,
+                                         std::string_view address, std::size_t digits);
 
 /// Anything but an exception: its form is for the cases to judge.
 Status write_reply(const Framing& framing, ByteView reply);
 Result<std::string> read_reply(const Framing& framing, ByteView reply);
 
 /// What the messages in a request would write.
-std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases, ByteView request);
+std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases,
+                                          ByteView request);
 
-/// Words as names that the writable tables reach: words, else bytes through the table of bits; each contact by itself.
+/// Words as names that the writable tables reach: words, else bytes through the table of bits; each
+/// contact by itself.
 std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written& written);
 
 /// The data address of a frame, or none: where the message is damaged, or a reply without one.
-std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases, ByteView frame, bool reply);
-std::optional<Bytes> moved_field(const Framing& framing, ByteView frame, const Protocol::AddressField& field, int words);
+std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases,
+                                                   ByteView frame, bool reply);
+std::optional<Bytes> moved_field(const Framing& framing, ByteView frame,
+                                 const Protocol::AddressField& field, int words);
 
 }  // namespace fieldproof::modbus

@@ -13,16 +13,22 @@ using testing::SizeIs;
 std::string messages(const Result<std::vector<Bytes>>& requests) {
   if (!requests) return requests.error().message;
   std::string text;
-  for (const Bytes& request : *requests) text += (text.empty() ? "" : " | ") + to_hex(rtu_framing().unwrap(request));
+  for (const Bytes& request : *requests)
+    text += (text.empty() ? "" : " | ") + to_hex(rtu_framing().unwrap(request));
   return text;
 }
-std::string write(std::string_view address, std::string_view hex) { return messages(write_requests(rtu_framing(), default_bases(), 1, address, hex)); }
-std::string read(std::string_view address, std::size_t digits) { return messages(read_requests(rtu_framing(), default_bases(), 1, address, digits)); }
+std::string write(std::string_view address, std::string_view hex) {
+  return messages(write_requests(rtu_framing(), default_bases(), 1, address, hex));
+}
+std::string read(std::string_view address, std::size_t digits) {
+  return messages(read_requests(rtu_framing(), default_bases(), 1, address, digits));
+}
 
 TEST(WriteRequests, WordsGoByFunctionCode10) {
   EXPECT_EQ(write("%MW100", "1234"), "01 10 00 64 00 01 02 12 34");
   EXPECT_EQ(write("%MW100", "12345678"), "01 10 00 64 00 02 04 12 34 56 78");
-  EXPECT_EQ(write("%MD50", "12345678"), "01 10 00 64 00 02 04 56 78 12 34") << "the low word has the lower address";
+  EXPECT_EQ(write("%MD50", "12345678"), "01 10 00 64 00 02 04 56 78 12 34")
+      << "the low word has the lower address";
   EXPECT_EQ(write("%ML25", "1122334455667788"), "01 10 00 64 00 04 08 77 88 55 66 33 44 11 22");
 }
 
@@ -64,10 +70,12 @@ TEST(ReadRequests, ByAreaAndType) {
 TEST(Replies, GiveDataOrTheReasonOfRefusal) {
   const Framing& rtu = rtu_framing();
   EXPECT_EQ(*read_reply(rtu, rtu.wrap(*from_hex("01 03 04 12 34 56 78"))), "12345678");
-  EXPECT_THAT(read_reply(rtu, rtu.wrap(*from_hex("01 83 02"))).error().message, HasSubstr("02 Illegal Address"));
+  EXPECT_THAT(read_reply(rtu, rtu.wrap(*from_hex("01 83 02"))).error().message,
+              HasSubstr("02 Illegal Address"));
   EXPECT_THAT(read_reply(rtu, {}).error().message, HasSubstr("no answer"));
   EXPECT_TRUE(write_reply(rtu, rtu.wrap(*from_hex("01 10 00 64 00 01"))));
-  EXPECT_THAT(write_reply(rtu, rtu.wrap(*from_hex("01 90 03"))).error().message, HasSubstr("Illegal Data Value"));
+  EXPECT_THAT(write_reply(rtu, rtu.wrap(*from_hex("01 90 03"))).error().message,
+              HasSubstr("Illegal Data Value"));
   EXPECT_FALSE(write_reply(ascii_framing(), to_bytes("noise")));
 }
 
@@ -76,8 +84,12 @@ std::string written(std::string_view hex) {
   std::string text;
   for (const Framing* framing : {&rtu_framing(), &ascii_framing()}) {
     std::string one;
-    for (const Protocol::Written& range : written_by(*framing, default_bases(), framing->wrap(*from_hex(hex))))
-      one += (one.empty() ? "" : " ") + (range.area == "?" ? "?" : range.area + std::to_string(range.first_word) + "-" + std::to_string(range.last_word));
+    for (const Protocol::Written& range :
+         written_by(*framing, default_bases(), framing->wrap(*from_hex(hex))))
+      one += (one.empty() ? "" : " ") + (range.area == "?"
+                                             ? "?"
+                                             : range.area + std::to_string(range.first_word) + "-" +
+                                                   std::to_string(range.last_word));
     if (framing == &rtu_framing()) text = one;
     EXPECT_EQ(text, one) << "RTU and ASCII";
   }
@@ -100,23 +112,34 @@ TEST(WrittenBy, ADeviceMayBelieveCountOrByteCount) {
 
 /// A device that keeps its bits in K from word 4 on, and its words in D from 1000 on.
 const Bases& moved_bases() {
-  static const Bases bases = *declared_bases("xbc-h", {{"bit_write_base", "K0040"}, {"word_write_base", "D1000"}, {"word_read_base", "M0"}});
+  static const Bases bases = *declared_bases(
+      "xbc-h",
+      {{"bit_write_base", "K0040"}, {"word_write_base", "D1000"}, {"word_read_base", "M0"}});
   return bases;
 }
 
 TEST(DeclaredBases, RequestsAndFenceFollowThem) {
-  EXPECT_EQ(messages(write_requests(rtu_framing(), moved_bases(), 1, "%DW1002", "1234")), "01 10 00 02 00 01 02 12 34");
-  EXPECT_EQ(messages(read_requests(rtu_framing(), moved_bases(), 1, "%KX00041", 2)), "01 01 00 01 00 01");
-  EXPECT_THAT(messages(write_requests(rtu_framing(), moved_bases(), 1, "%MW1", "1234")), HasSubstr("read only"));
-  EXPECT_THAT(messages(write_requests(rtu_framing(), moved_bases(), 1, "%DW999", "1234")), HasSubstr("outside the Modbus bases"));
-  const auto word = written_by(rtu_framing(), moved_bases(), rtu_framing().wrap(*from_hex("01 06 00 64 12 34"))).at(0);
+  EXPECT_EQ(messages(write_requests(rtu_framing(), moved_bases(), 1, "%DW1002", "1234")),
+            "01 10 00 02 00 01 02 12 34");
+  EXPECT_EQ(messages(read_requests(rtu_framing(), moved_bases(), 1, "%KX00041", 2)),
+            "01 01 00 01 00 01");
+  EXPECT_THAT(messages(write_requests(rtu_framing(), moved_bases(), 1, "%MW1", "1234")),
+              HasSubstr("read only"));
+  EXPECT_THAT(messages(write_requests(rtu_framing(), moved_bases(), 1, "%DW999", "1234")),
+              HasSubstr("outside the Modbus bases"));
+  const auto word =
+      written_by(rtu_framing(), moved_bases(), rtu_framing().wrap(*from_hex("01 06 00 64 12 34")))
+          .at(0);
   EXPECT_EQ(word.area + std::to_string(word.first_word), "D1100");
-  const auto bit = written_by(rtu_framing(), moved_bases(), rtu_framing().wrap(*from_hex("01 05 00 10 FF 00"))).at(0);
+  const auto bit =
+      written_by(rtu_framing(), moved_bases(), rtu_framing().wrap(*from_hex("01 05 00 10 FF 00")))
+          .at(0);
   EXPECT_EQ(bit.area + std::to_string(bit.first_word), "K5");
 }
 
 TEST(DeclaredBases, MistakesAreNamed) {
-  EXPECT_THAT(declared_bases("xbc-h", {{"bit_write_base", "Z0"}}).error().message, HasSubstr("bit_write_base"));
+  EXPECT_THAT(declared_bases("xbc-h", {{"bit_write_base", "Z0"}}).error().message,
+              HasSubstr("bit_write_base"));
   EXPECT_THAT(declared_bases("xbc-j", {}).error().message, HasSubstr("xbc-j"));
   const auto xec = declared_bases("xec-h", nlohmann::json::object());
   ASSERT_TRUE(xec) << xec.error().message;
@@ -126,13 +149,16 @@ TEST(DeclaredBases, MistakesAreNamed) {
 /// "%MW100:4"
 std::string shown(const std::vector<Protocol::Place>& all) {
   std::string text;
-  for (const Protocol::Place& one : all) text += (text.empty() ? "" : " ") + one.address + ":" + std::to_string(one.digits) + (one.declared ? "" : "?");
+  for (const Protocol::Place& one : all)
+    text += (text.empty() ? "" : " ") + one.address + ":" + std::to_string(one.digits) +
+            (one.declared ? "" : "?");
   return text;
 }
 
 TEST(Places, AreReachedByWordsElseByBits) {
   EXPECT_EQ(shown(places(default_bases(), {"M", 100, 101, ""})), "%MW100:8");
-  EXPECT_EQ(shown(places(moved_bases(), {"K", 5, 5, ""})), "%KB10:4") << "the words of K have no data address there";
+  EXPECT_EQ(shown(places(moved_bases(), {"K", 5, 5, ""})), "%KB10:4")
+      << "the words of K have no data address there";
   EXPECT_EQ(shown(places(default_bases(), {"M", 1023, 1024, ""})), "%MW1023:4 %MW1024:4?");
 }
 
@@ -144,23 +170,31 @@ TEST(AddressFields, OfRequestsAndOfRepliesThatRepeatThem) {
     EXPECT_EQ(fields[0].names.first_word, 100u);
     EXPECT_EQ(fields[0].names.last_word, 101u);
     Bytes moved = frame;
-    std::ranges::copy(*moved_field(*framing, frame, fields[0], 20), moved.begin() + static_cast<std::ptrdiff_t>(fields[0].offset));
+    std::ranges::copy(*moved_field(*framing, frame, fields[0], 20),
+                      moved.begin() + static_cast<std::ptrdiff_t>(fields[0].offset));
     EXPECT_EQ(written_by(*framing, default_bases(), moved).at(0).first_word, 120u);
-    EXPECT_THAT(address_fields(*framing, default_bases(), framing->wrap(*from_hex("01 03 02 12 34")), true), SizeIs(0));
-    EXPECT_FALSE(moved_field(*framing, frame, fields[0], -101)) << "there is no data address below 0";
+    EXPECT_THAT(
+        address_fields(*framing, default_bases(), framing->wrap(*from_hex("01 03 02 12 34")), true),
+        SizeIs(0));
+    EXPECT_FALSE(moved_field(*framing, frame, fields[0], -101))
+        << "there is no data address below 0";
   }
   const Bytes bit = rtu_framing().wrap(*from_hex("01 05 06 40 FF 00"));
-  EXPECT_EQ(*moved_field(rtu_framing(), bit, address_fields(rtu_framing(), default_bases(), bit, true).at(0), 4), *from_hex("06 80"));
+  EXPECT_EQ(*moved_field(rtu_framing(), bit,
+                         address_fields(rtu_framing(), default_bases(), bit, true).at(0), 4),
+            *from_hex("06 80"));
 }
 
 TEST(WrittenBy, DamagedRequestsNameNoPlace) {
   EXPECT_EQ(written("01 10 00"), "?");
-  EXPECT_EQ(written("01 16 00 04 00 F2 00 25"), "?") << "a function of the standard that the manual does not have";
+  EXPECT_EQ(written("01 16 00 04 00 F2 00 25"), "?")
+      << "a function of the standard that the manual does not have";
   Bytes wrong = rtu_framing().wrap(*from_hex("01 06 00 64 12 34"));
   wrong.back() ^= 1;
   ASSERT_THAT(written_by(rtu_framing(), default_bases(), wrong), SizeIs(1));
   EXPECT_EQ(written_by(rtu_framing(), default_bases(), wrong)[0].first_word, 100u);
-  EXPECT_THAT(written_by(ascii_framing(), default_bases(), to_bytes(":01060064123")), SizeIs(1)) << "without its end";
+  EXPECT_THAT(written_by(ascii_framing(), default_bases(), to_bytes(":01060064123")), SizeIs(1))
+      << "without its end";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "suites/modbus/message.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "suites/modbus/functions.hpp"
 
@@ -10,7 +10,8 @@ namespace fieldproof::modbus {
 namespace {
 
 constexpr std::size_t reading_request = 6;  // station, function code, address, count
-constexpr std::size_t acknowledgement = 6;  // of a write: station, function code, address, value or count
+constexpr std::size_t acknowledgement =
+    6;  // of a write: station, function code, address, value or count
 constexpr std::size_t exception_reply = 3;
 
 unsigned word_at(ByteView bytes, std::size_t at) { return bytes[at] * 256u + bytes[at + 1]; }
@@ -40,7 +41,8 @@ class Reader {
     const ByteView bytes = message_.subspan(at_, std::min(size, left()));
     if (bytes.empty()) return bytes;
     const bool cut = bytes.size() < size;
-    parts_.push_back({std::move(name), at_, bytes.size(), digits(bytes), cut ? "cut short" : std::move(problem)});
+    parts_.push_back({std::move(name), at_, bytes.size(), digits(bytes),
+                      cut ? "cut short" : std::move(problem)});
     at_ += bytes.size();
     return cut ? ByteView() : bytes;
   }
@@ -67,8 +69,10 @@ class Reader {
     const ByteView code = take("exception code", 1);
     if (code.empty()) return;
     const std::string_view meaning = exception_meaning(code.front());
-    if (meaning.empty()) problem("not a code of 9.2.2");
-    else parts_.back().text += fmt::format(" {}", meaning);
+    if (meaning.empty())
+      problem("not a code of 9.2.2");
+    else
+      parts_.back().text += fmt::format(" {}", meaning);
   }
 
   void read_message(const FunctionCode& known) {
@@ -80,8 +84,10 @@ class Reader {
     note("reply");
     const ByteView bytes = take("byte count", 1);
     if (bytes.empty()) return;
-    if (bytes.front() != left()) problem(fmt::format("{} bytes of data follow", left()));
-    else if (bytes.front() == 0 || (!known.bits && bytes.front() % 2 != 0)) problem("not a whole number of elements");
+    if (bytes.front() != left())
+      problem(fmt::format("{} bytes of data follow", left()));
+    else if (bytes.front() == 0 || (!known.bits && bytes.front() % 2 != 0))
+      problem("not a whole number of elements");
     take("data", left());
   }
 
@@ -89,9 +95,11 @@ class Reader {
   bool is_reading_request(const FunctionCode& known) const {
     const std::size_t follow = left() > 0 ? left() - 1 : 0;
     if (left() > 0 && message_[at_] != 0 && message_[at_] == follow) return false;
-    if (message_.size() != reading_request) return message_.size() < reading_request && left() > 0 && message_[at_] == 0;
+    if (message_.size() != reading_request)
+      return message_.size() < reading_request && left() > 0 && message_[at_] == 0;
     const unsigned wanted = word_at(message_, 4);
-    const bool nearly = message_[at_] + 1u >= follow && message_[at_] <= follow + 1;  // a byte count that is off by one
+    const bool nearly = message_[at_] + 1u >= follow &&
+                        message_[at_] <= follow + 1;  // a byte count that is off by one
     return (wanted >= 1 && wanted <= known.limit) || !nearly;
   }
 
@@ -100,7 +108,8 @@ class Reader {
     note("request or reply");
     take("address", 2);
     const ByteView value = take("value", 2);
-    if (!value.empty() && known.bits && word_at(value, 0) != 0xFF00 && word_at(value, 0) != 0) problem("neither FF00 (on) nor 0000 (off)");
+    if (!value.empty() && known.bits && word_at(value, 0) != 0xFF00 && word_at(value, 0) != 0)
+      problem("neither FF00 (on) nor 0000 (off)");
   }
 
   void write_many(const FunctionCode& known) {
@@ -119,7 +128,8 @@ class Reader {
     const ByteView value = take("count", 2);
     if (value.empty()) return;
     count_ = word_at(value, 0);
-    if (count_ == 0 || count_ > known.limit) problem(fmt::format("not 1 to {} {}", known.limit, known.bits ? "bits" : "words"));
+    if (count_ == 0 || count_ > known.limit)
+      problem(fmt::format("not 1 to {} {}", known.limit, known.bits ? "bits" : "words"));
   }
 
   void note(std::string_view kind) { parts_.back().text += fmt::format(", {}", kind); }
@@ -157,7 +167,9 @@ bool can_be(ByteView message, bool request) {
   if (message[1] & exception_bit) return !request;
   const FunctionCode& function = *find_function(message[1]);
   if (function.write && !function.many) return true;
-  const bool both = lengths.size() > 1;  // one length alone: of the acknowledgement of a write, or the request of a read
+  const bool both =
+      lengths.size() >
+      1;  // one length alone: of the acknowledgement of a write, or the request of a read
   if (request) return (both || !function.write) && message.size() == lengths.back();
   return (both || function.write) && message.size() == lengths.front();
 }

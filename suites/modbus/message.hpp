@@ -1,5 +1,6 @@
-// What RTU and ASCII frames have in common: station, function code and data, without start, check and end.
-// Shares no code with the emulator (src/modbus): what is shown to be wrong must not depend on what answers.
+// What RTU and ASCII frames have in common: station, function code and data, without start, check
+// and end. Shares no code with the emulator (src/modbus): what is shown to be wrong must not depend
+// on what answers.
 #pragma once
 
 #include <string>
@@ -18,12 +19,13 @@ struct Part {
   std::string problem;
 };
 
-/// The parts of a request, reply or exception (000 9.4) as far as it can be read. Which one it is, is told by what
-/// fits its length: a reply where the byte count agrees, else a request. The parts cover the message.
+/// The parts of a request, reply or exception (000 9.4) as far as it can be read. Which one it is,
+/// is told by what fits its length: a reply where the byte count agrees, else a request. The parts
+/// cover the message.
 std::vector<Part> message_parts(ByteView message);
 
-/// The lengths that a message which begins like `bytes` can have, replies before requests; empty where the function
-/// code tells none.
+/// The lengths that a message which begins like `bytes` can have, replies before requests; empty
+/// where the function code tells none.
 std::vector<std::size_t> message_lengths(ByteView bytes);
 
 /// Can a whole message be a request, or else a reply? A single write is both.

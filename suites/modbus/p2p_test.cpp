@@ -1,4 +1,5 @@
-// The Modbus client against the Modbus server: both are ours, so what is on the wire is asserted too.
+// The Modbus client against the Modbus server: both are ours, so what is on the wire is asserted
+// too.
 #include <gmock/gmock.h>
 
 #include "suites/modbus/protocol.hpp"
@@ -14,8 +15,10 @@ using test::result_of;
 using test::set;
 using testing::HasSubstr;
 
-json block(const char* function, const char* type, const char* read, const char* save, int size = 0) {
-  json made{{"function", function}, {"flag", "F92"}, {"type", type}, {"read", read}, {"save", save}, {"station", 1}};
+json block(const char* function, const char* type, const char* read, const char* save,
+           int size = 0) {
+  json made{{"function", function}, {"flag", "F92"}, {"type", type},
+            {"read", read},         {"save", save},  {"station", 1}};
   if (size == 0) return made;
   made["command"] = "continuous";
   made["size"] = size;
@@ -23,10 +26,11 @@ json block(const char* function, const char* type, const char* read, const char*
 }
 
 /// 000 10.3.2 with its errata: the addresses that do what the steps say (003 11.3).
-const json blocks_of_the_example{block("write", "word", "%MW100", "0x40001"),        block("write", "word", "%DW0", "0x40002", 4),
-                                 block("write", "bit", "%MX0001F", "0x00142"),       block("write", "bit", "%MX00020", "0x00150", 16),
-                                 block("read", "word", "0x40002", "%MW160"),         block("read", "word", "0x30000", "%MW150", 4),
-                                 block("read", "bit", "0x10021", "%MX01701"),        block("read", "bit", "0x000A0", "%MX01800", 16)};
+const json blocks_of_the_example{
+    block("write", "word", "%MW100", "0x40001"),  block("write", "word", "%DW0", "0x40002", 4),
+    block("write", "bit", "%MX0001F", "0x00142"), block("write", "bit", "%MX00020", "0x00150", 16),
+    block("read", "word", "0x40002", "%MW160"),   block("read", "word", "0x30000", "%MW150", 4),
+    block("read", "bit", "0x10021", "%MX01701"),  block("read", "bit", "0x000A0", "%MX01800", 16)};
 
 json client_of(const json& blocks) { return {{"role", "client"}, {"p2p", {{"blocks", blocks}}}}; }
 
@@ -38,7 +42,9 @@ class ModbusClient : public testing::TestWithParam<const Protocol*> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Modes, ModbusClient, testing::Values(&rtu(), &ascii()),
-                         [](const auto& protocol) { return protocol.param == &rtu() ? "rtu" : "ascii"; });
+                         [](const auto& protocol) {
+                           return protocol.param == &rtu() ? "rtu" : "ascii";
+                         });
 
 TEST_P(ModbusClient, DoesWhatTheExampleSays) {
   P2pPair of_example = pair(blocks_of_the_example);
@@ -51,7 +57,8 @@ TEST_P(ModbusClient, DoesWhatTheExampleSays) {
   set(server, "%PX00021", "01");
   set(server, "%MW10", "BEEF");
   of_example.run(2s);
-  for (unsigned i = 0; i < blocks_of_the_example.size(); ++i) EXPECT_THAT(result_of(client, i), testing::StartsWith("0001 0000 ")) << i;
+  for (unsigned i = 0; i < blocks_of_the_example.size(); ++i)
+    EXPECT_THAT(result_of(client, i), testing::StartsWith("0001 0000 ")) << i;
   EXPECT_EQ(get(server, "%MW1", 20), "12340001000200030004");
   EXPECT_EQ(get(server, "%MX00202"), "01");
   EXPECT_EQ(get(server, "%MW21"), "A55A");
@@ -62,7 +69,8 @@ TEST_P(ModbusClient, DoesWhatTheExampleSays) {
 }
 
 TEST_P(ModbusClient, LivesOnAfterExceptionAndSilence) {
-  const json blocks{block("read", "word", "0x4FFFF", "%MW150"), block("read", "word", "0x40000", "%MW151")};
+  const json blocks{block("read", "word", "0x4FFFF", "%MW150"),
+                    block("read", "word", "0x40000", "%MW151")};
   P2pPair refused = pair(blocks), silent = pair(blocks, 2);
   set(refused.partner(), "%MW0", "5555");
   refused.run(350ms);
@@ -80,7 +88,8 @@ TEST(ModbusRtuClient, SaysItOnTheWire) {
   of["flag"] = "_T200MS";
   P2pPair pair(rtu(), {"xec-h", client_of(json{of})}, {"xec-h", {{"station", 1}}});
   set(pair.partner(), "%IW10", "12345678");
-  EXPECT_THAT(pair.run(300ms), testing::ElementsAre("01 04 00 0A 00 02 51 C9", "01 04 04 12 34 56 78 80 B0"));
+  EXPECT_THAT(pair.run(300ms),
+              testing::ElementsAre("01 04 00 0A 00 02 51 C9", "01 04 04 12 34 56 78 80 B0"));
   EXPECT_EQ(get(pair.client(), "%MW150", 8), "12345678");
 }
 
@@ -89,9 +98,12 @@ TEST(ModbusClientParameters, AreRefusedWithBlockAndKey) {
     const auto made = rtu().make_device("xbc-h", client_of(blocks));
     return made ? std::string("accepted") : made.error().message;
   };
-  EXPECT_THAT(why(json{block("write", "word", "%MW0", "0x30001")}), HasSubstr("cannot set up P2P block 0: save '0x30001' can only be read"));
-  EXPECT_THAT(why(json{block("read", "word", "0x40001", "%MW0", 121)}), HasSubstr("block 0: size is 121; a modbus-rtu-client block reads 1 to 120 words"));
-  EXPECT_THAT(why(json{{{"function", "send"}, {"flag", "F92"}, {"frame", "A.B"}}}), HasSubstr("block 0: "));
+  EXPECT_THAT(why(json{block("write", "word", "%MW0", "0x30001")}),
+              HasSubstr("cannot set up P2P block 0: save '0x30001' can only be read"));
+  EXPECT_THAT(why(json{block("read", "word", "0x40001", "%MW0", 121)}),
+              HasSubstr("block 0: size is 121; a modbus-rtu-client block reads 1 to 120 words"));
+  EXPECT_THAT(why(json{{{"function", "send"}, {"flag", "F92"}, {"frame", "A.B"}}}),
+              HasSubstr("block 0: "));
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
 #include "suites/modbus/facts.hpp"
-#include "suites/modbus/functions.hpp"
 #include "suites/modbus/framing.hpp"
+#include "suites/modbus/functions.hpp"
 #include "suites/modbus/memory_requests.hpp"
 #include "suites/modbus/message.hpp"
 
@@ -21,7 +21,8 @@ namespace {
 
 class Modbus : public Protocol {
  public:
-  Modbus(ModbusMode mode, const Framing& framing, Bases bases = default_bases()) : mode_(mode), framing_(framing), bases_(std::move(bases)) {}
+  Modbus(ModbusMode mode, const Framing& framing, Bases bases = default_bases())
+      : mode_(mode), framing_(framing), bases_(std::move(bases)) {}
 
   std::string_view name() const override { return framing_.protocol_name(); }
 
@@ -31,23 +32,31 @@ class Modbus : public Protocol {
     return names;
   }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
+                                                      const nlohmann::json& config) const override {
     if (!is_p2p_client(config)) return make_modbus_plc(mode_, model, config);
-    return make_p2p_device(model, config, [mode = mode_](const PortConfig& port) { return make_modbus_p2p_driver(mode, port.gap()); });
+    return make_p2p_device(model, config, [mode = mode_](const PortConfig& port) {
+      return make_modbus_p2p_driver(mode, port.gap());
+    });
   }
 
   Bytes station_bytes(int station) const override { return framing_.station_bytes(station); }
-  std::optional<std::size_t> frame_length(ByteView bytes) const override { return framing_.frame_length(bytes); }
+  std::optional<std::size_t> frame_length(ByteView bytes) const override {
+    return framing_.frame_length(bytes);
+  }
   std::vector<Field> explain(ByteView frame) const override { return framing_.explain(frame); }
   FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = client == sent;
-    if (!faultless(explain(frame)) || !can_be(framing_.unwrap(frame), request)) return FrameResult::unknown;
+    if (!faultless(explain(frame)) || !can_be(framing_.unwrap(frame), request))
+      return FrameResult::unknown;
     return client ? FrameResult::modbus_client : FrameResult::modbus_server;
   }
-  Duration frame_gap(Duration character_time) const override { return framing_.frame_gap(character_time); }
+  Duration frame_gap(Duration character_time) const override {
+    return framing_.frame_gap(character_time);
+  }
 
-  /// One element at data address 0, which every model has, by a function code that was not tested: a reply or an
-  /// exception to the tested frame carries another one.
+  /// One element at data address 0, which every model has, by a function code that was not tested:
+  /// a reply or an exception to the tested frame carries another one.
   Bytes probe(int station, ByteView tested) const override {
     constexpr std::array<Byte, 4> reads{0x03, 0x01, 0x04, 0x02};
     const std::vector<Bytes> messages = framing_.messages(tested);
@@ -57,7 +66,8 @@ class Modbus : public Protocol {
       });
     };
     const auto free = std::ranges::find_if_not(reads, was_tested);
-    return framing_.wrap(Bytes{static_cast<Byte>(station), free == reads.end() ? reads.front() : *free, 0, 0, 0, 1});
+    return framing_.wrap(
+        Bytes{static_cast<Byte>(station), free == reads.end() ? reads.front() : *free, 0, 0, 0, 1});
   }
 
   bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
@@ -65,30 +75,42 @@ class Modbus : public Protocol {
     return answer.size() > 1 && asked.size() > 1 && (answer[1] & ~exception_bit) == asked[1];
   }
 
-  Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
+  Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
+                                            std::string_view hex) const override {
     return modbus::write_requests(framing_, bases_, station, address, hex);
   }
-  Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
+  Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
+                                           std::size_t digits) const override {
     return modbus::read_requests(framing_, bases_, station, address, digits);
   }
   Status write_reply(ByteView reply) const override { return modbus::write_reply(framing_, reply); }
-  Result<std::string> read_reply(ByteView reply) const override { return modbus::read_reply(framing_, reply); }
-  std::vector<Written> written_by(ByteView request) const override { return modbus::written_by(framing_, bases_, request); }
+  Result<std::string> read_reply(ByteView reply) const override {
+    return modbus::read_reply(framing_, reply);
+  }
+  std::vector<Written> written_by(ByteView request) const override {
+    return modbus::written_by(framing_, bases_, request);
+  }
 
-  Result<std::unique_ptr<Protocol>> configured(std::string_view model, const nlohmann::json& config) const override {
+  Result<std::unique_ptr<Protocol>> configured(std::string_view model,
+                                               const nlohmann::json& config) const override {
     Result<Bases> bases = declared_bases(model, config);
     if (!bases) return bases.error();
     return std::unique_ptr<Protocol>(std::make_unique<Modbus>(mode_, framing_, std::move(*bases)));
   }
-  std::vector<Place> places(const Written& written) const override { return modbus::places(bases_, written); }
+  std::vector<Place> places(const Written& written) const override {
+    return modbus::places(bases_, written);
+  }
   std::optional<Written> named(std::string_view address, std::size_t digits) const override {
     return named_memory(*bases_.model, address, digits);
   }
-  std::optional<std::string> moved(std::string_view address, int words) const override { return moved_name(*bases_.model, address, words); }
+  std::optional<std::string> moved(std::string_view address, int words) const override {
+    return moved_name(*bases_.model, address, words);
+  }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return modbus::address_fields(framing_, bases_, frame, reply);
   }
-  std::optional<Bytes> moved_field(ByteView frame, const AddressField& field, int words) const override {
+  std::optional<Bytes> moved_field(ByteView frame, const AddressField& field,
+                                   int words) const override {
     return modbus::moved_field(framing_, frame, field, words);
   }
   std::uint32_t words_of(std::string_view area) const override {
@@ -101,7 +123,9 @@ class Modbus : public Protocol {
   /// What the default base of the holding registers reaches.
   std::vector<Area> areas() const override { return {{"M", last_words_of('M')}}; }
 
-  Status check_fact(const nlohmann::json& facts) const override { return modbus::check_fact(facts); }
+  Status check_fact(const nlohmann::json& facts) const override {
+    return modbus::check_fact(facts);
+  }
 
  private:
   ModbusMode mode_;

@@ -46,14 +46,16 @@ TEST(Probe, ReadsOneElementByAnotherFunctionCodeThanTheTestedOne) {
   EXPECT_EQ(ascii().probe(1, {}), to_bytes(":010300000001FB\r\n"));
   EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 74 17"))[1], 0x01);
   EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 00 00"))[1], 0x01) << "a wrong CRC";
-  EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 74 17 01 01 03 12 31 05 49 D8"))[1], 0x04) << "two frames";
+  EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 74 17 01 01 03 12 31 05 49 D8"))[1], 0x04)
+      << "two frames";
   EXPECT_EQ(to_text(ascii().probe(1, to_bytes(":0183"))).substr(3, 2), "01");
 }
 
 TEST(Probe, KnowsItsReply) {
   const Bytes probe = rtu().probe(1, {});
   EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 03 02 00 00 B8 44")));
-  EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 03 02 00 00 44 B8"))) << "its check is not judged";
+  EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 03 02 00 00 44 B8")))
+      << "its check is not judged";
   EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 83 02 C0 F1")));
   EXPECT_FALSE(rtu().is_reply_to_probe(probe, bytes("01 01 01 00 51 88")));
   EXPECT_FALSE(rtu().is_reply_to_probe(probe, Bytes{}));
@@ -62,35 +64,51 @@ TEST(Probe, KnowsItsReply) {
 }
 
 TEST(Monitor, TellsTheSidesApart) {
-  const auto seen = [](std::string_view message, bool client, bool sent) { return rtu().monitor_result(rtu_framing().wrap(bytes(message)), client, sent); };
+  const auto seen = [](std::string_view message, bool client, bool sent) {
+    return rtu().monitor_result(rtu_framing().wrap(bytes(message)), client, sent);
+  };
   struct Example {
     std::string_view message;
     bool request, reply;
   };
-  for (const Example& one : {Example{"01 03 00 01 00 01", true, false}, Example{"01 03 02 12 34", false, true}, Example{"01 83 02", false, true},
-                             Example{"01 05 00 01 FF 00", true, true}, Example{"01 10 00 01 00 01 02 12 34", true, false},
-                             Example{"01 10 00 01 00 01", false, true}, Example{"01 01 00 00 00 08", true, false}}) {
+  for (const Example& one :
+       {Example{"01 03 00 01 00 01", true, false}, Example{"01 03 02 12 34", false, true},
+        Example{"01 83 02", false, true}, Example{"01 05 00 01 FF 00", true, true},
+        Example{"01 10 00 01 00 01 02 12 34", true, false},
+        Example{"01 10 00 01 00 01", false, true}, Example{"01 01 00 00 00 08", true, false}}) {
     using enum FrameResult;
     EXPECT_EQ(seen(one.message, true, true), one.request ? modbus_client : unknown) << one.message;
-    EXPECT_EQ(seen(one.message, false, false), one.request ? modbus_server : unknown) << one.message;
+    EXPECT_EQ(seen(one.message, false, false), one.request ? modbus_server : unknown)
+        << one.message;
     EXPECT_EQ(seen(one.message, true, false), one.reply ? modbus_client : unknown) << one.message;
     EXPECT_EQ(seen(one.message, false, true), one.reply ? modbus_server : unknown) << one.message;
   }
-  EXPECT_EQ(rtu().monitor_result(bytes("01 03 00 01 00 01 00 00"), true, true), FrameResult::unknown) << "its CRC is wrong";
-  EXPECT_EQ(ascii().monitor_result(to_bytes(":010300010001FA\r\n"), true, true), FrameResult::modbus_client);
+  EXPECT_EQ(rtu().monitor_result(bytes("01 03 00 01 00 01 00 00"), true, true),
+            FrameResult::unknown)
+      << "its CRC is wrong";
+  EXPECT_EQ(ascii().monitor_result(to_bytes(":010300010001FA\r\n"), true, true),
+            FrameResult::modbus_client);
 }
 
 TEST(Facts, AreComparedWithTheTables) {
-  const json right{{"table", "function_code"}, {"code", "0F"}, {"name", "Force Multiple Coils"}, {"limit", 1968}, {"base", "bit_write"}};
+  const json right{{"table", "function_code"},
+                   {"code", "0F"},
+                   {"name", "Force Multiple Coils"},
+                   {"limit", 1968},
+                   {"base", "bit_write"}};
   EXPECT_TRUE(rtu().check_fact(right)) << rtu().check_fact(right).error().message;
   json wrong = right;
   wrong["limit"] = 2000;
   EXPECT_THAT(rtu().check_fact(wrong).error().message, HasSubstr("limit = 1968, the manual 2000"));
-  EXPECT_THAT(rtu().check_fact({{"table", "function_code"}, {"code", "07"}}).error().message, HasSubstr("no function code '07'"));
-  EXPECT_TRUE(rtu().check_fact({{"table", "exception_code"}, {"code", "02"}, {"name", "Illegal Address"}}));
+  EXPECT_THAT(rtu().check_fact({{"table", "function_code"}, {"code", "07"}}).error().message,
+              HasSubstr("no function code '07'"));
+  EXPECT_TRUE(
+      rtu().check_fact({{"table", "exception_code"}, {"code", "02"}, {"name", "Illegal Address"}}));
   EXPECT_FALSE(rtu().check_fact({{"table", "exception_code"}, {"code", "07"}}));
-  EXPECT_TRUE(rtu().check_fact({{"table", "default_bases"}, {"model", "xec-h"}, {"bit_read", "I0"}, {"word_write", "M0"}}));
-  EXPECT_FALSE(rtu().check_fact({{"table", "default_bases"}, {"model", "xbc-h"}, {"bit_read", "I0"}}));
+  EXPECT_TRUE(rtu().check_fact(
+      {{"table", "default_bases"}, {"model", "xec-h"}, {"bit_read", "I0"}, {"word_write", "M0"}}));
+  EXPECT_FALSE(
+      rtu().check_fact({{"table", "default_bases"}, {"model", "xbc-h"}, {"bit_read", "I0"}}));
   EXPECT_TRUE(rtu().check_fact({{"table", "data_address"}, {"first", "0000"}, {"last", "270E"}}));
   EXPECT_FALSE(rtu().check_fact({{"table", "data_address"}, {"last", "270F"}}));
   EXPECT_FALSE(rtu().check_fact({{"table", "colour"}}));

@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "harness/notation/checks.hpp"
 #include "suites/modbus/framing.hpp"
@@ -21,7 +21,9 @@ bool right_check(ByteView frame) {
 std::optional<std::size_t> right_length(ByteView bytes) {
   if (bytes.size() < shortest_frame) return std::nullopt;
   for (const std::size_t length : message_lengths(bytes))
-    if (const std::size_t size = length + check_size; size <= bytes.size() && right_check(bytes.first(size))) return size;
+    if (const std::size_t size = length + check_size;
+        size <= bytes.size() && right_check(bytes.first(size)))
+      return size;
   return std::nullopt;
 }
 
@@ -53,7 +55,8 @@ class Rtu : public Framing {
     if (const auto right = right_length_of_any(bytes)) return right;
     for (std::size_t at = 1; at + shortest_frame <= std::min(bytes.size(), longest_frame); ++at)
       if (right_length(bytes.subspan(at))) return at;  // a frame after foreign bytes
-    const std::vector<std::size_t> lengths = message_lengths(bytes);  // a wrong CRC ends a reply as well
+    const std::vector<std::size_t> lengths =
+        message_lengths(bytes);  // a wrong CRC ends a reply as well
     if (lengths.empty() || lengths.front() + check_size > bytes.size()) return std::nullopt;
     return lengths.front() + check_size;
   }
@@ -62,15 +65,19 @@ class Rtu : public Framing {
     std::vector<Field> fields;
     const std::size_t size = message_size(frame);
     for (Part& part : message_parts(frame.first(size)))
-      fields.push_back({std::move(part.name), part.at, part.size, std::move(part.text), std::move(part.problem)});
+      fields.push_back({std::move(part.name), part.at, part.size, std::move(part.text),
+                        std::move(part.problem)});
     const ByteView rest = frame.subspan(size);
-    if (rest.empty() && !fields.empty() && fields.back().problem.empty()) fields.back().problem = "no CRC follows";
+    if (rest.empty() && !fields.empty() && fields.back().problem.empty())
+      fields.back().problem = "no CRC follows";
     if (rest.empty()) return fields;
     const ByteView crc = rest.first(std::min(check_size, rest.size()));
-    fields.push_back({"CRC", size, crc.size(), hex_number(crc[0], 2) + (crc.size() > 1 ? hex_number(crc[1], 2) : ""),
+    fields.push_back({"CRC", size, crc.size(),
+                      hex_number(crc[0], 2) + (crc.size() > 1 ? hex_number(crc[1], 2) : ""),
                       check_problem(frame.first(size), crc)});
     if (rest.size() > check_size)
-      fields.push_back({"surplus", size + check_size, rest.size() - check_size, to_hex(rest.subspan(check_size)), "follows a complete frame"});
+      fields.push_back({"surplus", size + check_size, rest.size() - check_size,
+                        to_hex(rest.subspan(check_size)), "follows a complete frame"});
     return fields;
   }
 
@@ -83,8 +90,11 @@ class Rtu : public Framing {
     for (std::size_t at = 0; at < bytes.size();) {
       const ByteView rest = bytes.subspan(at);
       const auto right = right_length(rest);
-      if (right) found.emplace_back(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(*right - check_size));
-      else if (begins) found.emplace_back(rest.begin(), rest.end());  // damaged, or of an unknown function
+      if (right)
+        found.emplace_back(rest.begin(),
+                           rest.begin() + static_cast<std::ptrdiff_t>(*right - check_size));
+      else if (begins)
+        found.emplace_back(rest.begin(), rest.end());  // damaged, or of an unknown function
       begins = right.has_value();
       at += right.value_or(1);
     }
@@ -108,8 +118,8 @@ class Rtu : public Framing {
     const Bytes right = compute_check(CheckKind::crc, message);
     if (std::ranges::equal(right, crc)) return {};
     const bool swapped = right[0] == crc[1] && right[1] == crc[0];
-    return fmt::format("{:02X}{:02X} is right: the CRC-16 of the bytes before it, low byte first{}", right[0], right[1],
-                       swapped ? "; this one has its high byte first" : "");
+    return fmt::format("{:02X}{:02X} is right: the CRC-16 of the bytes before it, low byte first{}",
+                       right[0], right[1], swapped ? "; this one has its high byte first" : "");
   }
 };
 

@@ -16,29 +16,45 @@ constexpr std::string_view modem = "modem";
 class Udata : public Protocol {
  public:
   std::string_view name() const override { return "udata"; }
-  std::vector<std::string> models() const override { return {"xbc-h", "xec-h", std::string(modem)}; }
+  std::vector<std::string> models() const override {
+    return {"xbc-h", "xec-h", std::string(modem)};
+  }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
+                                                      const nlohmann::json& config) const override {
     return model == modem ? make_modem(config) : make_udata_port(model, config);
   }
 
   /// There is no station in the data; this is how XGT writes one.
-  Bytes station_bytes(int station) const override { return to_bytes(hex_number(static_cast<unsigned>(station), 2)); }
+  Bytes station_bytes(int station) const override {
+    return to_bytes(hex_number(static_cast<unsigned>(station), 2));
+  }
   /// What a case expects is as long as it is; nothing in the bytes ends them.
   std::optional<std::size_t> frame_length(ByteView) const override { return std::nullopt; }
 
   std::vector<Field> explain(ByteView frame) const override {
     if (frame.empty()) return {};
-    return {{"data", 0, frame.size(), to_hex(frame), frame.size() > udata_max ? "more than 1024 bytes" : ""}};
+    return {{"data", 0, frame.size(), to_hex(frame),
+             frame.size() > udata_max ? "more than 1024 bytes" : ""}};
   }
 
   Bytes probe(int, ByteView) const override { return {}; }
   bool is_reply_to_probe(ByteView, ByteView) const override { return false; }
 
-  Result<std::vector<Bytes>> write_requests(int, std::string_view address, std::string_view) const override { return no_request(address); }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view address, std::size_t) const override { return no_request(address); }
-  Status write_reply(ByteView) const override { return fail("UDATA has no request that writes memory"); }
-  Result<std::string> read_reply(ByteView) const override { return fail("UDATA has no request that reads memory"); }
+  Result<std::vector<Bytes>> write_requests(int, std::string_view address,
+                                            std::string_view) const override {
+    return no_request(address);
+  }
+  Result<std::vector<Bytes>> read_requests(int, std::string_view address,
+                                           std::size_t) const override {
+    return no_request(address);
+  }
+  Status write_reply(ByteView) const override {
+    return fail("UDATA has no request that writes memory");
+  }
+  Result<std::string> read_reply(ByteView) const override {
+    return fail("UDATA has no request that reads memory");
+  }
 
   /// A program receives it, or a modem obeys it: it may dial.
   std::vector<Written> written_by(ByteView request) const override {
@@ -46,11 +62,16 @@ class Udata : public Protocol {
     return {{"?", 0, 0, "what the program behind the port makes of it"}};
   }
   std::string_view output_areas() const override { return "PQU"; }
-  Status check_fact(const nlohmann::json&) const override { return fail("the UDATA suite has no tables; write a case"); }
+  Status check_fact(const nlohmann::json&) const override {
+    return fail("the UDATA suite has no tables; write a case");
+  }
 
  private:
   static Error no_request(std::string_view address) {
-    return fail(fmt::format("UDATA has no request that reads or writes {}; use an emulator, whose memory the bench sees", address));
+    return fail(
+        fmt::format("UDATA has no request that reads or writes {}; use an emulator, whose memory "
+                    "the bench sees",
+                    address));
   }
 };
 

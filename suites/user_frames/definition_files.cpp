@@ -35,18 +35,21 @@ std::vector<std::string> definition_names(const fs::path& folder) {
 bool is_definition_path(std::string_view model) { return model.ends_with(extension); }
 
 Result<NamedDefinition> load_definition(std::string_view model, const fs::path& folder) {
-  const fs::path path = is_definition_path(model) ? fs::path(model) : folder / (std::string(model) + std::string(extension));
+  const fs::path path = is_definition_path(model)
+                            ? fs::path(model)
+                            : folder / (std::string(model) + std::string(extension));
   std::ifstream file(path, std::ios::binary);
   const int reason = errno;
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file.is_open() || text.empty()) {
     if (is_definition_path(model))
-      return fail(
-          fmt::format("cannot read {}: {}", path.string(), file.is_open() ? "it is empty, or a folder" : std::strerror(reason)));
+      return fail(fmt::format("cannot read {}: {}", path.string(),
+                              file.is_open() ? "it is empty, or a folder" : std::strerror(reason)));
     const std::vector<std::string> shipped = definition_names(folder);
     const std::vector<std::string_view> names(shipped.begin(), shipped.end());
-    return fail(fmt::format("there are no user-defined frames '{}'; use one of {}, or the path of a .json file{}", model,
-                            fmt::join(names, ", "), suggestion(model, names)));
+    return fail(fmt::format(
+        "there are no user-defined frames '{}'; use one of {}, or the path of a .json file{}",
+        model, fmt::join(names, ", "), suggestion(model, names)));
   }
   Result<FrameDefinition> definition = parse_frame_definition(text, path.filename());
   if (!definition) return definition.error();
@@ -56,7 +59,8 @@ Result<NamedDefinition> load_definition(std::string_view model, const fs::path& 
 std::vector<NamedDefinition> load_definitions(const fs::path& folder) {
   std::vector<NamedDefinition> all;
   for (const std::string& name : definition_names(folder))
-    if (Result<NamedDefinition> one = load_definition(name, folder); one) all.push_back(std::move(*one));
+    if (Result<NamedDefinition> one = load_definition(name, folder); one)
+      all.push_back(std::move(*one));
   return all;
 }
 

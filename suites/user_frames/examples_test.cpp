@@ -37,14 +37,16 @@ TEST(Balance, AMistakeInTheDefinitionIsNamed) {
   std::string text = read_text(examples + "balance.json");
   text.replace(text.find("hex_to_ascii"), 12, "hex_to_asci");
   const std::string mine = folder.write("mine.json", text);
-  const Finished tool = run_tool({"emulate", mine + "?protocol=user-frames", "--tcp", "127.0.0.1:0"});
+  const Finished tool =
+      run_tool({"emulate", mine + "?protocol=user-frames", "--tcp", "127.0.0.1:0"});
   EXPECT_EQ(tool.code, 2) << tool.out;
-  EXPECT_THAT(tool.err,
-              HasSubstr("cannot read mine.json: group SAY, frame WEIGHT, body[1]: convert is 'hex_to_asci'; use hex_to_ascii"));
+  EXPECT_THAT(tool.err, HasSubstr("cannot read mine.json: group SAY, frame WEIGHT, body[1]: "
+                                  "convert is 'hex_to_asci'; use hex_to_ascii"));
 }
 
 TEST(Frame, NamesTheSegmentsOfAShippedDefinition) {
-  const Finished tool = run_tool({"frame", "--protocol", "user-frames", "02 30 31 44 52 53 2C 30 32 2C 30 30 30 31 0D 0A"});
+  const Finished tool = run_tool(
+      {"frame", "--protocol", "user-frames", "02 30 31 44 52 53 2C 30 32 2C 30 30 30 31 0D 0A"});
   EXPECT_EQ(tool.code, 0) << tool.err;
   EXPECT_THAT(tool.out, HasSubstr("start address"));
   EXPECT_THAT(tool.out, HasSubstr("DRS.test of px7"));

@@ -27,28 +27,33 @@ Status check_limit(const json& facts) {
   if (held == 0) return fail("a fact has limit frame_bytes, constant_bytes or variables");
   return facts.value("value", json()) == held
              ? ok()
-             : fail(fmt::format("{} are limited to {}, not {}", limit, held, facts.value("value", json()).dump()));
+             : fail(fmt::format("{} are limited to {}, not {}", limit, held,
+                                facts.value("value", json()).dump()));
 }
 
 Status check_method(const json& facts) {
   constexpr std::array<std::string_view, 2> keys{"bytes", "check"};
   if (const Status known = known_keys(facts, what, keys); !known) return known.error();
-  const CheckMethodFacts* method = facts["check"].is_string() ? find_check_method(facts["check"].get<std::string>()) : nullptr;
+  const CheckMethodFacts* method =
+      facts["check"].is_string() ? find_check_method(facts["check"].get<std::string>()) : nullptr;
   if (!method) return fail("there is no check " + facts["check"].dump());
   return facts.value("bytes", json()) == method->bytes
              ? ok()
-             : fail(fmt::format("{} has {} bytes, not {}", method->name, method->bytes, facts.value("bytes", json()).dump()));
+             : fail(fmt::format("{} has {} bytes, not {}", method->name, method->bytes,
+                                facts.value("bytes", json()).dump()));
 }
 
 Status check_definition(const json& facts) {
   constexpr std::array<std::string_view, 2> keys{"definition", "refused"};
   if (const Status known = known_keys(facts, what, keys); !known) return known.error();
-  const Result<FrameDefinition> definition = parse_frame_definition(facts["definition"].dump(), "definition");
+  const Result<FrameDefinition> definition =
+      parse_frame_definition(facts["definition"].dump(), "definition");
   const auto refused = facts.find("refused");
   if (refused == facts.end()) return definition ? ok() : Status(definition.error());
   if (!refused->is_string()) return fail("refused is no text");
   if (definition) return fail("the definition is accepted");
-  if (definition.error().message.find(refused->get<std::string>()) != std::string::npos) return ok();
+  if (definition.error().message.find(refused->get<std::string>()) != std::string::npos)
+    return ok();
   return fail("the definition is refused otherwise: " + definition.error().message);
 }
 

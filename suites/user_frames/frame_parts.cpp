@@ -22,7 +22,8 @@ struct Candidate {
   /// The better, the greater: the whole of `bytes`, a right check, as far as it goes.
   auto rank(ByteView bytes) const {
     const bool complete = match.state == State::complete;
-    return std::tuple(complete && match.length() == bytes.size(), complete && check_holds(*frame, match, bytes), complete,
+    return std::tuple(complete && match.length() == bytes.size(),
+                      complete && check_holds(*frame, match, bytes), complete,
                       match.state == State::partial, match.length());
   }
 };
@@ -41,7 +42,8 @@ std::string problem_of(const Candidate& candidate, std::size_t position, ByteVie
   const Segment& segment = candidate.frame->segments[position];
   if (segment.kind != Segment::Kind::check || candidate.match.state != State::complete) return {};
   if (check_holds(*candidate.frame, candidate.match, bytes)) return {};
-  return fmt::format("expected {} ({} of {} to {})", print_bytes(due_check(*candidate.frame, candidate.match, bytes)),
+  return fmt::format("expected {} ({} of {} to {})",
+                     print_bytes(due_check(*candidate.frame, candidate.match, bytes)),
                      facts_of(segment.method).name, candidate.frame->segments[segment.first].name,
                      candidate.frame->segments[segment.last].name);
 }
@@ -57,12 +59,14 @@ std::string problem_of_rest(const Candidate& candidate) {
 
 }  // namespace
 
-std::optional<std::size_t> frame_length(std::span<const NamedDefinition> definitions, ByteView bytes) {
+std::optional<std::size_t> frame_length(std::span<const NamedDefinition> definitions,
+                                        ByteView bytes) {
   std::optional<std::size_t> longest;
   for (const NamedDefinition& one : definitions)
     for (const UserFrame& frame : one.definition.frames) {
       const FrameMatch match = match_frame(frame, bytes);
-      if (match.state == State::complete && match.length() > longest.value_or(0)) longest = match.length();
+      if (match.state == State::complete && match.length() > longest.value_or(0))
+        longest = match.length();
     }
   return longest;
 }
@@ -70,17 +74,21 @@ std::optional<std::size_t> frame_length(std::span<const NamedDefinition> definit
 std::vector<Field> explain(std::span<const NamedDefinition> definitions, ByteView frame) {
   const Candidate best = nearest(definitions, frame);
   if (!best.frame || best.match.length() == 0)
-    return {{"frame", 0, frame.size(), print_bytes(frame), "no definition has a frame that begins like this"}};
+    return {{"frame", 0, frame.size(), print_bytes(frame),
+             "no definition has a frame that begins like this"}};
   std::vector<Field> fields;
   for (std::size_t i = 0; i < best.match.ends.size(); ++i) {
     const ByteView part = best.match.part(frame, i);
-    fields.push_back({best.frame->segments[i].name, best.match.ends[i] - part.size(), part.size(), print_bytes(part),
-                      problem_of(best, i, frame)});
+    fields.push_back({best.frame->segments[i].name, best.match.ends[i] - part.size(), part.size(),
+                      print_bytes(part), problem_of(best, i, frame)});
   }
-  if (const std::size_t at = best.match.length(); at < frame.size() || best.match.state != State::complete)
-    fields.push_back({"rest", at, frame.size() - at, print_bytes(frame.subspan(at)), problem_of_rest(best)});
+  if (const std::size_t at = best.match.length();
+      at < frame.size() || best.match.state != State::complete)
+    fields.push_back(
+        {"rest", at, frame.size() - at, print_bytes(frame.subspan(at)), problem_of_rest(best)});
   // The last, so that a difference is named by the segment where it begins.
-  fields.push_back({"frame", frame.size(), 0, fmt::format("{} of {}", best.frame->name, best.definition->name), ""});
+  fields.push_back({"frame", frame.size(), 0,
+                    fmt::format("{} of {}", best.frame->name, best.definition->name), ""});
   return fields;
 }
 
@@ -93,11 +101,13 @@ std::vector<Protocol::Written> written_by(const NamedDefinition& definition, Byt
       const Segment& segment = frame.segments[i];
       if (segment.in_block) return {{"?", 0, 0, "what a P2P block says"}};
       if (!segment.memory) continue;
-      const auto count = static_cast<std::uint32_t>(bytes_in_memory(frame, segment, match.part(request, i).size()));
+      const auto count = static_cast<std::uint32_t>(
+          bytes_in_memory(frame, segment, match.part(request, i).size()));
       if (count == 0) continue;
       const std::uint32_t first = segment.memory->index * type_bytes(segment.memory->type);
       const char area = definition.definition.plc->areas[segment.memory->area].letter;
-      written.push_back({std::string(1, area), first / 2, (first + count - 1) / 2, segment.address});
+      written.push_back(
+          {std::string(1, area), first / 2, (first + count - 1) / 2, segment.address});
     }
     return written;
   }

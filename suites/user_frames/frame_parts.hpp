@@ -1,4 +1,5 @@
-// User-defined frames taken apart for people: `frame`, the field-by-field difference, the end of a frame.
+// User-defined frames taken apart for people: `frame`, the field-by-field difference, the end of a
+// frame.
 #pragma once
 
 #include <optional>
@@ -11,13 +12,15 @@
 namespace fieldproof::user_frames {
 
 /// Length of the longest frame of any definition that `bytes` begin with; its check is not judged.
-std::optional<std::size_t> frame_length(std::span<const NamedDefinition> definitions, ByteView bytes);
+std::optional<std::size_t> frame_length(std::span<const NamedDefinition> definitions,
+                                        ByteView bytes);
 
-/// The parts of the frame of any definition that `frame` is, or comes nearest to; last "frame", which names it.
+/// The parts of the frame of any definition that `frame` is, or comes nearest to; last "frame",
+/// which names it.
 std::vector<Field> explain(std::span<const NamedDefinition> definitions, ByteView frame);
 
-/// What the device stores when it receives `request`: the variables of the frame of `definition` that it is, with a right
-/// check or not. Area "?" where it is none.
+/// What the device stores when it receives `request`: the variables of the frame of `definition`
+/// that it is, with a right check or not. Area "?" where it is none.
 std::vector<Protocol::Written> written_by(const NamedDefinition& definition, ByteView request);
 
 }  // namespace fieldproof::user_frames

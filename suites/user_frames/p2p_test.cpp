@@ -15,17 +15,22 @@ using test::set;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const json blocks{{{"function", "send"}, {"flag", "F93"}, {"frame", "DRS.test"}}, {{"function", "receive"}, {"frame", "DRS_RECE.RECE_DRS"}}};
+const json blocks{{{"function", "send"}, {"flag", "F93"}, {"frame", "DRS.test"}},
+                  {{"function", "receive"}, {"frame", "DRS_RECE.RECE_DRS"}}};
 const json asks{{"role", "client"}, {"p2p", {{"blocks", blocks}}}};
 
 TEST(UserFrameClient, ReadsTheTemperatureEverySecond) {
-  for (const auto& [model, more] : {std::pair{"px7", json::object()}, {"xbc-h", json{{"definition", "px7"}}}}) {
+  for (const auto& [model, more] :
+       {std::pair{"px7", json::object()}, {"xbc-h", json{{"definition", "px7"}}}}) {
     json config = asks;
     config.update(more);
     P2pPair pair(protocol(), {model, config}, {"px7_controller", {{"station", 1}}});
     set(pair.partner(), "%DW1", "0019001E");
     EXPECT_THAT(pair.run(999ms), IsEmpty());
-    EXPECT_THAT(pair.run(500ms), testing::ElementsAre(to_hex(to_bytes("\x02" "01DRS,02,0001\r\n")), to_hex(to_bytes("\x02" "01DRS,OK,0019,001E\r\n"))));
+    EXPECT_THAT(pair.run(500ms), testing::ElementsAre(to_hex(to_bytes("\x02"
+                                                                      "01DRS,02,0001\r\n")),
+                                                      to_hex(to_bytes("\x02"
+                                                                      "01DRS,OK,0019,001E\r\n"))));
     EXPECT_EQ(get(pair.client(), "%MW200", 8), "30303139");
     EXPECT_EQ(get(pair.client(), "%MW210", 8), "30303145");
     pair.run(1s);
@@ -41,13 +46,15 @@ TEST(UserFrameClient, ParametersAreRefusedWithBlockAndKey) {
   };
   json unknown = asks;
   unknown["p2p"]["blocks"][0]["frame"] = "DRS.tset";
-  EXPECT_THAT(why("px7", unknown), HasSubstr("cannot set up P2P block 0: there is no frame 'DRS.tset'"));
+  EXPECT_THAT(why("px7", unknown),
+              HasSubstr("cannot set up P2P block 0: there is no frame 'DRS.tset'"));
   EXPECT_THAT(why("px7", unknown), HasSubstr("did you mean 'DRS.test'"));
   EXPECT_THAT(why("xbc-h", asks), HasSubstr("definition"));
   json foreign = asks;
   foreign["definition"] = "px7";
   foreign["p2p"]["blocks"][0]["flag"] = "_T1S";
-  EXPECT_THAT(why("xec-h", foreign), HasSubstr("block 0: the definition is for xbc-h, not for xec-h"));
+  EXPECT_THAT(why("xec-h", foreign),
+              HasSubstr("block 0: the definition is for xbc-h, not for xec-h"));
 }
 
 /// "definition" names the frames of a port without P2P too.

@@ -21,8 +21,10 @@ namespace fieldproof::user_frames {
 namespace {
 
 Error no_memory_requests(std::string_view address) {
-  return fail(fmt::format(
-      "user-defined frames have no request that reads or writes {}; use an emulator, whose memory the bench sees", address));
+  return fail(
+      fmt::format("user-defined frames have no request that reads or writes {}; use an emulator, "
+                  "whose memory the bench sees",
+                  address));
 }
 
 class UserFrames : public Protocol {
@@ -31,21 +33,30 @@ class UserFrames : public Protocol {
   explicit UserFrames(NamedDefinition one) : definitions_{std::move(one)}, own_(true) {}
 
   std::string_view name() const override { return "user-frames"; }
-  std::vector<std::string> models() const override { return definition_names(definitions_folder()); }
+  std::vector<std::string> models() const override {
+    return definition_names(definitions_folder());
+  }
   /// A PLC, where the key `definition` of its configuration names its frames.
   bool has_model(std::string_view model) const override {
     return is_definition_path(model) || Protocol::has_model(model) || find_plc_model(model);
   }
-  const Protocol& of_model(std::string_view model) const override { return model.empty() ? *this : protocol_of(model); }
+  const Protocol& of_model(std::string_view model) const override {
+    return model.empty() ? *this : protocol_of(model);
+  }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override;
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
+                                                      const nlohmann::json& config) const override;
 
   /// Stations are constants of the frames; this is how XGT writes them.
-  Bytes station_bytes(int station) const override { return to_bytes(hex_number(static_cast<unsigned>(station), 2)); }
+  Bytes station_bytes(int station) const override {
+    return to_bytes(hex_number(static_cast<unsigned>(station), 2));
+  }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return user_frames::frame_length(definitions_, bytes);
   }
-  std::vector<Field> explain(ByteView frame) const override { return user_frames::explain(definitions_, frame); }
+  std::vector<Field> explain(ByteView frame) const override {
+    return user_frames::explain(definitions_, frame);
+  }
 
   /// None after a frame that has the probe's own reply.
   Bytes probe(int, ByteView tested) const override {
@@ -66,13 +77,17 @@ class UserFrames : public Protocol {
     return match.state == FrameMatch::State::complete && match.length() == reply.size();
   }
 
-  Result<std::vector<Bytes>> write_requests(int, std::string_view address, std::string_view) const override {
+  Result<std::vector<Bytes>> write_requests(int, std::string_view address,
+                                            std::string_view) const override {
     return no_memory_requests(address);
   }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view address, std::size_t) const override {
+  Result<std::vector<Bytes>> read_requests(int, std::string_view address,
+                                           std::size_t) const override {
     return no_memory_requests(address);
   }
-  Status write_reply(ByteView) const override { return fail("user-defined frames have no request that writes memory"); }
+  Status write_reply(ByteView) const override {
+    return fail("user-defined frames have no request that writes memory");
+  }
   Result<std::string> read_reply(ByteView) const override {
     return fail("user-defined frames have no request that reads memory");
   }
@@ -83,7 +98,9 @@ class UserFrames : public Protocol {
     return user_frames::written_by(definitions_.front(), request);
   }
   std::string_view output_areas() const override { return "PQU"; }
-  Status check_fact(const nlohmann::json& facts) const override { return user_frames::check_fact(facts); }
+  Status check_fact(const nlohmann::json& facts) const override {
+    return user_frames::check_fact(facts);
+  }
 
  private:
   /// Where this is the protocol of one model.
@@ -93,7 +110,8 @@ class UserFrames : public Protocol {
   bool own_ = false;
 };
 
-/// The protocol of one model. A definition is read when it is first asked for: each case makes a device of it.
+/// The protocol of one model. A definition is read when it is first asked for: each case makes a
+/// device of it.
 Result<const UserFrames*> read_once(std::string_view model) {
   static std::map<std::string, UserFrames, std::less<>> known;
   if (const auto found = known.find(model); found != known.end()) return &found->second;
@@ -109,12 +127,16 @@ std::vector<P2pBlock> blocks_of(const nlohmann::json& config, const PlcModel& pl
   return parameters ? parameters->blocks : std::vector<P2pBlock>{};
 }
 
-Result<std::unique_ptr<EmulatedDevice>> UserFrames::make_device(std::string_view model, const nlohmann::json& config) const {
+Result<std::unique_ptr<EmulatedDevice>> UserFrames::make_device(
+    std::string_view model, const nlohmann::json& config) const {
   std::string name(model);
   ConfigReader reader(config, "the port's configuration");
   reader.text("definition", name);
   if (reader.error()) return *reader.error();
-  if (find_plc_model(name)) return fail(fmt::format("cannot make {} send or receive user frames: name them with definition, such as px7", name));
+  if (find_plc_model(name))
+    return fail(fmt::format(
+        "cannot make {} send or receive user frames: name them with definition, such as px7",
+        name));
   const Result<const UserFrames*> one = read_once(name);
   if (!one) return one.error();
   const FrameDefinition& definition = *(*one)->own();
@@ -125,9 +147,12 @@ Result<std::unique_ptr<EmulatedDevice>> UserFrames::make_device(std::string_view
   }
   const PlcModel* plc = find_plc_model(model);
   if (!plc) plc = definition.plc;
-  return make_p2p_device(
-      plc->name, config,
-      [&](const PortConfig& port) { return make_user_frame_p2p_driver(definition, blocks_of(config, *plc), port.gap()); }, {"definition"});
+  return make_p2p_device(plc->name, config,
+                         [&](const PortConfig& port) {
+                           return make_user_frame_p2p_driver(definition, blocks_of(config, *plc),
+                                                             port.gap());
+                         },
+                         {"definition"});
 }
 
 }  // namespace

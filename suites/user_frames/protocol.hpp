@@ -1,4 +1,5 @@
-// User-defined frames (000 6.2.5, 003 6.5) for the harness. Models are definitions: definitions/README.md.
+// User-defined frames (000 6.2.5, 003 6.5) for the harness. Models are definitions:
+// definitions/README.md.
 #pragma once
 
 #include "harness/protocol.hpp"
@@ -8,7 +9,8 @@ namespace fieldproof::user_frames {
 /// Knows the frames of all shipped definitions, and has no probe.
 const Protocol& protocol();
 
-/// Knows the frames of one model alone, with its probe and what its frames write; `protocol()` where it cannot be read.
+/// Knows the frames of one model alone, with its probe and what its frames write; `protocol()`
+/// where it cannot be read.
 const Protocol& protocol_of(std::string_view model);
 
 }  // namespace fieldproof::user_frames

@@ -61,11 +61,13 @@ TEST(UserFramesProtocol, ExplainsAFrameOfAnyDefinition) {
   const std::vector<Field> fields = protocol().explain(drs_reply);
   EXPECT_EQ(text_of(fields, "present value"), "'0016'");
   EXPECT_EQ(text_of(fields, "frame"), "DRS_RECE.RECE_DRS of px7");
-  EXPECT_TRUE(std::ranges::all_of(fields, [](const Field& field) { return field.problem.empty(); }));
+  EXPECT_TRUE(
+      std::ranges::all_of(fields, [](const Field& field) { return field.problem.empty(); }));
 }
 
 TEST(UserFramesProtocol, SaysWhatIsWrongWithAFrame) {
-  const std::vector<Field> sum = protocol().explain(*from_hex("15 30 31 77 53 42 31 31 33 32 03 30 30"));
+  const std::vector<Field> sum =
+      protocol().explain(*from_hex("15 30 31 77 53 42 31 31 33 32 03 30 30"));
   EXPECT_EQ(problem_of(sum, "BCC"), "expected '4C' (byte_sum of NAK to ETX)");
   const Protocol& px7 = protocol_of("px7");
   EXPECT_EQ(problem_of(px7.explain(to_bytes("\x02"
@@ -80,7 +82,8 @@ TEST(UserFramesProtocol, SaysWhatIsWrongWithAFrame) {
                                             "01DRS,02,0001\r\nX")),
                        "rest"),
             "behind the end of the frame");
-  EXPECT_EQ(problem_of(px7.explain(to_bytes("W\r\n")), "frame"), "no definition has a frame that begins like this");
+  EXPECT_EQ(problem_of(px7.explain(to_bytes("W\r\n")), "frame"),
+            "no definition has a frame that begins like this");
   EXPECT_EQ(px7.explain({}).size(), 1u);
 }
 
@@ -111,7 +114,9 @@ TEST(UserFramesProtocol, OneModelHasItsProbe) {
   EXPECT_EQ(protocol_of(balance).probe(1, {}), to_bytes("W\r\n"));
 }
 
-TEST(UserFramesProtocol, AModelThatCannotBeReadHasTheFramesOfAll) { EXPECT_EQ(&protocol_of("px8"), &protocol()); }
+TEST(UserFramesProtocol, AModelThatCannotBeReadHasTheFramesOfAll) {
+  EXPECT_EQ(&protocol_of("px8"), &protocol());
+}
 
 TEST(UserFramesProtocol, TheFenceKnowsWhatAFrameStores) {
   const auto written = protocol_of("px7").written_by(drs_reply);
@@ -129,7 +134,8 @@ TEST(UserFramesProtocol, TheFenceKnowsWhatAFrameStores) {
 
 TEST(UserFramesProtocol, WhatNobodyCanTellIsArea) {
   EXPECT_EQ(protocol_of("px7").written_by(to_bytes("W\r\n")).at(0).area, "?");
-  EXPECT_EQ(protocol().written_by(drs_request).at(0).area, "?");  // whose frames are on the other side is not known
+  EXPECT_EQ(protocol().written_by(drs_request).at(0).area,
+            "?");  // whose frames are on the other side is not known
 }
 
 TEST(UserFramesProtocol, ThereIsNoWayToMemoryThroughFrames) {
@@ -148,10 +154,11 @@ TEST(UserFramesProtocol, FactsAreCheckedAgainstTheTables) {
   EXPECT_FALSE(protocol().check_fact(json{{"limit", "frames"}, {"value", 4}}));
   EXPECT_TRUE(protocol().check_fact(json{{"check", "lgis_crc"}, {"bytes", 0}}));
   EXPECT_FALSE(protocol().check_fact(json{{"check", "crc_16"}, {"bytes", 1}}));
-  const json definition =
-      json::parse(R"({"title": "t", "groups": {"G": {"type": "send", "frames": {"F": {"body": [{"text": "12345678901"}]}}}}})");
+  const json definition = json::parse(
+      R"({"title": "t", "groups": {"G": {"type": "send", "frames": {"F": {"body": [{"text": "12345678901"}]}}}}})");
   EXPECT_TRUE(protocol().check_fact(json{{"definition", definition}, {"refused", "11 bytes"}}));
-  EXPECT_THAT(protocol().check_fact(json{{"definition", definition}}).error().message, HasSubstr("11 bytes"));
+  EXPECT_THAT(protocol().check_fact(json{{"definition", definition}}).error().message,
+              HasSubstr("11 bytes"));
   EXPECT_FALSE(protocol().check_fact(json{{"definition", definition}, {"refused", "12 bytes"}}));
   EXPECT_FALSE(protocol().check_fact(json::object()));
 }

@@ -1,8 +1,8 @@
 #include "suites/xgt_cnet/frame_parts.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <numeric>
 #include <utility>
 
@@ -47,8 +47,10 @@ std::string_view header_name(Byte b) {
 std::string shown(ByteView bytes) {
   std::string text;
   for (Byte b : bytes) {
-    if (b >= 0x20 && b < 0x7F) text += static_cast<char>(b);
-    else text += fmt::format("<{:02X}>", b);
+    if (b >= 0x20 && b < 0x7F)
+      text += static_cast<char>(b);
+    else
+      text += fmt::format("<{:02X}>", b);
   }
   return text;
 }
@@ -64,7 +66,8 @@ class Reader {
 
   std::vector<Field> read() {
     if (frame_.empty()) return {};
-    field("header", 1, std::string(header_name(frame_[0])), is_header(frame_[0]) ? "" : "a frame begins with ENQ, ACK or NAK");
+    field("header", 1, std::string(header_name(frame_[0])),
+          is_header(frame_[0]) ? "" : "a frame begins with ENQ, ACK or NAK");
     if (!is_header(frame_[0])) {
       take("foreign bytes", frame_.size() - 1);
       fields_.back().problem = "no part of a frame";
@@ -73,9 +76,12 @@ class Reader {
     hex("station", 2);
     const char command = at(pos_);
     take("command", 1);
-    const char main = is_lower(static_cast<Byte>(command)) ? static_cast<char>(command - 'a' + 'A') : command;
-    if (main == 'X' || main == 'Y') hex("registration number", 2);
-    else command_type();
+    const char main =
+        is_lower(static_cast<Byte>(command)) ? static_cast<char>(command - 'a' + 'A') : command;
+    if (main == 'X' || main == 'Y')
+      hex("registration number", 2);
+    else
+      command_type();
     body(main);
     if (pos_ < tail_) take("surplus", tail_ - pos_);
     tail_and_check(is_lower(static_cast<Byte>(command)));
@@ -116,14 +122,18 @@ class Reader {
 
   void command_type() {
     take("command type", 2);
-    if (const std::string type = upper(fields_.back().text); type != "SS" && type != "SB") fields_.back().problem = "not SS or SB";
+    if (const std::string type = upper(fields_.back().text); type != "SS" && type != "SB")
+      fields_.back().problem = "not SS or SB";
   }
 
   void body(char main) {
     if (frame_[0] == nak) return error_code();
-    const std::string type = fields_.back().name == "command type" ? upper(fields_.back().text) : "";
-    if (frame_[0] == enq) request(main, type);
-    else reply(main, type);
+    const std::string type =
+        fields_.back().name == "command type" ? upper(fields_.back().text) : "";
+    if (frame_[0] == enq)
+      request(main, type);
+    else
+      reply(main, type);
   }
 
   void error_code() {
@@ -131,8 +141,10 @@ class Reader {
     const ByteView code = take("error code", std::min<std::size_t>(4, left()));
     const std::string text = shown(code);
     const std::string_view meaning = error_meaning(text);
-    if (!meaning.empty()) fields_.back().text = fmt::format("{} {}", text, meaning);
-    else fields_.back().problem = "not a code of Appendix 3.1";
+    if (!meaning.empty())
+      fields_.back().text = fmt::format("{} {}", text, meaning);
+    else
+      fields_.back().problem = "not a code of Appendix 3.1";
   }
 
   void request(char main, const std::string& type) {
@@ -175,10 +187,12 @@ class Reader {
 
   void reply(char main, const std::string& type) {
     if (left() == 0 || main == 'W' || main == 'X') return;
-    // The reply to Y of a continuous registration is printed without a block count (000 7.1.5 (6)(c)2).
+    // The reply to Y of a continuous registration is printed without a block count (000 7.1.5
+    // (6)(c)2).
     if (main == 'Y' && count_fits_at(pos_)) return data_block("");
     const unsigned count = hex("block count", 2).value_or(0);
-    for (unsigned i = 1; i <= count && left() > 0; ++i) data_block(count > 1 && type != "SB" ? fmt::format(" {}", i) : "");
+    for (unsigned i = 1; i <= count && left() > 0; ++i)
+      data_block(count > 1 && type != "SB" ? fmt::format(" {}", i) : "");
   }
 
   /// Does a number of data at `pos` account for all that is left?
@@ -199,7 +213,8 @@ class Reader {
     if (rest == 0) return;
     if (!with_bcc) {
       take("surplus", rest);
-      fields_.back().problem = rest == 2 ? "a BCC after an upper-case command, which has none" : "nothing follows the tail";
+      fields_.back().problem = rest == 2 ? "a BCC after an upper-case command, which has none"
+                                         : "nothing follows the tail";
       return;
     }
     const std::size_t end = pos_;
@@ -209,15 +224,18 @@ class Reader {
   }
 
   std::string bcc_problem(const std::string& bcc, std::size_t end) const {
-    const unsigned sum = std::accumulate(frame_.begin(), frame_.begin() + static_cast<std::ptrdiff_t>(end), 0u);
+    const unsigned sum =
+        std::accumulate(frame_.begin(), frame_.begin() + static_cast<std::ptrdiff_t>(end), 0u);
     const auto digits = [](unsigned value) { return hex_number(value & 0xFF, 2); };
     if (bcc == digits(sum)) return {};
     if (upper(bcc) == digits(sum)) return "lower-case hex";
     std::string hint;
     if (bcc == digits(sum - frame_[end - 1])) hint = "; this one leaves the tail out";
     if (bcc == digits(sum - frame_[0])) hint = "; this one leaves the header out";
-    if (bcc == digits(sum - frame_[0] - frame_[end - 1])) hint = "; this one leaves header and tail out";
-    return fmt::format("{} is right: low byte of the sum {:04X} from header to tail{}", digits(sum), sum, hint);
+    if (bcc == digits(sum - frame_[0] - frame_[end - 1]))
+      hint = "; this one leaves header and tail out";
+    return fmt::format("{} is right: low byte of the sum {:04X} from header to tail{}", digits(sum),
+                       sum, hint);
   }
 
   ByteView frame_;
@@ -229,7 +247,8 @@ class Reader {
 }  // namespace
 
 std::string_view error_meaning(std::string_view code) {
-  const auto found = std::ranges::find(errors, code, &std::pair<std::string_view, std::string_view>::first);
+  const auto found =
+      std::ranges::find(errors, code, &std::pair<std::string_view, std::string_view>::first);
   return found == errors.end() ? std::string_view() : found->second;
 }
 
@@ -239,7 +258,8 @@ std::optional<std::size_t> frame_length(ByteView bytes) {
   const auto header_at = static_cast<std::size_t>(next_header - bytes.subspan(1).begin()) + 1;
   const bool another = next_header != bytes.subspan(1).end();
   if (!is_header(bytes[0])) return another ? std::optional(header_at) : std::nullopt;
-  const auto tail = static_cast<std::size_t>(std::ranges::find(bytes, bytes[0] == enq ? eot : etx) - bytes.begin());
+  const auto tail = static_cast<std::size_t>(std::ranges::find(bytes, bytes[0] == enq ? eot : etx) -
+                                             bytes.begin());
   if (another && header_at < tail) return header_at;
   if (tail == bytes.size()) return std::nullopt;
   const bool with_bcc = bytes.size() > 3 && tail > 3 && is_lower(bytes[3]);

@@ -1,5 +1,6 @@
-// XGT Cnet frames taken apart for people: `frame`, the field-by-field difference, the end of a frame.
-// Shares no code with the emulator (src/xgt_cnet): what is shown to be wrong must not depend on what answers.
+// XGT Cnet frames taken apart for people: `frame`, the field-by-field difference, the end of a
+// frame. Shares no code with the emulator (src/xgt_cnet): what is shown to be wrong must not depend
+// on what answers.
 #pragma once
 
 #include <optional>
@@ -9,8 +10,8 @@
 
 namespace fieldproof::xgt_cnet {
 
-/// Length of the first complete frame: header to tail, and two characters of BCC where the main command is lower case
-/// (000 7.1.2). Bytes before a header count as a piece of their own.
+/// Length of the first complete frame: header to tail, and two characters of BCC where the main
+/// command is lower case (000 7.1.2). Bytes before a header count as a piece of their own.
 std::optional<std::size_t> frame_length(ByteView bytes);
 
 /// The parts of a request, ACK or NAK (000 7.1.5), as far as it can be read.

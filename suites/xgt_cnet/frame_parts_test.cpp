@@ -11,12 +11,14 @@ Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
 std::string part(ByteView frame, std::string_view name) {
   for (const Field& field : explain(frame))
-    if (field.name == name) return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
+    if (field.name == name)
+      return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
   return "absent";
 }
 
 // 000 7.1.5 (1)(e), request and ACK.
-const Bytes request = bytes("05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38");
+const Bytes request =
+    bytes("05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38");
 const Bytes reply = bytes("06 30 31 72 53 53 30 32 30 32 31 32 33 34 30 32 35 36 37 38 03 34 43");
 
 TEST(Explain, NamesEveryPartOfTheManualsExample) {
@@ -51,19 +53,43 @@ TEST(Explain, SaysWhatIsWrongWithABcc) {
 }
 
 TEST(Explain, ABccAfterAnUpperCaseCommandIsSurplus) {
-  EXPECT_THAT(part(to_bytes("\x06" "01WSS\x03" "A4"), "surplus"), HasSubstr("has none"));
+  EXPECT_THAT(part(to_bytes("\x06"
+                            "01WSS\x03"
+                            "A4"),
+                   "surplus"),
+              HasSubstr("has none"));
 }
 
 TEST(Explain, TranslatesErrorCodes) {
-  EXPECT_EQ(part(to_bytes("\x15" "01RSS1132\x03"), "error code"), "1132 device memory: no such area, or not writable");
-  EXPECT_THAT(part(to_bytes("\x15" "01RSS9999\x03"), "error code"), HasSubstr("not a code of Appendix 3.1"));
+  EXPECT_EQ(part(to_bytes("\x15"
+                          "01RSS1132\x03"),
+                 "error code"),
+            "1132 device memory: no such area, or not writable");
+  EXPECT_THAT(part(to_bytes("\x15"
+                            "01RSS9999\x03"),
+                   "error code"),
+              HasSubstr("not a code of Appendix 3.1"));
 }
 
 TEST(Explain, MonitorFrames) {
-  EXPECT_EQ(part(to_bytes("\x05" "01X01RSS0106%MW000\x04"), "registration number"), "01");
-  EXPECT_EQ(part(to_bytes("\x05" "01X01RSS0106%MW000\x04"), "name"), "%MW000");
-  EXPECT_EQ(part(to_bytes("\x06" "10Y0901029183\x03"), "data"), "9183") << "individual: with block count";
-  EXPECT_EQ(part(to_bytes("\x06" "10Y09049183AABB\x03"), "data"), "9183AABB") << "continuous: without";
+  EXPECT_EQ(part(to_bytes("\x05"
+                          "01X01RSS0106%MW000\x04"),
+                 "registration number"),
+            "01");
+  EXPECT_EQ(part(to_bytes("\x05"
+                          "01X01RSS0106%MW000\x04"),
+                 "name"),
+            "%MW000");
+  EXPECT_EQ(part(to_bytes("\x06"
+                          "10Y0901029183\x03"),
+                 "data"),
+            "9183")
+      << "individual: with block count";
+  EXPECT_EQ(part(to_bytes("\x06"
+                          "10Y09049183AABB\x03"),
+                 "data"),
+            "9183AABB")
+      << "continuous: without";
 }
 
 TEST(Explain, AnyBytesAreReadWithoutHarm) {
@@ -72,8 +98,11 @@ TEST(Explain, AnyBytesAreReadWithoutHarm) {
     Bytes frame;
     for (int i = 0; i < 24; ++i) {
       state = state * 1103515245u + 12345u;
-      const std::string_view likely = "\x05\x06\x15\x04\x03" "0129rRwWXYSB%MW0F";
-      frame.push_back((state >> 16) % 8 ? static_cast<Byte>(likely[(state >> 16) % likely.size()]) : static_cast<Byte>(state >> 24));
+      const std::string_view likely =
+          "\x05\x06\x15\x04\x03"
+          "0129rRwWXYSB%MW0F";
+      frame.push_back((state >> 16) % 8 ? static_cast<Byte>(likely[(state >> 16) % likely.size()])
+                                        : static_cast<Byte>(state >> 24));
     }
     std::size_t covered = 0;
     for (const Field& field : explain(frame)) covered += field.size;
@@ -87,16 +116,27 @@ TEST(Explain, AnyBytesAreReadWithoutHarm) {
 
 TEST(FrameLength, EndsAtTheTailOrAfterTheBcc) {
   EXPECT_EQ(frame_length(request), request.size());
-  EXPECT_EQ(frame_length(ByteView(request).first(request.size() - 1)), std::nullopt) << "one character of the BCC is missing";
-  EXPECT_EQ(frame_length(to_bytes("\x05" "01RSS\x04")), 7u);
-  EXPECT_EQ(frame_length(to_bytes("\x05" "01RSS")), std::nullopt);
+  EXPECT_EQ(frame_length(ByteView(request).first(request.size() - 1)), std::nullopt)
+      << "one character of the BCC is missing";
+  EXPECT_EQ(frame_length(to_bytes("\x05"
+                                  "01RSS\x04")),
+            7u);
+  EXPECT_EQ(frame_length(to_bytes("\x05"
+                                  "01RSS")),
+            std::nullopt);
 }
 
 TEST(FrameLength, GarbageAndABrokenFrameEndAtTheNextHeader) {
   EXPECT_EQ(frame_length(to_bytes("xyz\x06")), 3u);
   EXPECT_EQ(frame_length(to_bytes("xyz")), std::nullopt);
-  EXPECT_EQ(frame_length(to_bytes("\x06" "01rSS\x15" "01rSS")), 6u);
-  EXPECT_EQ(frame_length(to_bytes("\x06" "01rSS\x03\x06")), 7u) << "the BCC is missing";
+  EXPECT_EQ(frame_length(to_bytes("\x06"
+                                  "01rSS\x15"
+                                  "01rSS")),
+            6u);
+  EXPECT_EQ(frame_length(to_bytes("\x06"
+                                  "01rSS\x03\x06")),
+            7u)
+      << "the BCC is missing";
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #include "suites/xgt_cnet/memory_requests.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <fmt/format.h>
 #include <optional>
 
 #include "harness/device_names.hpp"
@@ -21,12 +21,15 @@ struct Name {
   char area = 0, type = 0;
   std::string_view number;
 
-  std::size_t element_bytes() const { return type == 'W' ? 2 : type == 'D' ? 4 : type == 'L' ? 8 : 1; }
+  std::size_t element_bytes() const {
+    return type == 'W' ? 2 : type == 'D' ? 4 : type == 'L' ? 8 : 1;
+  }
 };
 
 std::optional<Name> read_name(std::string_view text) {
   if (text.size() < 4 || text[0] != '%') return std::nullopt;
-  const Name name{static_cast<char>(std::toupper(text[1])), static_cast<char>(std::toupper(text[2])), text.substr(3)};
+  const Name name{static_cast<char>(std::toupper(text[1])),
+                  static_cast<char>(std::toupper(text[2])), text.substr(3)};
   if (std::string_view("XBWDL").find(name.type) == std::string_view::npos) return std::nullopt;
   return name;
 }
@@ -46,7 +49,8 @@ struct Words {
 std::optional<Words> words_of(const Name& name, std::uint32_t count) {
   if (name.type == 'X') {
     // XBM, XBC: decimal word and one hex bit digit; XEC: flat bit index. Either may be meant.
-    const std::optional<std::uint32_t> word = name.number.size() > 1 ? read_number(name.number.substr(0, name.number.size() - 1)) : 0;
+    const std::optional<std::uint32_t> word =
+        name.number.size() > 1 ? read_number(name.number.substr(0, name.number.size() - 1)) : 0;
     const std::optional<std::uint32_t> flat = read_number(name.number);
     if (!word) return std::nullopt;
     const std::uint32_t other = flat ? *flat / 16 : *word;
@@ -60,10 +64,13 @@ std::optional<Words> words_of(const Name& name, std::uint32_t count) {
 
 Protocol::Written written(const std::string& address, std::uint32_t count, const PlcModel* model) {
   if (model && count > 0)
-    if (const ParsedAddress parsed = parse_address(*model, address)) return memory_of(*model, parsed.address, count, address);
+    if (const ParsedAddress parsed = parse_address(*model, address))
+      return memory_of(*model, parsed.address, count, address);
   const std::optional<Name> name = read_name(address);
   const std::optional<Words> words = name ? words_of(*name, count) : std::nullopt;
-  if (!words) return {name ? std::string(1, name->area) : "?", 0, ~0u, address};  // dotted or damaged: the whole area
+  if (!words)
+    return {name ? std::string(1, name->area) : "?", 0, ~0u,
+            address};  // dotted or damaged: the whole area
   return {std::string(1, name->area), words->first, words->last, address};
 }
 
@@ -71,30 +78,36 @@ Bytes request(std::string_view station, std::string_view command, std::string_vi
   return to_bytes(fmt::format("\x05{}{}{}\x04", station, command, rest));
 }
 
-std::string with_length(std::string_view name) { return hex_number(name.size(), 2) + std::string(name); }
+std::string with_length(std::string_view name) {
+  return hex_number(name.size(), 2) + std::string(name);
+}
 
 /// The name of an element `step` further on.
 Result<std::string> advance(const Name& name, std::size_t step) {
   const std::optional<std::uint32_t> index = read_number(name.number);
-  if (!index) return fail(fmt::format("cannot count on from %{}{}{}", name.area, name.type, name.number));
+  if (!index)
+    return fail(fmt::format("cannot count on from %{}{}{}", name.area, name.type, name.number));
   return fmt::format("%{}{}{}", name.area, name.type, *index + step);
 }
 
 struct Part {
   std::string name;
-  std::string hex;       // write
-  std::size_t count = 1; // elements
+  std::string hex;        // write
+  std::size_t count = 1;  // elements
 };
 
 /// Cuts `digits` of memory from `address` on into requests of at most 60 words.
-Result<std::vector<Part>> parts_of(std::string_view address, std::size_t digits, std::string_view hex) {
+Result<std::vector<Part>> parts_of(std::string_view address, std::size_t digits,
+                                   std::string_view hex) {
   const std::optional<Name> name = read_name(address);
   if (!name) return fail(fmt::format("'{}' is no device name such as %MW100", address));
   const std::size_t element = name->element_bytes() * 2;
   if (digits == 0 || digits % element != 0)
-    return fail(fmt::format("{} digits are not a whole number of elements of {} ({} digits each)", digits, address, element));
+    return fail(fmt::format("{} digits are not a whole number of elements of {} ({} digits each)",
+                            digits, address, element));
   const std::size_t count = digits / element;
-  if (name->type == 'X' && count > 1) return fail(fmt::format("{}: several bits at once; name each bit", address));
+  if (name->type == 'X' && count > 1)
+    return fail(fmt::format("{}: several bits at once; name each bit", address));
   const std::size_t at_once = max_bytes / name->element_bytes();
   std::vector<Part> parts;
   for (std::size_t done = 0; done < count; done += at_once) {
@@ -123,28 +136,38 @@ std::optional<std::string> refusal(ByteView reply) {
 
 }  // namespace
 
-Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_view address, std::string_view hex) {
+Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_view address,
+                                          std::string_view hex) {
   if (address.size() > 1 && (std::toupper(address[1]) == 'F' || std::toupper(address[1]) == 'N'))
     return fail(fmt::format("{} is read only over the protocol", address));
-  if (address.starts_with('@')) return fail(fmt::format("{} is a counter, which no command writes", address));
+  if (address.starts_with('@'))
+    return fail(fmt::format("{} is a counter, which no command writes", address));
   const Result<std::vector<Part>> parts = parts_of(address, hex.size(), hex);
   if (!parts) return parts.error();
   std::vector<Bytes> requests;
   for (const Part& part : *parts) {
-    if (part.count == 1) requests.push_back(request(station, "WSS", "01" + with_length(part.name) + part.hex));
-    else requests.push_back(request(station, "WSB", with_length(part.name) + hex_number(part.count, 2) + part.hex));
+    if (part.count == 1)
+      requests.push_back(request(station, "WSS", "01" + with_length(part.name) + part.hex));
+    else
+      requests.push_back(
+          request(station, "WSB", with_length(part.name) + hex_number(part.count, 2) + part.hex));
   }
   return requests;
 }
 
-Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_view address, std::size_t digits) {
-  if (address.starts_with('@')) return fail(fmt::format("{} is a counter, which no command reads", address));
+Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_view address,
+                                         std::size_t digits) {
+  if (address.starts_with('@'))
+    return fail(fmt::format("{} is a counter, which no command reads", address));
   const Result<std::vector<Part>> parts = parts_of(address, digits, "");
   if (!parts) return parts.error();
   std::vector<Bytes> requests;
   for (const Part& part : *parts) {
-    if (part.count == 1) requests.push_back(request(station, "RSS", "01" + with_length(part.name)));
-    else requests.push_back(request(station, "RSB", with_length(part.name) + hex_number(part.count, 2)));
+    if (part.count == 1)
+      requests.push_back(request(station, "RSS", "01" + with_length(part.name)));
+    else
+      requests.push_back(
+          request(station, "RSB", with_length(part.name) + hex_number(part.count, 2)));
   }
   return requests;
 }
@@ -165,7 +188,9 @@ Result<std::string> read_reply(ByteView reply) {
 
 namespace {
 
-bool is_name(const Field& field) { return field.name.starts_with("name") && !field.name.starts_with("name length"); }
+bool is_name(const Field& field) {
+  return field.name.starts_with("name") && !field.name.starts_with("name length");
+}
 
 /// "number of data" of a continuous request, else one element a name.
 std::uint32_t elements_a_name(const std::vector<Field>& fields) {
@@ -195,8 +220,11 @@ std::vector<Protocol::AddressField> address_fields(ByteView request, const PlcMo
   const std::vector<Field> fields = explain(request);
   const std::uint32_t count = elements_a_name(fields);
   for (const Field& field : fields) {
-    const ParsedAddress parsed = is_name(field) ? parse_address(model, field.text) : ParsedAddress{AddressFault::form, {}};
-    if (parsed) result.push_back({field.offset, field.size, memory_of(model, parsed.address, count, field.text)});
+    const ParsedAddress parsed =
+        is_name(field) ? parse_address(model, field.text) : ParsedAddress{AddressFault::form, {}};
+    if (parsed)
+      result.push_back(
+          {field.offset, field.size, memory_of(model, parsed.address, count, field.text)});
   }
   return result;
 }

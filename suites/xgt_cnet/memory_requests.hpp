@@ -1,4 +1,5 @@
-// Memory through the XGT protocol itself, where there is no back door: requests in upper case, which need no BCC.
+// Memory through the XGT protocol itself, where there is no back door: requests in upper case,
+// which need no BCC.
 #pragma once
 
 #include <string>
@@ -10,15 +11,18 @@
 
 namespace fieldproof::xgt_cnet {
 
-/// WSS for one element, WSB (at most 60 words each, 000 7.1.5 (4)) for more. F and N are read only (000 7.1.4).
-Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_view address, std::string_view hex);
+/// WSS for one element, WSB (at most 60 words each, 000 7.1.5 (4)) for more. F and N are read only
+/// (000 7.1.4).
+Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_view address,
+                                          std::string_view hex);
 /// RSS for one element, RSB for more.
-Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_view address, std::size_t digits);
+Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_view address,
+                                         std::size_t digits);
 Status write_reply(ByteView reply);
 Result<std::string> read_reply(ByteView reply);
 
-/// What a request frame would write. Without a model device names are read leniently: what a name could touch on any
-/// model counts as touched.
+/// What a request frame would write. Without a model device names are read leniently: what a name
+/// could touch on any model counts as touched.
 std::vector<Protocol::Written> written_by(ByteView request, const PlcModel* model = nullptr);
 
 /// The names in a request, as far as the model has them.

@@ -30,18 +30,24 @@ void connect(Device& a, Device& b, Time until) {
       if (one->wake_at() && (!next || *one->wake_at() < *next->wake_at())) next = one;
     if (!next || *next->wake_at() > until) return;
     const Time now = *next->wake_at();
-    if (const Bytes bytes = next->advance(now); !bytes.empty()) (next == &a ? b : a).receive({bytes, now, character});
+    if (const Bytes bytes = next->advance(now); !bytes.empty())
+      (next == &a ? b : a).receive({bytes, now, character});
   }
 }
 
 /// What a client that reads one word monitors, where its partner's line has these faults.
 std::vector<std::string> monitored(const LineFaults& faults, json partner = {{"station", 1}}) {
   std::vector<std::string> seen;
-  const auto client = make({{"station", 0}, {"role", "client"},
-                            {"p2p", {{"blocks", {{{"flag", "%MX00000"}, {"read", "%MW0"}, {"save", "%MW200"}, {"station", 1}}}}}}},
-                           [&](const MonitoredFrame& frame) {
-                             seen.push_back((frame.sent ? "Transmission " : "Reception ") + std::string(to_string(frame.result)) + ' ' + ascii_view(frame));
-                           });
+  const auto client =
+      make({{"station", 0},
+            {"role", "client"},
+            {"p2p",
+             {{"blocks",
+               {{{"flag", "%MX00000"}, {"read", "%MW0"}, {"save", "%MW200"}, {"station", 1}}}}}}},
+           [&](const MonitoredFrame& frame) {
+             seen.push_back((frame.sent ? "Transmission " : "Reception ") +
+                            std::string(to_string(frame.result)) + ' ' + ascii_view(frame));
+           });
   const auto server = make(partner);
   FaultyDevice line(*server, faults, character);
   connect(*client, line, 10ms);
@@ -51,16 +57,18 @@ std::vector<std::string> monitored(const LineFaults& faults, json partner = {{"s
 }
 
 TEST(XgtMonitor, ShowsRequestAndReply) {
-  EXPECT_EQ(monitored({}), (std::vector<std::string>{"Transmission XGT client [ENQ]01rSS0104%MW0[EOT]40",
-                                                     "Reception XGT client [ACK]01rSS01020000[ETX]05"}));
+  EXPECT_EQ(monitored({}),
+            (std::vector<std::string>{"Transmission XGT client [ENQ]01rSS0104%MW0[EOT]40",
+                                      "Reception XGT client [ACK]01rSS01020000[ETX]05"}));
 }
 
 TEST(XgtMonitor, TheEchoOfAClientIsUnknown) {
   LineFaults wired_as_485;
   wired_as_485.echo = true;
-  EXPECT_EQ(monitored(wired_as_485), (std::vector<std::string>{"Transmission XGT client [ENQ]01rSS0104%MW0[EOT]40",
-                                                               "Reception Unknown [ENQ]01rSS0104%MW0[EOT]40",
-                                                               "Reception XGT client [ACK]01rSS01020000[ETX]05"}));
+  EXPECT_EQ(monitored(wired_as_485),
+            (std::vector<std::string>{"Transmission XGT client [ENQ]01rSS0104%MW0[EOT]40",
+                                      "Reception Unknown [ENQ]01rSS0104%MW0[EOT]40",
+                                      "Reception XGT client [ACK]01rSS01020000[ETX]05"}));
 }
 
 TEST(XgtMonitor, ADamagedReplyIsUnknown) {
@@ -72,9 +80,16 @@ TEST(XgtMonitor, ADamagedReplyIsUnknown) {
 TEST(XgtMonitor, AServerKnowsRequests) {
   const auto server = make({{"station", 1}, {"monitor", true}});
   EXPECT_EQ(*server->get("@monitor", 2), "00");
-  server->receive({to_bytes("\x05" "01rSS0104%MW0\x04" "40"), {}, character});
+  server->receive({to_bytes("\x05"
+                            "01rSS0104%MW0\x04"
+                            "40"),
+                   {},
+                   character});
   EXPECT_EQ(*server->get("@monitor", 2), "01");
-  server->receive({to_bytes("\x06" "01rSS01020000\x03" "05"), 100ms, character});
+  server->receive({to_bytes("\x06"
+                            "01rSS01020000\x03"
+                            "05"),
+                   100ms, character});
   EXPECT_EQ(*server->get("@monitor", 2), "06") << "the reply of another station";
   EXPECT_FALSE(make({{"station", 1}})->get("@monitor", 2)) << "only where it is asked for";
 }

@@ -1,8 +1,8 @@
 #include "suites/xgt_cnet/p2p_facts.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -15,7 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 7> keys{"block", "flag", "iec", "last_block", "mk", "p2p", "register"};
+constexpr std::array<std::string_view, 7> keys{"block", "flag", "iec",     "last_block",
+                                               "mk",    "p2p",  "register"};
 
 /// A bit, a dword, or words from `first` to `last`.
 struct Place {
@@ -26,7 +27,8 @@ struct Place {
 std::string without_zeros(std::string_view text) {
   const std::size_t digits = std::min(text.find_first_of("0123456789"), text.size());
   const std::size_t first = std::min(text.find_first_not_of('0', digits), text.size());
-  return std::string(text.substr(0, digits)) + (first == text.size() ? "0" : std::string(text.substr(first)));
+  return std::string(text.substr(0, digits)) +
+         (first == text.size() ? "0" : std::string(text.substr(first)));
 }
 
 /// "N0001~0004" is N1~4, "%LW524 ~ %LW529" is %LW524~529.
@@ -42,9 +44,11 @@ std::string printed(const PlcModel& model, const Place& place) {
   const char area = model.areas[place.first.area].letter;
   const std::uint32_t words = place.first.type == 'D' ? 2 : 1;
   if (!model.iec) {
-    if (place.first.type == 'X') return fmt::format("{}{}{:X}", area, place.first.index / 16, place.first.index % 16);
+    if (place.first.type == 'X')
+      return fmt::format("{}{}{:X}", area, place.first.index / 16, place.first.index % 16);
     const std::uint32_t first = place.first.index * words;
-    return place.first == place.last ? fmt::format("{}{}", area, first) : fmt::format("{}{}~{}", area, first, place.last.index);
+    return place.first == place.last ? fmt::format("{}{}", area, first)
+                                     : fmt::format("{}{}~{}", area, first, place.last.index);
   }
   const std::string first = fmt::format("%{}{}{}", area, place.first.type, place.first.index);
   return place.first == place.last ? first : fmt::format("{}~{}", first, place.last.index);
@@ -63,7 +67,8 @@ DeviceAddress word_of(DeviceAddress address) {
   return address;
 }
 
-std::optional<Place> flag_place(const PlcModel& model, std::string_view name, unsigned parameter, unsigned block, unsigned last_block) {
+std::optional<Place> flag_place(const PlcModel& model, std::string_view name, unsigned parameter,
+                                unsigned block, unsigned last_block) {
   const P2pResultFlags flags = p2p_result_flags(model, parameter, block);
   const auto one = [](const DeviceAddress& a) { return Place{a, a}; };
   if (name == "ndr") return one(flags.ndr);
@@ -72,17 +77,21 @@ std::optional<Place> flag_place(const PlcModel& model, std::string_view name, un
   if (name == "services") return one(flags.services);
   if (name == "errors") return one(flags.errors);
   if (name != "all") return std::nullopt;
-  return Place{word_of(flags.ndr), word_of(p2p_result_flags(model, parameter, last_block).errors) + 1};
+  return Place{word_of(flags.ndr),
+               word_of(p2p_result_flags(model, parameter, last_block).errors) + 1};
 }
 
-std::optional<Place> register_place(const PlcModel& model, std::string_view name, unsigned parameter, unsigned block, unsigned last_block) {
+std::optional<Place> register_place(const PlcModel& model, std::string_view name,
+                                    unsigned parameter, unsigned block, unsigned last_block) {
   const P2pRegisters registers = p2p_registers(model, parameter, block);
   if (name == "station") return Place{registers.station, registers.station};
-  if (name == "all") return Place{registers.station, p2p_registers(model, parameter, last_block).save.back().size};
+  if (name == "all")
+    return Place{registers.station, p2p_registers(model, parameter, last_block).save.back().size};
   for (const auto& [which, areas] : {std::pair{"read", &registers.read}, {"save", &registers.save}})
     for (std::size_t i = 0; i < areas->size(); ++i) {
       const P2pRegisters::Area& area = (*areas)[i];
-      if (name == fmt::format("{} {}", which, i + 1)) return Place{area.name, word_before(area.size)};
+      if (name == fmt::format("{} {}", which, i + 1))
+        return Place{area.name, word_before(area.size)};
       if (name == fmt::format("{} {} size", which, i + 1)) return Place{area.size, area.size};
     }
   return std::nullopt;
@@ -91,7 +100,8 @@ std::optional<Place> register_place(const PlcModel& model, std::string_view name
 }  // namespace
 
 Status check_p2p_fact(const json& facts) {
-  if (const Status known = known_keys(facts, "a fact of the P2P service", keys); !known) return known;
+  if (const Status known = known_keys(facts, "a fact of the P2P service", keys); !known)
+    return known;
   unsigned parameter = 1, block = 0;
   std::string flag, registers;
   ConfigReader reader(facts, "a fact of the P2P service");
@@ -102,17 +112,23 @@ Status check_p2p_fact(const json& facts) {
   reader.text("flag", flag);
   reader.text("register", registers);
   if (reader.error()) return *reader.error();
-  if (parameter == 0 || flag.empty() == registers.empty() || (!facts.contains("mk") && !facts.contains("iec")))
-    return fail("a fact of the P2P service has p2p (1 to 3), block, flag or register, and mk or iec");
+  if (parameter == 0 || flag.empty() == registers.empty() ||
+      (!facts.contains("mk") && !facts.contains("iec")))
+    return fail(
+        "a fact of the P2P service has p2p (1 to 3), block, flag or register, and mk or iec");
   for (const auto& [key, name] : {std::pair{"mk", "xbc-h"}, {"iec", "xec-h"}}) {
     if (!facts.contains(key)) continue;
     const PlcModel& model = *find_plc_model(name);
-    const std::optional<Place> place = flag.empty() ? register_place(model, registers, parameter, block, last_block)
-                                                    : flag_place(model, flag, parameter, block, last_block);
-    if (!place) return fail(fmt::format("the P2P service has no {} '{}'", flag.empty() ? "register" : "flag", flag.empty() ? registers : flag));
+    const std::optional<Place> place =
+        flag.empty() ? register_place(model, registers, parameter, block, last_block)
+                     : flag_place(model, flag, parameter, block, last_block);
+    if (!place)
+      return fail(fmt::format("the P2P service has no {} '{}'", flag.empty() ? "register" : "flag",
+                              flag.empty() ? registers : flag));
     const std::string due = facts.value(key, ""), has = printed(model, *place);
     if (normal(due) != normal(has))
-      return fail(fmt::format("{} of P2P {} block {}: the table has {}, the manual {}", flag.empty() ? registers : flag, parameter, block, has, due));
+      return fail(fmt::format("{} of P2P {} block {}: the table has {}, the manual {}",
+                              flag.empty() ? registers : flag, parameter, block, has, due));
   }
   return ok();
 }

@@ -32,10 +32,12 @@ class XgtCnet : public Protocol {
     return names;
   }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model, const nlohmann::json& config) const override {
+  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
+                                                      const nlohmann::json& config) const override {
     if (is_p2p_client(config)) {
-      Result<std::unique_ptr<P2pPlc>> client =
-          make_p2p_plc(model, config, [](const PortConfig& port) { return std::make_unique<XgtP2pDriver>(port.gap()); });
+      Result<std::unique_ptr<P2pPlc>> client = make_p2p_plc(
+          model, config,
+          [](const PortConfig& port) { return std::make_unique<XgtP2pDriver>(port.gap()); });
       if (!client) return client.error();
       return std::unique_ptr<EmulatedDevice>(std::move(*client));
     }
@@ -47,7 +49,9 @@ class XgtCnet : public Protocol {
   }
 
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
-  std::optional<std::size_t> frame_length(ByteView bytes) const override { return xgt_cnet::frame_length(bytes); }
+  std::optional<std::size_t> frame_length(ByteView bytes) const override {
+    return xgt_cnet::frame_length(bytes);
+  }
   std::vector<Field> explain(ByteView frame) const override { return xgt_cnet::explain(frame); }
 
   /// Requests go from the client to the server.
@@ -58,11 +62,13 @@ class XgtCnet : public Protocol {
     return client ? FrameResult::xgt_client : FrameResult::xgt_server;
   }
 
-  /// The first word of M, which every model has, in the other case than the tested command: the reply repeats the
-  /// case of the request, so that no reply to the tested frame looks like the probe's.
+  /// The first word of M, which every model has, in the other case than the tested command: the
+  /// reply repeats the case of the request, so that no reply to the tested frame looks like the
+  /// probe's.
   Bytes probe(int station, ByteView tested) const override {
     const bool tested_lower = tested.size() > 3 && tested[3] >= 'a' && tested[3] <= 'z';
-    const std::string body = fmt::format("\x05{}{}SS0104%MW0\x04", station_text(station), tested_lower ? 'R' : 'r');
+    const std::string body =
+        fmt::format("\x05{}{}SS0104%MW0\x04", station_text(station), tested_lower ? 'R' : 'r');
     Bytes frame = to_bytes(body);
     if (tested_lower) return frame;
     unsigned sum = 0;
@@ -76,22 +82,35 @@ class XgtCnet : public Protocol {
     return reply.size() > 3 && (reply[0] == ack || reply[0] == nak) && reply[3] == probe[3];
   }
 
-  Result<std::vector<Bytes>> write_requests(int station, std::string_view address, std::string_view hex) const override {
+  Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
+                                            std::string_view hex) const override {
     return xgt_cnet::write_requests(station_text(station), address, hex);
   }
-  Result<std::vector<Bytes>> read_requests(int station, std::string_view address, std::size_t digits) const override {
+  Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
+                                           std::size_t digits) const override {
     return xgt_cnet::read_requests(station_text(station), address, digits);
   }
   Status write_reply(ByteView reply) const override { return xgt_cnet::write_reply(reply); }
-  Result<std::string> read_reply(ByteView reply) const override { return xgt_cnet::read_reply(reply); }
-  std::vector<Written> written_by(ByteView request) const override { return xgt_cnet::written_by(request, model_); }
+  Result<std::string> read_reply(ByteView reply) const override {
+    return xgt_cnet::read_reply(reply);
+  }
+  std::vector<Written> written_by(ByteView request) const override {
+    return xgt_cnet::written_by(request, model_);
+  }
 
-  Result<std::unique_ptr<Protocol>> configured(std::string_view model, const nlohmann::json&) const override {
+  Result<std::unique_ptr<Protocol>> configured(std::string_view model,
+                                               const nlohmann::json&) const override {
     return std::unique_ptr<Protocol>(std::make_unique<XgtCnet>(find_plc_model(model)));
   }
-  std::vector<Place> places(const Written& written) const override { return places_on(model(), written); }
-  std::optional<Written> named(std::string_view address, std::size_t digits) const override { return named_memory(model(), address, digits); }
-  std::optional<std::string> moved(std::string_view address, int words) const override { return moved_name(model(), address, words); }
+  std::vector<Place> places(const Written& written) const override {
+    return places_on(model(), written);
+  }
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
+    return named_memory(model(), address, digits);
+  }
+  std::optional<std::string> moved(std::string_view address, int words) const override {
+    return moved_name(model(), address, words);
+  }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return reply ? std::vector<AddressField>() : xgt_cnet::address_fields(frame, model());
   }
@@ -104,7 +123,8 @@ class XgtCnet : public Protocol {
   std::vector<Area> areas() const override {
     std::vector<Area> areas;
     for (char letter = 'A'; letter <= 'Z'; ++letter)
-      if (std::vector<std::uint32_t> ends = last_words_of(letter); !ends.empty()) areas.push_back({std::string(1, letter), std::move(ends)});
+      if (std::vector<std::uint32_t> ends = last_words_of(letter); !ends.empty())
+        areas.push_back({std::string(1, letter), std::move(ends)});
     return areas;
   }
 
@@ -112,15 +132,19 @@ class XgtCnet : public Protocol {
     if (facts.contains("p2p")) return check_p2p_fact(facts);
     const PlcModel* model = find_plc_model(facts.value("model", ""));
     const std::string letter = facts.value("area", "");
-    if (!model || letter.size() != 1) return fail("a fact has model (" + plc_model_names() + ") and area (one letter)");
+    if (!model || letter.size() != 1)
+      return fail("a fact has model (" + plc_model_names() + ") and area (one letter)");
     const DeviceArea* area = model->area(letter[0]);
     const std::uint32_t words = area ? area->words : 0;
     if (const std::uint32_t due = facts.value("words", words); due != words)
-      return fail(fmt::format("{} of {}: the table has {} words, the manual {}", letter, model->name, words, due));
+      return fail(fmt::format("{} of {}: the table has {} words, the manual {}", letter,
+                              model->name, words, due));
     if (area && facts.value("write", area->write) != area->write)
-      return fail(fmt::format("{} of {}: the table has it {}", letter, model->name, area->write ? "writable" : "read only"));
+      return fail(fmt::format("{} of {}: the table has it {}", letter, model->name,
+                              area->write ? "writable" : "read only"));
     for (const auto& [key, value] : facts.items())
-      if (key != "model" && key != "area" && key != "words" && key != "write") return fail(fmt::format("unknown fact '{}'", key));
+      if (key != "model" && key != "area" && key != "words" && key != "write")
+        return fail(fmt::format("unknown fact '{}'", key));
     return ok();
   }
 

@@ -12,7 +12,8 @@ namespace {
 
 class BrokenInverter : public EmulatedDevice {
  public:
-  BrokenInverter(Behaviour behaviour, GoodInverter inverter) : behaviour_(std::move(behaviour)), inverter_(std::move(inverter)) {}
+  BrokenInverter(Behaviour behaviour, GoodInverter inverter)
+      : behaviour_(std::move(behaviour)), inverter_(std::move(inverter)) {}
 
   void receive(const Burst& burst) override {
     Bytes heard = burst.bytes;
@@ -21,7 +22,8 @@ class BrokenInverter : public EmulatedDevice {
     for (const Byte b : heard) {
       if (!receiver_.take(b)) continue;
       const Bytes frame(receiver_.frame().begin(), receiver_.frame().end());
-      pending_.put(behaviour_.answer ? behaviour_.answer(frame, together, inverter_) : Sendings{{inverter_.answer(frame)}},
+      pending_.put(behaviour_.answer ? behaviour_.answer(frame, together, inverter_)
+                                     : Sendings{{inverter_.answer(frame)}},
                    burst.end());
       together = true;
     }
@@ -29,7 +31,9 @@ class BrokenInverter : public EmulatedDevice {
   std::optional<Time> wake_at() const override { return pending_.wake_at(std::nullopt); }
   Bytes advance(Time now) override { return pending_.take(now); }
 
-  Status set(std::string_view address, std::string_view hex) override { return inverter_.memory().set(address, hex); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return inverter_.memory().set(address, hex);
+  }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
     return inverter_.memory().get(address, digits);
   }
@@ -52,19 +56,22 @@ Error unknown(std::string_view fault) {
   std::vector<std::string_view> names{"none"};
   for (const auto* table : {&faults(), &back_door_faults()})
     for (const Fault& one : *table) names.push_back(one.name);
-  return fail(fmt::format("cannot break an inverter by '{}': there is no such fault; --list shows them{}", fault,
-                          suggestion(fault, names)));
+  return fail(
+      fmt::format("cannot break an inverter by '{}': there is no such fault; --list shows them{}",
+                  fault, suggestion(fault, names)));
 }
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_inverter(std::string_view fault, const nlohmann::json& config) {
+Result<std::unique_ptr<EmulatedDevice>> make_broken_inverter(std::string_view fault,
+                                                             const nlohmann::json& config) {
   const Fault* known = find_fault(fault);
   if (!known && fault != "none") return unknown(fault);
   const Result<InverterConfig> parsed = parse_inverter_config(config);
   if (!parsed) return parsed.error();
   GoodInverter good(std::make_unique<Inverter>(*parsed), parsed->station);
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<BrokenInverter>(known ? known->make() : Behaviour{}, std::move(good)));
+  return std::unique_ptr<EmulatedDevice>(
+      std::make_unique<BrokenInverter>(known ? known->make() : Behaviour{}, std::move(good)));
 }
 
 }  // namespace fieldproof::ls_bus

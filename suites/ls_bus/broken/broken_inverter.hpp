@@ -9,8 +9,9 @@
 
 namespace fieldproof::ls_bus {
 
-/// An inverter with the fault of that name, or without ("none"). `config` as of make_inverter. Errors name the fault or
-/// the key.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_inverter(std::string_view fault, const nlohmann::json& config);
+/// An inverter with the fault of that name, or without ("none"). `config` as of make_inverter.
+/// Errors name the fault or the key.
+Result<std::unique_ptr<EmulatedDevice>> make_broken_inverter(std::string_view fault,
+                                                             const nlohmann::json& config);
 
 }  // namespace fieldproof::ls_bus

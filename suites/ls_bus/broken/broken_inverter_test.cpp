@@ -1,5 +1,6 @@
-// The suite against broken inverters: each fault must turn its case red, with a message that names it, and the healthy
-// inverter must pass. As a user would, with the built tool; what takes a back door, in process.
+// The suite against broken inverters: each fault must turn its case red, with a message that names
+// it, and the healthy inverter must pass. As a user would, with the built tool; what takes a back
+// door, in process.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -28,24 +29,29 @@ std::string case_id(const Fault& fault) { return fmt::format("ls_bus/{}", fault.
 
 /// One file a topic, which loads faster than all.
 std::string vectors_of(const Fault& fault) {
-  return fmt::format("{}/vectors/ls_bus/{}.json", sources, fault.caught_by.substr(0, fault.caught_by.find('/')));
+  return fmt::format("{}/vectors/ls_bus/{}.json", sources,
+                     fault.caught_by.substr(0, fault.caught_by.find('/')));
 }
 
 std::string device(std::string_view fault, unsigned station) {
-  return fmt::format("{} {} {{tty}} {}?station={}&protocol=ls-bus", quoted(BROKEN_SERVER), fault, station, station);
+  return fmt::format("{} {} {{tty}} {}?station={}&protocol=ls-bus", quoted(BROKEN_SERVER), fault,
+                     station, station);
 }
 
 std::optional<Trial> trial_of(const std::string& test) {
-  if (test == "PassesTheWholeSuite") return Trial{healthy, device(healthy, 1), "inverter", {}, "ls_bus/*"};
-  const Fault* fault = test.starts_with("CatchesOnThePort/") ? find_fault(parameter_of(test)) : nullptr;
+  if (test == "PassesTheWholeSuite")
+    return Trial{healthy, device(healthy, 1), "inverter", {}, "ls_bus/*"};
+  const Fault* fault =
+      test.starts_with("CatchesOnThePort/") ? find_fault(parameter_of(test)) : nullptr;
   if (!fault) return std::nullopt;
   const std::string id = case_id(*fault);
-  return Trial{std::string(fault->name), device(fault->name, fault->station), "inverter", vectors_of(*fault),
-               fault->neighbours == alone ? id : neighbours_of(id)};
+  return Trial{std::string(fault->name), device(fault->name, fault->station), "inverter",
+               vectors_of(*fault), fault->neighbours == alone ? id : neighbours_of(id)};
 }
 
 SuiteRuns& runs() {
-  static auto* const environment = static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+  static auto* const environment =
+      static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
   return *environment;
 }
 [[maybe_unused]] const SuiteRuns& registered_before_main = runs();
@@ -68,7 +74,9 @@ CaseResult run_in_process(const Fault& fault, std::string_view device) {
     return {};
   }
   EmulatorEndpoint endpoint({"emulator", "inverter", {}},
-                            [device](std::string_view, const nlohmann::json& config) { return make_broken_inverter(device, config); });
+                            [device](std::string_view, const nlohmann::json& config) {
+                              return make_broken_inverter(device, config);
+                            });
   BenchOptions options;
   options.profile = *load_profile("inverter", sources + "/suites/profiles");
   return Bench(endpoint, protocol(), options).run(*source);
@@ -79,7 +87,8 @@ class BehindTheBackDoor : public testing::TestWithParam<Fault> {};
 TEST_P(BehindTheBackDoor, IsCaughtInProcess) {
   const CaseResult result = run_in_process(GetParam(), GetParam().name);
   EXPECT_EQ(result.verdict, Verdict::fail) << result.message;
-  EXPECT_TRUE(names(result, GetParam().message)) << "the message does not name '" << GetParam().message << "': " << result.message;
+  EXPECT_TRUE(names(result, GetParam().message))
+      << "the message does not name '" << GetParam().message << "': " << result.message;
 }
 
 TEST_P(BehindTheBackDoor, IsNotSeenInTheHealthyInverter) {
@@ -94,7 +103,8 @@ INSTANTIATE_TEST_SUITE_P(Broken, BehindTheBackDoor, testing::ValuesIn(back_door_
 TEST(HealthyInverter, PassesTheWholeSuite) {
   const SuiteRun run = runs().take(healthy);
   const std::size_t passed = expect_healthy(run, 200);
-  runs().report(fmt::format("{:<32} {} of {} cases pass, {:.1f} s", healthy, passed, run.results.size(), run.seconds));
+  runs().report(fmt::format("{:<32} {} of {} cases pass, {:.1f} s", healthy, passed,
+                            run.results.size(), run.seconds));
 }
 
 TEST(InverterFaults, NamesAreUnique) {

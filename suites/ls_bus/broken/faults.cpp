@@ -6,14 +6,17 @@ namespace {
 MakeBehaviour answering(std::function<Bytes(const Bytes& frame, GoodInverter& inverter)> answer) {
   return [answer = std::move(answer)] {
     Behaviour behaviour;
-    behaviour.answer = [answer](const Bytes& frame, bool, GoodInverter& inverter) { return Sendings{{answer(frame, inverter)}}; };
+    behaviour.answer = [answer](const Bytes& frame, bool, GoodInverter& inverter) {
+      return Sendings{{answer(frame, inverter)}};
+    };
     return behaviour;
   };
 }
 }  // namespace
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table = gather<Fault>({check_faults, reply_faults, request_faults, line_faults});
+  static const std::vector<Fault> table =
+      gather<Fault>({check_faults, reply_faults, request_faults, line_faults});
   return table;
 }
 
@@ -49,7 +52,9 @@ MakeBehaviour misread(std::function<void(FrameText& request)> read) {
   });
 }
 
-MakeBehaviour answer_with(std::function<FrameText(const FrameText& request, const FrameText& right, GoodInverter& inverter)> answer) {
+MakeBehaviour answer_with(std::function<FrameText(const FrameText& request, const FrameText& right,
+                                                  GoodInverter& inverter)>
+                              answer) {
   return answering([answer = std::move(answer)](const Bytes& frame, GoodInverter& inverter) {
     const FrameText request = take_apart(frame);
     const Bytes right = inverter.answer(frame);

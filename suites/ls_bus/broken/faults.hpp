@@ -1,4 +1,5 @@
-// What can be wrong with an inverter: each fault stands in front of a good one and spoils one thing.
+// What can be wrong with an inverter: each fault stands in front of a good one and spoils one
+// thing.
 #pragma once
 
 #include <functional>
@@ -25,7 +26,8 @@ using Fault = FaultOf<MakeBehaviour>;
 
 /// All of them but those of `back_door_faults`. "none" is no fault and not among them.
 const std::vector<Fault>& faults();
-/// Those whose cases set parameters that are read only, or the order of writes: only a back door can do that.
+/// Those whose cases set parameters that are read only, or the order of writes: only a back door
+/// can do that.
 const std::vector<Fault>& back_door_faults();
 /// Of either table; nullptr when unknown.
 const Fault* find_fault(std::string_view name);
@@ -36,13 +38,17 @@ std::vector<Fault> reply_faults();
 std::vector<Fault> request_faults();
 std::vector<Fault> line_faults();
 
-/// Spoils the reply of the good inverter. The sum is made right again (`edit_reply`), or left as it is (`spoil_frame`).
+/// Spoils the reply of the good inverter. The sum is made right again (`edit_reply`), or left as it
+/// is (`spoil_frame`).
 MakeBehaviour edit_reply(std::function<void(FrameText& reply, const FrameText& request)> edit);
 MakeBehaviour spoil_frame(std::function<void(FrameText& reply, const FrameText& request)> edit);
 /// Understands another request than was sent; its sum is made right where that of the request was.
 MakeBehaviour misread(std::function<void(FrameText& request)> read);
-/// Answers requests with a right sum in its own way, where the good inverter is not silent. `right` is its reply.
-MakeBehaviour answer_with(std::function<FrameText(const FrameText& request, const FrameText& right, GoodInverter& inverter)> answer);
+/// Answers requests with a right sum in its own way, where the good inverter is not silent. `right`
+/// is its reply.
+MakeBehaviour answer_with(std::function<FrameText(const FrameText& request, const FrameText& right,
+                                                  GoodInverter& inverter)>
+                              answer);
 /// Sends the right reply in its own way; is not asked where the good inverter is silent.
 MakeBehaviour send_with(std::function<Sendings(const Bytes& request, Bytes reply)> send);
 

@@ -33,7 +33,11 @@ FrameText reply_to(const FrameText& request, Byte head, std::string_view content
 }
 }  // namespace
 
-FrameText ack_to(const FrameText& request, std::string_view content) { return reply_to(request, ls_ack, content); }
-FrameText nak_to(const FrameText& request, std::string_view code) { return reply_to(request, ls_nak, code); }
+FrameText ack_to(const FrameText& request, std::string_view content) {
+  return reply_to(request, ls_ack, content);
+}
+FrameText nak_to(const FrameText& request, std::string_view code) {
+  return reply_to(request, ls_nak, code);
+}
 
 }  // namespace fieldproof::ls_bus

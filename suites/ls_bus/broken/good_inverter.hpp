@@ -11,7 +11,8 @@ namespace fieldproof::ls_bus {
 
 class GoodInverter : public GoodDevice {
  public:
-  GoodInverter(std::unique_ptr<EmulatedDevice> device, unsigned station) : GoodDevice(std::move(device)), station_(station) {}
+  GoodInverter(std::unique_ptr<EmulatedDevice> device, unsigned station)
+      : GoodDevice(std::move(device)), station_(station) {}
   unsigned station() const { return station_; }
 
  private:

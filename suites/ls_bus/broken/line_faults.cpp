@@ -1,5 +1,5 @@
-// Faults of time and of the line: late, split, repeated, lost and surplus bytes, where frames begin and end, and what
-// makes a device fall silent.
+// Faults of time and of the line: late, split, repeated, lost and surplus bytes, where frames begin
+// and end, and what makes a device fall silent.
 #include <algorithm>
 #include <utility>
 
@@ -54,7 +54,8 @@ MakeBehaviour takes_for(Byte other, Byte right) {
 Behaviour frame_must_begin_the_line() {
   Behaviour behaviour;
   behaviour.hear = [](Bytes& bytes) {
-    if (!bytes.empty() && bytes.front() != ls_enq) std::replace(bytes.begin(), bytes.end(), ls_enq, Byte{'?'});
+    if (!bytes.empty() && bytes.front() != ls_enq)
+      std::replace(bytes.begin(), bytes.end(), ls_enq, Byte{'?'});
   };
   return behaviour;
 }
@@ -63,7 +64,8 @@ Behaviour frame_must_begin_the_line() {
 Behaviour needs_no_enq() {
   Behaviour behaviour;
   behaviour.hear = [](Bytes& bytes) {
-    if (!bytes.empty() && bytes.front() >= '0' && bytes.front() <= '9') bytes.insert(bytes.begin(), ls_enq);
+    if (!bytes.empty() && bytes.front() >= '0' && bytes.front() <= '9')
+      bytes.insert(bytes.begin(), ls_enq);
   };
   return behaviour;
 }
@@ -131,40 +133,45 @@ std::vector<Fault> line_faults() {
          return Sendings{{std::move(reply), 700ms}};
        }),
        "errors/format_of_the_nak_r", "late answer"},
-      {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves), "errors/format_of_the_nak_r",
-       "split answer"},
+      {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves),
+       "errors/format_of_the_nak_r", "split answer"},
       {"echo", "the request comes back before the reply",
-       send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }), "errors/format_of_the_nak_r",
-       "echo"},
-      {"reply_twice", "each reply is sent twice", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),
+       send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }),
+       "errors/format_of_the_nak_r", "echo"},
+      {"reply_twice", "each reply is sent twice",
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),
        "read/count/words_2", "after the complete"},
       {"trailing_byte", "a byte 00 follows each reply",
-       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }), "read/count/words_2",
-       "after the complete"},
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }),
+       "read/count/words_2", "after the complete"},
       {"garbage_before_reply", "a byte FF comes before each reply",
-       send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }), "errors/format_of_the_nak_r",
-       "header"},
-      {"reply_one_behind", "each reply is that to the request before", one_behind, "errors/format_of_the_nak_r", "header"},
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }),
+       "errors/format_of_the_nak_r", "header"},
+      {"reply_one_behind", "each reply is that to the request before", one_behind,
+       "errors/format_of_the_nak_r", "header"},
       {"no_restart_at_enq", "ENQ inside a frame does not begin a new one", no_restart_at_enq,
        "frame_structure/enq_inside_a_frame/command", "header", alone},
-      {"etx_ends_a_request", "ETX ends a request as EOT does", takes_for(0x03, ls_eot), "frame_structure/etx_for_eot", "silence"},
+      {"etx_ends_a_request", "ETX ends a request as EOT does", takes_for(0x03, ls_eot),
+       "frame_structure/etx_for_eot", "silence"},
       {"stx_begins_a_request", "STX begins a request as ENQ does", takes_for(0x02, ls_enq),
        "frame_structure/reply_of_another/stx", "silence"},
       {"ack_begins_a_request", "ACK begins a request as ENQ does", takes_for(ls_ack, ls_enq),
        "frame_structure/reply_of_another/ack_of_one", "silence"},
-      {"needs_no_eot", "a frame without EOT is executed when its sum is right", needs_no_eot, "frame_structure/cut_off/sum",
-       "silence", alone},
-      {"needs_no_enq", "a frame without ENQ is executed", needs_no_enq, "frame_structure/headless_before_enq", "data", alone},
-      {"noise_spoils_the_frame", "a frame right after other bytes is not heard", frame_must_begin_the_line,
-       "frame_structure/before_enq/zeros", "no answer", alone},
-      {"first_of_two_requests", "of two requests without a pause between them the first is answered", deaf_while_busy,
+      {"needs_no_eot", "a frame without EOT is executed when its sum is right", needs_no_eot,
+       "frame_structure/cut_off/sum", "silence", alone},
+      {"needs_no_enq", "a frame without ENQ is executed", needs_no_enq,
+       "frame_structure/headless_before_enq", "data", alone},
+      {"noise_spoils_the_frame", "a frame right after other bytes is not heard",
+       frame_must_begin_the_line, "frame_structure/before_enq/zeros", "no answer", alone},
+      {"first_of_two_requests",
+       "of two requests without a pause between them the first is answered", deaf_while_busy,
        "frame_structure/two_requests", "no answer", alone},
-      {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak, "errors/count_read/9", "no answer",
-       alone},
-      {"dies_of_another_station", "silent for ever after a request to another station", dies_of_silence,
-       "stations/other_station_read", "no answer", alone},
-      {"dies_of_a_long_frame", "silent for ever after more than 44 bytes without EOT", dies_of_a_long_frame,
-       "frame_structure/endless_frame", "no answer", alone},
+      {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak,
+       "errors/count_read/9", "no answer", alone},
+      {"dies_of_another_station", "silent for ever after a request to another station",
+       dies_of_silence, "stations/other_station_read", "no answer", alone},
+      {"dies_of_a_long_frame", "silent for ever after more than 44 bytes without EOT",
+       dies_of_a_long_frame, "frame_structure/endless_frame", "no answer", alone},
   };
 }
 

@@ -1,5 +1,5 @@
-// ls_bus_broken_server: an inverter with a known fault on a terminal, in real time. For the tests of the suite, and for
-// whoever writes a client and wants to see it meet a bad inverter.
+// ls_bus_broken_server: an inverter with a known fault on a terminal, in real time. For the tests
+// of the suite, and for whoever writes a client and wants to see it meet a bad inverter.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -39,6 +39,8 @@ int main(int count, char** arguments) {
   HostOptions host;
   host.tty = given[1];
   host.config["station"] = given.size() > 2 ? given[2] : "1";
-  host.make_device = [&](const nlohmann::json& config) { return ls_bus::make_broken_inverter(given[0], config); };
+  host.make_device = [&](const nlohmann::json& config) {
+    return ls_bus::make_broken_inverter(given[0], config);
+  };
   return host_device(host);
 }

@@ -17,7 +17,8 @@ class BrokenServer : public EmulatedDevice, private FrameSink {
   BrokenServer(Behaviour behaviour, GoodModbus plc, Duration gap)
       : behaviour_(std::move(behaviour)),
         plc_(std::move(plc)),
-        receiver_(behaviour_.receiver ? behaviour_.receiver(plc_.mode(), gap) : make_modbus_receiver(plc_.mode(), gap)) {}
+        receiver_(behaviour_.receiver ? behaviour_.receiver(plc_.mode(), gap)
+                                      : make_modbus_receiver(plc_.mode(), gap)) {}
 
   void receive(const Burst& burst) override {
     Burst heard = burst;
@@ -30,8 +31,12 @@ class BrokenServer : public EmulatedDevice, private FrameSink {
     return pending_.take(now);
   }
 
-  Status set(std::string_view address, std::string_view hex) override { return plc_.memory().set(address, hex); }
-  Result<std::string> get(std::string_view address, std::size_t digits) const override { return plc_.memory().get(address, digits); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return plc_.memory().set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    return plc_.memory().get(address, digits);
+  }
   Status act(std::string_view action) override {
     const Status done = plc_.memory().act(action);
     if (!done || action != "power_cycle") return done;
@@ -43,7 +48,8 @@ class BrokenServer : public EmulatedDevice, private FrameSink {
  private:
   void on_frame(ByteView bytes, Time end) override {
     const Bytes frame(bytes.begin(), bytes.end());
-    pending_.put(behaviour_.answer ? behaviour_.answer(frame, plc_) : Sendings{{plc_.answer(frame)}}, end);
+    pending_.put(
+        behaviour_.answer ? behaviour_.answer(frame, plc_) : Sendings{{plc_.answer(frame)}}, end);
   }
   void on_broken_frame(std::uint16_t) override {}
 
@@ -55,23 +61,30 @@ class BrokenServer : public EmulatedDevice, private FrameSink {
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_server(std::string_view mode, std::string_view fault, const nlohmann::json& config) {
-  if (mode != "rtu" && mode != "ascii") return fail(fmt::format("cannot serve Modbus '{}': the modes are rtu and ascii", mode));
+Result<std::unique_ptr<EmulatedDevice>> make_broken_server(std::string_view mode,
+                                                           std::string_view fault,
+                                                           const nlohmann::json& config) {
+  if (mode != "rtu" && mode != "ascii")
+    return fail(fmt::format("cannot serve Modbus '{}': the modes are rtu and ascii", mode));
   const Fault* known = find_fault(fault);
   if (!known && fault != "none") {
     std::vector<std::string_view> names{"none"};
     for (const Fault& one : faults()) names.push_back(one.name);
-    return fail(fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}", fault, suggestion(fault, names)));
+    return fail(
+        fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}",
+                    fault, suggestion(fault, names)));
   }
   const ModbusMode modbus_mode = mode == "rtu" ? ModbusMode::rtu : ModbusMode::ascii;
-  Result<std::unique_ptr<EmulatedDevice>> device = make_modbus_plc(modbus_mode, config.at("model").get<std::string>(), config);
+  Result<std::unique_ptr<EmulatedDevice>> device =
+      make_modbus_plc(modbus_mode, config.at("model").get<std::string>(), config);
   if (!device) return device.error();
   ConfigReader reader(config, "the broken server's configuration");
   PortConfig port;
   read_port_config(reader, port);
   if (reader.error()) return *reader.error();
   GoodModbus good(modbus_mode, std::move(*device), static_cast<Byte>(port.station));
-  return std::unique_ptr<EmulatedDevice>(new BrokenServer(known ? known->make() : Behaviour{}, std::move(good), port.gap()));
+  return std::unique_ptr<EmulatedDevice>(
+      new BrokenServer(known ? known->make() : Behaviour{}, std::move(good), port.gap()));
 }
 
 }  // namespace fieldproof::modbus

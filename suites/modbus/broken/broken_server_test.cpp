@@ -1,5 +1,5 @@
-// The suite against broken Modbus servers: each fault must turn its case red, with a message that names it, and the
-// healthy server must pass in both modes.
+// The suite against broken Modbus servers: each fault must turn its case red, with a message that
+// names it, and the healthy server must pass in both modes.
 #include <gmock/gmock.h>
 
 #include "suites/broken/suite_runs.hpp"
@@ -16,22 +16,29 @@ using testing::HasSubstr;
 constexpr const char* profile = "xbc-h";
 
 /// "modbus_rtu/..." is tried in mode "rtu".
-std::string mode_of(std::string_view id) { return id.starts_with("modbus_ascii/") ? "ascii" : "rtu"; }
+std::string mode_of(std::string_view id) {
+  return id.starts_with("modbus_ascii/") ? "ascii" : "rtu";
+}
 
 std::string device(std::string_view mode, std::string_view fault, unsigned station) {
-  return fmt::format("{} {} {} {{tty}} {}?station={}&protocol=modbus-{}", quoted(BROKEN_SERVER), mode, fault, station, station, mode);
+  return fmt::format("{} {} {} {{tty}} {}?station={}&protocol=modbus-{}", quoted(BROKEN_SERVER),
+                     mode, fault, station, station, mode);
 }
 
 Trial trial_for(const Fault& fault) {
   const std::string id(fault.caught_by);
-  const std::string file = id.substr(0, id.find('/', id.find('/') + 1));  // one file a topic, which loads faster than all
+  const std::string file = id.substr(
+      0, id.find('/', id.find('/') + 1));  // one file a topic, which loads faster than all
   return {std::string(fault.name), device(mode_of(id), fault.name, fault.station), profile,
           fmt::format("{}/vectors/{}.json", FIELDPROOF_SOURCE_DIR, file),
-          fault.neighbours == alone ? id : fault.neighbours.empty() ? neighbours_of(id) : std::string(fault.neighbours)};
+          fault.neighbours == alone  ? id
+          : fault.neighbours.empty() ? neighbours_of(id)
+                                     : std::string(fault.neighbours)};
 }
 
 Trial whole_suite(const std::string& mode) {
-  return {"healthy_" + mode, device(mode, "none", 1), profile, {}, fmt::format("modbus_{}/*", mode)};
+  return {
+      "healthy_" + mode, device(mode, "none", 1), profile, {}, fmt::format("modbus_{}/*", mode)};
 }
 
 std::optional<Trial> trial_of(const std::string& test) {
@@ -42,7 +49,8 @@ std::optional<Trial> trial_of(const std::string& test) {
 }
 
 SuiteRuns& runs() {
-  static auto* const environment = static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+  static auto* const environment =
+      static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
   return *environment;
 }
 [[maybe_unused]] const SuiteRuns& registered_before_main = runs();
@@ -53,7 +61,8 @@ TEST_P(TheSuite, Catches) {
   const Fault& fault = GetParam();
   const SuiteRun run = runs().take(std::string(fault.name));
   const std::string message = expect_caught(run, std::string(fault.caught_by), fault.message);
-  runs().report(fmt::format("{:<40} {:<60} {:>4.1f} s  {}", fault.name, fault.caught_by, run.seconds, message));
+  runs().report(fmt::format("{:<40} {:<60} {:>4.1f} s  {}", fault.name, fault.caught_by,
+                            run.seconds, message));
 }
 
 INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
@@ -64,10 +73,12 @@ class HealthyServer : public testing::TestWithParam<std::string> {};
 TEST_P(HealthyServer, PassesTheWholeSuite) {
   const SuiteRun run = runs().take("healthy_" + GetParam());
   const std::size_t passed = expect_healthy(run, 100);
-  runs().report(fmt::format("healthy_{:<32} {} of {} cases pass, {:.1f} s", GetParam(), passed, run.results.size(), run.seconds));
+  runs().report(fmt::format("healthy_{:<32} {} of {} cases pass, {:.1f} s", GetParam(), passed,
+                            run.results.size(), run.seconds));
 }
 
-INSTANTIATE_TEST_SUITE_P(Modbus, HealthyServer, testing::Values("rtu", "ascii"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Modbus, HealthyServer, testing::Values("rtu", "ascii"),
+                         [](const auto& test) { return test.param; });
 
 TEST(FaultTable, NamesAreUnique) {
   std::map<std::string_view, int> names;
@@ -88,12 +99,14 @@ TEST(BrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
   EXPECT_THAT(ended.err, HasSubstr("crc_ignored"));
 }
 
-/// The words of M that requests would write are known: the fence holds for Modbus as for device names.
+/// The words of M that requests would write are known: the fence holds for Modbus as for device
+/// names.
 TEST(WriteFence, HoldsForTheWordsOfTheDefaultBases) {
   const TestFolder folder;
   const auto run_with = [&](const std::string& allowed) {
-    return run_tool({"run", "--endpoint", "exec:" + device("rtu", "none", 1), "--profile", profile, "--allow-write", allowed,
-                     "--filter", "modbus_rtu/writes/one_word/v1234", "--out", folder / "out"});
+    return run_tool({"run", "--endpoint", "exec:" + device("rtu", "none", 1), "--profile", profile,
+                     "--allow-write", allowed, "--filter", "modbus_rtu/writes/one_word/v1234",
+                     "--out", folder / "out"});
   };
   EXPECT_EQ(run_with("M99-M101").code, 0);
   const Finished outside = run_with("M99-M100");

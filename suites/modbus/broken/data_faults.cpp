@@ -1,4 +1,5 @@
-// Faults in what is read and written: addresses, order of bits and bytes, which area (000 6.1.3, 9.3.2 (5), 9.4).
+// Faults in what is read and written: addresses, order of bits and bytes, which area
+// (000 6.1.3, 9.3.2 (5), 9.4).
 #include <algorithm>
 #include <array>
 
@@ -9,9 +10,11 @@ namespace fieldproof::modbus {
 namespace {
 
 /// Edits the data of replies to reads by one of two function codes.
-MakeBehaviour edit_data(Byte one, Byte other, std::function<void(Bytes& data, const Bytes& request)> edit) {
+MakeBehaviour edit_data(Byte one, Byte other,
+                        std::function<void(Bytes& data, const Bytes& request)> edit) {
   return edit_reply([one, other, edit = std::move(edit)](Bytes& reply, const Bytes& request) {
-    if (exception_of(reply) || (function_of(request) != one && function_of(request) != other)) return;
+    if (exception_of(reply) || (function_of(request) != one && function_of(request) != other))
+      return;
     Bytes data = data_of_read(reply);
     edit(data, request);
     reply = read_reply(request, data);
@@ -44,7 +47,9 @@ MakeBehaviour reads_other_area(Byte one, Byte other) {
 
 /// Words in requests to write come with the low byte first.
 Bytes write_words_swapped(Bytes request) {
-  const std::size_t from = function_of(request) == 0x06 ? 4 : function_of(request) == 0x10 ? 7 : request.size();
+  const std::size_t from = function_of(request) == 0x06   ? 4
+                           : function_of(request) == 0x10 ? 7
+                                                          : request.size();
   for (std::size_t i = from; i + 1 < request.size(); i += 2) std::swap(request[i], request[i + 1]);
   return request;
 }
@@ -55,7 +60,8 @@ Bytes one_based(const Bytes& request, GoodModbus& plc) {
   Bytes other = request;
   put_word(other, address_at, word_at(request, address_at) - 1);
   Bytes reply = plc.ask(other);
-  if (!reply.empty() && !exception_of(reply) && !is_read(function_of(reply))) put_word(reply, address_at, word_at(request, address_at));
+  if (!reply.empty() && !exception_of(reply) && !is_read(function_of(reply)))
+    put_word(reply, address_at, word_at(request, address_at));
   return reply;
 }
 
@@ -83,7 +89,8 @@ Bytes write_partly(const Bytes& request, GoodModbus& plc) {
 /// Cuts writes of many to the first `count` elements; the reply names them all.
 MakeBehaviour write_first(Byte function, unsigned most) {
   return answer_with([function, most](const Bytes& request, GoodModbus& plc) {
-    if (function_of(request) != function || word_at(request, count_at) <= most) return plc.ask(request);
+    if (function_of(request) != function || word_at(request, count_at) <= most)
+      return plc.ask(request);
     Bytes data = data_of_write(request);
     const std::size_t bytes = is_bits(function) ? (most + 7) / 8 : most * 2;
     if (data.size() <= bytes) return plc.ask(request);
@@ -112,7 +119,9 @@ Bytes clear_next(const Bytes& request, GoodModbus& plc) {
   const Bytes reply = plc.ask(request);
   if (function_of(reply) != 0x06 && function_of(reply) != 0x10) return reply;
   Bytes next{request[0], 0x06, 0, 0, 0, 0};
-  put_word(next, address_at, word_at(request, address_at) + (function_of(reply) == 0x06 ? 1 : word_at(request, count_at)));
+  put_word(
+      next, address_at,
+      word_at(request, address_at) + (function_of(reply) == 0x06 ? 1 : word_at(request, count_at)));
   (void)plc.ask(next);
   return reply;
 }
@@ -121,29 +130,39 @@ Bytes clear_next(const Bytes& request, GoodModbus& plc) {
 
 std::vector<Fault> data_faults() {
   return {
-      {"byte_count_one_more", "the byte count of replies is one too high", edit_reply([](Bytes& reply, const Bytes& request) {
-         if (is_read(function_of(reply)) && reply.size() > 2 && is_read(function_of(request))) ++reply[2];
+      {"byte_count_one_more", "the byte count of replies is one too high",
+       edit_reply([](Bytes& reply, const Bytes& request) {
+         if (is_read(function_of(reply)) && reply.size() > 2 && is_read(function_of(request)))
+           ++reply[2];
        }),
        "modbus_rtu/modes/serves", "byte count"},
-      {"byte_count_in_words", "the byte count of replies counts words", edit_reply([](Bytes& reply, const Bytes&) {
+      {"byte_count_in_words", "the byte count of replies counts words",
+       edit_reply([](Bytes& reply, const Bytes&) {
          if (function_of(reply) == 0x03 || function_of(reply) == 0x04) reply[2] /= 2;
        }),
        "modbus_rtu/modes/serves", "byte count"},
       {"bits_mirrored", "the first bit of a byte of coils or inputs is bit 7",
-       edit_data(0x01, 0x02, [](Bytes& data, const Bytes&) { std::ranges::transform(data, data.begin(), mirrored); }), "modbus_rtu/data/bits_01/a3_n13",
-       "data"},
+       edit_data(
+           0x01, 0x02,
+           [](Bytes& data, const Bytes&) { std::ranges::transform(data, data.begin(), mirrored); }),
+       "modbus_rtu/data/bits_01/a3_n13", "data"},
       {"bits_in_reverse_bytes", "the bytes of coils come last first",
-       edit_data(0x01, 0x02, [](Bytes& data, const Bytes&) { std::ranges::reverse(data); }), "modbus_rtu/data/bits_01/a0_n16", "data"},
+       edit_data(0x01, 0x02, [](Bytes& data, const Bytes&) { std::ranges::reverse(data); }),
+       "modbus_rtu/data/bits_01/a0_n16", "data"},
       {"padding_is_ones", "what pads the last byte of coils is 1",
-       edit_data(0x01, 0x02, [](Bytes& data, const Bytes& request) {
-         if (const unsigned used = word_at(request, count_at) % 8; used != 0) data.back() |= static_cast<Byte>(0xFF << used);
-       }),
+       edit_data(0x01, 0x02,
+                 [](Bytes& data, const Bytes& request) {
+                   if (const unsigned used = word_at(request, count_at) % 8; used != 0)
+                     data.back() |= static_cast<Byte>(0xFF << used);
+                 }),
        "modbus_rtu/data/bits_01/a3_n1", "data"},
       {"words_low_byte_first", "words are sent with the low byte first",
-       edit_data(0x03, 0x04, [](Bytes& data, const Bytes&) { swap_bytes(data); }), "modbus_rtu/modes/serves", "data"},
-      {"written_words_low_byte_first", "words are written with the low byte first", misread(write_words_swapped), "modbus_rtu/modes/serves",
-       "data"},
-      {"words_swapped_both_ways", "words are stored with their bytes swapped, which reading by words does not show",
+       edit_data(0x03, 0x04, [](Bytes& data, const Bytes&) { swap_bytes(data); }),
+       "modbus_rtu/modes/serves", "data"},
+      {"written_words_low_byte_first", "words are written with the low byte first",
+       misread(write_words_swapped), "modbus_rtu/modes/serves", "data"},
+      {"words_swapped_both_ways",
+       "words are stored with their bytes swapped, which reading by words does not show",
        [] {
          Behaviour behaviour;
          behaviour.answer = [](const Bytes& frame, GoodModbus& plc) {
@@ -161,38 +180,55 @@ std::vector<Fault> data_faults() {
          return behaviour;
        },
        "modbus_rtu/writes/words_then_bits", "data"},
-      {"addresses_one_based", "data address 1 is the first", answer_with(one_based), "modbus_rtu/writes/words_then_bits", "data"},
-      {"coils_and_inputs_swapped", "function code 01 reads the inputs, 02 the coils", reads_other_area(0x01, 0x02), "modbus_rtu/data/bits_01/a3_n8", "data"},
-      {"registers_swapped", "function code 03 reads the input registers, 04 the holding registers", reads_other_area(0x03, 0x04),
-       "modbus_rtu/modes/serves", "data"},
-      {"writes_partly", "a write past the end writes what fits in, and refuses", answer_with(write_partly), "modbus_rtu/addressing/end_of_words_10/xbc_h", "%MW"},
-      {"writes_one_register_of_many", "preset multiple registers writes the first one", write_first(0x10, 1), "modbus_rtu/writes/words/n2", "%MW"},
-      {"writes_eight_coils_of_many", "force multiple coils writes the first byte", write_first(0x0F, 8), "modbus_rtu/writes/bits/a3_n13", "%MW"},
-      {"writes_padding", "force multiple coils writes what pads the last byte", answer_with([](const Bytes& request, GoodModbus& plc) {
+      {"addresses_one_based", "data address 1 is the first", answer_with(one_based),
+       "modbus_rtu/writes/words_then_bits", "data"},
+      {"coils_and_inputs_swapped", "function code 01 reads the inputs, 02 the coils",
+       reads_other_area(0x01, 0x02), "modbus_rtu/data/bits_01/a3_n8", "data"},
+      {"registers_swapped", "function code 03 reads the input registers, 04 the holding registers",
+       reads_other_area(0x03, 0x04), "modbus_rtu/modes/serves", "data"},
+      {"writes_partly", "a write past the end writes what fits in, and refuses",
+       answer_with(write_partly), "modbus_rtu/addressing/end_of_words_10/xbc_h", "%MW"},
+      {"writes_one_register_of_many", "preset multiple registers writes the first one",
+       write_first(0x10, 1), "modbus_rtu/writes/words/n2", "%MW"},
+      {"writes_eight_coils_of_many", "force multiple coils writes the first byte",
+       write_first(0x0F, 8), "modbus_rtu/writes/bits/a3_n13", "%MW"},
+      {"writes_padding", "force multiple coils writes what pads the last byte",
+       answer_with([](const Bytes& request, GoodModbus& plc) {
          Bytes reply = plc.ask(write_padding(request));
          if (function_of(reply) == 0x0F) put_word(reply, count_at, word_at(request, count_at));
          return reply;
        }),
        "modbus_rtu/writes/padding_bits/n1_fe", "%MW"},
-      {"clears_the_next_word", "a write of words clears the word behind them", answer_with(clear_next), "modbus_rtu/writes/one_word/v1234", "%MW"},
-      {"coil_on_is_off", "force single coil with FF00 switches off", answer_with([](const Bytes& request, GoodModbus& plc) {
+      {"clears_the_next_word", "a write of words clears the word behind them",
+       answer_with(clear_next), "modbus_rtu/writes/one_word/v1234", "%MW"},
+      {"coil_on_is_off", "force single coil with FF00 switches off",
+       answer_with([](const Bytes& request, GoodModbus& plc) {
          Bytes other = request;
-         if (function_of(request) == 0x05 && word_at(request, value_at) == 0xFF00) put_word(other, value_at, 0);
+         if (function_of(request) == 0x05 && word_at(request, value_at) == 0xFF00)
+           put_word(other, value_at, 0);
          const Bytes reply = plc.ask(other);
          return function_of(reply) == 0x05 ? request : reply;
        }),
        "modbus_rtu/writes/one_bit/b0_on", "%MW"},
       {"multiple_coils_reply_04", "the reply to 0F carries 04, as the example is printed",
-       edit_write_reply(0x0F, [](Bytes& reply, const Bytes&) { reply[1] = 0x04; }), "modbus_rtu/examples/force_multiple_coils", "function code"},
+       edit_write_reply(0x0F, [](Bytes& reply, const Bytes&) { reply[1] = 0x04; }),
+       "modbus_rtu/examples/force_multiple_coils", "function code"},
       {"single_coil_reply_0001", "the reply to force single coil carries 0001 for on",
-       edit_write_reply(0x05, [](Bytes& reply, const Bytes&) { put_word(reply, value_at, reply[value_at] ? 1 : 0); }), "modbus_rtu/examples/force_single_coil",
-       "value"},
+       edit_write_reply(
+           0x05,
+           [](Bytes& reply, const Bytes&) { put_word(reply, value_at, reply[value_at] ? 1 : 0); }),
+       "modbus_rtu/examples/force_single_coil", "value"},
       {"single_register_reply_zero", "the reply to preset single register carries 0000",
-       edit_write_reply(0x06, [](Bytes& reply, const Bytes&) { put_word(reply, value_at, 0); }), "modbus_rtu/examples/preset_single_register", "value"},
+       edit_write_reply(0x06, [](Bytes& reply, const Bytes&) { put_word(reply, value_at, 0); }),
+       "modbus_rtu/examples/preset_single_register", "value"},
       {"multiple_registers_reply_is_the_request", "the reply to 10 repeats the request",
-       edit_write_reply(0x10, [](Bytes& reply, const Bytes& request) { reply = request; }), "modbus_rtu/examples/preset_multiple_registers", "echo"},
+       edit_write_reply(0x10, [](Bytes& reply, const Bytes& request) { reply = request; }),
+       "modbus_rtu/examples/preset_multiple_registers", "echo"},
       {"multiple_registers_reply_in_bytes", "the reply to 10 counts bytes",
-       edit_write_reply(0x10, [](Bytes& reply, const Bytes&) { put_word(reply, count_at, word_at(reply, count_at) * 2); }),
+       edit_write_reply(0x10,
+                        [](Bytes& reply, const Bytes&) {
+                          put_word(reply, count_at, word_at(reply, count_at) * 2);
+                        }),
        "modbus_ascii/examples/preset_multiple_registers", "count"},
   };
 }

@@ -3,7 +3,8 @@
 namespace fieldproof::modbus {
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table = gather<Fault>({frame_faults, exception_faults, limit_faults, data_faults, line_faults});
+  static const std::vector<Fault> table =
+      gather<Fault>({frame_faults, exception_faults, limit_faults, data_faults, line_faults});
   return table;
 }
 
@@ -12,7 +13,9 @@ const Fault* find_fault(std::string_view name) { return find_by_name(faults(), n
 MakeBehaviour answer_frame(std::function<Bytes(const Bytes& frame, GoodModbus& plc)> answer) {
   return [answer = std::move(answer)] {
     Behaviour behaviour;
-    behaviour.answer = [answer](const Bytes& frame, GoodModbus& plc) { return Sendings{{answer(frame, plc)}}; };
+    behaviour.answer = [answer](const Bytes& frame, GoodModbus& plc) {
+      return Sendings{{answer(frame, plc)}};
+    };
     return behaviour;
   };
 }
@@ -42,7 +45,9 @@ MakeBehaviour spoil_frame(std::function<void(Bytes& frame)> spoil) {
 }
 
 MakeBehaviour misread(std::function<Bytes(Bytes request)> read) {
-  return answer_with([read = std::move(read)](const Bytes& request, GoodModbus& plc) { return plc.ask(read(request)); });
+  return answer_with([read = std::move(read)](const Bytes& request, GoodModbus& plc) {
+    return plc.ask(read(request));
+  });
 }
 
 MakeBehaviour send_with(std::function<Sendings(const Bytes& frame, Bytes reply)> send) {

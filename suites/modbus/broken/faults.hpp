@@ -1,4 +1,5 @@
-// What can be wrong with a Modbus server: each fault stands in front of a good one and spoils one thing.
+// What can be wrong with a Modbus server: each fault stands in front of a good one and spoils one
+// thing.
 #pragma once
 
 #include <functional>
@@ -41,7 +42,8 @@ std::vector<Fault> line_faults();
 MakeBehaviour answer_frame(std::function<Bytes(const Bytes& frame, GoodModbus& plc)> answer);
 /// Answers undamaged messages, of whichever station, in its own way.
 MakeBehaviour answer_with(std::function<Bytes(const Bytes& request, GoodModbus& plc)> answer);
-/// Spoils the reply of the good server; the check is made right again (`edit_reply`), or the frame spoiled (`spoil_frame`).
+/// Spoils the reply of the good server; the check is made right again (`edit_reply`), or the frame
+/// spoiled (`spoil_frame`).
 MakeBehaviour edit_reply(std::function<void(Bytes& reply, const Bytes& request)> edit);
 MakeBehaviour spoil_frame(std::function<void(Bytes& frame)> spoil);
 /// Understands another request than was sent.

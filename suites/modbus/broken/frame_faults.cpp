@@ -25,7 +25,8 @@ std::uint16_t crc_from_zero(ByteView message) {
   std::uint16_t crc = 0;
   for (const Byte b : message) {
     crc ^= b;
-    for (int i = 0; i < 8; ++i) crc = static_cast<std::uint16_t>((crc & 1) ? (crc >> 1) ^ 0xA001 : crc >> 1);
+    for (int i = 0; i < 8; ++i)
+      crc = static_cast<std::uint16_t>((crc & 1) ? (crc >> 1) ^ 0xA001 : crc >> 1);
   }
   return crc;
 }
@@ -46,8 +47,12 @@ unsigned sum_of_pairs(ByteView characters) {
   return sum;
 }
 
-Byte lrc_without_complement(ByteView characters) { return static_cast<Byte>(sum_of_pairs(characters)); }
-Byte lrc_as_ones_complement(ByteView characters) { return static_cast<Byte>(~sum_of_pairs(characters)); }
+Byte lrc_without_complement(ByteView characters) {
+  return static_cast<Byte>(sum_of_pairs(characters));
+}
+Byte lrc_as_ones_complement(ByteView characters) {
+  return static_cast<Byte>(~sum_of_pairs(characters));
+}
 /// The LRC of the characters that travel, not of the bytes that they stand for.
 Byte lrc_of_characters(ByteView characters) { return modbus_lrc(characters.subspan(1)); }
 
@@ -57,19 +62,22 @@ void lower_case(Bytes& frame, std::size_t from, std::size_t to) {
 
 /// What a frame says, its check unseen; empty where it is too short.
 Bytes without_check(const Bytes& frame, ModbusMode mode) {
-  if (mode == ModbusMode::rtu) return frame.size() < 4 ? Bytes{} : Bytes(frame.begin(), frame.end() - check_size);
+  if (mode == ModbusMode::rtu)
+    return frame.size() < 4 ? Bytes{} : Bytes(frame.begin(), frame.end() - check_size);
   if (frame.size() < 9) return {};
   Bytes bytes = from_hex(to_text(ByteView(frame).subspan(1, frame.size() - 3))).value_or(Bytes{});
   if (!bytes.empty()) bytes.pop_back();
   return bytes;
 }
 
-/// Answers with the characters of an ASCII request changed and a right LRC; as they are where they are right.
+/// Answers with the characters of an ASCII request changed and a right LRC; as they are where they
+/// are right.
 Bytes forgive(const Bytes& frame, GoodModbus& plc, Bytes (*change)(Bytes frame)) {
   Bytes reply = plc.answer(frame);
   if (!reply.empty() || frame.size() < 9) return reply;
   const Bytes message = without_check(change(frame), plc.mode());
-  return message.size() < 2 || message[0] != plc.station() ? Bytes{} : plc.answer(plc.frame(message));
+  return message.size() < 2 || message[0] != plc.station() ? Bytes{}
+                                                           : plc.answer(plc.frame(message));
 }
 
 Bytes drop_odd_digit(Bytes frame) {
@@ -84,7 +92,8 @@ Bytes zero_for_not_hex(Bytes frame) {
 }
 
 MakeBehaviour forgiving(Bytes (*change)(Bytes frame)) {
-  return answer_frame([change](const Bytes& frame, GoodModbus& plc) { return forgive(frame, plc, change); });
+  return answer_frame(
+      [change](const Bytes& frame, GoodModbus& plc) { return forgive(frame, plc, change); });
 }
 
 /// Answers requests to other stations, too.
@@ -103,41 +112,61 @@ std::vector<Fault> frame_faults() {
   const auto any = [](Byte) { return true; };
   return {
       {"crc_high_byte_first", "the CRC of replies has its high byte first",
-       spoil_frame([](Bytes& frame) { std::swap(frame[frame.size() - 2], frame[frame.size() - 1]); }), "modbus_rtu/modes/serves", "CRC"},
-      {"crc_from_zero", "the CRC of replies starts from 0000", another_crc(crc_from_zero), "modbus_rtu/modes/serves", "CRC"},
+       spoil_frame(
+           [](Bytes& frame) { std::swap(frame[frame.size() - 2], frame[frame.size() - 1]); }),
+       "modbus_rtu/modes/serves", "CRC"},
+      {"crc_from_zero", "the CRC of replies starts from 0000", another_crc(crc_from_zero),
+       "modbus_rtu/modes/serves", "CRC"},
       {"crc_without_station", "the CRC of replies leaves the station out",
-       another_crc([](ByteView message) { return modbus_crc(message.subspan(1)); }), "modbus_rtu/modes/serves", "CRC"},
+       another_crc([](ByteView message) { return modbus_crc(message.subspan(1)); }),
+       "modbus_rtu/modes/serves", "CRC"},
       {"crc_missing_on_exceptions", "an exception has no CRC", spoil_frame([](Bytes& frame) {
          if (frame[1] & 0x80) frame.resize(frame.size() - check_size);
        }),
        "modbus_rtu/examples/read_coil_status_refused", "CRC"},
-      {"crc_ignored", "the CRC of requests is not looked at", answer_frame([](const Bytes& frame, GoodModbus& plc) {
+      {"crc_ignored", "the CRC of requests is not looked at",
+       answer_frame([](const Bytes& frame, GoodModbus& plc) {
          const Bytes message = without_check(frame, plc.mode());
-         return message.size() < 2 || message[0] != plc.station() ? Bytes{} : plc.answer(plc.frame(message));
+         return message.size() < 2 || message[0] != plc.station() ? Bytes{}
+                                                                  : plc.answer(plc.frame(message));
        }),
        "modbus_rtu/line/wrong_check/f06", "silence"},
-      {"lrc_ignored", "the LRC of requests is not looked at", forgiving([](Bytes frame) { return frame; }), "modbus_ascii/line/wrong_check/f06", "silence"},
-      {"lrc_in_lower_case", "the LRC of replies has lower-case digits",
-       spoil_frame([](Bytes& frame) { lower_case(frame, frame.size() - 4, frame.size()); }), "modbus_ascii/examples/read_holding_registers", "LRC"},
-      {"lrc_without_complement", "the LRC of replies is the sum itself", another_lrc(lrc_without_complement), "modbus_ascii/modes/serves", "LRC"},
-      {"lrc_ones_complement", "the LRC of replies is the one's complement", another_lrc(lrc_as_ones_complement), "modbus_ascii/modes/serves", "LRC"},
-      {"lrc_of_characters", "the LRC of replies sums the characters", another_lrc(lrc_of_characters), "modbus_ascii/modes/serves", "LRC"},
-      {"replies_in_lower_case", "replies have lower-case digits",
-       spoil_frame([](Bytes& frame) {
-         lower_case(frame, 0, frame.size() - 4);
-       }),
-       "modbus_ascii/line/replies_in_upper_case", "data"},
-      {"lf_missing", "replies end with CR alone", spoil_frame([](Bytes& frame) { frame.pop_back(); }), "modbus_ascii/modes/serves", "tail"},
-      {"cr_missing", "replies end with LF alone", spoil_frame([](Bytes& frame) { frame.erase(frame.end() - 2); }), "modbus_ascii/modes/serves", "tail"},
-      {"colon_missing", "replies have no colon", spoil_frame([](Bytes& frame) { frame.erase(frame.begin()); }), "modbus_ascii/examples/read_coil_status_refused", "header"},
-      {"odd_digits_answered", "the last of an odd number of digits is dropped", forgiving(drop_odd_digit), "modbus_ascii/line/odd_digits/one_more", "silence"},
-      {"not_hex_is_zero", "a character that is not hex is taken for 0", forgiving(zero_for_not_hex), "modbus_ascii/line/not_hex/g", "silence"},
-      {"answers_foreign_stations", "requests to any station are answered, in its name", answers_for(any, false), "modbus_rtu/station/other_numbers/s02", "silence"},
-      {"answers_all_as_itself", "requests to any station are answered, with the own number", answers_for(any, true), "modbus_ascii/station/other_numbers/s02",
+      {"lrc_ignored", "the LRC of requests is not looked at",
+       forgiving([](Bytes frame) { return frame; }), "modbus_ascii/line/wrong_check/f06",
        "silence"},
+      {"lrc_in_lower_case", "the LRC of replies has lower-case digits",
+       spoil_frame([](Bytes& frame) { lower_case(frame, frame.size() - 4, frame.size()); }),
+       "modbus_ascii/examples/read_holding_registers", "LRC"},
+      {"lrc_without_complement", "the LRC of replies is the sum itself",
+       another_lrc(lrc_without_complement), "modbus_ascii/modes/serves", "LRC"},
+      {"lrc_ones_complement", "the LRC of replies is the one's complement",
+       another_lrc(lrc_as_ones_complement), "modbus_ascii/modes/serves", "LRC"},
+      {"lrc_of_characters", "the LRC of replies sums the characters",
+       another_lrc(lrc_of_characters), "modbus_ascii/modes/serves", "LRC"},
+      {"replies_in_lower_case", "replies have lower-case digits",
+       spoil_frame([](Bytes& frame) { lower_case(frame, 0, frame.size() - 4); }),
+       "modbus_ascii/line/replies_in_upper_case", "data"},
+      {"lf_missing", "replies end with CR alone",
+       spoil_frame([](Bytes& frame) { frame.pop_back(); }), "modbus_ascii/modes/serves", "tail"},
+      {"cr_missing", "replies end with LF alone",
+       spoil_frame([](Bytes& frame) { frame.erase(frame.end() - 2); }), "modbus_ascii/modes/serves",
+       "tail"},
+      {"colon_missing", "replies have no colon",
+       spoil_frame([](Bytes& frame) { frame.erase(frame.begin()); }),
+       "modbus_ascii/examples/read_coil_status_refused", "header"},
+      {"odd_digits_answered", "the last of an odd number of digits is dropped",
+       forgiving(drop_odd_digit), "modbus_ascii/line/odd_digits/one_more", "silence"},
+      {"not_hex_is_zero", "a character that is not hex is taken for 0", forgiving(zero_for_not_hex),
+       "modbus_ascii/line/not_hex/g", "silence"},
+      {"answers_foreign_stations", "requests to any station are answered, in its name",
+       answers_for(any, false), "modbus_rtu/station/other_numbers/s02", "silence"},
+      {"answers_all_as_itself", "requests to any station are answered, with the own number",
+       answers_for(any, true), "modbus_ascii/station/other_numbers/s02", "silence"},
       {"replies_from_station_zero", "replies come from station 0",
-       edit_reply([](Bytes& reply, const Bytes&) { reply[0] = 0; }), "modbus_rtu/modes/serves", "station"},
-      {"exceptions_from_station_zero", "exceptions come from station 0", edit_reply([](Bytes& reply, const Bytes&) {
+       edit_reply([](Bytes& reply, const Bytes&) { reply[0] = 0; }), "modbus_rtu/modes/serves",
+       "station"},
+      {"exceptions_from_station_zero", "exceptions come from station 0",
+       edit_reply([](Bytes& reply, const Bytes&) {
          if (exception_of(reply)) reply[0] = 0;
        }),
        "modbus_ascii/examples/read_coil_status_refused", "station"},

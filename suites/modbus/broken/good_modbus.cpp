@@ -32,9 +32,13 @@ void put_word(Bytes& message, std::size_t at, unsigned value) {
 }
 
 bool is_read(Byte function) { return function >= 0x01 && function <= 0x04; }
-bool is_bits(Byte function) { return function == 0x01 || function == 0x02 || function == 0x05 || function == 0x0F; }
+bool is_bits(Byte function) {
+  return function == 0x01 || function == 0x02 || function == 0x05 || function == 0x0F;
+}
 
-Byte exception_of(const Bytes& reply) { return reply.size() > 2 && (reply[1] & 0x80) ? reply[2] : Byte{}; }
+Byte exception_of(const Bytes& reply) {
+  return reply.size() > 2 && (reply[1] & 0x80) ? reply[2] : Byte{};
+}
 
 Bytes exception_to(const Bytes& request, Byte code) {
   return {request[0], static_cast<Byte>(request[1] | 0x80), code};

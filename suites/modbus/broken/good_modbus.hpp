@@ -1,4 +1,5 @@
-// The good Modbus server behind a fault, asked one message at a time: station and PDU, whatever the mode.
+// The good Modbus server behind a fault, asked one message at a time: station and PDU, whatever the
+// mode.
 #pragma once
 
 #include "src/modbus/frame.hpp"
@@ -15,7 +16,9 @@ class GoodModbus : public GoodDevice {
   Byte station() const { return station_; }
 
   /// A message with its right check, and in ASCII with head and tail.
-  Bytes frame(ByteView message) const { return encode_modbus_frame(mode_, message[0], message.subspan(1)); }
+  Bytes frame(ByteView message) const {
+    return encode_modbus_frame(mode_, message[0], message.subspan(1));
+  }
   /// The message of a frame; empty where the frame is damaged.
   Bytes message(ByteView frame) const;
 

@@ -1,4 +1,5 @@
-// Faults of time and of the line: where frames begin and end, late, repeated, lost and surplus bytes (000 9.3.1, 9.3.2).
+// Faults of time and of the line: where frames begin and end, late, repeated, lost and surplus
+// bytes (000 9.3.1, 9.3.2).
 #include <algorithm>
 #include <utility>
 
@@ -13,7 +14,8 @@ Bytes operator+(Bytes a, const Bytes& b) {
   return a;
 }
 
-/// Frames end by the length that their function code tells, not by silence: what is cut short waits for more.
+/// Frames end by the length that their function code tells, not by silence: what is cut short waits
+/// for more.
 class ByLength : public ModbusReceiver {
  public:
   void receive(const Burst& burst, FrameSink& sink) override {
@@ -39,14 +41,17 @@ class ByLength : public ModbusReceiver {
 
 Behaviour end_by_length() {
   Behaviour behaviour;
-  behaviour.receiver = [](ModbusMode, Duration) { return std::unique_ptr<ModbusReceiver>(new ByLength); };
+  behaviour.receiver = [](ModbusMode, Duration) {
+    return std::unique_ptr<ModbusReceiver>(new ByLength);
+  };
   return behaviour;
 }
 
 /// An ASCII receiver that takes time at another speed: a second lasts `times` as long.
 class OtherClock : public ModbusReceiver, private FrameSink {
  public:
-  OtherClock(std::unique_ptr<ModbusReceiver> receiver, double times) : receiver_(std::move(receiver)), times_(times) {}
+  OtherClock(std::unique_ptr<ModbusReceiver> receiver, double times)
+      : receiver_(std::move(receiver)), times_(times) {}
 
   void receive(const Burst& burst, FrameSink& sink) override {
     Burst other = burst;
@@ -60,7 +65,9 @@ class OtherClock : public ModbusReceiver, private FrameSink {
   void reset() override { receiver_->reset(); }
 
  private:
-  Time slowed(Time time) const { return Time(static_cast<Time::rep>(static_cast<double>(time.count()) / times_)); }
+  Time slowed(Time time) const {
+    return Time(static_cast<Time::rep>(static_cast<double>(time.count()) / times_));
+  }
   void on_frame(ByteView frame, Time) override { sink_->on_frame(frame, real_end_); }
   void on_broken_frame(std::uint16_t why) override { sink_->on_broken_frame(why); }
 
@@ -74,7 +81,8 @@ MakeBehaviour ascii_second_lasts(double times) {
   return [times] {
     Behaviour behaviour;
     behaviour.receiver = [times](ModbusMode mode, Duration gap) {
-      return std::unique_ptr<ModbusReceiver>(new OtherClock(make_modbus_receiver(mode, gap), times));
+      return std::unique_ptr<ModbusReceiver>(
+          new OtherClock(make_modbus_receiver(mode, gap), times));
     };
     return behaviour;
   };
@@ -149,29 +157,40 @@ Behaviour one_behind() {
 
 std::vector<Fault> line_faults() {
   return {
-      {"ends_by_length", "a frame that is cut short waits for the bytes of the next one", end_by_length, "modbus_rtu/line/cut_after_3",
-       "no answer"},
-      {"ascii_second_ignored", "a silence of more than a second does not end an ASCII frame", ascii_second_lasts(10), "modbus_ascii/line/pause_too_long_station",
+      {"ends_by_length", "a frame that is cut short waits for the bytes of the next one",
+       end_by_length, "modbus_rtu/line/cut_after_3", "no answer"},
+      {"ascii_second_ignored", "a silence of more than a second does not end an ASCII frame",
+       ascii_second_lasts(10), "modbus_ascii/line/pause_too_long_station", "silence"},
+      {"ascii_second_too_short", "a silence of half a second ends an ASCII frame",
+       ascii_second_lasts(0.5), "modbus_ascii/line/pause_station", "no answer"},
+      {"no_restart_at_colon", "a colon inside a frame does not begin a new one",
+       hears(no_restart_at_colon), "modbus_ascii/line/colon_restarts", "no answer"},
+      {"cr_alone_ends", "CR without LF ends a request", hears(lf_for_cr), "modbus_ascii/line/no_lf",
        "silence"},
-      {"ascii_second_too_short", "a silence of half a second ends an ASCII frame", ascii_second_lasts(0.5), "modbus_ascii/line/pause_station",
-       "no answer"},
-      {"no_restart_at_colon", "a colon inside a frame does not begin a new one", hears(no_restart_at_colon), "modbus_ascii/line/colon_restarts",
-       "no answer"},
-      {"cr_alone_ends", "CR without LF ends a request", hears(lf_for_cr), "modbus_ascii/line/no_lf", "silence"},
-      {"late_answer", "replies come after 700 ms",
-       send_with([](const Bytes&, Bytes reply) { return Sendings{{std::move(reply), 700ms}}; }), "modbus_rtu/modes/serves", ""},
-      {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves), "modbus_rtu/modes/serves", "split answer"},
+      {"late_answer", "replies come after 700 ms", send_with([](const Bytes&, Bytes reply) {
+         return Sendings{{std::move(reply), 700ms}};
+       }),
+       "modbus_rtu/modes/serves", ""},
+      {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves),
+       "modbus_rtu/modes/serves", "split answer"},
       {"echo", "the request comes back before the reply",
-       send_with([](const Bytes& frame, Bytes reply) { return Sendings{{frame + reply}}; }), "modbus_rtu/modes/serves", "echo"},
-      {"reply_twice", "each reply is sent twice", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),
+       send_with([](const Bytes& frame, Bytes reply) { return Sendings{{frame + reply}}; }),
+       "modbus_rtu/modes/serves", "echo"},
+      {"reply_twice", "each reply is sent twice",
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),
        "modbus_ascii/modes/serves", "after the complete"},
       {"trailing_byte", "a byte 00 follows each reply",
-       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }), "modbus_rtu/modes/serves", "after the complete"},
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }),
+       "modbus_rtu/modes/serves", "after the complete"},
       {"noise_before_reply", "a byte FF comes before each reply",
-       send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }), "modbus_ascii/examples/read_coil_status_refused", "foreign"},
-      {"reply_one_behind", "each reply is that to the request before", one_behind, "modbus_rtu/modes/serves", ""},
-      {"dies_of_a_wrong_check", "silent for ever after a wrong CRC or LRC", die_of_a_wrong_check, "modbus_rtu/line/wrong_check/f03", "no answer", alone},
-      {"deaf_after_exception", "the request after an exception is not answered", deaf_after_exception, "modbus_rtu/exceptions/address_read/f03/affff", "no answer", alone},
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }),
+       "modbus_ascii/examples/read_coil_status_refused", "foreign"},
+      {"reply_one_behind", "each reply is that to the request before", one_behind,
+       "modbus_rtu/modes/serves", ""},
+      {"dies_of_a_wrong_check", "silent for ever after a wrong CRC or LRC", die_of_a_wrong_check,
+       "modbus_rtu/line/wrong_check/f03", "no answer", alone},
+      {"deaf_after_exception", "the request after an exception is not answered",
+       deaf_after_exception, "modbus_rtu/exceptions/address_read/f03/affff", "no answer", alone},
   };
 }
 

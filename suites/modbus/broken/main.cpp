@@ -1,5 +1,5 @@
-// modbus_broken_server: a device with a known fault on a terminal, in real time. For the tests of the suite, and for
-// whoever writes a driver and wants to see it meet a bad device.
+// modbus_broken_server: a device with a known fault on a terminal, in real time. For the tests of
+// the suite, and for whoever writes a driver and wants to see it meet a bad device.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -21,12 +21,14 @@ int usage() {
              "FAULT    of the list; 'none' is a healthy device\n"
              "TTY      a terminal, or a path that becomes a link to a new pty\n"
              "STATION  0 to 255, 1 without\n"
-             "KEY      of the configuration: bit_read_base, bit_write_base, word_read_base, word_write_base, ...\n");
+             "KEY      of the configuration: bit_read_base, bit_write_base, word_read_base, "
+             "word_write_base, ...\n");
   return 2;
 }
 
 int list() {
-  for (const modbus::Fault& fault : modbus::faults()) fmt::print("{:<38} {}\n", fault.name, fault.what);
+  for (const modbus::Fault& fault : modbus::faults())
+    fmt::print("{:<38} {}\n", fault.name, fault.what);
   return 0;
 }
 
@@ -45,6 +47,8 @@ int main(int count, char** arguments) {
     if (equals == std::string::npos) return usage();
     host.config[given[i].substr(0, equals)] = given[i].substr(equals + 1);
   }
-  host.make_device = [&](const nlohmann::json& config) { return modbus::make_broken_server(given[0], given[1], config); };
+  host.make_device = [&](const nlohmann::json& config) {
+    return modbus::make_broken_server(given[0], given[1], config);
+  };
   return host_device(host);
 }

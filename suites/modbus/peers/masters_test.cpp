@@ -1,4 +1,5 @@
-// Masters that nobody here has written, against the emulator: what they write one way they read another.
+// Masters that nobody here has written, against the emulator: what they write one way they read
+// another.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -17,7 +18,8 @@ const std::string folder_of_peers = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/
 class EmulatedPlc {
  public:
   explicit EmulatedPlc(const std::string& mode)
-      : tty(folder_ / "plc"), emulator_(tool_arguments({"emulate", "xbc-h?protocol=modbus-" + mode, "--pty", tty})) {
+      : tty(folder_ / "plc"),
+        emulator_(tool_arguments({"emulate", "xbc-h?protocol=modbus-" + mode, "--pty", tty})) {
     EXPECT_TRUE(emulator_.wait_for(tty));
   }
 
@@ -31,7 +33,9 @@ class EmulatedPlc {
   Process emulator_;
 };
 
-void expect_no_complaint(const Finished& master) { EXPECT_EQ(master.code, 0) << master.out << master.err; }
+void expect_no_complaint(const Finished& master) {
+  EXPECT_EQ(master.code, 0) << master.out << master.err;
+}
 
 /// mbpoll's "[100]:   0x1234" lines by data address.
 std::map<std::string, std::string> values(const std::string& output) {
@@ -46,8 +50,10 @@ std::map<std::string, std::string> values(const std::string& output) {
 }
 
 /// `what` says type and reference; `written` are the values to write, none to read.
-Finished mbpoll(const std::string& tty, std::vector<std::string> what, std::vector<std::string> written = {}) {
-  std::vector<std::string> arguments{"mbpoll", "-m", "rtu", "-a", "1", "-b", "9600", "-P", "none", "-0", "-1"};
+Finished mbpoll(const std::string& tty, std::vector<std::string> what,
+                std::vector<std::string> written = {}) {
+  std::vector<std::string> arguments{"mbpoll", "-m", "rtu",  "-a", "1", "-b",
+                                     "9600",   "-P", "none", "-0", "-1"};
   arguments.insert(arguments.end(), what.begin(), what.end());
   arguments.push_back(tty);
   arguments.insert(arguments.end(), written.begin(), written.end());
@@ -61,12 +67,14 @@ TEST(Mbpoll, ReadsBitsOfTheWordsThatItWrote) {
   expect_no_complaint(coils);
   const std::map<std::string, std::string> bits = values(coils.out);
   ASSERT_EQ(bits.size(), 16u) << coils.out;
-  for (unsigned i = 0; i < 16; ++i) EXPECT_EQ(bits.at(std::to_string(1600 + i)), 0x9ABCu >> i & 1 ? "1" : "0") << i;
+  for (unsigned i = 0; i < 16; ++i)
+    EXPECT_EQ(bits.at(std::to_string(1600 + i)), 0x9ABCu >> i & 1 ? "1" : "0") << i;
 }
 
 TEST(Mbpoll, ReadsTheWordOfTheBitsThatItWrote) {
   const EmulatedPlc plc("rtu");
-  expect_no_complaint(mbpoll(plc.tty, {"-t", "0", "-r", "3200"}, {"1", "0", "1", "1", "0", "0", "1", "1", "1", "0"}));
+  expect_no_complaint(mbpoll(plc.tty, {"-t", "0", "-r", "3200"},
+                             {"1", "0", "1", "1", "0", "0", "1", "1", "1", "0"}));
   const Finished word = mbpoll(plc.tty, {"-t", "4:hex", "-r", "200", "-c", "1"});
   expect_no_complaint(word);
   EXPECT_EQ(values(word.out)["200"], "0x01CD") << word.out;
@@ -87,10 +95,12 @@ class Pymodbus : public testing::TestWithParam<std::string> {};
 
 TEST_P(Pymodbus, WritesOneWayAndReadsAnother) {
   const EmulatedPlc plc(GetParam());
-  expect_no_complaint(run_program({"/usr/bin/python3", folder_of_peers + "pymodbus_client.py", GetParam(), plc.tty}));
+  expect_no_complaint(run_program(
+      {"/usr/bin/python3", folder_of_peers + "pymodbus_client.py", GetParam(), plc.tty}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, Pymodbus, testing::Values("rtu", "ascii"), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Modes, Pymodbus, testing::Values("rtu", "ascii"),
+                         [](const auto& test) { return test.param; });
 
 }  // namespace
 }  // namespace fieldproof

@@ -1,5 +1,5 @@
-// Our P2P clients against servers that nobody here has written: `emulate --p2p` asks, libmodbus and pymodbus answer.
-// What a block writes one way another reads another way.
+// Our P2P clients against servers that nobody here has written: `emulate --p2p` asks, libmodbus and
+// pymodbus answer. What a block writes one way another reads another way.
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 
@@ -36,14 +36,17 @@ class BackDoor {
 
   json ask(const json& request) {
     const std::string line = request.dump() + '\n';
-    EXPECT_EQ(::send(ends_[0], line.data(), line.size(), MSG_NOSIGNAL), static_cast<ssize_t>(line.size()));
+    EXPECT_EQ(::send(ends_[0], line.data(), line.size(), MSG_NOSIGNAL),
+              static_cast<ssize_t>(line.size()));
     std::string answer;
     for (char c = 0; c != '\n' && ::recv(ends_[0], &c, 1, 0) == 1;) answer += c;
     const json parsed = json::parse(answer, nullptr, false);
     EXPECT_TRUE(parsed.is_object() && !parsed.contains("error")) << line << answer;
     return parsed;
   }
-  void set(const std::string& address, const std::string& hex) { ask({{"set", {{"address", address}, {"hex", hex}}}}); }
+  void set(const std::string& address, const std::string& hex) {
+    ask({{"set", {{"address", address}, {"hex", hex}}}});
+  }
   std::string get(const std::string& address, std::size_t digits = 0) {
     return ask({{"get", {{"address", address}, {"digits", digits}}}}).value("value", "");
   }
@@ -52,8 +55,10 @@ class BackDoor {
   std::array<int, 2> ends_{-1, -1};
 };
 
-json block(const char* function, const char* type, const char* read, const char* save, int size = 0) {
-  json made{{"function", function}, {"flag", "%MX00000"}, {"type", type}, {"read", read}, {"save", save}, {"station", 1}};
+json block(const char* function, const char* type, const char* read, const char* save,
+           int size = 0) {
+  json made{{"function", function}, {"flag", "%MX00000"}, {"type", type},
+            {"read", read},         {"save", save},       {"station", 1}};
   if (size == 0) return made;
   made["command"] = "continuous";
   made["size"] = size;
@@ -64,17 +69,18 @@ json block(const char* function, const char* type, const char* read, const char*
 json parameters() {
   json knock = block("read", "word", "0x40000", "%MW300");
   knock["flag"] = "F93";
-  const json blocks{knock,
-                    block("write", "word", "%MW100", "0x40064"),
-                    block("write", "word", "%DW0", "0x40065", 4),
-                    block("write", "bit", "%MX0001F", "0x00C81"),
-                    block("write", "bit", "%MX01010", "0x00CA0", 20),
-                    block("read", "bit", "0x00640", "%MX02000", 32),   // the words of blocks 1 and 2
-                    block("read", "word", "0x400C8", "%MW210", 4),     // the bits of blocks 3 and 4
-                    block("read", "word", "0x30064", "%MW220"),        // input registers are the same words
-                    block("read", "bit", "0x10C81", "%MX02300"),       // and inputs the same bits
-                    block("read", "word", "0x4FFF0", "%MW240"),        // exception 02
-                    block("read", "word", "0x400FE", "%MW301")};
+  const json blocks{
+      knock,
+      block("write", "word", "%MW100", "0x40064"),
+      block("write", "word", "%DW0", "0x40065", 4),
+      block("write", "bit", "%MX0001F", "0x00C81"),
+      block("write", "bit", "%MX01010", "0x00CA0", 20),
+      block("read", "bit", "0x00640", "%MX02000", 32),  // the words of blocks 1 and 2
+      block("read", "word", "0x400C8", "%MW210", 4),    // the bits of blocks 3 and 4
+      block("read", "word", "0x30064", "%MW220"),       // input registers are the same words
+      block("read", "bit", "0x10C81", "%MX02300"),      // and inputs the same bits
+      block("read", "word", "0x4FFF0", "%MW240"),       // exception 02
+      block("read", "word", "0x400FE", "%MW301")};
   return {{"time_out", 20}, {"p2p", {{"blocks", blocks}}}};
 }
 
@@ -83,25 +89,33 @@ struct Server {
   std::vector<std::string> command;  // and the terminal
 };
 
-const std::vector<Server> servers{{"libmodbus_rtu", "rtu", {LIBMODBUS_SERVER}},
-                                  {"pymodbus_rtu", "rtu", {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "rtu"}},
-                                  {"pymodbus_ascii", "ascii", {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "ascii"}}};
+const std::vector<Server> servers{
+    {"libmodbus_rtu", "rtu", {LIBMODBUS_SERVER}},
+    {"pymodbus_rtu", "rtu", {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "rtu"}},
+    {"pymodbus_ascii",
+     "ascii",
+     {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "ascii"}}};
 
 void PrintTo(const Server& server, std::ostream* out) { *out << server.name; }
 
 class P2pMaster : public testing::TestWithParam<Server> {
  protected:
-  std::string result_of(unsigned number) { return plc.get("%LW" + std::to_string(512 + 6 * number), 4) + ' ' + plc.get("%LW" + std::to_string(513 + 6 * number), 4); }
+  std::string result_of(unsigned number) {
+    return plc.get("%LW" + std::to_string(512 + 6 * number), 4) + ' ' +
+           plc.get("%LW" + std::to_string(513 + 6 * number), 4);
+  }
 
   TestFolder folder;
   BackDoor plc;
 };
 
-INSTANTIATE_TEST_SUITE_P(Servers, P2pMaster, testing::ValuesIn(servers), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Servers, P2pMaster, testing::ValuesIn(servers),
+                         [](const auto& test) { return test.param.name; });
 
 TEST_P(P2pMaster, IsAnsweredByAServerOfOthers) {
   const std::string tty = folder / "plc", file = folder.write("p2p.json", parameters().dump());
-  Process master(tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--p2p", file, "--pty", tty, "--control", plc.far_end(), "-v"}));
+  Process master(tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--p2p",
+                                 file, "--pty", tty, "--control", plc.far_end(), "-v"}));
   plc.given_away();
   ASSERT_NE(plc.get("%MW0"), "") << master.wait().err;  // an answer: the terminal is there
   plc.set("%MW100", "9ABC");
@@ -114,10 +128,12 @@ TEST_P(P2pMaster, IsAnsweredByAServerOfOthers) {
   ASSERT_TRUE(master.wait_for("received")) << "nobody answers the first block";
   plc.set("%MX00000", "01");
   const bool rtu = GetParam().mode == "rtu";
-  const std::string last_request = rtu ? "01 03 00 FE 00 01" : "3A 30 31 30 33 30 30 46 45 30 30 30 31";
+  const std::string last_request =
+      rtu ? "01 03 00 FE 00 01" : "3A 30 31 30 33 30 30 46 45 30 30 30 31";
   ASSERT_TRUE(master.wait_for(last_request));
 
-  for (unsigned number = 1; number <= 8; ++number) EXPECT_EQ(result_of(number), "0001 0000") << "block " << number;
+  for (unsigned number = 1; number <= 8; ++number)
+    EXPECT_EQ(result_of(number), "0001 0000") << "block " << number;
   EXPECT_EQ(result_of(9), "0002 000F");
   EXPECT_EQ(plc.get("%MW200", 8), "9ABC1234");
   EXPECT_EQ(plc.get("%MW210", 16), "0002000081CD0005");

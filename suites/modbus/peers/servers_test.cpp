@@ -1,5 +1,6 @@
-// The suite against servers that nobody here has written. Where they deviate from the manual a waiver says which cases,
-// with what message and why; a failure without waiver and a waiver without failure both turn the run red.
+// The suite against servers that nobody here has written. Where they deviate from the manual a
+// waiver says which cases, with what message and why; a failure without waiver and a waiver without
+// failure both turn the run red.
 #include <gmock/gmock.h>
 
 #include "suites/broken/suite_runs.hpp"
@@ -8,10 +9,10 @@ namespace fieldproof {
 namespace {
 
 struct Peer {
-  std::string name;     // of its profile and waivers
+  std::string name;  // of its profile and waivers
   std::string command;
   std::string mode;
-  std::size_t passes;   // at least
+  std::size_t passes;  // at least
 };
 
 void PrintTo(const Peer& peer, std::ostream* out) { *out << peer.name; }
@@ -37,13 +38,18 @@ std::string test_name(const Peer& peer) {
 std::optional<Trial> trial_of(const std::string& test) {
   for (const Peer& peer : peers())
     if (test_name(peer) == parameter_of(test))
-      return Trial{peer.name, fmt::format("{}?station=1&protocol=modbus-{}", peer.command, peer.mode), peer.name,
-                   {}, fmt::format("modbus_{}/*", peer.mode), folder + peer.name + ".waivers.json"};
+      return Trial{peer.name,
+                   fmt::format("{}?station=1&protocol=modbus-{}", peer.command, peer.mode),
+                   peer.name,
+                   {},
+                   fmt::format("modbus_{}/*", peer.mode),
+                   folder + peer.name + ".waivers.json"};
   return std::nullopt;
 }
 
 SuiteRuns& runs() {
-  static auto* const environment = static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+  static auto* const environment =
+      static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
   return *environment;
 }
 [[maybe_unused]] const SuiteRuns& registered_before_main = runs();
@@ -58,11 +64,13 @@ TEST_P(ServerOfOthers, DeviatesAsItsWaiversSayAndNowhereElse) {
   for (const auto& [id, result] : run.results) ++count[result.verdict];
   EXPECT_GE(count[Verdict::pass], peer.passes);
   EXPECT_GE(count[Verdict::xfail], 1u) << "no peer follows the manual in all";
-  runs().report(fmt::format("{:<20} {} pass, {} fail as waived, of {}, {:.1f} s", peer.name, count[Verdict::pass], count[Verdict::xfail],
-                            run.results.size(), run.seconds));
+  runs().report(fmt::format("{:<20} {} pass, {} fail as waived, of {}, {:.1f} s", peer.name,
+                            count[Verdict::pass], count[Verdict::xfail], run.results.size(),
+                            run.seconds));
 }
 
-INSTANTIATE_TEST_SUITE_P(Peers, ServerOfOthers, testing::ValuesIn(peers()), [](const auto& test) { return test_name(test.param); });
+INSTANTIATE_TEST_SUITE_P(Peers, ServerOfOthers, testing::ValuesIn(peers()),
+                         [](const auto& test) { return test_name(test.param); });
 
 }  // namespace
 }  // namespace fieldproof

@@ -1,5 +1,6 @@
-// Masters that nobody here has written, told by lines what to ask as `run --stimulus` tells them: each line must become
-// the request that it names. The emulator hears them; -v prints what it hears.
+// Masters that nobody here has written, told by lines what to ask as `run --stimulus` tells them:
+// each line must become the request that it names. The emulator hears them; -v prints what it
+// hears.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -14,7 +15,9 @@ struct Master {
   std::string name, mode, command;  // and the terminal
 };
 
-const std::string python = "/usr/bin/python3 " + quoted(FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/pymodbus_stimulated.py");
+const std::string python =
+    "/usr/bin/python3 " +
+    quoted(FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/pymodbus_stimulated.py");
 const std::vector<Master> masters{{"libmodbus_rtu", "rtu", quoted(LIBMODBUS_STIMULATED)},
                                   {"pymodbus_rtu", "rtu", python + " rtu"},
                                   {"pymodbus_ascii", "ascii", python + " ascii"}};
@@ -26,14 +29,22 @@ struct Line {
   std::string block, values, pdu;
 };
 const std::vector<Line> lines{
-    {R"("function":"write","command":"single","type":"word","size":1,"read":["%MW100"],"save":["0x40001"])", R"("%MW100":"1234")", "06 00 01 12 34"},
-    {R"("function":"write","command":"continuous","type":"word","size":2,"read":["%DW0"],"save":["0x40002"])", R"("%DW0":"00010002")", "10 00 02 00 02 04 00 01 00 02"},
-    {R"("function":"write","command":"single","type":"bit","size":1,"read":["%MX0001F"],"save":["0x00142"])", R"("%MX0001F":"01")", "05 01 42 FF 00"},
-    {R"("function":"write","command":"continuous","type":"bit","size":3,"read":["%MX00020"],"save":["0x00150"])", R"("%MX00020":"010001")", "0F 01 50 00 03 01 05"},
-    {R"("function":"read","command":"single","type":"word","size":1,"read":["0x40002"],"save":["%MW160"])", "", "03 00 02 00 01"},
-    {R"("function":"read","command":"continuous","type":"word","size":4,"read":"0x30000","save":"%MW150")", "", "04 00 00 00 04"},
-    {R"("function":"read","command":"single","type":"bit","size":1,"read":["0x00021"],"save":["%MX01701"])", "", "01 00 21 00 01"},
-    {R"("function":"read","command":"continuous","type":"bit","size":16,"read":["0x100A0"],"save":["%MX01800"])", "", "02 00 A0 00 10"}};
+    {R"("function":"write","command":"single","type":"word","size":1,"read":["%MW100"],"save":["0x40001"])",
+     R"("%MW100":"1234")", "06 00 01 12 34"},
+    {R"("function":"write","command":"continuous","type":"word","size":2,"read":["%DW0"],"save":["0x40002"])",
+     R"("%DW0":"00010002")", "10 00 02 00 02 04 00 01 00 02"},
+    {R"("function":"write","command":"single","type":"bit","size":1,"read":["%MX0001F"],"save":["0x00142"])",
+     R"("%MX0001F":"01")", "05 01 42 FF 00"},
+    {R"("function":"write","command":"continuous","type":"bit","size":3,"read":["%MX00020"],"save":["0x00150"])",
+     R"("%MX00020":"010001")", "0F 01 50 00 03 01 05"},
+    {R"("function":"read","command":"single","type":"word","size":1,"read":["0x40002"],"save":["%MW160"])",
+     "", "03 00 02 00 01"},
+    {R"("function":"read","command":"continuous","type":"word","size":4,"read":"0x30000","save":"%MW150")",
+     "", "04 00 00 00 04"},
+    {R"("function":"read","command":"single","type":"bit","size":1,"read":["0x00021"],"save":["%MX01701"])",
+     "", "01 00 21 00 01"},
+    {R"("function":"read","command":"continuous","type":"bit","size":16,"read":["0x100A0"],"save":["%MX01800"])",
+     "", "02 00 A0 00 10"}};
 
 /// As the wire has it: RTU bytes, or the characters of ASCII.
 std::string on_the_wire(const std::string& mode, const std::string& hex) {
@@ -44,40 +55,50 @@ std::string on_the_wire(const std::string& mode, const std::string& hex) {
 }
 
 std::string line_of(const std::string& block, const std::string& values, const std::string& flag) {
-  return R"({"case":"c","block":{"block":0,"channel":1,"station":1,"flag":")" + flag + "\"," + block + R"(},"values":{)" + values + "}}\n";
+  return R"({"case":"c","block":{"block":0,"channel":1,"station":1,"flag":")" + flag + "\"," +
+         block + R"(},"values":{)" + values + "}}\n";
 }
 
 class StimulatedMaster : public testing::TestWithParam<Master> {
  protected:
   TestFolder folder;
   const std::string tty = folder / "plc";
-  Process plc{tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--pty", tty, "-v"})};
+  Process plc{
+      tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--pty", tty, "-v"})};
 };
 
-INSTANTIATE_TEST_SUITE_P(Masters, StimulatedMaster, testing::ValuesIn(masters), [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Masters, StimulatedMaster, testing::ValuesIn(masters),
+                         [](const auto& test) { return test.param.name; });
 
 TEST_P(StimulatedMaster, AsksWhatTheLinesSay) {
   ASSERT_TRUE(plc.wait_for(tty));
   std::string text;
   for (const Line& line : lines) text += line_of(line.block, line.values, "%MX00000");
   const std::string input = folder.write("lines.json", text);
-  const Finished master = run_program({"/bin/sh", "-c", "exec " + GetParam().command + ' ' + quoted(tty) + " < " + quoted(input)});
+  const Finished master = run_program(
+      {"/bin/sh", "-c", "exec " + GetParam().command + ' ' + quoted(tty) + " < " + quoted(input)});
   EXPECT_EQ(master.code, 0);
   EXPECT_EQ(master.err, "") << "every request was answered";
   plc.signal(SIGTERM);
   const Finished heard = plc.wait();
-  for (const Line& line : lines) EXPECT_THAT(heard.out, HasSubstr(on_the_wire(GetParam().mode, line.pdu))) << line.block;
+  for (const Line& line : lines)
+    EXPECT_THAT(heard.out, HasSubstr(on_the_wire(GetParam().mode, line.pdu))) << line.block;
 }
 
 TEST_P(StimulatedMaster, AsksAtThePaceOfAClockUntilItIsOver) {
   ASSERT_TRUE(plc.wait_for(tty));
-  const std::string clock = line_of(lines[4].block, "", "F92"), once = line_of(lines[6].block, "", "%MX00000");
-  const std::string over = R"({"case":"c","over":true})" "\n";
+  const std::string clock = line_of(lines[4].block, "", "F92"),
+                    once = line_of(lines[6].block, "", "%MX00000");
+  const std::string over = R"({"case":"c","over":true})"
+                           "\n";
   const std::string pipe = folder / "lines";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  Process master({"/bin/sh", "-c", "exec " + GetParam().command + ' ' + quoted(tty) + " < " + quoted(pipe)});
+  Process master(
+      {"/bin/sh", "-c", "exec " + GetParam().command + ' ' + quoted(tty) + " < " + quoted(pipe)});
   const int lines_in = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
-  const auto tell = [lines_in](const std::string& line) { return ::write(lines_in, line.data(), line.size()) == static_cast<ssize_t>(line.size()); };
+  const auto tell = [lines_in](const std::string& line) {
+    return ::write(lines_in, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+  };
   EXPECT_TRUE(tell(clock));
   ASSERT_TRUE(plc.wait_for(on_the_wire(GetParam().mode, lines[4].pdu)));
   EXPECT_TRUE(tell(over + once));
@@ -86,12 +107,15 @@ TEST_P(StimulatedMaster, AsksAtThePaceOfAClockUntilItIsOver) {
   EXPECT_EQ(master.wait().code, 0);
 }
 
-/// As a device under test in the client role: the bench is the partner, and tells it on its standard input what to ask.
+/// As a device under test in the client role: the bench is the partner, and tells it on its
+/// standard input what to ask.
 TEST_P(StimulatedMaster, IsJudgedByTheBench) {
   const std::string vectors = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/stimulated_vectors.json";
-  const Finished run = run_tool({"run", "--role", "client", "--vectors", vectors, "--filter", "modbus_" + GetParam().mode + "/*", "--stimulus", "-",
-                                 "--endpoint", "exec:" + GetParam().command + " {tty}?station=0&protocol=modbus-" + GetParam().mode,
-                                 "--profile", "xbc-h", "--out", folder / "out"});
+  const Finished run = run_tool(
+      {"run", "--role", "client", "--vectors", vectors, "--filter",
+       "modbus_" + GetParam().mode + "/*", "--stimulus", "-", "--endpoint",
+       "exec:" + GetParam().command + " {tty}?station=0&protocol=modbus-" + GetParam().mode,
+       "--profile", "xbc-h", "--out", folder / "out"});
   EXPECT_EQ(run.code, 0) << run.out << run.err;
   EXPECT_THAT(run.out, HasSubstr("  4  PASS"));
 }

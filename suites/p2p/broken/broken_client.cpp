@@ -17,8 +17,8 @@ class BrokenClient : public EmulatedDevice {
  public:
   using DriverFactory = std::function<std::unique_ptr<P2pDriver>(BrokenDriver::Asked asked)>;
 
-  BrokenClient(const PlcModel& model, const P2pParameters& parameters, bool run, P2pClient::Timing timing,
-               const Behaviour& behaviour, const DriverFactory& driver);
+  BrokenClient(const PlcModel& model, const P2pParameters& parameters, bool run,
+               P2pClient::Timing timing, const Behaviour& behaviour, const DriverFactory& driver);
 
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
@@ -45,7 +45,8 @@ class BrokenClient : public EmulatedDevice {
     unsigned edges = 0;
   };
 
-  void make_engines(const P2pParameters& parameters, const P2pClient::Timing& timing, const DriverFactory& driver);
+  void make_engines(const P2pParameters& parameters, const P2pClient::Timing& timing,
+                    const DriverFactory& driver);
   void give_up();
   void update_mode();
   void look_at_flags();
@@ -63,9 +64,13 @@ class BrokenClient : public EmulatedDevice {
   std::vector<Burst> late_;
 };
 
-BrokenClient::BrokenClient(const PlcModel& model, const P2pParameters& parameters, bool run, P2pClient::Timing timing,
-                           const Behaviour& behaviour, const DriverFactory& driver)
-    : memory_(model), behaviour_(behaviour), run_(run || behaviour.deaf_to == "stop"), link_(parameters.link || behaviour.deaf_to == "link off") {
+BrokenClient::BrokenClient(const PlcModel& model, const P2pParameters& parameters, bool run,
+                           P2pClient::Timing timing, const Behaviour& behaviour,
+                           const DriverFactory& driver)
+    : memory_(model),
+      behaviour_(behaviour),
+      run_(run || behaviour.deaf_to == "stop"),
+      link_(parameters.link || behaviour.deaf_to == "link off") {
   P2pParameters shown = parameters, worked_with = parameters;
   if (behaviour_.shows) behaviour_.shows(shown);
   write_p2p_registers(memory_, shown);
@@ -75,20 +80,24 @@ BrokenClient::BrokenClient(const PlcModel& model, const P2pParameters& parameter
   update_mode();
 }
 
-void BrokenClient::make_engines(const P2pParameters& parameters, const P2pClient::Timing& timing, const DriverFactory& driver) {
+void BrokenClient::make_engines(const P2pParameters& parameters, const P2pClient::Timing& timing,
+                                const DriverFactory& driver) {
   const auto asked = [this](const P2pBlock& of) {
     Block& block = *std::ranges::find(blocks_, of.number, &Block::number);
     block.under_way = true;
-    if (behaviour_.clears_results) show(block, {.services = block.outcome.services, .errors = block.outcome.errors});
+    if (behaviour_.clears_results)
+      show(block, {.services = block.outcome.services, .errors = block.outcome.errors});
   };
   const auto make = [&](const P2pParameters& of) {
-    engines_.push_back(std::make_unique<P2pClient>(memory_, of, of.channel, driver(asked), timing, [this] { saved(); }));
+    engines_.push_back(std::make_unique<P2pClient>(memory_, of, of.channel, driver(asked), timing,
+                                                   [this] { saved(); }));
   };
   P2pParameters one = parameters;
   for (const P2pBlock& block : parameters.blocks) {
-    blocks_.push_back({.number = block.number,
-                       .flags = p2p_result_flags(memory_.model(), parameters.parameter, block.number),
-                       .condition = block.condition.flag});
+    blocks_.push_back(
+        {.number = block.number,
+         .flags = p2p_result_flags(memory_.model(), parameters.parameter, block.number),
+         .condition = block.condition.flag});
     one.blocks = {block};
     if (behaviour_.all_at_once) make(one);
   }
@@ -172,9 +181,7 @@ bool BrokenClient::fires(Block& block, bool on) {
       return on;
     case Trigger::falling_edge: return !on;
     case Trigger::every_second_edge: return on && ++block.edges % 2 == 1;
-    case Trigger::queued_edges:
-      block.again = block.again || (on && block.under_way);
-      return on;
+    case Trigger::queued_edges: block.again = block.again || (on && block.under_way); return on;
     default: return on;
   }
 }
@@ -223,7 +230,8 @@ void BrokenClient::saved() {
     show(block, now);
     block.outcome = now;
     block.under_way = false;
-    again = again || (behaviour_.trigger == Trigger::level && block.on) || std::exchange(block.again, false);
+    again = again || (behaviour_.trigger == Trigger::level && block.on) ||
+            std::exchange(block.again, false);
     if (again && block.condition) fire(block);
   }
   look_at_flags();
@@ -231,8 +239,10 @@ void BrokenClient::saved() {
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& behaviour, std::string_view protocol,
-                                                           std::string_view model, const nlohmann::json& config) {
+Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& behaviour,
+                                                           std::string_view protocol,
+                                                           std::string_view model,
+                                                           const nlohmann::json& config) {
   if (protocol == "udata") return make_broken_udata_port(behaviour, model, config);
   PortConfig port;
   if (find_plc_model(model)) port.model = model;
@@ -247,12 +257,12 @@ Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& beha
   if (!parameters) return parameters.error();
   const auto good = [&] { return make_driver(protocol, port, config, model, *parameters); };
   if (const auto first = good(); !first) return first.error();
-  const P2pClient::Timing timing{100ms * (time_out + 1), port.reply_delay(), port.line.character_time()};
-  return std::unique_ptr<EmulatedDevice>(
-      std::make_unique<BrokenClient>(**plc, *parameters, port.run, timing, behaviour,
-                                     [&](BrokenDriver::Asked asked) {
-                                       return std::make_unique<BrokenDriver>(std::move(*good()), behaviour, std::move(asked));
-                                     }));
+  const P2pClient::Timing timing{100ms * (time_out + 1), port.reply_delay(),
+                                 port.line.character_time()};
+  return std::unique_ptr<EmulatedDevice>(std::make_unique<BrokenClient>(
+      **plc, *parameters, port.run, timing, behaviour, [&](BrokenDriver::Asked asked) {
+        return std::make_unique<BrokenDriver>(std::move(*good()), behaviour, std::move(asked));
+      }));
 }
 
 }  // namespace fieldproof::p2p

@@ -1,5 +1,5 @@
-// A P2P client with one thing wrong: the good engine and the good driver of a protocol, with a fault between them, around
-// them, or in what they are set to.
+// A P2P client with one thing wrong: the good engine and the good driver of a protocol, with a
+// fault between them, around them, or in what they are set to.
 #pragma once
 
 #include <functional>
@@ -26,14 +26,14 @@ struct Outcome {
 
 /// What makes a block fire.
 enum class Trigger {
-  rising_edge,         // right
+  rising_edge,  // right
   falling_edge,
   both_edges,
-  level,               // asks again while the flag is on
-  queued_edges,        // what rises while the block is under way is served behind it
+  level,         // asks again while the flag is on
+  queued_edges,  // what rises while the block is under way is served behind it
   every_second_edge,
-  held_flag,           // a flag that is on when the PLC goes to RUN counts as risen
-  aborted_by_fall,     // a flag that falls gives up what is under way
+  held_flag,        // a flag that is on when the PLC goes to RUN counts as risen
+  aborted_by_fall,  // a flag that falls gives up what is under way
 };
 
 /// One fault at work. What is empty is done right.
@@ -44,8 +44,12 @@ struct Behaviour {
   std::function<void(P2pClient::Timing& timing)> timing{};
   Trigger trigger = Trigger::rising_edge;
   /// The request of a block, and the judgement of its reply, in its own way.
-  std::function<Result<Bytes>(const P2pDriver& good, const P2pBlock& block, const PlcMemory& memory)> asks{};
-  std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block, Bytes frame, PlcMemory& memory)> takes{};
+  std::function<Result<Bytes>(const P2pDriver& good, const P2pBlock& block,
+                              const PlcMemory& memory)>
+      asks{};
+  std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block,
+                                             Bytes frame, PlcMemory& memory)>
+      takes{};
   /// Changes what a block shows when it ends. True: the block is asked once more.
   std::function<bool(const Outcome& before, Outcome& now)> ends{};
   bool clears_results = false;      // when a block is asked, it shows neither NDR nor ERR
@@ -55,14 +59,17 @@ struct Behaviour {
 
   // Of a port that works with UDATA instructions.
   std::function<void(UdataConfig& config)> works_with_udata{};
-  std::function<void(Bytes& bytes)> says{}, hears{};
+  std::function<void(Bytes&bytes)> says{}, hears{};
 };
 
-/// The client of a protocol ("xgt-cnet", ...) with a fault; of "udata" the port. `config` is that of the good device, and so
-/// are the errors.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& behaviour, std::string_view protocol,
-                                                           std::string_view model, const nlohmann::json& config);
-Result<std::unique_ptr<EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour, std::string_view model,
+/// The client of a protocol ("xgt-cnet", ...) with a fault; of "udata" the port. `config` is that
+/// of the good device, and so are the errors.
+Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& behaviour,
+                                                           std::string_view protocol,
+                                                           std::string_view model,
+                                                           const nlohmann::json& config);
+Result<std::unique_ptr<EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour,
+                                                               std::string_view model,
                                                                const nlohmann::json& config);
 
 }  // namespace fieldproof::p2p

@@ -1,5 +1,6 @@
-// The suite against broken P2P clients: each fault must turn its case red, and the healthy client must pass them all.
-// Everything runs in process: what a client saves and shows no request reads, so that the bench needs its memory.
+// The suite against broken P2P clients: each fault must turn its case red, and the healthy client
+// must pass them all. Everything runs in process: what a client saves and shows no request reads,
+// so that the bench needs its memory.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -20,9 +21,11 @@ using Cases = std::vector<Case>;
 
 std::string folder_of(std::string_view id) { return std::string(id.substr(0, id.find('/'))); }
 
-/// A client, without the frame monitor, which stands outside of it; or a port with UDATA instructions, not a modem.
+/// A client, without the frame monitor, which stands outside of it; or a port with UDATA
+/// instructions, not a modem.
 bool concerns(const Case& one) {
-  if (one.protocol == "udata") return one.config.contains("instructions") && !one.config.value("monitor", false);
+  if (one.protocol == "udata")
+    return one.config.contains("instructions") && !one.config.value("monitor", false);
   return is_client_case(one) && !one.config.value("monitor", false);
 }
 
@@ -31,7 +34,8 @@ const Cases& cases(const std::string& folder) {
   static std::map<std::string, Cases> known;
   const auto [found, is_new] = known.try_emplace(folder);
   if (!is_new) return found->second;
-  const VectorSet set = load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/" + folder, FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
+  const VectorSet set = load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/" + folder,
+                                     FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
   EXPECT_THAT(set.problems, testing::IsEmpty());
   std::ranges::copy_if(set.cases, std::back_inserter(found->second), concerns);
   return found->second;
@@ -46,9 +50,10 @@ std::string model_of(const Case& one) {
 
 CaseResult run(const Case& source, const Behaviour& behaviour) {
   const auto protocol = std::ranges::find(protocols(), source.protocol, &Protocol::name);
-  EmulatorEndpoint endpoint({"emulator", model_of(source), {}}, [&](std::string_view model, const nlohmann::json& config) {
-    return make_broken_client(behaviour, source.protocol, model, config);
-  });
+  EmulatorEndpoint endpoint({"emulator", model_of(source), {}},
+                            [&](std::string_view model, const nlohmann::json& config) {
+                              return make_broken_client(behaviour, source.protocol, model, config);
+                            });
   BenchOptions options;
   options.profile.name = "emulator";
   options.profile.protocols = {source.protocol};
@@ -71,12 +76,16 @@ TEST_P(TheSuite, Catches) {
   const auto one = std::ranges::find(all, fault.caught_by, &Case::id);
   const bool known = one != all.end();
   const CaseResult result = known ? run(*one, fault.make()) : CaseResult{};
-  if (known && result.verdict == Verdict::fail && report(result).find(fault.message) != std::string::npos)
+  if (known && result.verdict == Verdict::fail &&
+      report(result).find(fault.message) != std::string::npos)
     return fmt::print("{:<28} {}\n", fault.name, report(result));
   std::string red;
   for (const Case& other : all)
-    if (const CaseResult found = run(other, fault.make()); found.verdict == Verdict::fail) red += "\n  " + report(found);
-  ADD_FAILURE() << fault.caught_by << (known ? " does not catch it: " + report(result) : " is no case") << "\nred are:" << red;
+    if (const CaseResult found = run(other, fault.make()); found.verdict == Verdict::fail)
+      red += "\n  " + report(found);
+  ADD_FAILURE() << fault.caught_by
+                << (known ? " does not catch it: " + report(result) : " is no case")
+                << "\nred are:" << red;
 }
 
 INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
@@ -88,14 +97,17 @@ TEST_P(HealthyClient, PassesTheWholeSuite) {
   std::size_t passed = 0;
   for (const Case& one : cases(GetParam())) {
     const CaseResult result = run(one, {});
-    EXPECT_TRUE(result.verdict == Verdict::pass || result.verdict == Verdict::info) << report(result);
+    EXPECT_TRUE(result.verdict == Verdict::pass || result.verdict == Verdict::info)
+        << report(result);
     passed += result.verdict == Verdict::pass;
   }
   EXPECT_GT(passed, 0u);
   fmt::print("{:<28} {} cases of {} pass\n", "none", passed, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(P2p, HealthyClient, testing::Values("xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus", "user_frames", "udata"),
+INSTANTIATE_TEST_SUITE_P(P2p, HealthyClient,
+                         testing::Values("xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus",
+                                         "user_frames", "udata"),
                          [](const auto& test) { return test.param; });
 
 TEST(FaultTable, NamesAreUnique) {

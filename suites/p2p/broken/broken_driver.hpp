@@ -16,13 +16,16 @@ class BrokenDriver : public P2pDriver {
       : good_(std::move(good)), behaviour_(behaviour), asked_(std::move(asked)) {}
 
   std::string_view name() const override { return good_->name(); }
-  Status check(const P2pBlock& block, const PlcModel& model) const override { return good_->check(block, model); }
+  Status check(const P2pBlock& block, const PlcModel& model) const override {
+    return good_->check(block, model);
+  }
   Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override {
     asked_(block);
     return behaviour_.asks ? behaviour_.asks(*good_, block, memory) : good_->request(block, memory);
   }
   bool awaits_reply(const P2pBlock& block) const override { return good_->awaits_reply(block); }
-  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame, PlcMemory& memory) const override {
+  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
+                                    PlcMemory& memory) const override {
     if (!behaviour_.takes) return good_->take(block, frame, memory);
     return behaviour_.takes(*good_, block, Bytes(frame.begin(), frame.end()), memory);
   }

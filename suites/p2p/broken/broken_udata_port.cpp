@@ -10,7 +10,8 @@ namespace {
 /// The good port, which hears or says other bytes.
 class BrokenUdataPort : public EmulatedDevice {
  public:
-  BrokenUdataPort(const UdataConfig& config, Behaviour behaviour) : port_(config), behaviour_(std::move(behaviour)) {}
+  BrokenUdataPort(const UdataConfig& config, Behaviour behaviour)
+      : port_(config), behaviour_(std::move(behaviour)) {}
 
   void receive(const Burst& burst) override {
     Burst heard = burst;
@@ -23,9 +24,15 @@ class BrokenUdataPort : public EmulatedDevice {
     if (behaviour_.says && !bytes.empty()) behaviour_.says(bytes);
     return bytes;
   }
-  Status set(std::string_view address, std::string_view hex) override { return port_.set(address, hex); }
-  Result<std::string> get(std::string_view address, std::size_t digits) const override { return port_.get(address, digits); }
-  Status act(std::string_view action) override { return action == behaviour_.deaf_to ? ok() : port_.act(action); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return port_.set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    return port_.get(address, digits);
+  }
+  Status act(std::string_view action) override {
+    return action == behaviour_.deaf_to ? ok() : port_.act(action);
+  }
 
  private:
   UdataPort port_;
@@ -34,7 +41,8 @@ class BrokenUdataPort : public EmulatedDevice {
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour, std::string_view model,
+Result<std::unique_ptr<EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour,
+                                                               std::string_view model,
                                                                const nlohmann::json& config) {
   Result<UdataConfig> parsed = parse_udata_config(model, config);
   if (!parsed) return parsed.error();

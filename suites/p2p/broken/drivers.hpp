@@ -11,8 +11,10 @@
 
 namespace fieldproof::p2p {
 
-/// `model` names the user frames where `definition` does not. Errors are those of the protocol's configuration.
-Result<std::unique_ptr<P2pDriver>> make_driver(std::string_view protocol, const PortConfig& port, const nlohmann::json& config, std::string_view model,
+/// `model` names the user frames where `definition` does not. Errors are those of the protocol's
+/// configuration.
+Result<std::unique_ptr<P2pDriver>> make_driver(std::string_view protocol, const PortConfig& port,
+                                               const nlohmann::json& config, std::string_view model,
                                                const P2pParameters& parameters);
 
 }  // namespace fieldproof::p2p

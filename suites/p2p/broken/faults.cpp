@@ -5,8 +5,9 @@
 namespace fieldproof::p2p {
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table = gather<Fault>({trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults,
-                                                         modbus_faults, ls_bus_faults, user_frame_faults, udata_faults});
+  static const std::vector<Fault> table =
+      gather<Fault>({trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults,
+                     modbus_faults, ls_bus_faults, user_frame_faults, udata_faults});
   return table;
 }
 
@@ -27,7 +28,8 @@ MakeBehaviour works_with(std::function<void(P2pParameters& parameters)> edit) {
 }
 
 MakeBehaviour each_block(std::function<void(P2pBlock& block)> edit) {
-  return works_with([=](P2pParameters& parameters) { std::ranges::for_each(parameters.blocks, edit); });
+  return works_with(
+      [=](P2pParameters& parameters) { std::ranges::for_each(parameters.blocks, edit); });
 }
 
 MakeBehaviour shows(std::function<void(P2pParameters& parameters)> edit) {
@@ -54,11 +56,12 @@ MakeBehaviour asks_for(std::function<void(P2pBlock& block)> edit) {
 
 MakeBehaviour spoils(std::function<void(Bytes& request)> edit) {
   return [=] {
-    return Behaviour{.asks = [=](const P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
-      Result<Bytes> request = good.request(block, memory);
-      if (request) edit(*request);
-      return request;
-    }};
+    return Behaviour{
+        .asks = [=](const P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
+          Result<Bytes> request = good.request(block, memory);
+          if (request) edit(*request);
+          return request;
+        }};
   };
 }
 
@@ -69,16 +72,21 @@ MakeBehaviour hears(std::function<void(Bytes& reply, const P2pBlock& block)> edi
   });
 }
 
-MakeBehaviour takes(std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block, Bytes frame, PlcMemory& memory)> own) {
+MakeBehaviour takes(
+    std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block,
+                                               Bytes frame, PlcMemory& memory)>
+        own) {
   return [=] { return Behaviour{.takes = own}; };
 }
 
 MakeBehaviour after_saving(std::function<void(const P2pBlock& block, PlcMemory& memory)> edit) {
-  return takes([=](const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
-    const auto error = good.take(block, frame, memory);
-    if (error == p2p_error::none && block.function != P2pBlock::Function::write) edit(block, memory);
-    return error;
-  });
+  return takes(
+      [=](const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
+        const auto error = good.take(block, frame, memory);
+        if (error == p2p_error::none && block.function != P2pBlock::Function::write)
+          edit(block, memory);
+        return error;
+      });
 }
 
 }  // namespace fieldproof::p2p

@@ -44,7 +44,10 @@ MakeBehaviour spoils(std::function<void(Bytes& request)> edit);
 /// Changes the reply before it is judged.
 MakeBehaviour hears(std::function<void(Bytes& reply, const P2pBlock& block)> edit);
 /// Judges, and saves, in its own way; `good` does it right.
-MakeBehaviour takes(std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block, Bytes frame, PlcMemory& memory)> own);
+MakeBehaviour takes(
+    std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block,
+                                               Bytes frame, PlcMemory& memory)>
+        own);
 /// After the good driver has saved what was read.
 MakeBehaviour after_saving(std::function<void(const P2pBlock& block, PlcMemory& memory)> edit);
 

@@ -8,7 +8,8 @@ namespace {
 
 void set_sum(Bytes& frame) {
   const std::size_t sum = frame.size() - 3;
-  std::ranges::copy(hex_number(ls_sum(ByteView(frame).subspan(1, sum - 1)), 2), frame.begin() + static_cast<std::ptrdiff_t>(sum));
+  std::ranges::copy(hex_number(ls_sum(ByteView(frame).subspan(1, sum - 1)), 2),
+                    frame.begin() + static_cast<std::ptrdiff_t>(sum));
 }
 
 MakeBehaviour spoils_with_sum(std::function<void(Bytes& request)> edit) {
@@ -22,14 +23,17 @@ void accept_any_sum(Bytes& frame, const P2pBlock&) {
   if (frame.size() >= 7) set_sum(frame);
 }
 
-std::optional<std::uint16_t> nak_is_normal(const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
+std::optional<std::uint16_t> nak_is_normal(const P2pDriver& good, const P2pBlock& block,
+                                           const Bytes& frame, PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
   return error == p2p_error::nak ? p2p_error::none : error;
 }
 
-std::optional<std::uint16_t> echo_not_compared(const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
+std::optional<std::uint16_t> echo_not_compared(const P2pDriver& good, const P2pBlock& block,
+                                               const Bytes& frame, PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
-  return error == p2p_error::driver && parse_ls_reply(frame).command == 'W' ? p2p_error::none : error;
+  return error == p2p_error::driver && parse_ls_reply(frame).command == 'W' ? p2p_error::none
+                                                                            : error;
 }
 
 void set_station(Bytes& frame, const P2pBlock& block) {
@@ -43,20 +47,23 @@ void set_station(Bytes& frame, const P2pBlock& block) {
 std::vector<Fault> ls_bus_faults() {
   constexpr std::size_t count_of_read = 8;
   return {
-      {"sum_missing", "the request has no sum", spoils([](Bytes& request) { request.erase(request.end() - 3, request.end() - 1); }),
+      {"sum_missing", "the request has no sum",
+       spoils([](Bytes& request) { request.erase(request.end() - 3, request.end() - 1); }),
        "ls_bus/client/example/read", "address: expected 1230, got 123"},
-      {"sum_with_header", "ENQ is in the sum",
-       spoils([](Bytes& request) {
+      {"sum_with_header", "ENQ is in the sum", spoils([](Bytes& request) {
          const std::size_t sum = request.size() - 3;
-         std::ranges::copy(hex_number(ls_sum(ByteView(request).first(sum)), 2), request.begin() + static_cast<std::ptrdiff_t>(sum));
+         std::ranges::copy(hex_number(ls_sum(ByteView(request).first(sum)), 2),
+                           request.begin() + static_cast<std::ptrdiff_t>(sum));
        }),
        "ls_bus/client/example/read", "SUM: expected AA, got AF"},
       {"ls_count_plus_one", "a read asks for one word more", spoils_with_sum([](Bytes& request) {
          if (request.at(3) == 'R') ++request.at(count_of_read);
        }),
        "ls_bus/client/example/read", "count: expected 1, got 2"},
-      {"ls_write_order_swapped", "a write has count and address in each other's place", spoils_with_sum([](Bytes& request) {
-         if (request.at(3) == 'W') std::rotate(request.begin() + 4, request.begin() + 8, request.begin() + 9);
+      {"ls_write_order_swapped", "a write has count and address in each other's place",
+       spoils_with_sum([](Bytes& request) {
+         if (request.at(3) == 'W')
+           std::rotate(request.begin() + 4, request.begin() + 8, request.begin() + 9);
        }),
        "ls_bus/client/example/write_address_first", "count: expected 1, got 1"},
       {"ls_address_plus_one", "the address that goes out is one too high",
@@ -65,13 +72,17 @@ std::vector<Fault> ls_bus_faults() {
          address = hex_number(*parse_ls_address(address) + 1, 4);
        }),
        "ls_bus/client/example/read", "address: expected 1230, got 1231"},
-      {"ls_station_of_own", "the request goes to station 00", asks_for([](P2pBlock& block) { block.station = 0; }),
-       "ls_bus/client/example/read", "station: expected 01, got 00"},
-      {"ls_nak_is_normal", "NAK is a normal end", takes(nak_is_normal), "ls_bus/client/error/nak/c00", "%LW512 holds 0001"},
-      {"ls_echo_not_compared", "an ACK that repeats other data than written is a normal end", takes(echo_not_compared),
-       "ls_bus/client/error/other_echo/other", "%LW512 holds 0001"},
-      {"ls_foreign_station", "the reply of another station is accepted", hears(set_station), "ls_bus/client/error/wrong_station/s0", "%MW119 holds 13575ABC9BDF86427531FDB9"},
-      {"ls_sum_ignored", "a wrong sum is accepted", hears(accept_any_sum), "ls_bus/client/error/wrong_sum/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"ls_station_of_own", "the request goes to station 00",
+       asks_for([](P2pBlock& block) { block.station = 0; }), "ls_bus/client/example/read",
+       "station: expected 01, got 00"},
+      {"ls_nak_is_normal", "NAK is a normal end", takes(nak_is_normal),
+       "ls_bus/client/error/nak/c00", "%LW512 holds 0001"},
+      {"ls_echo_not_compared", "an ACK that repeats other data than written is a normal end",
+       takes(echo_not_compared), "ls_bus/client/error/other_echo/other", "%LW512 holds 0001"},
+      {"ls_foreign_station", "the reply of another station is accepted", hears(set_station),
+       "ls_bus/client/error/wrong_station/s0", "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"ls_sum_ignored", "a wrong sum is accepted", hears(accept_any_sum),
+       "ls_bus/client/error/wrong_sum/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
   };
 }
 

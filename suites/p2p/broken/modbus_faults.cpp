@@ -5,11 +5,24 @@ namespace fieldproof::p2p {
 
 namespace {
 
-enum : Byte { read_coils = 1, read_inputs, read_holding, read_input_words, write_coil, write_word, write_coils = 0x0F, write_words };
+enum : Byte {
+  read_coils = 1,
+  read_inputs,
+  read_holding,
+  read_input_words,
+  write_coil,
+  write_word,
+  write_coils = 0x0F,
+  write_words
+};
 
-ModbusMode mode_of(ByteView frame) { return !frame.empty() && frame[0] == ':' ? ModbusMode::ascii : ModbusMode::rtu; }
+ModbusMode mode_of(ByteView frame) {
+  return !frame.empty() && frame[0] == ':' ? ModbusMode::ascii : ModbusMode::rtu;
+}
 
-bool reads_bits(const P2pBlock& block) { return block.function == P2pBlock::Function::read && block.type == 'X'; }
+bool reads_bits(const P2pBlock& block) {
+  return block.function == P2pBlock::Function::read && block.type == 'X';
+}
 
 /// Sends another PDU than the good one.
 MakeBehaviour sends(std::function<void(Bytes& pdu)> edit) {
@@ -26,7 +39,9 @@ MakeBehaviour function_code(Byte right, Byte wrong) {
   });
 }
 
-unsigned word(const Bytes& pdu, std::size_t at) { return static_cast<unsigned>(pdu.at(at) << 8 | pdu.at(at + 1)); }
+unsigned word(const Bytes& pdu, std::size_t at) {
+  return static_cast<unsigned>(pdu.at(at) << 8 | pdu.at(at + 1));
+}
 
 void set_word(Bytes& pdu, std::size_t at, unsigned value) {
   pdu.at(at) = static_cast<Byte>(value >> 8);
@@ -40,8 +55,10 @@ MakeBehaviour address(int offset) {
 MakeBehaviour table(char right, char wrong) {
   return asks_for([=](P2pBlock& block) {
     char& digit = block.variables[0].partner.at(2);
-    if (digit == right) digit = wrong;
-    else if (digit == wrong) digit = right;
+    if (digit == right)
+      digit = wrong;
+    else if (digit == wrong)
+      digit = right;
   });
 }
 
@@ -53,7 +70,8 @@ void hex_as_decimal(Bytes& pdu) {
 
 void swap_words(Bytes& pdu) {
   if (pdu[0] == write_word) std::swap(pdu.at(3), pdu.at(4));
-  for (std::size_t i = 6; pdu[0] == write_words && i + 1 < pdu.size(); i += 2) std::swap(pdu[i], pdu[i + 1]);
+  for (std::size_t i = 6; pdu[0] == write_words && i + 1 < pdu.size(); i += 2)
+    std::swap(pdu[i], pdu[i + 1]);
 }
 
 Byte bits_reversed(Byte byte) {
@@ -75,22 +93,29 @@ MakeBehaviour understands(std::function<void(ModbusFrame& reply, const P2pBlock&
 
 void accept_any_crc(Bytes& frame, const P2pBlock&) {
   if (mode_of(frame) == ModbusMode::ascii || frame.size() < 4) return;
-  frame = encode_modbus_frame(ModbusMode::rtu, frame[0], ByteView(frame).subspan(1, frame.size() - 3));
+  frame =
+      encode_modbus_frame(ModbusMode::rtu, frame[0], ByteView(frame).subspan(1, frame.size() - 3));
 }
 
 void accept_any_lrc(Bytes& frame, const P2pBlock&) {
-  const auto bytes = frame.size() < 9 ? std::nullopt : from_hex(to_text(ByteView(frame).subspan(1, frame.size() - 5)));
-  if (bytes) frame = encode_modbus_frame(ModbusMode::ascii, bytes->at(0), ByteView(*bytes).subspan(1));
+  const auto bytes = frame.size() < 9
+                         ? std::nullopt
+                         : from_hex(to_text(ByteView(frame).subspan(1, frame.size() - 5)));
+  if (bytes)
+    frame = encode_modbus_frame(ModbusMode::ascii, bytes->at(0), ByteView(*bytes).subspan(1));
 }
 
-std::optional<std::uint16_t> exception_is_normal(const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
+std::optional<std::uint16_t> exception_is_normal(const P2pDriver& good, const P2pBlock& block,
+                                                 const Bytes& frame, PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
   return error == p2p_error::nak ? p2p_error::none : error;
 }
 
-std::optional<std::uint16_t> echo_not_compared(const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
+std::optional<std::uint16_t> echo_not_compared(const P2pDriver& good, const P2pBlock& block,
+                                               const Bytes& frame, PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
-  return block.function == P2pBlock::Function::write && error == p2p_error::driver ? p2p_error::none : error;
+  return block.function == P2pBlock::Function::write && error == p2p_error::driver ? p2p_error::none
+                                                                                   : error;
 }
 
 /// Whole bytes of bits are saved, padding and all.
@@ -104,79 +129,105 @@ void save_padding(const P2pBlock& block, PlcMemory& memory) {
 std::vector<Fault> modbus_faults() {
   return {
       {"coil_by_0f", "a single bit is written by function 0F",
-       asks_for([](P2pBlock& block) { block.continuous = block.continuous || block.type == 'X'; }), "modbus_rtu/client/functions/write_bit/a0142_off", "function code: expected"},
+       asks_for([](P2pBlock& block) { block.continuous = block.continuous || block.type == 'X'; }),
+       "modbus_rtu/client/functions/write_bit/a0142_off", "function code: expected"},
       {"word_by_10", "a single word is written by function 10",
-       asks_for([](P2pBlock& block) { block.continuous = block.continuous || block.type == 'W'; }), "modbus_rtu/client/functions/write_word/a0001", "function code: expected"},
-      {"run_by_single", "a run is written by function 05 or 06",
-       asks_for([](P2pBlock& block) { block.continuous = block.continuous && block.function == P2pBlock::Function::read; }),
+       asks_for([](P2pBlock& block) { block.continuous = block.continuous || block.type == 'W'; }),
+       "modbus_rtu/client/functions/write_word/a0001", "function code: expected"},
+      {"run_by_single", "a run is written by function 05 or 06", asks_for([](P2pBlock& block) {
+         block.continuous = block.continuous && block.function == P2pBlock::Function::read;
+       }),
        "modbus_rtu/client/example/write_m2_bits", "function code: expected"},
-      {"input_bits_by_01", "input bits are read by function 01", function_code(read_inputs, read_coils), "modbus_rtu/client/functions/read_bit/a10001_on", "function code: expected"},
-      {"input_words_by_03", "input registers are read by function 03", function_code(read_input_words, read_holding),
+      {"input_bits_by_01", "input bits are read by function 01",
+       function_code(read_inputs, read_coils), "modbus_rtu/client/functions/read_bit/a10001_on",
+       "function code: expected"},
+      {"input_words_by_03", "input registers are read by function 03",
+       function_code(read_input_words, read_holding),
        "modbus_rtu/client/functions/read_word/a30000", "function code: expected"},
-      {"tables_3_and_4_swapped", "0x3 is taken for 0x4, and 0x4 for 0x3", table('3', '4'), "modbus_rtu/client/example/read_p0", "function code: expected"},
-      {"tables_0_and_1_swapped", "0x0 is taken for 0x1, and 0x1 for 0x0", table('0', '1'), "modbus_rtu/client/example/read_p2_bit_1/en", "function code: expected"},
-      {"address_minus_one", "the address of the partner is taken as one-based: one too low goes out", address(-1),
+      {"tables_3_and_4_swapped", "0x3 is taken for 0x4, and 0x4 for 0x3", table('3', '4'),
+       "modbus_rtu/client/example/read_p0", "function code: expected"},
+      {"tables_0_and_1_swapped", "0x0 is taken for 0x1, and 0x1 for 0x0", table('0', '1'),
+       "modbus_rtu/client/example/read_p2_bit_1/en", "function code: expected"},
+      {"address_minus_one",
+       "the address of the partner is taken as one-based: one too low goes out", address(-1),
        "modbus_rtu/client/example/write_m100", "address: expected 0001, got 0000"},
-      {"address_plus_one", "the address that goes out is one-based", address(1), "modbus_rtu/client/example/write_m100", "address: expected 0001, got 0002"},
-      {"address_decimal", "the digits of the address are taken as decimal", sends(hex_as_decimal), "modbus_rtu/client/functions/write_word/a0010", "address: expected 0010, got 000A"},
-      {"count_plus_one", "the count is one too high",
-       sends([](Bytes& pdu) {
+      {"address_plus_one", "the address that goes out is one-based", address(1),
+       "modbus_rtu/client/example/write_m100", "address: expected 0001, got 0002"},
+      {"address_decimal", "the digits of the address are taken as decimal", sends(hex_as_decimal),
+       "modbus_rtu/client/functions/write_word/a0010", "address: expected 0010, got 000A"},
+      {"count_plus_one", "the count is one too high", sends([](Bytes& pdu) {
          if (pdu[0] != write_coil && pdu[0] != write_word) set_word(pdu, 3, word(pdu, 3) + 1);
        }),
        "modbus_rtu/client/functions/read_word/a4000a", "count: expected 0001, got 0002"},
-      {"byte_count_missing", "0F and 10 have no byte count",
-       sends([](Bytes& pdu) {
+      {"byte_count_missing", "0F and 10 have no byte count", sends([](Bytes& pdu) {
          if (pdu[0] >= write_coils) pdu.erase(pdu.begin() + 5);
        }),
        "modbus_rtu/client/example/write_d0", "function code: expected"},
-      {"byte_count_of_words", "the byte count is the count of words",
-       sends([](Bytes& pdu) {
+      {"byte_count_of_words", "the byte count is the count of words", sends([](Bytes& pdu) {
          if (pdu[0] == write_words) pdu.at(5) = pdu.at(4);
        }),
        "modbus_rtu/client/example/write_d0", "function code: expected"},
-      {"coil_on_is_0001", "a bit that is on goes out as 0001",
-       sends([](Bytes& pdu) {
+      {"coil_on_is_0001", "a bit that is on goes out as 0001", sends([](Bytes& pdu) {
          if (pdu[0] == write_coil && pdu.at(3) == 0xFF) set_word(pdu, 3, 1);
        }),
        "modbus_rtu/client/functions/write_bit/a0001_on", "value: expected FF00, got 0001"},
-      {"words_low_byte_first", "words that are written go out low byte first", sends(swap_words), "modbus_rtu/client/example/write_d0", "data: expected 1122334455667788, got 2211443366558877"},
+      {"words_low_byte_first", "words that are written go out low byte first", sends(swap_words),
+       "modbus_rtu/client/example/write_d0",
+       "data: expected 1122334455667788, got 2211443366558877"},
       {"bits_from_the_top", "bits that are written begin at bit 7 of each byte",
        sends([](Bytes& pdu) {
-         for (std::size_t i = 6; pdu[0] == write_coils && i < pdu.size(); ++i) pdu[i] = bits_reversed(pdu[i]);
+         for (std::size_t i = 6; pdu[0] == write_coils && i < pdu.size(); ++i)
+           pdu[i] = bits_reversed(pdu[i]);
        }),
        "modbus_rtu/client/functions/example_9_4_7", "data: expected CD01, got B380"},
       {"crc_high_byte_first", "the CRC goes out high byte first",
-       spoils([](Bytes& frame) { std::swap(frame.at(frame.size() - 2), frame.back()); }), "modbus_rtu/client/example/write_m100", "CRC: expected E31B, got 1BE3"},
-      {"crc_missing", "the request has no CRC", spoils([](Bytes& frame) { frame.resize(frame.size() - 2); }), "modbus_rtu/client/example/write_m100", "CRC: expected E31B, got 0106"},
+       spoils([](Bytes& frame) { std::swap(frame.at(frame.size() - 2), frame.back()); }),
+       "modbus_rtu/client/example/write_m100", "CRC: expected E31B, got 1BE3"},
+      {"crc_missing", "the request has no CRC",
+       spoils([](Bytes& frame) { frame.resize(frame.size() - 2); }),
+       "modbus_rtu/client/example/write_m100", "CRC: expected E31B, got 0106"},
       {"lrc_missing", "the request has no LRC",
-       spoils([](Bytes& frame) { frame.erase(frame.end() - 4, frame.end() - 2); }), "modbus_ascii/client/example/write_m100", "value: expected 5ABC, got 5A"},
+       spoils([](Bytes& frame) { frame.erase(frame.end() - 4, frame.end() - 2); }),
+       "modbus_ascii/client/example/write_m100", "value: expected 5ABC, got 5A"},
       {"lrc_without_complement", "the LRC is the sum, not its two's complement",
        spoils([](Bytes& frame) {
          const Byte lrc = from_hex(to_text(ByteView(frame).subspan(frame.size() - 4, 2)))->at(0);
          std::ranges::copy(hex_number(static_cast<Byte>(-lrc), 2), frame.end() - 4);
        }),
        "modbus_ascii/client/example/write_m100", "LRC: expected E2, got 1E"},
-      {"lf_missing", "an ASCII request ends with CR alone", spoils([](Bytes& frame) { frame.pop_back(); }), "modbus_ascii/client/example/write_m100", "tail: expected"},
+      {"lf_missing", "an ASCII request ends with CR alone",
+       spoils([](Bytes& frame) { frame.pop_back(); }), "modbus_ascii/client/example/write_m100",
+       "tail: expected"},
       {"read_words_swapped", "words that are read are saved low byte first",
        understands([](ModbusFrame& reply, const P2pBlock&) {
          if (reply.pdu[0] != read_holding && reply.pdu[0] != read_input_words) return;
-         for (std::size_t i = 2; i + 1 < reply.pdu.size(); i += 2) std::swap(reply.pdu[i], reply.pdu[i + 1]);
+         for (std::size_t i = 2; i + 1 < reply.pdu.size(); i += 2)
+           std::swap(reply.pdu[i], reply.pdu[i + 1]);
        }),
        "modbus_rtu/client/example/read_p0", "%MW149 holds 2468A5C36F5E120E379B1357"},
       {"read_bits_from_the_top", "bits that are read begin at bit 7 of each byte",
        understands([](ModbusFrame& reply, const P2pBlock& block) {
-         for (std::size_t i = 2; reads_bits(block) && i < reply.pdu.size(); ++i) reply.pdu[i] = bits_reversed(reply.pdu[i]);
+         for (std::size_t i = 2; reads_bits(block) && i < reply.pdu.size(); ++i)
+           reply.pdu[i] = bits_reversed(reply.pdu[i]);
        }),
        "modbus_rtu/client/example/read_m10_bits/printed", "%MW179 holds 2468B2891357"},
-      {"padding_saved", "the padding of the last byte of bits is saved, too", after_saving(save_padding), "modbus_rtu/client/data/read_bits/b9_at_7", "%MW119 holds 13575BE89B8086427531FDB9"},
+      {"padding_saved", "the padding of the last byte of bits is saved, too",
+       after_saving(save_padding), "modbus_rtu/client/data/read_bits/b9_at_7",
+       "%MW119 holds 13575BE89B8086427531FDB9"},
       {"modbus_foreign_station", "the reply of another station is accepted",
-       understands([](ModbusFrame& reply, const P2pBlock& block) { reply.station = static_cast<Byte>(block.station); }),
+       understands([](ModbusFrame& reply, const P2pBlock& block) {
+         reply.station = static_cast<Byte>(block.station);
+       }),
        "modbus_rtu/client/error/wrong_station/s3", "%MW119 holds 13575ABC9BDF86427531FDB9"},
-      {"exception_is_normal", "an exception is a normal end", takes(exception_is_normal), "modbus_rtu/client/error/exception/e02", "%LW512 holds 0001"},
-      {"echo_not_compared", "a write whose echo has another address or value ends normally", takes(echo_not_compared),
-       "modbus_rtu/client/error/other_echo_06/other_value", "%LW512 holds 0001"},
-      {"crc_ignored", "a wrong CRC is accepted", hears(accept_any_crc), "modbus_rtu/client/error/wrong_check/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
-      {"lrc_ignored", "a wrong LRC is accepted", hears(accept_any_lrc), "modbus_ascii/client/error/wrong_check/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"exception_is_normal", "an exception is a normal end", takes(exception_is_normal),
+       "modbus_rtu/client/error/exception/e02", "%LW512 holds 0001"},
+      {"echo_not_compared", "a write whose echo has another address or value ends normally",
+       takes(echo_not_compared), "modbus_rtu/client/error/other_echo_06/other_value",
+       "%LW512 holds 0001"},
+      {"crc_ignored", "a wrong CRC is accepted", hears(accept_any_crc),
+       "modbus_rtu/client/error/wrong_check/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"lrc_ignored", "a wrong LRC is accepted", hears(accept_any_lrc),
+       "modbus_ascii/client/error/wrong_check/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
   };
 }
 

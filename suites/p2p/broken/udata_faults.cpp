@@ -32,35 +32,48 @@ void any_module(UdataConfig& config) {
 }
 
 void dtr_for_rts(UdataInstruction& instruction) {
-  if (instruction.operation == Operation::dtr) instruction.operation = Operation::rts;
-  else if (instruction.operation == Operation::rts) instruction.operation = Operation::dtr;
+  if (instruction.operation == Operation::dtr)
+    instruction.operation = Operation::rts;
+  else if (instruction.operation == Operation::rts)
+    instruction.operation = Operation::dtr;
 }
 
 }  // namespace
 
 std::vector<Fault> udata_faults() {
   return {
-      {"udata_one_byte_less", "the last byte is not sent", says([](Bytes& bytes) { bytes.pop_back(); }), "udata/send/size_10", "data: expected"},
-      {"udata_bytes_swapped", "of a word the high byte is sent first", says(swap_bytes), "udata/send/byte_order", "data: expected"},
-      {"udata_stored_swapped", "of a word the high byte is stored first", hears(swap_bytes), "udata/receive/byte_order", "%DW300 holds BC5AEF12"},
-      {"udata_stores_one_byte_less", "the last byte that was received is lost", hears([](Bytes& bytes) { bytes.pop_back(); }),
-       "udata/receive/size_7", "%DB600 holds 00FF0D0A807FE7E8"},
+      {"udata_one_byte_less", "the last byte is not sent",
+       says([](Bytes& bytes) { bytes.pop_back(); }), "udata/send/size_10", "data: expected"},
+      {"udata_bytes_swapped", "of a word the high byte is sent first", says(swap_bytes),
+       "udata/send/byte_order", "data: expected"},
+      {"udata_stored_swapped", "of a word the high byte is stored first", hears(swap_bytes),
+       "udata/receive/byte_order", "%DW300 holds BC5AEF12"},
+      {"udata_stores_one_byte_less", "the last byte that was received is lost",
+       hears([](Bytes& bytes) { bytes.pop_back(); }), "udata/receive/size_7",
+       "%DB600 holds 00FF0D0A807FE7E8"},
       {"udata_data_from_next_byte", "data are taken and stored one byte too high",
-       each_instruction([](UdataInstruction& instruction) { instruction.data = instruction.data + 1; }), "udata/send/size_10", "data: expected"},
-      {"udata_seven_bits", "the top bit of what is sent is lost",
-       says([](Bytes& bytes) {
+       each_instruction(
+           [](UdataInstruction& instruction) { instruction.data = instruction.data + 1; }),
+       "udata/send/size_10", "data: expected"},
+      {"udata_seven_bits", "the top bit of what is sent is lost", says([](Bytes& bytes) {
          for (Byte& byte : bytes) byte &= 0x7F;
        }),
        "udata/send/byte_order", "data: expected"},
-      {"udata_old_module", "a module older than V1.4 works, too", udata([](UdataConfig& config) { config.module.new_enough = true; }),
+      {"udata_old_module", "a module older than V1.4 works, too",
+       udata([](UdataConfig& config) { config.module.new_enough = true; }),
        "udata/status/senddtr_version_1_3", "%DW200 holds 0001000000000000"},
-      {"udata_any_driver", "the driver of the channel does not matter", udata([](UdataConfig& config) { config.module.user_frames = true; }),
+      {"udata_any_driver", "the driver of the channel does not matter",
+       udata([](UdataConfig& config) { config.module.user_frames = true; }),
        "udata/status/senddtr_driver", "%DW200 holds 0001000000000000"},
-      {"udata_without_link", "the link need not be enabled", udata([](UdataConfig& config) { config.module.link = true; }),
-       "udata/status/senddtr_link", "%DW200 holds 0001000000000000"},
-      {"udata_any_slot", "the slot that an instruction names does not matter", udata(any_module), "udata/status/senddtr_slot", "%DW200 holds 0001000000000000"},
-      {"udata_dtr_for_rts", "SENDDTR moves RTS, and SENDRTS DTR", each_instruction(dtr_for_rts), "udata/levels/dtr_set_and_clear", "@dtr holds 00"},
-      {"udata_in_stop", "instructions run in STOP", [] { return Behaviour{.deaf_to = "stop"}; }, "udata/send/in_stop", "where silence is due"},
+      {"udata_without_link", "the link need not be enabled",
+       udata([](UdataConfig& config) { config.module.link = true; }), "udata/status/senddtr_link",
+       "%DW200 holds 0001000000000000"},
+      {"udata_any_slot", "the slot that an instruction names does not matter", udata(any_module),
+       "udata/status/senddtr_slot", "%DW200 holds 0001000000000000"},
+      {"udata_dtr_for_rts", "SENDDTR moves RTS, and SENDRTS DTR", each_instruction(dtr_for_rts),
+       "udata/levels/dtr_set_and_clear", "@dtr holds 00"},
+      {"udata_in_stop", "instructions run in STOP", [] { return Behaviour{.deaf_to = "stop"}; },
+       "udata/send/in_stop", "where silence is due"},
   };
 }
 

@@ -14,7 +14,8 @@ namespace {
 bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function::write; }
 
 /// Sends another request than the good one; the texts of the edit live until it is sent.
-MakeBehaviour sends(std::function<void(XgtRequest& request, std::vector<std::string>& texts)> edit) {
+MakeBehaviour sends(
+    std::function<void(XgtRequest& request, std::vector<std::string>& texts)> edit) {
   return spoils([=](Bytes& bytes) {
     const Bytes good = bytes;
     XgtRequest request = parse_request(good);
@@ -28,7 +29,8 @@ MakeBehaviour sends(std::function<void(XgtRequest& request, std::vector<std::str
 
 MakeBehaviour names(std::function<std::string(std::string_view name)> edit) {
   return sends([=](XgtRequest& request, std::vector<std::string>& texts) {
-    for (unsigned i = 0; i < request.blocks; ++i) request.block.at(i).name = texts.emplace_back(edit(request.block.at(i).name));
+    for (unsigned i = 0; i < request.blocks; ++i)
+      request.block.at(i).name = texts.emplace_back(edit(request.block.at(i).name));
   });
 }
 
@@ -36,7 +38,8 @@ MakeBehaviour names(std::function<std::string(std::string_view name)> edit) {
 MakeBehaviour digits(std::size_t most, std::function<std::string(std::string digits)> edit) {
   return sends([=](XgtRequest& request, std::vector<std::string>& texts) {
     for (unsigned i = 0; i < request.blocks; ++i) {
-      const std::size_t size = std::min(most, std::size_t{2} * type_bytes(request.block.at(i).name[2]));
+      const std::size_t size =
+          std::min(most, std::size_t{2} * type_bytes(request.block.at(i).name[2]));
       const std::string right(request.block.at(i).data);
       std::string& wrong = texts.emplace_back();
       for (std::size_t at = 0; at < right.size(); at += size) wrong += edit(right.substr(at, size));
@@ -61,9 +64,13 @@ std::string next_name(std::string_view name) {
   return fmt::format("{}{}", name.substr(0, 3), std::stoi(std::string(name.substr(3))) + 1);
 }
 
-std::string padded_name(std::string_view name) { return fmt::format("{}{:0>5}", name.substr(0, 3), name.substr(3)); }
+std::string padded_name(std::string_view name) {
+  return fmt::format("{}{:0>5}", name.substr(0, 3), name.substr(3));
+}
 
-void upper_case(XgtRequest& request, std::vector<std::string>&) { request.command = upper(request.command); }
+void upper_case(XgtRequest& request, std::vector<std::string>&) {
+  request.command = upper(request.command);
+}
 
 void set_bcc(Bytes& frame, int offset = 0) {
   const int right = xgt_bcc(ByteView(frame).first(frame.size() - 2));
@@ -84,9 +91,11 @@ MakeBehaviour spoils_with_bcc(std::function<void(Bytes& request)> edit) {
 /// Writes what memory held at the first request.
 Behaviour remembers() {
   const auto first = std::make_shared<std::map<unsigned, Bytes>>();
-  return {.asks = [=](const P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) -> Result<Bytes> {
+  return {.asks = [=](const P2pDriver& good, const P2pBlock& block,
+                      const PlcMemory& memory) -> Result<Bytes> {
     const Result<Bytes> request = good.request(block, memory);
-    return request ? Result<Bytes>(first->try_emplace(block.number, *request).first->second) : request;
+    return request ? Result<Bytes>(first->try_emplace(block.number, *request).first->second)
+                   : request;
   }};
 }
 
@@ -104,43 +113,57 @@ Behaviour one_station() {
 
 std::vector<Fault> xgt_request_faults() {
   return {
-      {"bcc_missing", "the request has no BCC", spoils([](Bytes& request) { request.resize(request.size() - 2); }), "xgt_cnet/client/read_cycle", "BCC: expected A4, got nothing"},
-      {"bcc_off_by_one", "the BCC is one too high",
-       bcc_higher_by(1),
-       "xgt_cnet/client/read_cycle", "BCC: expected A4, got A5"},
-      {"bcc_without_header", "ENQ is not in the sum of the BCC",
-       bcc_higher_by(-xgt_enq),
+      {"bcc_missing", "the request has no BCC",
+       spoils([](Bytes& request) { request.resize(request.size() - 2); }),
+       "xgt_cnet/client/read_cycle", "BCC: expected A4, got nothing"},
+      {"bcc_off_by_one", "the BCC is one too high", bcc_higher_by(1), "xgt_cnet/client/read_cycle",
+       "BCC: expected A4, got A5"},
+      {"bcc_without_header", "ENQ is not in the sum of the BCC", bcc_higher_by(-xgt_enq),
        "xgt_cnet/client/monitor_capture", "BCC: expected 40, got 3B"},
-      {"etx_for_eot", "a request ends with ETX", spoils_with_bcc([](Bytes& request) { request.at(request.size() - 3) = xgt_etx; }),
+      {"etx_for_eot", "a request ends with ETX",
+       spoils_with_bcc([](Bytes& request) { request.at(request.size() - 3) = xgt_etx; }),
        "xgt_cnet/client/read_cycle", "surplus: expected nothing, got <03>A3"},
-      {"upper_case_command", "commands go out in upper case, without BCC", sends(upper_case), "xgt_cnet/client/read_cycle", "command: expected r, got R"},
-      {"names_padded", "names go out with leading zeros", names(padded_name), "xgt_cnet/client/read_cycle", "name length: expected 06, got 08"},
-      {"address_one_too_high", "the address of the partner is one too high", names(next_name), "xgt_cnet/client/read/single/word", "name: expected %MW15, got %MW16"},
+      {"upper_case_command", "commands go out in upper case, without BCC", sends(upper_case),
+       "xgt_cnet/client/read_cycle", "command: expected r, got R"},
+      {"names_padded", "names go out with leading zeros", names(padded_name),
+       "xgt_cnet/client/read_cycle", "name length: expected 06, got 08"},
+      {"address_one_too_high", "the address of the partner is one too high", names(next_name),
+       "xgt_cnet/client/read/single/word", "name: expected %MW15, got %MW16"},
       {"name_length_off_by_one", "the length of a name is one too low",
-       spoils_with_bcc([](Bytes& request) { --request.at(request.size() > 9 ? 9 : 0); }), "xgt_cnet/client/read_cycle", "name length: expected 06, got 05"},
-      {"block_count_off_by_one", "the number of blocks is one too high", spoils_with_bcc([](Bytes& request) { ++request.at(7); }),
-       "xgt_cnet/client/read_cycle", "block count: expected 01, got 02"},
+       spoils_with_bcc([](Bytes& request) { --request.at(request.size() > 9 ? 9 : 0); }),
+       "xgt_cnet/client/read_cycle", "name length: expected 06, got 05"},
+      {"block_count_off_by_one", "the number of blocks is one too high",
+       spoils_with_bcc([](Bytes& request) { ++request.at(7); }), "xgt_cnet/client/read_cycle",
+       "block count: expected 01, got 02"},
       {"run_in_bytes", "the number of a run is that of its bytes",
-       sends([](XgtRequest& request, auto&) { request.count *= type_bytes(request.block[0].name[2]); }), "xgt_cnet/client/run/read/words", "number of data: expected 02, got 04"},
-      {"run_one_too_long", "the number of a run is one too high", sends([](XgtRequest& request, auto&) { request.count += 1; }),
+       sends([](XgtRequest& request, auto&) {
+         request.count *= type_bytes(request.block[0].name[2]);
+       }),
+       "xgt_cnet/client/run/read/words", "number of data: expected 02, got 04"},
+      {"run_one_too_long", "the number of a run is one too high",
+       sends([](XgtRequest& request, auto&) { request.count += 1; }),
        "xgt_cnet/client/run/read/bytes", "number of data: expected 03, got 04"},
-      {"station_of_first_block", "every block asks the station of the first", one_station, "xgt_cnet/client/schedule/block_order", "station: expected 05, got 03"},
+      {"station_of_first_block", "every block asks the station of the first", one_station,
+       "xgt_cnet/client/schedule/block_order", "station: expected 05, got 03"},
       {"station_decimal", "the station goes out as a decimal number",
        spoils_with_bcc([](Bytes& request) {
          const XgtRequest right = parse_request(request);
          std::ranges::copy(fmt::format("{:02}", right.station % 100), request.begin() + 1);
        }),
        "xgt_cnet/client/write/station/s31", "station: expected 1F, got 31"},
-      {"first_variable_only", "of several variables only the first is asked for", asks_for([](P2pBlock& block) { block.variables.resize(1); }),
+      {"first_variable_only", "of several variables only the first is asked for",
+       asks_for([](P2pBlock& block) { block.variables.resize(1); }),
        "xgt_cnet/client/write/two_dwords", "block count: expected 02, got 01"},
-      {"variables_in_reverse", "the last variable comes first", asks_for([](P2pBlock& block) { std::ranges::reverse(block.variables); }),
+      {"variables_in_reverse", "the last variable comes first",
+       asks_for([](P2pBlock& block) { std::ranges::reverse(block.variables); }),
        "xgt_cnet/client/write/two_dwords", "name length 1: expected 05, got 04"},
       {"read_for_write", "a write goes out as a read of the same variables",
-       asks_for([](P2pBlock& block) { block.function = P2pBlock::Function::read; }), "xgt_cnet/client/write/single/word", "command: expected w, got r"},
+       asks_for([](P2pBlock& block) { block.function = P2pBlock::Function::read; }),
+       "xgt_cnet/client/write/single/word", "command: expected w, got r"},
       {"run_as_single", "a run goes out as one single variable",
-       asks_for([](P2pBlock& block) { block.continuous = false; }), "xgt_cnet/client/run/write/words", "command type: expected SB, got SS"},
-      {"single_as_run", "a single variable goes out as a run of one",
-       asks_for([](P2pBlock& block) {
+       asks_for([](P2pBlock& block) { block.continuous = false; }),
+       "xgt_cnet/client/run/write/words", "command type: expected SB, got SS"},
+      {"single_as_run", "a single variable goes out as a run of one", asks_for([](P2pBlock& block) {
          block.continuous = block.variables.size() == 1 && block.type != 'X';
          block.size = 1;
        }),
@@ -151,16 +174,21 @@ std::vector<Fault> xgt_request_faults() {
            if (writes(block)) variable.own = variable.own + 1;
        }),
        "xgt_cnet/client/write/single/word", "data: expected 2468, got 9BDF"},
-      {"write_bytes_swapped", "what is written goes out low byte first", digits(16, bytes_reversed), "xgt_cnet/client/write/single/word", "data: expected 2468, got 6824"},
-      {"write_halves_swapped", "what is written goes out low word first", digits(16, words_reversed), "xgt_cnet/client/write/two_dwords", "data 1: expected 75318642, got 86427531"},
+      {"write_bytes_swapped", "what is written goes out low byte first", digits(16, bytes_reversed),
+       "xgt_cnet/client/write/single/word", "data: expected 2468, got 6824"},
+      {"write_halves_swapped", "what is written goes out low word first",
+       digits(16, words_reversed), "xgt_cnet/client/write/two_dwords",
+       "data 1: expected 75318642, got 86427531"},
       {"write_lower_case", "hex digits of data go out in lower case",
        digits(16,
               [](std::string digits) {
-                for (char& c : digits) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+                for (char& c : digits)
+                  c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
                 return digits;
               }),
        "xgt_cnet/client/example/write_m100_read_d100", "data: expected 5ABC, got 5abc"},
-      {"writes_first_value", "every write sends what memory held at the first", remembers, "xgt_cnet/client/write/value_of_the_moment", "data: expected 5ABC, got 2468"},
+      {"writes_first_value", "every write sends what memory held at the first", remembers,
+       "xgt_cnet/client/write/value_of_the_moment", "data: expected 5ABC, got 2468"},
   };
 }
 

@@ -1,5 +1,6 @@
-// The suite against broken ports: each fault must turn its case red, and the healthy port must pass them all. Everything
-// runs in process: user-defined frames have no request that reads memory, so that no other endpoint sees what is stored.
+// The suite against broken ports: each fault must turn its case red, and the healthy port must pass
+// them all. Everything runs in process: user-defined frames have no request that reads memory, so
+// that no other endpoint sees what is stored.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -20,7 +21,8 @@ namespace {
 /// Without the cases of P2P blocks: suites/p2p/broken.
 const VectorSet& vectors() {
   static const VectorSet set = [] {
-    VectorSet all = load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/user_frames", FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
+    VectorSet all = load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/user_frames",
+                                 FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
     std::erase_if(all.cases, [](const Case& one) { return one.config.contains("p2p"); });
     return all;
   }();
@@ -28,9 +30,10 @@ const VectorSet& vectors() {
 }
 
 CaseResult run(const Case& source, const Behaviour& behaviour) {
-  EmulatorEndpoint endpoint({"emulator", "", {}}, [&](std::string_view model, const nlohmann::json& config) {
-    return make_broken_port(behaviour, model, config);
-  });
+  EmulatorEndpoint endpoint({"emulator", "", {}},
+                            [&](std::string_view model, const nlohmann::json& config) {
+                              return make_broken_port(behaviour, model, config);
+                            });
   BenchOptions options;
   options.profile.name = "emulator";
   options.profile.protocols = {"user-frames"};
@@ -52,12 +55,16 @@ TEST_P(TheSuite, Catches) {
   const auto one = std::ranges::find(vectors().cases, fault.caught_by, &Case::id);
   const bool known = one != vectors().cases.end();
   const CaseResult result = known ? run(*one, fault.make) : CaseResult{};
-  if (known && result.verdict == Verdict::fail && report(result).find(fault.message) != std::string::npos)
+  if (known && result.verdict == Verdict::fail &&
+      report(result).find(fault.message) != std::string::npos)
     return fmt::print("{:<28} {}\n", fault.name, report(result));
   std::string red;
   for (const Case& other : vectors().cases)
-    if (const CaseResult found = run(other, fault.make); found.verdict == Verdict::fail) red += "\n  " + report(found);
-  ADD_FAILURE() << fault.caught_by << (known ? " does not catch it: " + report(result) : " is no case") << "\nred are:" << red;
+    if (const CaseResult found = run(other, fault.make); found.verdict == Verdict::fail)
+      red += "\n  " + report(found);
+  ADD_FAILURE() << fault.caught_by
+                << (known ? " does not catch it: " + report(result) : " is no case")
+                << "\nred are:" << red;
 }
 
 INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
@@ -68,7 +75,8 @@ TEST(HealthyPort, PassesTheWholeSuite) {
   std::size_t passed = 0;
   for (const Case& one : vectors().cases) {
     const CaseResult result = run(one, {});
-    EXPECT_TRUE(result.verdict == Verdict::pass || result.verdict == Verdict::info) << report(result);
+    EXPECT_TRUE(result.verdict == Verdict::pass || result.verdict == Verdict::info)
+        << report(result);
     passed += result.verdict == Verdict::pass;
   }
   EXPECT_GT(passed, 200u);

@@ -41,12 +41,15 @@ std::vector<Fault> check_faults() {
          if (c.first < c.last) --c.last;
        }),
        "user_frames/xgt_write/b_b", "BCC: expected"},
-      {"check_covers_the_frame", "start and end are not looked at", each_frame([](UserFrame& frame) {
+      {"check_covers_the_frame", "start and end are not looked at",
+       each_frame([](UserFrame& frame) {
          for (std::size_t i = 0; i < frame.segments.size(); ++i)
-           if (frame.segments[i].kind == Segment::Kind::check) frame.segments[i].first = 0, frame.segments[i].last = i - 1;
+           if (frame.segments[i].kind == Segment::Kind::check)
+             frame.segments[i].first = 0, frame.segments[i].last = i - 1;
        }),
        "user_frames/check_options/range_body_only", "tail 2: expected"},
-      {"check_not_verified", "a frame with a wrong check is received", each_received([](UserFrame& frame) {
+      {"check_not_verified", "a frame with a wrong check is received",
+       each_received([](UserFrame& frame) {
          for (Segment& s : frame.segments)
            if (s.kind == Segment::Kind::check) accept_anything(s);
        }),
@@ -67,23 +70,28 @@ std::vector<Fault> check_faults() {
        }),
        "user_frames/check_options/ascii_byte_sum", "tail 1"},
       {"check_high_byte_first", "16-bit checks are sent high byte first",
-       each_check([](Segment& c) { c.options.low_first = false; }), "user_frames/check_methods/crc_16_of_123456789", "tail 0: expected"},
-      {"crc_starts_at_0", "CRC 16 starts at 0", start_of(CheckMethod::crc_16, 0), "user_frames/check_methods/send_crc_16_a",
-       "tail 1: expected"},
-      {"xor_starts_at_0", "XOR starts at 0", start_of(CheckMethod::byte_xor, 0), "user_frames/check_methods/send_byte_xor_a",
-       "tail 1: expected"},
+       each_check([](Segment& c) { c.options.low_first = false; }),
+       "user_frames/check_methods/crc_16_of_123456789", "tail 0: expected"},
+      {"crc_starts_at_0", "CRC 16 starts at 0", start_of(CheckMethod::crc_16, 0),
+       "user_frames/check_methods/send_crc_16_a", "tail 1: expected"},
+      {"xor_starts_at_0", "XOR starts at 0", start_of(CheckMethod::byte_xor, 0),
+       "user_frames/check_methods/send_byte_xor_a", "tail 1: expected"},
       {"initial_ff_ignored", "sums start at 0 always", start_of(CheckMethod::byte_sum, 0),
        "user_frames/check_options/initial_ff_byte_sum", "tail 1: expected"},
-      {"seven_bits_are_eight", "7-bit SUM keeps the highest bit", instead_of(CheckMethod::sum_7bit, CheckMethod::byte_sum),
+      {"seven_bits_are_eight", "7-bit SUM keeps the highest bit",
+       instead_of(CheckMethod::sum_7bit, CheckMethod::byte_sum),
        "user_frames/check_methods/receive_7bit_sum_eight_bits", "%MW199 holds"},
-      {"seven_bit_xor_is_eight", "7-bit XOR keeps the highest bit", instead_of(CheckMethod::xor_7bit, CheckMethod::byte_xor),
+      {"seven_bit_xor_is_eight", "7-bit XOR keeps the highest bit",
+       instead_of(CheckMethod::xor_7bit, CheckMethod::byte_xor),
        "user_frames/check_methods/receive_7bit_xor_eight_bits", "%MW199 holds"},
-      {"sum_1_without_20", "7-bit SUM#1 adds nothing below 20 hex", instead_of(CheckMethod::sum_7bit_1, CheckMethod::sum_7bit),
+      {"sum_1_without_20", "7-bit SUM#1 adds nothing below 20 hex",
+       instead_of(CheckMethod::sum_7bit_1, CheckMethod::sum_7bit),
        "user_frames/check_methods/7bit_sum_1_at_1f", "tail 1: expected"},
       {"ones_for_twos_complement", "2'S COMP is the one's complement",
        instead_of(CheckMethod::sum_2s_complement, CheckMethod::sum_1s_complement),
        "user_frames/check_methods/send_byte_sum_2s_comp_a", "tail 1: expected"},
-      {"df1_counts_dle_twice", "DLE AB counts both of DLE DLE", instead_of(CheckMethod::dle_ab, CheckMethod::sum_2s_complement),
+      {"df1_counts_dle_twice", "DLE AB counts both of DLE DLE",
+       instead_of(CheckMethod::dle_ab, CheckMethod::sum_2s_complement),
        "user_frames/check_methods/send_dle_ab_doubled", "tail 1: expected"},
       {"siemens_without_dle_etx", "DLE SIEMENS does not cover DLE ETX", each_check([](Segment& c) {
          if (c.method == CheckMethod::dle_siemens) --c.last;

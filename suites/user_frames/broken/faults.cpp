@@ -13,14 +13,18 @@ namespace fieldproof::user_frames {
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table = [] {
     std::vector<Fault> all;
-    for (auto part : {check_faults, frame_faults, variable_faults}) std::ranges::move(part(), std::back_inserter(all));
+    for (auto part : {check_faults, frame_faults, variable_faults})
+      std::ranges::move(part(), std::back_inserter(all));
     return all;
   }();
   return table;
 }
 
 Behaviour each_frame(std::function<void(UserFrame& frame)> edit) {
-  return {.works_with = [edit = std::move(edit)](FrameDefinition& definition) { std::ranges::for_each(definition.frames, edit); },
+  return {.works_with =
+              [edit = std::move(edit)](FrameDefinition& definition) {
+                std::ranges::for_each(definition.frames, edit);
+              },
           .set_to = {},
           .says = {},
           .deaf_to = {}};
@@ -39,7 +43,8 @@ Behaviour each_sent(std::function<void(UserFrame& frame)> edit) {
 }
 
 Behaviour each_segment(std::function<void(Segment& segment)> edit) {
-  return each_frame([edit = std::move(edit)](UserFrame& frame) { std::ranges::for_each(frame.segments, edit); });
+  return each_frame(
+      [edit = std::move(edit)](UserFrame& frame) { std::ranges::for_each(frame.segments, edit); });
 }
 
 Behaviour each_check(std::function<void(Segment& check)> edit) {
@@ -59,7 +64,8 @@ void remove_segment(UserFrame& frame, std::size_t position) {
 }
 
 void insert_behind(UserFrame& frame, std::size_t position, Segment segment) {
-  frame.segments.insert(frame.segments.begin() + static_cast<std::ptrdiff_t>(position + 1), std::move(segment));
+  frame.segments.insert(frame.segments.begin() + static_cast<std::ptrdiff_t>(position + 1),
+                        std::move(segment));
   for (Segment& one : frame.segments) {
     if (one.first > position) ++one.first;
     if (one.last > position) ++one.last;
@@ -80,9 +86,15 @@ class MisspeakingPort : public EmulatedDevice {
     const Bytes bytes = port_->advance(now);
     return behaviour_.says && !bytes.empty() ? behaviour_.says(bytes) : bytes;
   }
-  Status set(std::string_view address, std::string_view hex) override { return port_->set(address, hex); }
-  Result<std::string> get(std::string_view address, std::size_t digits) const override { return port_->get(address, digits); }
-  Status act(std::string_view action) override { return action == behaviour_.deaf_to ? ok() : port_->act(action); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return port_->set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    return port_->get(address, digits);
+  }
+  Status act(std::string_view action) override {
+    return action == behaviour_.deaf_to ? ok() : port_->act(action);
+  }
 
  private:
   std::unique_ptr<EmulatedDevice> port_;
@@ -91,7 +103,8 @@ class MisspeakingPort : public EmulatedDevice {
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour, std::string_view model,
+Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour,
+                                                         std::string_view model,
                                                          nlohmann::json config) {
   Result<NamedDefinition> loaded = load_definition(model, definitions_folder());
   if (!loaded) return loaded.error();
@@ -99,7 +112,8 @@ Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behavi
   if (behaviour.set_to) behaviour.set_to(config);
   Result<std::unique_ptr<EmulatedDevice>> port = make_user_frame_device(loaded->definition, config);
   if (!port) return port.error();
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<MisspeakingPort>(std::move(*port), behaviour));
+  return std::unique_ptr<EmulatedDevice>(
+      std::make_unique<MisspeakingPort>(std::move(*port), behaviour));
 }
 
 }  // namespace fieldproof::user_frames

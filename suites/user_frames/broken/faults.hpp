@@ -1,5 +1,6 @@
-// What can be wrong with a port that works with user-defined frames. Most faults are a definition that differs from what
-// was asked for: a check that is not compared is a variable there, a swap that is forgotten is no swap.
+// What can be wrong with a port that works with user-defined frames. Most faults are a definition
+// that differs from what was asked for: a check that is not compared is a variable there, a swap
+// that is forgotten is no swap.
 #pragma once
 
 #include <functional>
@@ -40,12 +41,14 @@ Behaviour each_check(std::function<void(Segment& check)> edit);
 
 /// The segment takes any bytes from now on.
 void accept_anything(Segment& segment);
-/// Takes a segment out, or puts one in behind `position`; the check covers the same segments as before.
+/// Takes a segment out, or puts one in behind `position`; the check covers the same segments as
+/// before.
 void remove_segment(UserFrame& frame, std::size_t position);
 void insert_behind(UserFrame& frame, std::size_t position, Segment segment);
 
 /// The device of a model's definition with a fault.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour, std::string_view model,
+Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour,
+                                                         std::string_view model,
                                                          nlohmann::json config);
 
 }  // namespace fieldproof::user_frames

@@ -6,7 +6,9 @@ namespace {
 
 using Kind = Segment::Kind;
 
-bool is_variable(const Segment& segment) { return segment.kind == Kind::data || segment.kind == Kind::rest; }
+bool is_variable(const Segment& segment) {
+  return segment.kind == Kind::data || segment.kind == Kind::rest;
+}
 
 /// The conversion is another; sizes in the frame follow.
 Behaviour convert_otherwise(Convert hex_to_ascii, Convert ascii_to_hex) {
@@ -53,8 +55,8 @@ void lose_the_second(UserFrame& frame) {
 
 std::vector<Fault> variable_faults() {
   return {
-      {"swap_not_applied", "bytes are not swapped", each_segment([](Segment& s) { s.swap = 1; }), "user_frames/swap/send_swap_2",
-       "body 1: expected"},
+      {"swap_not_applied", "bytes are not swapped", each_segment([](Segment& s) { s.swap = 1; }),
+       "user_frames/swap/send_swap_2", "body 1: expected"},
       {"swap_always_2", "groups of 4 and 8 are swapped by 2", each_segment([](Segment& s) {
          if (s.swap > 1) s.swap = 2;
        }),
@@ -63,22 +65,28 @@ std::vector<Fault> variable_faults() {
          if (s.swap == 8) s.swap = 4;
        }),
        "user_frames/swap/receive_swap_8", "%MW199 holds"},
-      {"not_converted", "variables are not converted", convert_otherwise(Convert::none, Convert::none),
-       "user_frames/conversions/send_h2a_printed", "body 1"},
+      {"not_converted", "variables are not converted",
+       convert_otherwise(Convert::none, Convert::none), "user_frames/conversions/send_h2a_printed",
+       "body 1"},
       {"converted_the_other_way", "hex to ASCII and ASCII to hex are mixed up",
-       convert_otherwise(Convert::ascii_to_hex, Convert::hex_to_ascii), "user_frames/conversions/send_a2h_4567", "body 1"},
-      {"rest_cut", "the last byte of a variable segment is lost", each_received([](UserFrame& frame) { cut(frame, Kind::rest); }),
+       convert_otherwise(Convert::ascii_to_hex, Convert::hex_to_ascii),
+       "user_frames/conversions/send_a2h_4567", "body 1"},
+      {"rest_cut", "the last byte of a variable segment is lost",
+       each_received([](UserFrame& frame) { cut(frame, Kind::rest); }),
        "user_frames/segments/rest/bytes_313233", "%MW259 holds"},
-      {"fixed_cut", "the last byte of a fixed segment is lost", each_received([](UserFrame& frame) { cut(frame, Kind::data); }),
+      {"fixed_cut", "the last byte of a fixed segment is lost",
+       each_received([](UserFrame& frame) { cut(frame, Kind::data); }),
        "user_frames/segments/four_fixed", "%MW200 holds"},
-      {"low_byte_first", "words are taken low byte first", each_segment(low_byte_first), "user_frames/conversions/send_none",
-       "body 1: expected"},
-      {"stored_one_further", "data are stored one element further", each_received([](UserFrame& frame) {
+      {"low_byte_first", "words are taken low byte first", each_segment(low_byte_first),
+       "user_frames/conversions/send_none", "body 1: expected"},
+      {"stored_one_further", "data are stored one element further",
+       each_received([](UserFrame& frame) {
          for (Segment& s : frame.segments)
            if (s.memory) ++s.memory->index;
        }),
        "user_frames/px7/any_content/commas", "%MW199 holds"},
-      {"sent_from_one_further", "data are taken one element further", each_sent([](UserFrame& frame) {
+      {"sent_from_one_further", "data are taken one element further",
+       each_sent([](UserFrame& frame) {
          for (Segment& s : frame.segments)
            if (s.memory) ++s.memory->index;
        }),

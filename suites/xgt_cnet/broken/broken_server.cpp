@@ -9,7 +9,9 @@
 namespace fieldproof::xgt_cnet {
 
 BrokenPlc::BrokenPlc(Behaviour behaviour, GoodPlc plc, Duration gap)
-    : behaviour_(std::move(behaviour)), plc_(std::move(plc)), receiver_(FrameReceiver::Side::server, gap) {
+    : behaviour_(std::move(behaviour)),
+      plc_(std::move(plc)),
+      receiver_(FrameReceiver::Side::server, gap) {
   if (behaviour_.power_on) behaviour_.power_on(plc_);
 }
 
@@ -44,7 +46,9 @@ Bytes BrokenPlc::advance(Time now) {
 void BrokenPlc::on_frame(ByteView frame, Time end) {
   const Bytes request(frame.begin(), frame.end());
   const bool together = frames_in_burst_++ > 0;
-  pending_.put(behaviour_.answer ? behaviour_.answer(request, together, plc_) : Sendings{{plc_.answer(request)}}, end);
+  pending_.put(behaviour_.answer ? behaviour_.answer(request, together, plc_)
+                                 : Sendings{{plc_.answer(request)}},
+               end);
 }
 
 void BrokenPlc::on_broken_frame(std::uint16_t) {
@@ -64,19 +68,24 @@ Status BrokenPlc::act(std::string_view action) {
   return done;
 }
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault, const PortConfig& config, Storage& storage) {
+Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault,
+                                                        const PortConfig& config,
+                                                        Storage& storage) {
   const Fault* known = find_fault(fault);
   if (!known && fault != "none") {
     std::vector<std::string_view> names{"none"};
     for (const Fault& one : faults()) names.push_back(one.name);
-    return fail(fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}", fault,
-                            suggestion(fault, names)));
+    return fail(
+        fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}",
+                    fault, suggestion(fault, names)));
   }
   Result<std::unique_ptr<Plc>> plc = make_plc(config);
   if (!plc) return plc.error();
   GoodPlc good(std::move(*plc), *find_plc_model(config.model), config.station);
-  const Duration gap = effective_gap(config.inter_character, config.inter_character_floor, config.line);
-  return std::unique_ptr<EmulatedDevice>(new BrokenPlc(known ? known->make(storage) : Behaviour{}, std::move(good), gap));
+  const Duration gap =
+      effective_gap(config.inter_character, config.inter_character_floor, config.line);
+  return std::unique_ptr<EmulatedDevice>(
+      new BrokenPlc(known ? known->make(storage) : Behaviour{}, std::move(good), gap));
 }
 
 }  // namespace fieldproof::xgt_cnet

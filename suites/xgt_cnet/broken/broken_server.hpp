@@ -16,12 +16,15 @@ class BrokenPlc : public EmulatedDevice, private FrameSink {
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
-  Status set(std::string_view address, std::string_view hex) override { return plc_.memory().set(address, hex); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return plc_.memory().set(address, hex);
+  }
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   Status act(std::string_view action) override;
 
  private:
-  friend Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view, const PortConfig&, Storage&);
+  friend Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view,
+                                                                 const PortConfig&, Storage&);
   BrokenPlc(Behaviour behaviour, GoodPlc plc, Duration gap);
 
   void on_frame(ByteView frame, Time end) override;
@@ -38,7 +41,9 @@ class BrokenPlc : public EmulatedDevice, private FrameSink {
   SendQueue pending_;
 };
 
-/// A server with the fault of that name, or without ("none"). `storage` outlives it. Errors name the fault or the parameter.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault, const PortConfig& config, Storage& storage);
+/// A server with the fault of that name, or without ("none"). `storage` outlives it. Errors name
+/// the fault or the parameter.
+Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault,
+                                                        const PortConfig& config, Storage& storage);
 
 }  // namespace fieldproof::xgt_cnet

@@ -1,5 +1,5 @@
-// The suite against broken devices: each fault must turn its case red, with a message that names it, and the healthy
-// device must pass.
+// The suite against broken devices: each fault must turn its case red, with a message that names
+// it, and the healthy device must pass.
 #include <gmock/gmock.h>
 
 #include "suites/broken/suite_runs.hpp"
@@ -18,7 +18,8 @@ constexpr const char* healthy = "none";
 std::string case_id(const Fault& fault) { return fmt::format("xgt_cnet/{}", fault.caught_by); }
 
 std::string device(std::string_view fault, unsigned station) {
-  return fmt::format("{} {} {{tty}} {} '{{folder}}/storage'?station={}", quoted(BROKEN_SERVER), fault, station, station);
+  return fmt::format("{} {} {{tty}} {} '{{folder}}/storage'?station={}", quoted(BROKEN_SERVER),
+                     fault, station, station);
 }
 
 Trial trial_for(const Fault& fault) {
@@ -27,19 +28,21 @@ Trial trial_for(const Fault& fault) {
   const std::string id = case_id(fault);
   return {std::string(fault.name), device(fault.name, fault.station), "xbc-h",
           fmt::format("{}/vectors/xgt_cnet/{}.json", FIELDPROOF_SOURCE_DIR, chapter),
-          fault.neighbours == alone     ? id
+          fault.neighbours == alone  ? id
           : fault.neighbours.empty() ? neighbours_of(id)
                                      : std::string(fault.neighbours)};
 }
 
 std::optional<Trial> trial_of(const std::string& test) {
-  if (test == "PassesTheWholeSuite") return Trial{healthy, device(healthy, 1), "xbc-h", {}, "xgt_cnet/*"};
+  if (test == "PassesTheWholeSuite")
+    return Trial{healthy, device(healthy, 1), "xbc-h", {}, "xgt_cnet/*"};
   const Fault* fault = find_fault(parameter_of(test));
   return fault ? std::optional(trial_for(*fault)) : std::nullopt;
 }
 
 SuiteRuns& runs() {
-  static auto* const environment = static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+  static auto* const environment =
+      static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
   return *environment;
 }
 [[maybe_unused]] const SuiteRuns& registered_before_main = runs();
@@ -50,7 +53,8 @@ TEST_P(TheSuite, Catches) {
   const Fault& fault = GetParam();
   const SuiteRun run = runs().take(std::string(fault.name));
   const std::string message = expect_caught(run, case_id(fault), fault.message);
-  runs().report(fmt::format("{:<40} {:<54} {:>4.1f} s  {}", fault.name, fault.caught_by, run.seconds, message));
+  runs().report(fmt::format("{:<40} {:<54} {:>4.1f} s  {}", fault.name, fault.caught_by,
+                            run.seconds, message));
 }
 
 INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
@@ -59,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
 TEST(HealthyDevice, PassesTheWholeSuite) {
   const SuiteRun run = runs().take(healthy);
   const std::size_t passed = expect_healthy(run, 1000);
-  runs().report(fmt::format("{:<40} {} of {} cases pass, {:.1f} s", healthy, passed, run.results.size(), run.seconds));
+  runs().report(fmt::format("{:<40} {} of {} cases pass, {:.1f} s", healthy, passed,
+                            run.results.size(), run.seconds));
 }
 
 TEST(FaultTable, NamesAreUnique) {

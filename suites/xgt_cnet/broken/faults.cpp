@@ -5,7 +5,8 @@
 namespace fieldproof::xgt_cnet {
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table = gather<Fault>({check_faults, reply_faults, data_faults, limit_faults, monitor_faults, line_faults});
+  static const std::vector<Fault> table = gather<Fault>(
+      {check_faults, reply_faults, data_faults, limit_faults, monitor_faults, line_faults});
   return table;
 }
 
@@ -14,13 +15,17 @@ const Fault* find_fault(std::string_view name) { return find_by_name(faults(), n
 MakeBehaviour answer_with(std::function<Bytes(const Bytes& request, GoodPlc& plc)> answer) {
   return [answer = std::move(answer)](Storage&) {
     Behaviour behaviour;
-    behaviour.answer = [answer](const Bytes& request, bool, GoodPlc& plc) { return Sendings{{answer(request, plc)}}; };
+    behaviour.answer = [answer](const Bytes& request, bool, GoodPlc& plc) {
+      return Sendings{{answer(request, plc)}};
+    };
     return behaviour;
   };
 }
 
 MakeBehaviour misread(std::function<Bytes(const Bytes& request, GoodPlc& plc)> read) {
-  return answer_with([read = std::move(read)](const Bytes& request, GoodPlc& plc) { return plc.answer(read(request, plc)); });
+  return answer_with([read = std::move(read)](const Bytes& request, GoodPlc& plc) {
+    return plc.answer(read(request, plc));
+  });
 }
 
 MakeBehaviour spoil_frame(std::function<void(FrameText& reply, const FrameText& request)> edit) {

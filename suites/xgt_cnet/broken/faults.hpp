@@ -48,7 +48,8 @@ std::vector<Fault> limit_faults();
 std::vector<Fault> monitor_faults();
 std::vector<Fault> line_faults();
 
-/// Spoils the reply of the good PLC. The BCC is made right again (`edit_reply`), or left as it is (`spoil_frame`).
+/// Spoils the reply of the good PLC. The BCC is made right again (`edit_reply`), or left as it is
+/// (`spoil_frame`).
 MakeBehaviour edit_reply(std::function<void(FrameText& reply, const FrameText& request)> edit);
 MakeBehaviour spoil_frame(std::function<void(FrameText& reply, const FrameText& request)> edit);
 /// Understands another request than was sent.

@@ -36,7 +36,8 @@ FrameText take_apart(ByteView frame) {
 
 Bytes ack_to(const XgtRequest& request, std::string_view content) {
   Bytes bytes;
-  encode_reply({.station = request.station, .command = request.command, .kind = request.kind}, bytes);
+  encode_reply({.station = request.station, .command = request.command, .kind = request.kind},
+               bytes);
   FrameText ack = take_apart(bytes);
   ack.body += content;
   ack.seal();
@@ -45,7 +46,11 @@ Bytes ack_to(const XgtRequest& request, std::string_view content) {
 
 Bytes nak_to(const XgtRequest& request, std::uint16_t code) {
   Bytes bytes;
-  encode_reply({.ack = false, .station = request.station, .command = request.command, .kind = request.kind, .error = code},
+  encode_reply({.ack = false,
+                .station = request.station,
+                .command = request.command,
+                .kind = request.kind,
+                .error = code},
                bytes);
   return bytes;
 }

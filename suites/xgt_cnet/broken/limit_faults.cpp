@@ -9,11 +9,13 @@ namespace fieldproof::xgt_cnet {
 namespace {
 
 /// Asks again with other names what was refused with `code`.
-MakeBehaviour forgive_name(unsigned code, std::string (*rename)(const std::string& name, const GoodPlc& plc)) {
+MakeBehaviour forgive_name(unsigned code,
+                           std::string (*rename)(const std::string& name, const GoodPlc& plc)) {
   return answer_with([code, rename](const Bytes& request, GoodPlc& plc) {
     const Bytes reply = plc.answer(request);
     if (refusal(reply) != code) return reply;
-    const Bytes other = with_names(request, [&](const std::string& name) { return rename(name, plc); });
+    const Bytes other =
+        with_names(request, [&](const std::string& name) { return rename(name, plc); });
     return other == request ? reply : plc.answer(other);
   });
 }
@@ -32,7 +34,8 @@ std::string last_for_one_past(const std::string& name, const GoodPlc& plc) {
 std::string wrapped(const std::string& name, const GoodPlc& plc) {
   const NameParts parts = split_name(name);
   const std::uint32_t size = elements_of(name, plc);
-  return parts.number && size > 0 ? parts.area_and_type + std::to_string(*parts.number % size) : name;
+  return parts.number && size > 0 ? parts.area_and_type + std::to_string(*parts.number % size)
+                                  : name;
 }
 
 /// Refuses the last element of each area.
@@ -40,10 +43,12 @@ Bytes refuse_last(const Bytes& frame, GoodPlc& plc) {
   const XgtRequest request = parse_request(frame);
   const Bytes reply = plc.answer(frame);
   if (reply.empty() || request.fault) return reply;
-  const bool run = request.content == XgtService::read_run || request.content == XgtService::write_run;
+  const bool run =
+      request.content == XgtService::read_run || request.content == XgtService::write_run;
   for (unsigned i = 0; i < request.blocks; ++i) {
     const ParsedAddress parsed = plc.address(request.block[i].name);
-    if (parsed && !fits(plc.model(), parsed.address, (run ? request.count : 1) + 1)) return nak_to(request, xgt_error::range);
+    if (parsed && !fits(plc.model(), parsed.address, (run ? request.count : 1) + 1))
+      return nak_to(request, xgt_error::range);
   }
   return reply;
 }
@@ -76,7 +81,9 @@ MakeBehaviour forgive(unsigned code, bool (*change)(FrameText& request)) {
 /// A name of 17 characters loses its first zero.
 bool shorten_name(FrameText& text) {
   const std::size_t length = text.service()[2] == 'B' ? 5 : 7;
-  if (text.body.size() < length + 6 || text.body.substr(length, 2) != "11" || text.body[length + 5] != '0') return false;
+  if (text.body.size() < length + 6 || text.body.substr(length, 2) != "11" ||
+      text.body[length + 5] != '0')
+    return false;
   text.body.erase(length + 5, 1);
   text.body.replace(length, 2, "10");
   return true;
@@ -127,7 +134,9 @@ std::size_t behind_names(const std::string& content, unsigned count) {
 Bytes read_seventeen(const Bytes& request, GoodPlc& plc) {
   const Bytes reply = plc.answer(request);
   const FrameText text = take_apart(request);
-  if (refusal(reply) != xgt_error::blocks || text.service() != "RSS" || !text.content().starts_with("11")) return reply;
+  if (refusal(reply) != xgt_error::blocks || text.service() != "RSS" ||
+      !text.content().starts_with("11"))
+    return reply;
   const std::size_t cut = behind_names(text.content(), xgt_max_blocks);
   FrameText first = text, rest = text;
   first.body = text.front() + "10" + text.content().substr(2, cut - 2);
@@ -153,14 +162,17 @@ Bytes read_sixty_one(const Bytes& request, GoodPlc& plc) {
     return take_apart(plc.answer(one.bytes())).content();
   };
   const std::string all = part(*name.number, "3C"), last = part(*name.number + 60, "01");
-  return all.size() < 4 || last.size() < 4 ? reply : ack_to(parsed, "017A" + all.substr(4) + last.substr(4));
+  return all.size() < 4 || last.size() < 4
+             ? reply
+             : ack_to(parsed, "017A" + all.substr(4) + last.substr(4));
 }
 
 /// Mixed types are answered block by block.
 Bytes read_mixed_types(const Bytes& request, GoodPlc& plc) {
   const Bytes reply = plc.answer(request);
   const XgtRequest parsed = parse_request(request);
-  if (refusal(reply) != xgt_error::mixed_types || parsed.service != XgtService::read_blocks) return reply;
+  if (refusal(reply) != xgt_error::mixed_types || parsed.service != XgtService::read_blocks)
+    return reply;
   std::string content = hex_number(parsed.blocks, 2);
   for (unsigned i = 0; i < parsed.blocks; ++i) {
     XgtRequest one = parsed;
@@ -178,7 +190,8 @@ Bytes read_mixed_types(const Bytes& request, GoodPlc& plc) {
 
 Bytes refuse_unknown_command(const Bytes& request, GoodPlc& plc) {
   const XgtRequest parsed = parse_request(request);
-  if (parsed.fault.check != XgtCheck::command || parsed.station != plc.station()) return plc.answer(request);
+  if (parsed.fault.check != XgtCheck::command || parsed.station != plc.station())
+    return plc.answer(request);
   return nak_to(parsed, xgt_error::data);
 }
 
@@ -192,48 +205,61 @@ bool has_small_letter(std::string_view name) {
 std::vector<Fault> limit_faults() {
   return {
       {"one_past_the_end_accepted", "the address behind the last of an area is taken for the last",
-       forgive_name(xgt_error::range, last_for_one_past), "areas/read_word_limits/xbc_h_m", "header"},
+       forgive_name(xgt_error::range, last_for_one_past), "areas/read_word_limits/xbc_h_m",
+       "header"},
       {"last_address_refused", "the last address of an area is refused", answer_with(refuse_last),
        "areas/read_word_limits/xbc_h_m", "header"},
-      {"addresses_wrap", "an address past the end begins again at 0", forgive_name(xgt_error::range, wrapped),
-       "wss/example_nak/lower", "header"},
+      {"addresses_wrap", "an address past the end begins again at 0",
+       forgive_name(xgt_error::range, wrapped), "wss/example_nak/lower", "header"},
       {"run_may_leave_the_area", "RSB looks at its first address alone, and reads 0 behind the end",
        answer_with([](const Bytes& request, GoodPlc& plc) {
          const Bytes reply = plc.answer(request);
          const XgtRequest parsed = parse_request(request);
          const bool first_is_right = parsed.blocks == 1 && plc.address(parsed.block[0].name);
-         if (refusal(reply) != xgt_error::range || parsed.service != XgtService::read_run || !first_is_right) return reply;
+         if (refusal(reply) != xgt_error::range || parsed.service != XgtService::read_run ||
+             !first_is_right)
+           return reply;
          const unsigned bytes = parsed.count * type_bytes(parsed.block[0].name[2]);
-         return ack_to(parsed, "01" + hex_number(bytes, 2) + std::string(std::size_t{bytes} * 2, '0'));
+         return ack_to(parsed,
+                       "01" + hex_number(bytes, 2) + std::string(std::size_t{bytes} * 2, '0'));
        }),
        "areas/continuous_read_across_the_end/xbc_h_m", "header"},
-      {"seventeen_blocks_accepted", "RSS of 17 blocks is answered", answer_with(read_seventeen), "rss/seventeen_blocks/lower",
-       "header"},
+      {"seventeen_blocks_accepted", "RSS of 17 blocks is answered", answer_with(read_seventeen),
+       "rss/seventeen_blocks/lower", "header"},
       {"sixteen_blocks_refused", "16 blocks are one too many",
-       refuse(xgt_error::blocks, [](const XgtRequest& r) { return r.blocks == 16; }), "rss/block_counts/10", "header"},
-      {"block_count_in_decimal", "the block count is decimal: 10 is ten blocks", misread([](const Bytes& request, GoodPlc&) {
+       refuse(xgt_error::blocks, [](const XgtRequest& r) { return r.blocks == 16; }),
+       "rss/block_counts/10", "header"},
+      {"block_count_in_decimal", "the block count is decimal: 10 is ten blocks",
+       misread([](const Bytes& request, GoodPlc&) {
          FrameText text = take_apart(request);
          if (text.service() != "RSS" || text.content().substr(0, 2) != "10") return request;
-         text.body = text.front() + "0A" + text.content().substr(2, behind_names(text.content(), 10) - 2);
+         text.body =
+             text.front() + "0A" + text.content().substr(2, behind_names(text.content(), 10) - 2);
          text.seal();
          return text.bytes();
        }),
        "rss/block_counts/10", "block count"},
-      {"sixty_one_words_accepted", "RSB of 61 words is answered", answer_with(read_sixty_one), "rsb/sixty_one_words/lower",
-       "header"},
+      {"sixty_one_words_accepted", "RSB of 61 words is answered", answer_with(read_sixty_one),
+       "rsb/sixty_one_words/lower", "header"},
       {"sixty_words_refused", "60 words are one too many",
-       refuse(xgt_error::size, [](const XgtRequest& r) { return r.count == 60 && r.content == XgtService::read_run; }),
+       refuse(
+           xgt_error::size,
+           [](const XgtRequest& r) { return r.count == 60 && r.content == XgtService::read_run; }),
        "rsb/sixty_words/lower", "header"},
-      {"seventeen_characters_accepted", "a name of 17 characters is taken", forgive(xgt_error::name_length, shorten_name),
-       "rss/seventeen_characters/lower", "header"},
+      {"seventeen_characters_accepted", "a name of 17 characters is taken",
+       forgive(xgt_error::name_length, shorten_name), "rss/seventeen_characters/lower", "header"},
       {"sixteen_characters_refused", "a name of 16 characters is too long",
        refuse(xgt_error::name_length,
-              [](const XgtRequest& r) { return any_name(r, [](std::string_view name) { return name.size() == 16; }); }),
+              [](const XgtRequest& r) {
+                return any_name(r, [](std::string_view name) { return name.size() == 16; });
+              }),
        "rss/sixteen_characters/lower", "header"},
       {"leading_zeros_refused", "a number with leading zeros is refused",
        refuse(xgt_error::data,
               [](const XgtRequest& r) {
-                return any_name(r, [](std::string_view n) { return n.size() > 4 && n[2] != 'X' && n[3] == '0'; });
+                return any_name(r, [](std::string_view n) {
+                  return n.size() > 4 && n[2] != 'X' && n[3] == '0';
+                });
               }),
        "rss/name_lengths/05", "header"},
       {"small_letters_refused", "device names in lower case are refused",
@@ -246,27 +272,32 @@ std::vector<Fault> limit_faults() {
                                    [](const XgtBlock& b) { return has_small_letter(b.data); });
               }),
        "wss/data_lower_case_hex/lower", "header"},
-      {"small_type_refused", "a command type in lower case is not answered", answer_with([](const Bytes& request, GoodPlc& plc) {
-         return has_small_letter(take_apart(request).front().substr(3)) ? Bytes{} : plc.answer(request);
+      {"small_type_refused", "a command type in lower case is not answered",
+       answer_with([](const Bytes& request, GoodPlc& plc) {
+         return has_small_letter(take_apart(request).front().substr(3)) ? Bytes{}
+                                                                        : plc.answer(request);
        }),
-       "commands/type_in_lower_case/lower/ss", "no answer", "xgt_cnet/commands/type_in_lower_case/*/ss"},
-      {"mixed_types_accepted", "blocks of different types are read", answer_with(read_mixed_types), "errors/printed_1332",
-       "header"},
-      {"surplus_ignored", "what follows the last field is not looked at", forgive(xgt_error::surplus, drop_surplus),
-       "errors/printed_1234", "header"},
-      {"any_bit_value_accepted", "a bit may be written as 11", forgive(xgt_error::data, take_any_bit), "errors/printed_0011_bit",
-       "header"},
-      {"not_hex_is_zero", "data that are not hex are taken for 0", forgive(xgt_error::not_hex, zero_for_not_hex),
-       "errors/printed_1432", "header"},
-      {"count_zero_accepted", "RSB of 00 is acknowledged with no data", answer_with([](const Bytes& request, GoodPlc& plc) {
+       "commands/type_in_lower_case/lower/ss", "no answer",
+       "xgt_cnet/commands/type_in_lower_case/*/ss"},
+      {"mixed_types_accepted", "blocks of different types are read", answer_with(read_mixed_types),
+       "errors/printed_1332", "header"},
+      {"surplus_ignored", "what follows the last field is not looked at",
+       forgive(xgt_error::surplus, drop_surplus), "errors/printed_1234", "header"},
+      {"any_bit_value_accepted", "a bit may be written as 11",
+       forgive(xgt_error::data, take_any_bit), "errors/printed_0011_bit", "header"},
+      {"not_hex_is_zero", "data that are not hex are taken for 0",
+       forgive(xgt_error::not_hex, zero_for_not_hex), "errors/printed_1432", "header"},
+      {"count_zero_accepted", "RSB of 00 is acknowledged with no data",
+       answer_with([](const Bytes& request, GoodPlc& plc) {
          const XgtRequest parsed = parse_request(request);
-         return parsed.service == XgtService::read_run && parsed.fault.check == XgtCheck::count && parsed.count == 0
+         return parsed.service == XgtService::read_run && parsed.fault.check == XgtCheck::count &&
+                        parsed.count == 0
                     ? ack_to(parsed, "0100")
                     : plc.answer(request);
        }),
        "rsb/count_00/lower/word", "header"},
-      {"unknown_command_refused", "an unknown command draws NAK 0011", answer_with(refuse_unknown_command),
-       "commands/unknown_command/a", "silence"},
+      {"unknown_command_refused", "an unknown command draws NAK 0011",
+       answer_with(refuse_unknown_command), "commands/unknown_command/a", "silence"},
   };
 }
 

@@ -1,4 +1,5 @@
-// Faults of time and of the line: late, split, repeated, lost and surplus bytes, and what makes a device fall silent.
+// Faults of time and of the line: late, split, repeated, lost and surplus bytes, and what makes a
+// device fall silent.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -15,7 +16,9 @@ Bytes operator+(Bytes a, const Bytes& b) {
 }
 
 MakeBehaviour late_by(Duration delay) {
-  return send_with([delay](const Bytes&, Bytes reply) { return Sendings{{std::move(reply), delay}}; });
+  return send_with([delay](const Bytes&, Bytes reply) {
+    return Sendings{{std::move(reply), delay}};
+  });
 }
 
 Sendings in_halves(const Bytes&, Bytes reply) {
@@ -25,7 +28,8 @@ Sendings in_halves(const Bytes&, Bytes reply) {
 
 Sendings one_byte_a_second(const Bytes&, Bytes reply) {
   Sendings sendings;
-  for (const Byte b : reply) sendings.push_back({{b}, 1s * static_cast<Duration::rep>(sendings.size())});
+  for (const Byte b : reply)
+    sendings.push_back({{b}, 1s * static_cast<Duration::rep>(sendings.size())});
   return sendings;
 }
 
@@ -44,7 +48,9 @@ Behaviour swallow_every_tenth(Storage&) {
   return behaviour;
 }
 
-bool has_wrong_check(const Bytes& request) { return parse_request(request).fault.check == XgtCheck::bcc; }
+bool has_wrong_check(const Bytes& request) {
+  return parse_request(request).fault.check == XgtCheck::bcc;
+}
 
 Behaviour die_of_wrong_check(Storage&) {
   Behaviour behaviour;
@@ -126,7 +132,9 @@ Behaviour deaf_after_nak(Storage&) {
 MakeBehaviour takes_for(Byte other, Byte right) {
   return [other, right](Storage&) {
     Behaviour behaviour;
-    behaviour.hear = [other, right](Bytes& bytes) { std::replace(bytes.begin(), bytes.end(), other, right); };
+    behaviour.hear = [other, right](Bytes& bytes) {
+      std::replace(bytes.begin(), bytes.end(), other, right);
+    };
     return behaviour;
   };
 }
@@ -151,41 +159,50 @@ std::vector<Fault> line_faults() {
          return Sendings{{std::move(reply), delay}};
        }),
        "frame_structure/nak/lower", "late answer"},
-      {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves), "errors/code_0190/lower", ""},
-      {"split_refusal", "a refusal pauses for 200 ms in the middle", send_with([](const Bytes& request, Bytes reply) {
-         return refusal(reply) ? in_halves(request, std::move(reply)) : Sendings{{std::move(reply)}};
+      {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves),
+       "errors/code_0190/lower", ""},
+      {"split_refusal", "a refusal pauses for 200 ms in the middle",
+       send_with([](const Bytes& request, Bytes reply) {
+         return refusal(reply) ? in_halves(request, std::move(reply))
+                               : Sendings{{std::move(reply)}};
        }),
        "frame_structure/nak/lower", "split answer"},
-      {"one_byte_a_second", "replies come at one byte a second", send_with(one_byte_a_second), "errors/code_0190/lower", ""},
+      {"one_byte_a_second", "replies come at one byte a second", send_with(one_byte_a_second),
+       "errors/code_0190/lower", ""},
       {"echo", "the request comes back before the reply",
-       send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }), "errors/code_0190/lower",
-       "echo"},
+       send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }),
+       "errors/code_0190/lower", "echo"},
       {"echo_alone", "requests come back, and no reply",
-       send_with([](const Bytes& request, const Bytes&) { return Sendings{{request}}; }), "errors/code_0190/lower", "echo"},
-      {"reply_twice", "each reply is sent twice", send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),
+       send_with([](const Bytes& request, const Bytes&) { return Sendings{{request}}; }),
+       "errors/code_0190/lower", "echo"},
+      {"reply_twice", "each reply is sent twice",
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),
        "rss/two_words/lower", "after the complete"},
-      {"reply_again_later", "each reply is sent again after 50 ms", send_with([](const Bytes&, Bytes reply) {
+      {"reply_again_later", "each reply is sent again after 50 ms",
+       send_with([](const Bytes&, Bytes reply) {
          return Sendings{{reply}, {reply, 50ms}};
        }),
        "frame_structure/no_tail_is_silent/lower/bare", "silence"},
       {"trailing_byte", "a byte 00 follows each reply",
-       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }), "rss/two_words/lower",
-       "after the complete"},
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + Bytes{0}}}; }),
+       "rss/two_words/lower", "after the complete"},
       {"cr_lf_behind_reply", "CR LF follow each reply", send_with([](const Bytes&, Bytes reply) {
          return Sendings{{reply + Bytes{0x0D, 0x0A}}};
        }),
        "rss/two_words/lower", "after the complete"},
       {"garbage_before_reply", "a byte FF comes before each reply",
-       send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }), "errors/code_0190/lower", "header"},
-      {"reply_one_behind", "each reply is that to the request before", one_behind, "errors/code_0190/lower", "header"},
-      {"swallows_every_tenth_request", "every tenth request is not answered", swallow_every_tenth, "monitor_execute/all_sixteen",
-       "no answer"},
+       send_with([](const Bytes&, Bytes reply) { return Sendings{{Bytes{0xFF} + reply}}; }),
+       "errors/code_0190/lower", "header"},
+      {"reply_one_behind", "each reply is that to the request before", one_behind,
+       "errors/code_0190/lower", "header"},
+      {"swallows_every_tenth_request", "every tenth request is not answered", swallow_every_tenth,
+       "monitor_execute/all_sixteen", "no answer"},
       {"floods", "sends without end after a frame without tail", flood_after_a_broken_frame,
        "frame_structure/request_ending_with_etx/lower", "floods", alone},
       {"dies_of_a_wrong_bcc", "silent for ever after a wrong BCC", die_of_wrong_check,
        "frame_structure/other_sums_are_wrong/body", "dead", alone, 32},
-      {"dies_of_a_missing_tail", "silent for ever after a frame without tail", die_of_a_broken_frame,
-       "frame_structure/request_ending_with_etx/lower", "dead"},
+      {"dies_of_a_missing_tail", "silent for ever after a frame without tail",
+       die_of_a_broken_frame, "frame_structure/request_ending_with_etx/lower", "dead"},
       {"needs_no_tail", "a frame without tail is executed when nothing more comes", time_for_a_tail,
        "frame_structure/no_tail_is_silent/lower/bare", "silence"},
       {"no_restart_at_enq", "ENQ inside a frame does not begin a new one", no_restart_at_enq,
@@ -194,12 +211,13 @@ std::vector<Fault> line_faults() {
        "frame_structure/request_ending_with_etx/upper", "silence"},
       {"stx_begins_a_request", "STX begins a request as ENQ does", takes_for(0x02, xgt_enq),
        "frame_structure/request_with_another_head/upper/stx", "silence"},
-      {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak, "errors/good_after_refused/lower",
-       "no answer"},
-      {"first_of_two_requests", "of two requests without a pause between them the first is answered", deaf_while_busy,
+      {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak,
+       "errors/good_after_refused/lower", "no answer"},
+      {"first_of_two_requests",
+       "of two requests without a pause between them the first is answered", deaf_while_busy,
        "frame_structure/back_to_back/continuous", "no answer", alone},
-      {"noise_spoils_the_frame", "a frame right after other bytes is not heard", frame_must_begin_the_line,
-       "frame_structure/noise_before_enq/headless", "no answer", alone},
+      {"noise_spoils_the_frame", "a frame right after other bytes is not heard",
+       frame_must_begin_the_line, "frame_structure/noise_before_enq/headless", "no answer", alone},
   };
 }
 

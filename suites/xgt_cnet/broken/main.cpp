@@ -1,5 +1,5 @@
-// xgt_cnet_broken_server: a device with a known fault on a terminal, in real time. For the tests of the suite, and for
-// whoever writes a driver and wants to see it meet a bad device.
+// xgt_cnet_broken_server: a device with a known fault on a terminal, in real time. For the tests of
+// the suite, and for whoever writes a driver and wants to see it meet a bad device.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -27,7 +27,8 @@ int usage() {
 }
 
 int list() {
-  for (const xgt_cnet::Fault& fault : xgt_cnet::faults()) fmt::print("{:<38} {}\n", fault.name, fault.what);
+  for (const xgt_cnet::Fault& fault : xgt_cnet::faults())
+    fmt::print("{:<38} {}\n", fault.name, fault.what);
   return 0;
 }
 
@@ -57,7 +58,8 @@ int main(int count, char** arguments) {
   host.tty = given[1];
   host.config["station"] = given.size() > 2 ? given[2] : "1";
   host.make_device = [&](const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
-    const Result<PortConfig> parsed = parse_plc_config(config.at("model").get<std::string>(), config);
+    const Result<PortConfig> parsed =
+        parse_plc_config(config.at("model").get<std::string>(), config);
     if (!parsed) return parsed.error();
     return xgt_cnet::make_broken_plc(given[0], *parsed, storage);
   };

@@ -29,21 +29,24 @@ Bytes answer_renumbered(const Bytes& request, const std::string& number, GoodPlc
 /// Number 0F does not exist.
 Bytes fifteen_numbers(const Bytes& request, GoodPlc& plc) {
   const FrameText text = take_apart(request);
-  if (number_of(text) == "0F" && (is(text, 'x') || is(text, 'y'))) return answer_renumbered(request, "10", plc);
+  if (number_of(text) == "0F" && (is(text, 'x') || is(text, 'y')))
+    return answer_renumbered(request, "10", plc);
   return plc.answer(request);
 }
 
 /// Number 10 exists: it is number 00.
 Bytes seventeen_numbers(const Bytes& request, GoodPlc& plc) {
   const FrameText text = take_apart(request);
-  if (number_of(text) == "10" && (is(text, 'x') || is(text, 'y'))) return answer_renumbered(request, "00", plc);
+  if (number_of(text) == "10" && (is(text, 'x') || is(text, 'y')))
+    return answer_renumbered(request, "00", plc);
   return plc.answer(request);
 }
 
 Bytes one_number(const Bytes& request, GoodPlc& plc) {
   const FrameText text = take_apart(request);
   const std::int64_t number = hex_value(number_of(text));
-  if ((is(text, 'x') || is(text, 'y')) && number >= 0 && number < 16) return answer_renumbered(request, "00", plc);
+  if ((is(text, 'x') || is(text, 'y')) && number >= 0 && number < 16)
+    return answer_renumbered(request, "00", plc);
   return plc.answer(request);
 }
 
@@ -54,7 +57,8 @@ using Watch = Bytes (*)(const Bytes& request, GoodPlc& plc, Registered& register
 MakeBehaviour with_memory(Watch watch) {
   return [watch](Storage&) {
     Behaviour behaviour;
-    behaviour.answer = [watch, registered = Registered()](const Bytes& request, bool, GoodPlc& plc) mutable {
+    behaviour.answer = [watch, registered = Registered()](const Bytes& request, bool,
+                                                          GoodPlc& plc) mutable {
       return Sendings{{watch(request, plc, registered)}};
     };
     return behaviour;
@@ -64,7 +68,8 @@ MakeBehaviour with_memory(Watch watch) {
 Bytes keep_first(const Bytes& request, GoodPlc& plc, Registered& registered) {
   const FrameText text = take_apart(request);
   const XgtRequest parsed = parse_request(request);
-  if (is(text, 'x') && !parsed.fault && parsed.station == plc.station() && registered.contains(number_of(text)))
+  if (is(text, 'x') && !parsed.fault && parsed.station == plc.station() &&
+      registered.contains(number_of(text)))
     return ack_to(parsed);
   const Bytes reply = plc.answer(request);
   if (is(text, 'x') && acknowledged(reply)) registered[number_of(text)];
@@ -107,16 +112,19 @@ Bytes serve_once(const Bytes& request, GoodPlc& plc, Registered& served) {
   const Bytes reply = plc.answer(request);
   if (is(text, 'x') && acknowledged(reply)) served.erase(number_of(text));
   if (!is(text, 'y') || !acknowledged(reply)) return reply;
-  return served.try_emplace(number_of(text)).second ? reply : nak_to(parse_request(request), xgt_error::not_registered);
+  return served.try_emplace(number_of(text)).second
+             ? reply
+             : nak_to(parse_request(request), xgt_error::not_registered);
 }
 
 /// The case of the command is part of the number.
 Bytes keep_cases_apart(const Bytes& request, GoodPlc& plc, Registered& registered) {
   const FrameText text = take_apart(request);
   const Bytes reply = plc.answer(request);
-  if (is(text, 'x') && acknowledged(reply)) registered[number_of(text)] = text.lower_case() ? "lower" : "upper";
-  const bool other =
-      is(text, 'y') && acknowledged(reply) && registered[number_of(text)] != (text.lower_case() ? "lower" : "upper");
+  if (is(text, 'x') && acknowledged(reply))
+    registered[number_of(text)] = text.lower_case() ? "lower" : "upper";
+  const bool other = is(text, 'y') && acknowledged(reply) &&
+                     registered[number_of(text)] != (text.lower_case() ? "lower" : "upper");
   return other ? nak_to(parse_request(request), xgt_error::not_registered) : reply;
 }
 
@@ -124,7 +132,10 @@ Bytes keep_cases_apart(const Bytes& request, GoodPlc& plc, Registered& registere
 Bytes accept_any_content(const Bytes& request, GoodPlc& plc) {
   const Bytes reply = plc.answer(request);
   const XgtRequest parsed = parse_request(request);
-  return is(take_apart(request), 'x') && refusal(reply) && refusal(reply) != xgt_error::register_number ? ack_to(parsed) : reply;
+  return is(take_apart(request), 'x') && refusal(reply) &&
+                 refusal(reply) != xgt_error::register_number
+             ? ack_to(parsed)
+             : reply;
 }
 
 Bytes empty_for_unregistered(const Bytes& request, GoodPlc& plc) {
@@ -154,22 +165,22 @@ std::vector<Fault> monitor_faults() {
   return {
       {"registration_0f_refused", "registration number 0F is refused", answer_with(fifteen_numbers),
        "monitor_register/each_number/n0f_lower", "header"},
-      {"registration_10_accepted", "registration number 10 is accepted", answer_with(seventeen_numbers),
-       "monitor_register/number_out_of_range/n10_lower", "header"},
-      {"one_registration_alone", "all registration numbers are the same place", answer_with(one_number),
-       "monitor_register/numbers_are_separate/lower", "data"},
+      {"registration_10_accepted", "registration number 10 is accepted",
+       answer_with(seventeen_numbers), "monitor_register/number_out_of_range/n10_lower", "header"},
+      {"one_registration_alone", "all registration numbers are the same place",
+       answer_with(one_number), "monitor_register/numbers_are_separate/lower", "data"},
       {"registrations_by_case", "X registers for Y, and x for y", with_memory(keep_cases_apart),
        "monitor_execute/case_is_free/lower_then_upper", "header"},
-      {"registration_keeps_the_first", "registering a number again changes nothing", with_memory(keep_first),
-       "monitor_register/registered_again/lower", "data"},
-      {"monitor_gives_old_values", "Y answers with the values of the moment of registration", with_memory(keep_values),
-       "monitor_execute/new_value_at_each_execution/lower", "data"},
-      {"refused_registration_forgets", "a refused registration clears the earlier one", with_memory(forget_when_refused),
-       "monitor_register/refused_leaves_earlier/lower", "header"},
-      {"registration_serves_once", "a registration is used up by its first execution", with_memory(serve_once),
-       "monitor_execute/executed_again/lower", "header"},
-      {"registration_unchecked", "the content of a registration is not checked", answer_with(accept_any_content),
-       "monitor_register/example_nak/lower", "header"},
+      {"registration_keeps_the_first", "registering a number again changes nothing",
+       with_memory(keep_first), "monitor_register/registered_again/lower", "data"},
+      {"monitor_gives_old_values", "Y answers with the values of the moment of registration",
+       with_memory(keep_values), "monitor_execute/new_value_at_each_execution/lower", "data"},
+      {"refused_registration_forgets", "a refused registration clears the earlier one",
+       with_memory(forget_when_refused), "monitor_register/refused_leaves_earlier/lower", "header"},
+      {"registration_serves_once", "a registration is used up by its first execution",
+       with_memory(serve_once), "monitor_execute/executed_again/lower", "header"},
+      {"registration_unchecked", "the content of a registration is not checked",
+       answer_with(accept_any_content), "monitor_register/example_nak/lower", "header"},
       {"unregistered_is_empty", "executing what is not registered draws an ACK without blocks",
        answer_with(empty_for_unregistered), "errors/code_0090/lower", "header"},
       {"monitor_reply_without_number", "replies to Y have no registration number",
@@ -177,13 +188,16 @@ std::vector<Fault> monitor_faults() {
          if (is(request, 'y') && reply.is_ack()) reply.body.erase(number_at, 2);
        }),
        "monitor_execute/example_m000/lower", "block count"},
-      {"monitor_rss_without_block_count", "replies to Y of an individual registration have no block count",
+      {"monitor_rss_without_block_count",
+       "replies to Y of an individual registration have no block count",
        edit_reply([](FrameText& reply, const FrameText& request) {
-         if (is(request, 'y') && reply.is_ack() && parse_reply(reply.bytes()).with_block_count) reply.body.erase(5, 2);
+         if (is(request, 'y') && reply.is_ack() && parse_reply(reply.bytes()).with_block_count)
+           reply.body.erase(5, 2);
        }),
        "monitor_execute/printed_rss/lower", "block count"},
-      {"registrations_survive_power_off", "registrations are still there after power was off", survive,
-       "monitor_execute/example_nak/lower", "header", "xgt_cnet/monitor_execute/example_*"},
+      {"registrations_survive_power_off", "registrations are still there after power was off",
+       survive, "monitor_execute/example_nak/lower", "header",
+       "xgt_cnet/monitor_execute/example_*"},
   };
 }
 

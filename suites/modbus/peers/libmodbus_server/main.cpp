@@ -1,6 +1,6 @@
-// libmodbus_server TTY: an RTU server made of libmodbus, as a device under test that nobody here has written. Station 1.
-// Its memory is laid out as that of an XBC-DxxxH with all four bases at M0: coils and inputs are the bits of the words,
-// input registers are the holding registers.
+// libmodbus_server TTY: an RTU server made of libmodbus, as a device under test that nobody here
+// has written. Station 1. Its memory is laid out as that of an XBC-DxxxH with all four bases at M0:
+// coils and inputs are the bits of the words, input registers are the holding registers.
 #include <modbus/modbus.h>
 
 #include <cerrno>
@@ -44,8 +44,10 @@ int main(int count, char** arguments) {
     return 2;
   }
   const std::unique_ptr<modbus_t, Deleter> line(modbus_new_rtu(arguments[1], 9600, 'N', 8, 1));
-  if (!line || modbus_set_slave(line.get(), station) != 0 || modbus_connect(line.get()) != 0) return complain("open the terminal");
-  // Its server sleeps for the response time before some exceptions, and waits for the rest of a frame for the byte time.
+  if (!line || modbus_set_slave(line.get(), station) != 0 || modbus_connect(line.get()) != 0)
+    return complain("open the terminal");
+  // Its server sleeps for the response time before some exceptions, and waits for the rest of a
+  // frame for the byte time.
   modbus_set_response_timeout(line.get(), 0, 20'000);
   modbus_set_byte_timeout(line.get(), 0, 50'000);
   const std::unique_ptr<modbus_mapping_t, Deleter> memory(modbus_mapping_new(bits, 0, words, 0));
@@ -58,11 +60,14 @@ int main(int count, char** arguments) {
 
   for (std::uint8_t request[MODBUS_RTU_MAX_ADU_LENGTH];;) {
     const int length = modbus_receive(line.get(), request);
-    if (length < 0 && (errno == EIO || errno == EBADF || errno == ECONNRESET)) return 0;  // the line is gone
+    if (length < 0 && (errno == EIO || errno == EBADF || errno == ECONNRESET))
+      return 0;                 // the line is gone
     if (length <= 0) continue;  // a wrong CRC, another station
     if (modbus_reply(line.get(), request, length, &view) < 0) continue;
     const int function = request[1];
-    if (function == MODBUS_FC_WRITE_SINGLE_COIL || function == MODBUS_FC_WRITE_MULTIPLE_COILS) words_from_bits(view);
-    else bits_from_words(view);
+    if (function == MODBUS_FC_WRITE_SINGLE_COIL || function == MODBUS_FC_WRITE_MULTIPLE_COILS)
+      words_from_bits(view);
+    else
+      bits_from_words(view);
   }
 }

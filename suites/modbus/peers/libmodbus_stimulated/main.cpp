@@ -1,6 +1,7 @@
-// libmodbus_stimulated TTY: an RTU master made of libmodbus, as a device under test in the client role. What it asks comes
-// as lines of JSON on standard input (README 'The module as client'): at once, or at the pace of a clock until "over".
-// Ends with its input; what failed is told on standard error.
+// libmodbus_stimulated TTY: an RTU master made of libmodbus, as a device under test in the client
+// role. What it asks comes as lines of JSON on standard input (README 'The module as client'): at
+// once, or at the pace of a clock until "over". Ends with its input; what failed is told on
+// standard error.
 #include <modbus/modbus.h>
 #include <poll.h>
 #include <unistd.h>
@@ -34,7 +35,12 @@ std::string text_at(const json& block, const char* key) {
 
 Milliseconds period_of(const json& block) {
   const std::string flag = block.value("flag", "");
-  for (const auto& [name, period] : {std::pair{"F90", 20}, {"F92", 200}, {"F93", 1000}, {"_T20MS", 20}, {"_T200MS", 200}, {"_T1S", 1000}})
+  for (const auto& [name, period] : {std::pair{"F90", 20},
+                                     {"F92", 200},
+                                     {"F93", 1000},
+                                     {"_T20MS", 20},
+                                     {"_T200MS", 200},
+                                     {"_T1S", 1000}})
     if (flag == name) return Milliseconds(period);
   return Milliseconds::zero();
 }
@@ -43,18 +49,22 @@ Milliseconds period_of(const json& block) {
 template <typename T>
 std::vector<T> values_of(const std::string& hex, std::size_t digits, std::size_t count) {
   std::vector<T> values;
-  for (std::size_t i = 0; i < count; ++i) values.push_back(static_cast<T>(std::stoul(hex.substr(i * digits, digits), nullptr, 16)));
+  for (std::size_t i = 0; i < count; ++i)
+    values.push_back(static_cast<T>(std::stoul(hex.substr(i * digits, digits), nullptr, 16)));
   return values;
 }
 
-int write(modbus_t* line, const json& block, const std::string& hex, char table, int address, int count) {
+int write(modbus_t* line, const json& block, const std::string& hex, char table, int address,
+          int count) {
   const bool single = block.value("command", "single") == "single";
   if (table == '0') {
     const auto bits = values_of<std::uint8_t>(hex, 2, static_cast<std::size_t>(count));
-    return single ? modbus_write_bit(line, address, bits.front()) : modbus_write_bits(line, address, count, bits.data());
+    return single ? modbus_write_bit(line, address, bits.front())
+                  : modbus_write_bits(line, address, count, bits.data());
   }
   const auto words = values_of<std::uint16_t>(hex, 4, static_cast<std::size_t>(count));
-  return single ? modbus_write_register(line, address, words.front()) : modbus_write_registers(line, address, count, words.data());
+  return single ? modbus_write_register(line, address, words.front())
+                : modbus_write_registers(line, address, count, words.data());
 }
 
 int read(modbus_t* line, char table, int address, int count) {
@@ -74,7 +84,8 @@ void ask(modbus_t* line, const json& request) {
   const std::string partner = text_at(block, writes ? "save" : "read");  // "0x40001"
   const int address = std::stoi(partner.substr(3), nullptr, 16), count = block.value("size", 1);
   modbus_set_slave(line, block.value("station", 1));
-  const int done = writes ? write(line, block, request.at("values").at(text_at(block, "read")), partner.at(2), address, count)
+  const int done = writes ? write(line, block, request.at("values").at(text_at(block, "read")),
+                                  partner.at(2), address, count)
                           : read(line, partner.at(2), address, count);
   if (done >= 0) return;
   std::fprintf(stderr, "libmodbus_stimulated: %s: %s\n", partner.c_str(), modbus_strerror(errno));
@@ -89,7 +100,8 @@ void take(modbus_t* line, const std::string& text, std::vector<Job>& jobs) {
     if (period == Milliseconds::zero()) return ask(line, request);
     jobs.push_back({request, period, Clock::now() + period});
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "libmodbus_stimulated: cannot take the line %s: %s\n", text.c_str(), error.what());
+    std::fprintf(stderr, "libmodbus_stimulated: cannot take the line %s: %s\n", text.c_str(),
+                 error.what());
   }
 }
 
@@ -102,7 +114,8 @@ int run_due(modbus_t* line, std::vector<Job>& jobs) {
   }
   const auto next = std::ranges::min_element(jobs, {}, &Job::next);
   if (next == jobs.end()) return -1;
-  return static_cast<int>(std::max<long long>(0, std::chrono::ceil<Milliseconds>(next->next - Clock::now()).count()));
+  return static_cast<int>(
+      std::max<long long>(0, std::chrono::ceil<Milliseconds>(next->next - Clock::now()).count()));
 }
 
 struct Deleter {
@@ -118,7 +131,8 @@ int main(int count, char** arguments) {
   }
   const std::unique_ptr<modbus_t, Deleter> line(modbus_new_rtu(arguments[1], 9600, 'N', 8, 1));
   if (!line || modbus_connect(line.get()) != 0) {
-    std::fprintf(stderr, "libmodbus_stimulated: cannot open %s: %s\n", arguments[1], modbus_strerror(errno));
+    std::fprintf(stderr, "libmodbus_stimulated: cannot open %s: %s\n", arguments[1],
+                 modbus_strerror(errno));
     return 3;
   }
   modbus_set_response_timeout(line.get(), 0, 500'000);
@@ -132,7 +146,9 @@ int main(int count, char** arguments) {
       if (size <= 0) return 0;
       heard.append(buffer, static_cast<std::size_t>(size));
     }
-    for (std::size_t end = 0; (end = heard.find('\n')) != std::string::npos; heard.erase(0, end + 1)) take(line.get(), heard.substr(0, end), jobs);
+    for (std::size_t end = 0; (end = heard.find('\n')) != std::string::npos;
+         heard.erase(0, end + 1))
+      take(line.get(), heard.substr(0, end), jobs);
     wait = run_due(line.get(), jobs);
   }
 }
