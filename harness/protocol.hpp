@@ -5,7 +5,6 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -152,13 +151,5 @@ class Protocol {
   /// instead.
   virtual Status check_fact(const nlohmann::json& facts) const = 0;
 };
-
-/// The table of protocols, defined in suites/protocols.cpp. The first is the default.
-std::span<const Protocol* const> protocols();
-/// nullptr when unknown.
-const Protocol* find_protocol(std::string_view name);
-/// The protocol `name`, or where it is empty, the first one that has `model` (empty: the default
-/// protocol). Errors name what there is.
-Result<const Protocol*> choose_protocol(std::string_view name, std::string_view model);
 
 }  // namespace fieldproof

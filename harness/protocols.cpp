@@ -1,31 +1,31 @@
-// Looks protocols up in the table of suites/protocols.cpp.
+#include "harness/protocols.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
 
-#include "harness/protocol.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof {
 
-const Protocol* find_protocol(std::string_view name) {
-  for (const Protocol* protocol : protocols())
+const Protocol* Protocols::find(std::string_view name) const {
+  for (const Protocol* protocol : table_)
     if (protocol->name() == name) return protocol;
   return nullptr;
 }
 
 namespace {
 
-Error unknown_protocol(std::string_view name) {
+Error unknown_protocol(const Protocols& table, std::string_view name) {
   std::vector<std::string_view> names;
-  for (const Protocol* protocol : protocols()) names.push_back(protocol->name());
+  for (const Protocol* protocol : table) names.push_back(protocol->name());
   return fail(fmt::format("there is no protocol '{}'; use one of {}{}", name,
                           fmt::join(names, ", "), suggestion(name, names)));
 }
 
-Error unknown_model(std::string_view model) {
+Error unknown_model(const Protocols& table, std::string_view model) {
   std::vector<std::string> models;
-  for (const Protocol* protocol : protocols())
+  for (const Protocol* protocol : table)
     for (const std::string& one : protocol->models())
       if (std::ranges::count(models, one) == 0) models.push_back(one);
   const std::vector<std::string_view> known(models.begin(), models.end());
@@ -35,11 +35,11 @@ Error unknown_model(std::string_view model) {
 
 }  // namespace
 
-Result<const Protocol*> choose_protocol(std::string_view name, std::string_view model) {
-  for (const Protocol* protocol : protocols())
+Result<const Protocol*> Protocols::choose(std::string_view name, std::string_view model) const {
+  for (const Protocol* protocol : table_)
     if (name.empty() ? model.empty() || protocol->has_model(model) : protocol->name() == name)
       return &protocol->of_model(model);
-  return name.empty() ? unknown_model(model) : unknown_protocol(name);
+  return name.empty() ? unknown_model(*this, model) : unknown_protocol(*this, name);
 }
 
 }  // namespace fieldproof

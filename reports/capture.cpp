@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <map>
 
-#include "harness/results/ndjson.hpp"
-#include "reports/case_text.hpp"
 #include "reports/pcapng.hpp"
-#include "reports/report_file.hpp"
-#include "reports/xml_text.hpp"
+#include "reports/results/ndjson.hpp"
+#include "reports/text/case_text.hpp"
+#include "reports/text/report_file.hpp"
+#include "reports/text/xml_text.hpp"
 
 namespace fieldproof {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/results/case_result.hpp"
-#include "reports/tally.hpp"
+#include "reports/results/case_result.hpp"
+#include "reports/text/tally.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof {

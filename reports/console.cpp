@@ -6,9 +6,9 @@
 #include <chrono>
 #include <utility>
 
-#include "reports/case_text.hpp"
-#include "reports/run_text.hpp"
-#include "reports/xml_text.hpp"
+#include "reports/text/case_text.hpp"
+#include "reports/text/run_text.hpp"
+#include "reports/text/xml_text.hpp"
 
 namespace fieldproof {
 namespace {

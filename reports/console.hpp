@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "harness/results/case_result.hpp"
-#include "harness/results/soak.hpp"
-#include "reports/tally.hpp"
-#include "reports/timing_table.hpp"
+#include "reports/results/case_result.hpp"
+#include "reports/results/soak.hpp"
+#include "reports/text/tally.hpp"
+#include "reports/text/timing_table.hpp"
 
 namespace fieldproof {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "reports/markdown_text.hpp"
-#include "reports/xml_text.hpp"
+#include "reports/text/markdown_text.hpp"
+#include "reports/text/xml_text.hpp"
 
 namespace fieldproof {
 namespace {

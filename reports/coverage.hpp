@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/tally.hpp"
+#include "reports/text/tally.hpp"
 
 namespace fieldproof {
 

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "reports/html_page.hpp"
-#include "reports/report_file.hpp"
+#include "reports/html/html_page.hpp"
+#include "reports/text/report_file.hpp"
 
 namespace fieldproof {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "reports/html_survey.hpp"
-#include "reports/markdown_text.hpp"
+#include "reports/html/html_survey.hpp"
+#include "reports/text/markdown_text.hpp"
 
 namespace fieldproof {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/results/case_result.hpp"
+#include "reports/results/case_result.hpp"
 
 namespace fieldproof {
 

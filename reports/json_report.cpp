@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/results/ndjson.hpp"
-#include "reports/report_file.hpp"
-#include "reports/timing_table.hpp"
+#include "reports/results/ndjson.hpp"
+#include "reports/text/report_file.hpp"
+#include "reports/text/timing_table.hpp"
 
 namespace fieldproof {
 namespace {

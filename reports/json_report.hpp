@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reports/tally.hpp"
+#include "reports/text/tally.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof {

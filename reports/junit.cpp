@@ -7,12 +7,12 @@
 #include <sstream>
 #include <vector>
 
-#include "harness/results/ndjson.hpp"
-#include "reports/case_text.hpp"
-#include "reports/report_file.hpp"
-#include "reports/run_text.hpp"
-#include "reports/timing_table.hpp"
-#include "reports/xml_text.hpp"
+#include "reports/results/ndjson.hpp"
+#include "reports/text/case_text.hpp"
+#include "reports/text/report_file.hpp"
+#include "reports/text/run_text.hpp"
+#include "reports/text/timing_table.hpp"
+#include "reports/text/xml_text.hpp"
 
 namespace fieldproof {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "harness/results/case_result.hpp"
-#include "reports/tally.hpp"
+#include "reports/results/case_result.hpp"
+#include "reports/text/tally.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof {

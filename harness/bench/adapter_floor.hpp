@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "harness/results/response_times.hpp"
+#include "reports/results/response_times.hpp"
 #include "src/base/time.hpp"
 
 namespace fieldproof {

@@ -5,10 +5,10 @@
 #include <array>
 #include <cstdlib>
 
-#include "harness/bench/p2p_blocks.hpp"
-#include "harness/bench/recording.hpp"
-#include "harness/bench/transposition.hpp"
-#include "harness/endpoints/hook.hpp"
+#include "harness/exchange/p2p_blocks.hpp"
+#include "harness/judge/recording.hpp"
+#include "harness/safety/transposition.hpp"
+#include "harness/system/hook.hpp"
 #include "harness/vectors/loader.hpp"
 
 namespace fieldproof {

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "harness/bench/adapter_floor.hpp"
-#include "harness/bench/exchange.hpp"
-#include "harness/bench/fence.hpp"
 #include "harness/bench/fingerprint.hpp"
-#include "harness/bench/judge.hpp"
 #include "harness/bench/profile.hpp"
-#include "harness/bench/readings.hpp"
-#include "harness/bench/saved_memory.hpp"
 #include "harness/endpoints/endpoint.hpp"
+#include "harness/exchange/exchange.hpp"
+#include "harness/judge/judge.hpp"
+#include "harness/judge/readings.hpp"
+#include "harness/safety/fence.hpp"
+#include "harness/safety/saved_memory.hpp"
 #include "harness/vectors/case.hpp"
 
 namespace fieldproof {

@@ -11,9 +11,9 @@
 #include <set>
 #include <span>
 
-#include "harness/bench/fence.hpp"
 #include "harness/bench/profile.hpp"
 #include "harness/endpoints/endpoint.hpp"
+#include "harness/safety/fence.hpp"
 #include "src/base/spelling.hpp"
 #include "src/line/settings.hpp"
 

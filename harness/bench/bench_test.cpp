@@ -3,14 +3,11 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include "harness/bench/scripted_endpoint.hpp"
+#include "harness/exchange/scripted_endpoint.hpp"
 #include "harness/test_protocol.hpp"
 #include "harness/vectors/loader.hpp"
 
 namespace fieldproof {
-
-// The table of protocols lives in suites/; these tests need none.
-std::span<const Protocol* const> protocols() { return {}; }
 
 namespace {
 

@@ -11,7 +11,7 @@ Result<Benches> Benches::open(const EndpointName& name,
   for (const Protocol* protocol : protocols) {
     EndpointName own = name;
     own.options["protocol"] = protocol->name();
-    Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(own);
+    Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(own, *protocol);
     if (!endpoint) return endpoint.error();
     std::unique_ptr<Protocol> configured;
     if ((*endpoint)->capabilities().real_device) {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "harness/bench/memory_access.hpp"
+#include "harness/exchange/memory_access.hpp"
 
 namespace fieldproof {
 

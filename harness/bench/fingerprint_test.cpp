@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "harness/bench/scripted_endpoint.hpp"
+#include "harness/exchange/scripted_endpoint.hpp"
 #include "harness/test_protocol.hpp"
 
 namespace fieldproof {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "harness/bench/recording.hpp"
-#include "harness/bench/transposition.hpp"
+#include "harness/judge/recording.hpp"
+#include "harness/safety/transposition.hpp"
 
 namespace fieldproof {
 
@@ -28,14 +28,15 @@ Rejudge::Outcome not_judged(const CaseResult& recorded, const std::string& why) 
 
 }  // namespace
 
-Rejudge::Rejudge(const VectorSet& vectors, Profile profile) : profile_(std::move(profile)) {
+Rejudge::Rejudge(const VectorSet& vectors, Profile profile, const Protocols& protocols)
+    : profile_(std::move(profile)), protocols_(protocols) {
   for (const Case& one : vectors.cases) cases_[one.id] = &one;
 }
 
 Rejudge::Outcome Rejudge::judge(const CaseResult& recorded) {
   const auto source = cases_.find(recorded.id);
   if (source == cases_.end()) return not_judged(recorded, "the vector is gone");
-  const Protocol* protocol = find_protocol(source->second->protocol);
+  const Protocol* protocol = protocols_.find(source->second->protocol);
   if (!protocol)
     return not_judged(recorded, fmt::format("there is no protocol '{}'", source->second->protocol));
   // On a real device the case may have been moved, by addresses that its configuration gives a

@@ -5,16 +5,17 @@
 #include <string>
 
 #include "harness/bench/profile.hpp"
-#include "harness/bench/readings.hpp"
-#include "harness/results/case_result.hpp"
+#include "harness/judge/readings.hpp"
+#include "harness/protocols.hpp"
 #include "harness/vectors/loader.hpp"
+#include "reports/results/case_result.hpp"
 
 namespace fieldproof {
 
 class Rejudge {
  public:
   /// Refers to `vectors`. The profile gives limits and how far decisions bind, as in a run.
-  Rejudge(const VectorSet& vectors, Profile profile);
+  Rejudge(const VectorSet& vectors, Profile profile, const Protocols& protocols);
 
   struct Outcome {
     CaseResult result;
@@ -27,6 +28,7 @@ class Rejudge {
  private:
   std::map<std::string, const Case*> cases_;
   Profile profile_;
+  Protocols protocols_;
   Readings readings_;
 };
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/results/case_result.hpp"
 #include "harness/vectors/case.hpp"
+#include "reports/results/case_result.hpp"
 
 namespace fieldproof {
 

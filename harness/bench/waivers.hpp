@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/results/case_result.hpp"
+#include "reports/results/case_result.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof {

@@ -1,6 +1,6 @@
 #include "harness/bench/watchdog.hpp"
 
-#include "harness/endpoints/interrupt.hpp"
+#include "harness/system/interrupt.hpp"
 
 namespace fieldproof {
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "harness/cli/commands.hpp"
-#include "harness/cli/run_report.hpp"
-#include "reports/compare_html.hpp"
-#include "reports/compare_junit.hpp"
-#include "reports/compare_text.hpp"
+#include "harness/run/run_report.hpp"
+#include "reports/compare/compare_html.hpp"
+#include "reports/compare/compare_junit.hpp"
+#include "reports/compare/compare_text.hpp"
 
 namespace fieldproof {
 

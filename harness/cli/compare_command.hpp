@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reports/compare.hpp"
+#include "reports/compare/compare.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "reports/html_survey.hpp"
+#include "reports/html/html_survey.hpp"
 
 namespace fieldproof {
 

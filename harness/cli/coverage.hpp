@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "harness/vectors/loader.hpp"
+#include "reports/compare/result_file.hpp"
 #include "reports/coverage.hpp"
-#include "reports/result_file.hpp"
 
 namespace fieldproof {
 

@@ -5,12 +5,12 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/monitor_file.hpp"
 #include "harness/cli/p2p_file.hpp"
-#include "harness/endpoints/device_host.hpp"
 #include "harness/endpoints/endpoint.hpp"
-#include "harness/endpoints/interrupt.hpp"
+#include "harness/hosting/device_host.hpp"
 #include "harness/monitored_device.hpp"
 #include "harness/notation/notation.hpp"
 #include "harness/protocol.hpp"
+#include "harness/system/interrupt.hpp"
 #include "src/plc/multi_drop.hpp"
 
 namespace fieldproof {
@@ -49,11 +49,11 @@ Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol,
 
 }  // namespace
 
-int emulate_command(const EmulateOptions& options) {
+int emulate_command(const EmulateOptions& options, const Protocols& protocols) {
   const Result<EndpointName> name = parse_endpoint("emulator:" + options.model);
   if (!name) return complain(name.error().message, exit_code::usage);
   const Result<const Protocol*> protocol =
-      choose_protocol(name->option("protocol", ""), name->target);
+      protocols.choose(name->option("protocol", ""), name->target);
   if (!protocol)
     return complain("cannot emulate " + options.model + ": " + protocol.error().message,
                     exit_code::usage);

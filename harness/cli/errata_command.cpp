@@ -1,6 +1,6 @@
 #include "harness/cli/commands.hpp"
-#include "harness/cli/run_report.hpp"
-#include "harness/cli/tool_vectors.hpp"
+#include "harness/run/run_report.hpp"
+#include "harness/run/tool_vectors.hpp"
 #include "reports/errata.hpp"
 
 namespace fieldproof {

@@ -74,14 +74,14 @@ Result<FrameReading> read_as(const Protocol& protocol, const FrameOptions& optio
 
 /// As the protocol that was named, else as the one with the fewest problems. One part alone
 /// explains nothing.
-Result<FrameReading> best_reading(const FrameOptions& options) {
+Result<FrameReading> best_reading(const FrameOptions& options, const Protocols& protocols) {
   if (!options.protocol.empty()) {
-    const Result<const Protocol*> protocol = choose_protocol(options.protocol, "");
+    const Result<const Protocol*> protocol = protocols.choose(options.protocol, "");
     if (!protocol) return protocol.error();
     return read_as(**protocol, options);
   }
-  Result<FrameReading> best = read_as(*protocols().front(), options);
-  for (const Protocol* protocol : protocols().subspan(1)) {
+  Result<FrameReading> best = read_as(protocols.front(), options);
+  for (const Protocol* protocol : protocols) {
     Result<FrameReading> other = read_as(*protocol, options);
     if (best && other && other->fields.size() > 1 && other->problems() < best->problems())
       best = std::move(other);
@@ -91,8 +91,8 @@ Result<FrameReading> best_reading(const FrameOptions& options) {
 
 }  // namespace
 
-int frame_command(const FrameOptions& options) {
-  const Result<FrameReading> reading = best_reading(options);
+int frame_command(const FrameOptions& options, const Protocols& protocols) {
+  const Result<FrameReading> reading = best_reading(options, protocols);
   if (!reading) return complain(reading.error().message, exit_code::usage);
   const ByteView bytes = reading->bytes;
   fmt::print("{}\n{}\n{}, {} bytes\n\n", print_bytes(bytes), to_hex(bytes),

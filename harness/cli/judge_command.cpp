@@ -4,13 +4,13 @@
 #include "harness/bench/rejudge.hpp"
 #include "harness/bench/waivers.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/run_report.hpp"
-#include "harness/cli/timestamp.hpp"
-#include "harness/cli/tool_vectors.hpp"
 #include "harness/paths.hpp"
-#include "reports/case_text.hpp"
-#include "reports/result_file.hpp"
-#include "reports/xml_text.hpp"
+#include "harness/run/run_report.hpp"
+#include "harness/run/timestamp.hpp"
+#include "harness/run/tool_vectors.hpp"
+#include "reports/compare/result_file.hpp"
+#include "reports/text/case_text.hpp"
+#include "reports/text/xml_text.hpp"
 
 namespace fieldproof {
 
@@ -104,9 +104,10 @@ std::string list(const std::string& heading, const std::vector<std::string>& lin
   return text;
 }
 
-News judge_all(const JudgeOptions& options, const JudgePlan& plan, RunReport& report) {
+News judge_all(const JudgeOptions& options, const JudgePlan& plan, RunReport& report,
+               const Protocols& protocols) {
   News news;
-  Rejudge rejudge(plan.vectors, plan.profile);
+  Rejudge rejudge(plan.vectors, plan.profile, protocols);
   Waivers waivers(plan.waivers, timestamp().substr(0, 10), plan.recorded.run.identity.firmware);
   for (const CaseResult* one : plan.selected) {
     auto [result, why_not] = rejudge.judge(*one);
@@ -128,7 +129,7 @@ News judge_all(const JudgeOptions& options, const JudgePlan& plan, RunReport& re
 
 }  // namespace
 
-int judge_command(const JudgeOptions& options) {
+int judge_command(const JudgeOptions& options, const Protocols& protocols) {
   const Result<JudgePlan> plan = make_judge_plan(options);
   if (!plan) return complain(plan.error().message, exit_code::usage);
   if (plan->selected.empty())
@@ -148,7 +149,7 @@ int judge_command(const JudgeOptions& options) {
   if (!report) return complain(report.error().message, exit_code::trouble);
   if (const Status begun = report->begin(info_of(options, *plan)); !begun)
     return complain(begun.error().message, exit_code::trouble);
-  const News news = judge_all(options, *plan, *report);
+  const News news = judge_all(options, *plan, *report, protocols);
   print(list("\nverdicts that changed", news.changed));
   if (!news.not_judged.empty()) print(list("\nnot judged again", news.not_judged));
   if (news.not_executed > 0)

@@ -7,8 +7,8 @@
 
 #include "harness/bench/profile.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/tool_vectors.hpp"
 #include "harness/paths.hpp"
+#include "harness/run/tool_vectors.hpp"
 #include "harness/vectors/lint.hpp"
 #include "harness/vectors/loader.hpp"
 
@@ -24,11 +24,12 @@ void add(std::vector<std::string>& all, std::vector<std::string> more) {
 
 /// What stands in a profile and means nothing to protocols and vectors. `whole`: the set is the one
 /// profiles are made for.
-std::vector<std::string> lint_profile(const Profile& profile, const VectorSet& set, bool whole) {
+std::vector<std::string> lint_profile(const Profile& profile, const VectorSet& set, bool whole,
+                                      const Protocols& protocols) {
   std::vector<std::string> problems;
   bool emulated = profile.model.empty();
   for (const std::string& name : profile.protocols) {
-    const Result<const Protocol*> protocol = choose_protocol(name, "");
+    const Result<const Protocol*> protocol = protocols.choose(name, "");
     if (!protocol)
       problems.push_back(protocol.error().message);
     else
@@ -44,7 +45,8 @@ std::vector<std::string> lint_profile(const Profile& profile, const VectorSet& s
   return problems;
 }
 
-std::vector<std::string> lint_profiles(const fs::path& folder, const VectorSet& set, bool whole) {
+std::vector<std::string> lint_profiles(const fs::path& folder, const VectorSet& set, bool whole,
+                                       const Protocols& protocols) {
   std::vector<std::string> problems;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;
@@ -56,7 +58,7 @@ std::vector<std::string> lint_profiles(const fs::path& folder, const VectorSet& 
     }
     if (profile->name != name)
       problems.push_back(fmt::format("{}: its name is '{}'", file, profile->name));
-    for (const std::string& problem : lint_profile(*profile, set, whole))
+    for (const std::string& problem : lint_profile(*profile, set, whole, protocols))
       problems.push_back(fmt::format("{}: {}", file, problem));
   }
   std::ranges::sort(problems);
@@ -70,18 +72,18 @@ std::string read_lock(const fs::path& folder) {
 
 }  // namespace
 
-int lint_command(const LintOptions& options) {
+int lint_command(const LintOptions& options, const Protocols& protocols) {
   const DataPaths data = find_data();
   const fs::path folder = vectors_path(options.vectors);
   VectorSet set = load_vectors(folder, data.vectors / "schema.json");
   load_wires(folder, set);
   std::vector<std::string> problems = set.problems;
-  add(problems, lint_wires(set, find_protocol));
+  add(problems, lint_wires(set, protocols));
   add(problems, lint_statements(set));
   add(problems, lint_readings(set));
-  add(problems, lint_tables(set, find_protocol));
+  add(problems, lint_tables(set, protocols));
   if (fs::is_directory(data.profiles))
-    add(problems, lint_profiles(data.profiles, set, options.vectors.empty()));
+    add(problems, lint_profiles(data.profiles, set, options.vectors.empty(), protocols));
   const std::vector<std::string> quotes = options.manuals.empty()
                                               ? lint_lock(set, read_lock(folder))
                                               : lint_quotes(set, options.manuals);

@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/prepared_case.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/coverage.hpp"
-#include "harness/cli/run_report.hpp"
-#include "harness/cli/tool_vectors.hpp"
+#include "harness/exchange/prepared_case.hpp"
+#include "harness/run/run_report.hpp"
+#include "harness/run/tool_vectors.hpp"
 #include "reports/coverage_html.hpp"
 
 namespace fieldproof {
@@ -68,7 +68,7 @@ ordered_json step_json(const PreparedStep& step) {
   return result;
 }
 
-ordered_json case_json(const Case& one) {
+ordered_json case_json(const Case& one, const Protocols& protocols) {
   ordered_json result{{"id", one.id},
                       {"rev", one.rev},
                       {"title", one.title},
@@ -84,7 +84,7 @@ ordered_json case_json(const Case& one) {
                       {"config", one.config},
                       {"memory", memory_json(one.memory)}};
   result["steps"] = ordered_json::array();
-  const Protocol* protocol = find_protocol(one.protocol);
+  const Protocol* protocol = protocols.find(one.protocol);
   if (!protocol) return result;
   const Result<PreparedCase> prepared =
       prepare(one, config_station(one.config, 1).value_or(1), *protocol);
@@ -118,7 +118,7 @@ int list_coverage(const ListOptions& options, const VectorSet& set) {
 
 }  // namespace
 
-int list_command(const ListOptions& options) {
+int list_command(const ListOptions& options, const Protocols& protocols) {
   if (!options.coverage && (options.markdown || !options.html.empty() || !options.results.empty() ||
                             options.min_coverage > 0))
     return complain("--results, --markdown, --html and --min-coverage are about --coverage; add it",
@@ -136,7 +136,7 @@ int list_command(const ListOptions& options) {
     if (!matches_filter(one.id, options.filter) || !has_role(one, options.role)) continue;
     ++count;
     if (options.json)
-      all.push_back(case_json(one));
+      all.push_back(case_json(one, protocols));
     else
       fmt::print("{:<58} {:<6} {:<8} {}\n", one.id, one.level, one.basis, one.title);
   }

@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "harness/cli/commands.hpp"
-#include "harness/cli/run_report.hpp"
-#include "reports/merge.hpp"
-#include "reports/tally.hpp"
+#include "harness/run/run_report.hpp"
+#include "reports/compare/merge.hpp"
+#include "reports/text/tally.hpp"
 
 namespace fieldproof {
 

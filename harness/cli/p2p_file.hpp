@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "harness/endpoints/device_host.hpp"
+#include "harness/hosting/device_host.hpp"
 
 namespace fieldproof {
 

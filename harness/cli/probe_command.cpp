@@ -6,9 +6,9 @@
 
 #include "harness/bench/benches.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/endpoints/interrupt.hpp"
 #include "harness/probe/conclusion.hpp"
 #include "harness/probe/target.hpp"
+#include "harness/system/interrupt.hpp"
 
 namespace fieldproof {
 
@@ -42,7 +42,8 @@ Texts chosen(const Texts& option, const EndpointName& endpoint, const std::strin
   return own.empty() ? Texts{} : Texts{own};
 }
 
-Result<SearchSpace> space_of(const ProbeOptions& options, const EndpointName& endpoint) {
+Result<SearchSpace> space_of(const ProbeOptions& options, const EndpointName& endpoint,
+                             const Protocols& protocols) {
   SearchSpace space;
   for (const std::string& text : chosen(options.stations, endpoint, "station"))
     if (!read_stations(text, space.stations))
@@ -58,7 +59,7 @@ Result<SearchSpace> space_of(const ProbeOptions& options, const EndpointName& en
     space.frames.push_back(*line);
   }
   for (const std::string& text : chosen(options.protocols, endpoint, "protocol")) {
-    const Result<const Protocol*> protocol = choose_protocol(text, "");
+    const Result<const Protocol*> protocol = protocols.choose(text, "");
     if (!protocol) return protocol.error();
     if ((*protocol)->probe(1, {}).empty())
       return fail(fmt::format("cannot search by {}: it has no harmless request of its own", text));
@@ -84,13 +85,12 @@ std::string counted(std::size_t count, const char* what) {
 }
 
 /// The search and its worst case, before it begins.
-std::string head(const ProbeOptions& options, const SearchSpace& space,
+std::string head(const ProbeOptions& options, const SearchSpace& all,
                  const std::vector<Trial>& plan, Duration longest) {
-  const SearchSpace all = filled(space);
   std::vector<std::string_view> names;
   for (const Protocol* protocol : all.protocols) names.push_back(protocol->name());
   std::string line;
-  if (space.settable)
+  if (all.settable)
     line = fmt::format("{} x {} x ", counted(all.speeds.size(), "speed"),
                        counted(all.frames.size(), "frame"));
   return fmt::format(
@@ -100,7 +100,7 @@ std::string head(const ProbeOptions& options, const SearchSpace& space,
       "--station, --speed, --frame, --protocol narrow the search{}\n",
       options.endpoint, line, counted(all.stations.size(), "station"), fmt::join(names, ", "),
       counted(plan.size(), "question"), duration_text(longest),
-      space.settable ? "" : "; this link has no speed and no frame of its own");
+      all.settable ? "" : "; this link has no speed and no frame of its own");
 }
 
 /// One moving line on a terminal, one line a step in a log; both on stderr.
@@ -179,32 +179,38 @@ int exit_code_of(const std::vector<Finding>& findings, bool was_interrupted) {
 
 }  // namespace
 
-int probe_command(const ProbeOptions& options) {
+int probe_command(const ProbeOptions& options, const Protocols& protocols) {
   const Result<EndpointName> endpoint = parse_endpoint(options.endpoint);
   if (!endpoint) return complain(endpoint.error().message, exit_code::usage);
-  Result<SearchSpace> space = space_of(options, *endpoint);
+  Result<SearchSpace> space = space_of(options, *endpoint, protocols);
   if (!space) return complain(space.error().message, exit_code::usage);
   ProbeTiming timing;
   timing.wait = std::chrono::milliseconds(options.wait_ms);
   timing.late = std::max(timing.late, timing.wait);
-  const LineOpener open = line_opener(*endpoint);
+  const Result<const Protocol*> spoken = protocols.choose(
+      endpoint->option("protocol", ""), is_emulator(*endpoint) ? endpoint->target : "");
+  if (!spoken)
+    return complain("cannot open " + options.endpoint + ": " + spoken.error().message,
+                    exit_code::usage);
+  const LineOpener open = line_opener(*endpoint, **spoken);
 
   catch_interrupts();
   {
-    const Result<std::unique_ptr<Endpoint>> first = open(make_plan(*space).front().line);
+    const Result<std::unique_ptr<Endpoint>> first = open(make_plan(*space, protocols).front().line);
     if (!first) return complain(first.error().message, exit_code::trouble);
     const Capabilities& link = (*first)->capabilities();
     if (endpoint->kind == "serial" && !link.wire) space->settable = false;  // a pty
   }
-  const std::vector<Trial> plan = make_plan(*space);
+  const std::vector<Trial> plan = make_plan(*space, protocols);
   const Duration longest = longest_time(plan, timing.wait) + timing.listen;
-  fmt::print("{}", head(options, *space, plan, longest));
+  fmt::print("{}", head(options, filled(*space, protocols), plan, longest));
   std::fflush(stdout);
 
   const ProgressLine progress(longest / static_cast<Duration::rep>(plan.size()), space->settable);
-  Prober prober(open, timing, [&](std::size_t done, std::size_t total, const Observation& last) {
-    progress.show(done, total, last);
-  });
+  Prober prober(open, protocols, timing,
+                [&](std::size_t done, std::size_t total, const Observation& last) {
+                  progress.show(done, total, last);
+                });
   const Result<Search> search = prober.run(plan, options.all);
   progress.erase();
   if (!search) return complain(search.error().message, exit_code::trouble);

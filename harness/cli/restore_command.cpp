@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <filesystem>
 
-#include "harness/bench/exchange.hpp"
-#include "harness/bench/saved_memory.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/endpoints/interrupt.hpp"
+#include "harness/exchange/exchange.hpp"
+#include "harness/safety/saved_memory.hpp"
+#include "harness/system/interrupt.hpp"
 
 namespace fieldproof {
 
@@ -22,19 +22,20 @@ struct Connection {
 };
 
 /// Opens the device and waits until it answers. Errors say what to check.
-Result<Connection> connect(const JournalDevice& device, const std::string& endpoint_text) {
+Result<Connection> connect(const JournalDevice& device, const std::string& endpoint_text,
+                           const Protocols& protocols) {
   Connection connection{device, {}, {}, {}};
   Result<EndpointName> name = parse_endpoint(endpoint_text);
   if (!name) return name.error();
   name->options["protocol"] = device.protocol;
-  const Result<const Protocol*> protocol = choose_protocol(device.protocol, device.model);
+  const Result<const Protocol*> protocol = protocols.choose(device.protocol, device.model);
   if (!protocol) return protocol.error();
   Result<std::unique_ptr<Protocol>> configured =
       (*protocol)->configured(device.model, device.config);
   if (!configured) return configured.error();
   connection.configured = std::move(*configured);
   const Protocol& declared = connection.configured ? *connection.configured : **protocol;
-  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(*name);
+  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(*name, declared);
   if (!endpoint) return endpoint.error();
   connection.endpoint = std::move(*endpoint);
   if (Status begun =
@@ -55,8 +56,8 @@ Result<Connection> connect(const JournalDevice& device, const std::string& endpo
 
 class Restoration {
  public:
-  Restoration(Journal& journal, std::string endpoint)
-      : journal_(journal), endpoint_(std::move(endpoint)) {}
+  Restoration(Journal& journal, std::string endpoint, const Protocols& protocols)
+      : journal_(journal), endpoint_(std::move(endpoint)), protocols_(protocols) {}
 
   /// All that is open, the latest first; false where something could not be put back.
   bool run() {
@@ -83,7 +84,7 @@ class Restoration {
     if (!connection_ || connection_->device != entry.device) {
       if (failed_ && failed_->first == entry.device) return failed_->second;
       connection_.reset();  // before the same port is opened again
-      Result<Connection> opened = connect(entry.device, endpoint_of(entry.device));
+      Result<Connection> opened = connect(entry.device, endpoint_of(entry.device), protocols_);
       if (!opened) {
         failed_ = {entry.device, opened.error()};
         return opened.error();
@@ -96,6 +97,7 @@ class Restoration {
 
   Journal& journal_;
   std::string endpoint_;
+  Protocols protocols_;
   std::optional<Connection> connection_;
   std::optional<std::pair<JournalDevice, Error>> failed_;
   bool all_ = true;
@@ -103,7 +105,7 @@ class Restoration {
 
 }  // namespace
 
-int restore_command(const RestoreOptions& options) {
+int restore_command(const RestoreOptions& options, const Protocols& protocols) {
   if (!std::filesystem::exists(options.journal))
     return complain(fmt::format("cannot read journal {}: there is no such file; a run keeps it in "
                                 "its folder of reports, as journal.ndjson",
@@ -116,7 +118,7 @@ int restore_command(const RestoreOptions& options) {
     return exit_code::ok;
   }
   catch_interrupts();
-  if (Restoration(*journal, options.endpoint).run()) return exit_code::ok;
+  if (Restoration(*journal, options.endpoint, protocols).run()) return exit_code::ok;
   if (interrupted()) return exit_code::interrupted;
   return complain(
       fmt::format(

@@ -12,17 +12,17 @@
 #include "harness/bench/watchdog.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/compare_command.hpp"
-#include "harness/cli/line_steps.hpp"
-#include "harness/cli/ports.hpp"
-#include "harness/cli/run_info.hpp"
-#include "harness/cli/run_plan.hpp"
-#include "harness/cli/run_report.hpp"
-#include "harness/cli/shared_run.hpp"
-#include "harness/cli/soak_log.hpp"
-#include "harness/cli/timestamp.hpp"
-#include "harness/cli/tool_vectors.hpp"
-#include "harness/endpoints/interrupt.hpp"
-#include "harness/results/ndjson.hpp"
+#include "harness/run/line_steps.hpp"
+#include "harness/run/ports.hpp"
+#include "harness/run/run_info.hpp"
+#include "harness/run/run_plan.hpp"
+#include "harness/run/run_report.hpp"
+#include "harness/run/shared_run.hpp"
+#include "harness/run/soak_log.hpp"
+#include "harness/run/timestamp.hpp"
+#include "harness/run/tool_vectors.hpp"
+#include "harness/system/interrupt.hpp"
+#include "reports/results/ndjson.hpp"
 
 namespace fieldproof {
 
@@ -294,22 +294,8 @@ int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& port
 
 }  // namespace
 
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-int complain(const std::string& message, int code) {
-  fmt::print(stderr, "fieldproof: {}\n", message);
-  return code;
-}
-
-int run_command(const RunOptions& options) {
-  Result<RunPlan> plan = make_run_plan(options);
+int run_command(const RunOptions& options, const Protocols& protocols) {
+  Result<RunPlan> plan = make_run_plan(options, protocols);
   if (!plan) return complain(plan.error().message, exit_code::usage);
   if (plan->selected.empty())
     return complain(

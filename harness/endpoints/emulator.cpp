@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "harness/monitored_device.hpp"
-#include "harness/protocol.hpp"
+#include "harness/protocols.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof {
@@ -175,14 +175,11 @@ std::string EmulatorEndpoint::line_errors() {
   return text;
 }
 
-Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name) {
-  const Result<const Protocol*> chosen = choose_protocol(name.option("protocol", ""), name.target);
-  if (!chosen)
-    return fail(fmt::format("cannot open emulator:{}: {}", name.target, chosen.error().message));
-  const Protocol* protocol = *chosen;
+Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name,
+                                                const Protocol& protocol) {
   auto endpoint = std::make_unique<EmulatorEndpoint>(
-      name, [protocol](std::string_view model, const json& config) {
-        return make_monitored_device(*protocol, model.empty() ? protocol->models().front() : model,
+      name, [&protocol](std::string_view model, const json& config) {
+        return make_monitored_device(protocol, model.empty() ? protocol.models().front() : model,
                                      config);
       });
   if (const Status begun = endpoint->begin(json::object()); !begun) {

@@ -66,6 +66,6 @@ class EmulatorEndpoint : public Endpoint {
 
 /// The protocol of option `protocol`, else the first that has the model, makes the devices. Opens
 /// with a device of the options alone, so that a wrong model or option is reported at once.
-Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name);
+Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name, const Protocol& protocol);
 
 }  // namespace fieldproof

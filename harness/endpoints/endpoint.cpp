@@ -25,24 +25,30 @@ constexpr std::array<std::string_view, 3> link_keys{"protocol", "station", "floo
 constexpr std::array<std::string_view, 6> serial_keys{"protocol", "station", "floor_ms",
                                                       "baud",     "frame",   "rs485"};
 
+/// Real ways to a device make no device.
+template <Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&)>
+Result<std::unique_ptr<Endpoint>> real(const EndpointName& name, const Protocol&) {
+  return open(name);
+}
+
 struct Kind {
   std::string_view name;
   std::string_view target;  // what stands behind the colon, for messages; empty: it may be left out
   Options options;          // empty: the emulated device checks them (keys of `given.config`)
   bool free_target;  // the target may hold '?' and '&' of its own: only known options count as
                      // options
-  Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&);
+  Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&, const Protocol&);
 };
 
 // One more endpoint is one line here and one file.
 constexpr std::array kinds{
     Kind{"emulator", "", {}, false, open_emulator},
-    Kind{"pty", "", {}, false, open_pty},
-    Kind{"serial", "/dev/ttyUSB0", serial_keys, false, open_serial},
-    Kind{"exec", "COMMAND", link_keys, true, open_exec},
-    Kind{"tcp", "HOST:PORT", link_keys, false, open_tcp},
-    Kind{"udp", "HOST:PORT", link_keys, false, open_udp},
-    Kind{"rfc2217", "HOST:PORT", serial_keys, false, open_rfc2217},
+    Kind{"pty", "", {}, false, real<open_pty>},
+    Kind{"serial", "/dev/ttyUSB0", serial_keys, false, real<open_serial>},
+    Kind{"exec", "COMMAND", link_keys, true, real<open_exec>},
+    Kind{"tcp", "HOST:PORT", link_keys, false, real<open_tcp>},
+    Kind{"udp", "HOST:PORT", link_keys, false, real<open_udp>},
+    Kind{"rfc2217", "HOST:PORT", serial_keys, false, real<open_rfc2217>},
 };
 
 const Kind* find_kind(std::string_view name) {
@@ -142,10 +148,11 @@ Result<EndpointName> parse_endpoint(std::string_view text) {
   return name;
 }
 
-Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name) {
+Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name,
+                                                const Protocol& protocol) {
   const Kind* kind = find_kind(name.kind);
   if (!kind) return fail("cannot open an endpoint: " + unknown_kind(name.kind));
-  return kind->open(name);
+  return kind->open(name, protocol);
 }
 
 }  // namespace fieldproof

@@ -14,6 +14,8 @@
 
 namespace fieldproof {
 
+class Protocol;
+
 /// What an endpoint can and cannot show, so that no case is judged on what the link does not carry.
 struct Capabilities {
   bool simulated = false;  // time costs nothing and is exact
@@ -24,12 +26,6 @@ struct Capabilities {
   bool datagrams = false;  // one send is one packet (UDP)
   /// Differences in time below this cannot be judged (0 in simulation).
   Duration timing_floor{};
-};
-
-/// The moments at which a transmission began and its last stop bit ended.
-struct Sent {
-  Time start{};
-  Time end{};
 };
 
 class Endpoint {
@@ -80,7 +76,8 @@ struct EndpointName {
 /// Errors name the part that is wrong and the kinds or options there are.
 Result<EndpointName> parse_endpoint(std::string_view text);
 
-/// Opens an endpoint by the table in endpoints.cpp: one line a kind.
-Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name);
+/// Opens an endpoint by the table in endpoint.cpp: one line a kind. It is to carry `protocol`,
+/// which makes the devices that are emulated in process.
+Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name, const Protocol& protocol);
 
 }  // namespace fieldproof

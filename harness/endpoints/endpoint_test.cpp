@@ -1,4 +1,5 @@
 #include "harness/endpoints/endpoint.hpp"
+#include "harness/test_protocol.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -106,7 +107,8 @@ TEST(EndpointName, AMissingTargetIsRefused) {
 }
 
 TEST(Endpoint, OpeningAnUnknownKindNamesTheKinds) {
-  const auto endpoint = open_endpoint({.kind = "serail", .target = "/dev/ttyUSB0", .options = {}});
+  const auto endpoint =
+      open_endpoint({.kind = "serail", .target = "/dev/ttyUSB0", .options = {}}, TestProtocol());
   ASSERT_FALSE(endpoint);
   EXPECT_THAT(
       endpoint.error().message,

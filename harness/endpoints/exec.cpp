@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/child_process.hpp"
-#include "harness/endpoints/fd_link.hpp"
-#include "harness/endpoints/line_pipe.hpp"
 #include "harness/endpoints/options.hpp"
-#include "harness/endpoints/pty_pair.hpp"
+#include "harness/system/child_process.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/line_pipe.hpp"
+#include "harness/system/pty_pair.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/test_link.hpp"
+#include "harness/endpoints/test_endpoint_name.hpp"
 
 namespace fieldproof {
 namespace {

@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/child_process.hpp"
 #include "harness/endpoints/device_control.hpp"
-#include "harness/endpoints/fd_link.hpp"
 #include "harness/endpoints/options.hpp"
-#include "harness/endpoints/pty_pair.hpp"
-#include "harness/endpoints/system_calls.hpp"
+#include "harness/system/child_process.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/pty_pair.hpp"
+#include "harness/system/system_calls.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof {

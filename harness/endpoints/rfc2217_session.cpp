@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "harness/endpoints/socket_connect.hpp"
+#include "harness/system/socket_connect.hpp"
 
 namespace fieldproof {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "harness/endpoints/fd_link.hpp"
 #include "harness/endpoints/rfc2217_telnet.hpp"
 #include "harness/endpoints/serial_settings.hpp"
+#include "harness/system/fd_link.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof {

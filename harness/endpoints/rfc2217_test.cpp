@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "harness/endpoints/fd_link.hpp"
-#include "harness/endpoints/pty_pair.hpp"
 #include "harness/endpoints/rfc2217_test_servers.hpp"
 #include "harness/endpoints/serial.hpp"
-#include "harness/endpoints/test_link.hpp"
+#include "harness/endpoints/test_endpoint_name.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/pty_pair.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof {

@@ -17,8 +17,8 @@
 #include <thread>
 #include <vector>
 
-#include "harness/endpoints/child_process.hpp"
 #include "harness/endpoints/rfc2217_telnet.hpp"
+#include "harness/system/child_process.hpp"
 
 namespace fieldproof::endpoint_tests {
 

@@ -12,11 +12,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/fd_link.hpp"
 #include "harness/endpoints/options.hpp"
-#include "harness/endpoints/port_lock.hpp"
-#include "harness/endpoints/port_user.hpp"
 #include "harness/endpoints/serial_settings.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/port_lock.hpp"
+#include "harness/system/port_user.hpp"
 
 namespace fieldproof {
 

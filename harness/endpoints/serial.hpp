@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/endpoints/endpoint.hpp"
-#include "harness/endpoints/system_calls.hpp"
+#include "harness/system/system_calls.hpp"
 
 namespace fieldproof {
 

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 
-#include "harness/endpoints/kernel_termios.hpp"
+#include "harness/system/kernel_termios.hpp"
 
 namespace fieldproof {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "harness/endpoints/system_calls.hpp"
+#include "harness/system/system_calls.hpp"
 #include "src/base/result.hpp"
 #include "src/line/settings.hpp"
 

@@ -13,10 +13,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/fd_link.hpp"
-#include "harness/endpoints/kernel_termios.hpp"
-#include "harness/endpoints/pty_pair.hpp"
-#include "harness/endpoints/test_link.hpp"
+#include "harness/endpoints/test_endpoint_name.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/kernel_termios.hpp"
+#include "harness/system/pty_pair.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof {

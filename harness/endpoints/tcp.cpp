@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "harness/endpoints/fd_link.hpp"
 #include "harness/endpoints/options.hpp"
-#include "harness/endpoints/socket_connect.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/socket_connect.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof {

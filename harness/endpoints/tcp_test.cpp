@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/fd_link.hpp"
-#include "harness/endpoints/interrupt.hpp"
-#include "harness/endpoints/socket_address.hpp"
-#include "harness/endpoints/test_link.hpp"
+#include "harness/endpoints/test_endpoint_name.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/interrupt.hpp"
+#include "harness/system/socket_address.hpp"
 
 namespace fieldproof {
 namespace {

@@ -24,7 +24,7 @@ T one_of(std::mt19937& random, const std::vector<T>& all) {
 Setting random_setting(unsigned seed) {
   std::mt19937 random(seed);
   Setting setting;
-  const Protocol& protocol = *one_of(random, filled({}).protocols);
+  const Protocol& protocol = *one_of(random, filled({}, protocols()).protocols);
   setting.hidden.protocol = protocol.name();
   setting.hidden.model = one_of(random, protocol.models());
   setting.station = static_cast<int>(random() % 31) + 1;
@@ -84,7 +84,7 @@ TEST(Search, SendsProbesAlone) {
   };
   std::set<Bytes> sent, probes;
   run_search(behind<Recorder>(opener({.config = {{"station", 200}}}), &sent), small_space());
-  for (const Trial& trial : make_plan(small_space()))
+  for (const Trial& trial : make_plan(small_space(), protocols()))
     probes.insert(trial.protocol->probe(trial.station, {}));
   EXPECT_EQ(sent, probes);
 }
@@ -122,8 +122,8 @@ TEST(Search, SettingsThatThePortRefusesAreLeftOut) {
 
 TEST(Search, TroubleOfThePortEndsIt) {
   const auto run = [](const LineOpener& open) {
-    Prober prober(open, {}, [](std::size_t, std::size_t, const Observation&) {});
-    return prober.run(make_plan(small_space()), false);
+    Prober prober(open, protocols(), {}, [](std::size_t, std::size_t, const Observation&) {});
+    return prober.run(make_plan(small_space(), protocols()), false);
   };
   const Result<Search> never =
       run([](const LineSettings&) -> Result<std::unique_ptr<Endpoint>> { return fail("in use"); });
@@ -147,9 +147,9 @@ TEST(Search, AnInterruptKeepsWhatWasHeard) {
     }
     int sent = 0;
   };
-  Prober prober(behind<Stopped>(opener({.config = {{"station", 9}}})), {},
+  Prober prober(behind<Stopped>(opener({.config = {{"station", 9}}})), protocols(), {},
                 [](std::size_t, std::size_t, const Observation&) {});
-  const Result<Search> search = prober.run(make_plan(small_space()), false);
+  const Result<Search> search = prober.run(make_plan(small_space(), protocols()), false);
   ASSERT_TRUE(search);
   EXPECT_TRUE(search->interrupted);
   EXPECT_EQ(search->trials, 3u);

@@ -61,7 +61,7 @@ std::optional<Found> find_frame(const Protocol& protocol, ByteView bytes, std::s
   return std::nullopt;
 }
 
-std::optional<Found> find_any(std::span<const Protocol* const> known, ByteView bytes) {
+std::optional<Found> find_any(const Protocols& known, ByteView bytes) {
   for (const Protocol* protocol : known)
     if (const auto found = find_frame(*protocol, bytes, 0, {})) return found;
   return std::nullopt;
@@ -165,7 +165,7 @@ class Reading {
     diagnosis_.frame.assign(bytes_.begin() + static_cast<std::ptrdiff_t>(from_), bytes_.end());
   }
 
-  Diagnosis read(std::span<const Protocol* const> known) {
+  Diagnosis read(const Protocols& known) {
     const bool answered = diagnosis_.frame.size() > 0;
     if (!answered) diagnosis_.frame = all_bytes(heard_.before);  // it was not for us, or comes late
     const Bytes rest = diagnosis_.frame;
@@ -247,7 +247,7 @@ std::string_view to_string(Symptom symptom) {
   return "";
 }
 
-Diagnosis diagnose(const Trial& trial, const Heard& heard, std::span<const Protocol* const> known) {
+Diagnosis diagnose(const Trial& trial, const Heard& heard, const Protocols& known) {
   return Reading(trial, heard).read(known);
 }
 

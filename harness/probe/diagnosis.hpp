@@ -50,7 +50,7 @@ struct Diagnosis {
 
 /// `known`: the protocols whose frames are recognised besides the one that was asked. A trial
 /// without a protocol asks nothing: what was heard before is looked at.
-Diagnosis diagnose(const Trial& trial, const Heard& heard, std::span<const Protocol* const> known);
+Diagnosis diagnose(const Trial& trial, const Heard& heard, const Protocols& known);
 
 /// Bytes in notation, cut where there are many: "ACK '01rSS' 'A4' FF ... (312 bytes)".
 std::string shown(ByteView bytes);

@@ -5,12 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "src/line/uart.hpp"
+#include "suites/protocols.hpp"
 
 namespace fieldproof {
 namespace {
 
 Trial trial(const char* protocol = "xgt-cnet", int station = 1, const char* line = "9600-8N1") {
-  return {*parse_line_settings(line), find_protocol(protocol), station};
+  return {*parse_line_settings(line), protocols().find(protocol), station};
 }
 Bytes question(const Trial& t) { return t.protocol->probe(t.station, {}); }
 

@@ -71,7 +71,7 @@ std::string to_string(const Trial& trial) {
   return to_string(trial.line) + ' ' + question_of(trial);
 }
 
-SearchSpace filled(SearchSpace space) {
+SearchSpace filled(SearchSpace space, const Protocols& known) {
   if (space.speeds.empty())
     for (const auto& one : usual_speeds) space.speeds.push_back(one.value);
   if (space.frames.empty())
@@ -81,14 +81,14 @@ SearchSpace filled(SearchSpace space) {
     for (int station = 0; station <= last_usual_station; ++station)
       space.stations.push_back(station);
   if (space.protocols.empty())
-    std::ranges::copy_if(protocols(), std::back_inserter(space.protocols),
+    std::ranges::copy_if(known, std::back_inserter(space.protocols),
                          [](const Protocol* one) { return !one->probe(1, {}).empty(); });
   if (!space.settable) space.speeds.resize(1), space.frames.resize(1);
   return space;
 }
 
-std::vector<Trial> make_plan(const SearchSpace& given) {
-  const SearchSpace space = filled(given);
+std::vector<Trial> make_plan(const SearchSpace& given, const Protocols& known) {
+  const SearchSpace space = filled(given, known);
   std::vector<Ranked<Trial>> ranked;
   for (const int speed : space.speeds) {
     for (LineSettings line : space.frames) {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/protocol.hpp"
+#include "harness/protocols.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof {
@@ -28,15 +28,15 @@ struct SearchSpace {
   std::vector<LineSettings>
       frames;  // their speed does not count; one stop bit: a second one reads the same
   std::vector<int> stations;  // 0 to 31: what one line carries (000 9.3); more only when named
-  std::vector<const Protocol*> protocols;  // those of `protocols()` that have a probe
+  std::vector<const Protocol*> protocols;  // those known that have a probe
   bool settable =
       true;  // false: a socket or a pty has neither speed nor frame, one setting is tried
 };
 /// The same with the usual in place of the empty lists.
-SearchSpace filled(SearchSpace space);
+SearchSpace filled(SearchSpace space, const Protocols& known);
 
 /// Each question of the space once, the most likely first; none with binary bytes over 7 data bits.
-std::vector<Trial> make_plan(const SearchSpace& space);
+std::vector<Trial> make_plan(const SearchSpace& space, const Protocols& known);
 
 /// How long the plan takes when nothing is heard: each question on the wire, `wait` for its answer,
 /// and what opening the line costs where the settings change.

@@ -142,7 +142,7 @@ Result<Observation> Prober::observe(const Trial& trial) {
     if (const Status done = listen(until, heard.after); !done) return done.error();
   }
   heard.errors = endpoint_->line_errors();
-  seen.diagnosis = diagnose(trial, heard, protocols());
+  seen.diagnosis = diagnose(trial, heard, known_);
   ++search_.trials;
   return seen;
 }

@@ -48,8 +48,8 @@ class Prober {
   using Progress =
       std::function<void(std::size_t done, std::size_t total, const Observation& last)>;
 
-  Prober(LineOpener open, ProbeTiming timing, Progress progress)
-      : open_(std::move(open)), timing_(timing), progress_(std::move(progress)) {}
+  Prober(LineOpener open, const Protocols& known, ProbeTiming timing, Progress progress)
+      : open_(std::move(open)), known_(known), timing_(timing), progress_(std::move(progress)) {}
 
   /// Until the first sure find, which is asked twice more; with `all` to the end of the plan.
   /// Errors are trouble of the port.
@@ -66,6 +66,7 @@ class Prober {
   void keep(const Observation& observation);
 
   LineOpener open_;
+  Protocols known_;
   ProbeTiming timing_;
   Progress progress_;
   std::unique_ptr<Endpoint> endpoint_;

@@ -21,8 +21,10 @@ EndpointName with_settings(EndpointName name, const LineSettings& line) {
   return name;
 }
 
-LineOpener line_opener(const EndpointName& name) {
-  return [name](const LineSettings& line) { return open_endpoint(with_settings(name, line)); };
+LineOpener line_opener(const EndpointName& name, const Protocol& protocol) {
+  return [name, &protocol](const LineSettings& line) {
+    return open_endpoint(with_settings(name, line), protocol);
+  };
 }
 
 EndpointName name_of_found(const EndpointName& name, const Trial& found, bool settable) {

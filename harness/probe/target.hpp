@@ -18,7 +18,7 @@ bool is_emulator(const EndpointName& name);
 
 /// `name` with the bench's side of the line set.
 EndpointName with_settings(EndpointName name, const LineSettings& line);
-LineOpener line_opener(const EndpointName& name);
+LineOpener line_opener(const EndpointName& name, const Protocol& protocol);
 
 /// `name` as it is to be used for what was found: settings, station and protocol added; an emulator
 /// has them already.

@@ -1,4 +1,5 @@
 #include "harness/probe/target.hpp"
+#include "suites/protocols.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,7 @@ namespace fieldproof {
 namespace {
 
 std::string found(const char* endpoint, bool settable = true) {
-  const Trial trial{*parse_line_settings("38400-7E1"), find_protocol("ls-bus"), 12};
+  const Trial trial{*parse_line_settings("38400-7E1"), protocols().find("ls-bus"), 12};
   return to_string(name_of_found(*parse_endpoint(endpoint), trial, settable));
 }
 

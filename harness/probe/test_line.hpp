@@ -11,10 +11,11 @@
 #include "harness/endpoints/emulator.hpp"
 #include "harness/probe/conclusion.hpp"
 #include "src/line/faults.hpp"
+#include "suites/protocols.hpp"
 
 namespace fieldproof::probe_tests {
 
-inline const Protocol& protocol_named(std::string_view name) { return *find_protocol(name); }
+inline const Protocol& protocol_named(std::string_view name) { return *protocols().find(name); }
 
 /// The device that is searched.
 struct Hidden {
@@ -25,7 +26,7 @@ struct Hidden {
 
 inline LineOpener opener(const Hidden& hidden) {
   return [hidden](const LineSettings& bench) -> Result<std::unique_ptr<Endpoint>> {
-    const Protocol* protocol = find_protocol(hidden.protocol);
+    const Protocol* protocol = protocols().find(hidden.protocol);
     auto endpoint = std::make_unique<EmulatorEndpoint>(
         EndpointName{"emulator", hidden.model, {}},
         [protocol](std::string_view model, const nlohmann::json& config) {
@@ -75,8 +76,8 @@ LineOpener behind(LineOpener inner, Arguments... arguments) {
 }
 
 inline Search run_search(const LineOpener& open, const SearchSpace& space = {}, bool all = false) {
-  Prober prober(open, {}, [](std::size_t, std::size_t, const Observation&) {});
-  Result<Search> search = prober.run(make_plan(space), all);
+  Prober prober(open, protocols(), {}, [](std::size_t, std::size_t, const Observation&) {});
+  Result<Search> search = prober.run(make_plan(space, protocols()), all);
   return search ? *search : Search{};
 }
 

@@ -132,10 +132,10 @@ std::string fold_space(std::string_view text) {
   return folded;
 }
 
-std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& lookup) {
+std::vector<std::string> lint_wires(const VectorSet& set, const Protocols& protocols) {
   std::vector<std::string> problems;
   for (const Case& one : set.cases) {
-    const Protocol* protocol = lookup(one.protocol);
+    const Protocol* protocol = protocols.find(one.protocol);
     if (!protocol) {
       problems.push_back(
           fmt::format("{}: {}: no protocol '{}'; an id begins with the folder of its protocol",
@@ -214,10 +214,10 @@ std::vector<std::string> lint_readings(const VectorSet& set) {
   return problems;
 }
 
-std::vector<std::string> lint_tables(const VectorSet& set, const ProtocolLookup& lookup) {
+std::vector<std::string> lint_tables(const VectorSet& set, const Protocols& protocols) {
   std::vector<std::string> problems;
   for (const Case& one : set.tables) {
-    const Protocol* protocol = lookup(one.protocol);
+    const Protocol* protocol = protocols.find(one.protocol);
     const Status fact = protocol ? protocol->check_fact(one.facts)
                                  : Status(fail(fmt::format("no protocol '{}'", one.protocol)));
     if (!fact)

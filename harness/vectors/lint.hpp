@@ -8,16 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "harness/protocol.hpp"
+#include "harness/protocols.hpp"
 #include "harness/vectors/loader.hpp"
 
 namespace fieldproof {
 
-using ProtocolLookup = std::function<const Protocol*(std::string_view name)>;
-
 /// `wire` against the notation, at the station that the vector gives. Every step that the vector
 /// sends or expects has literal bytes, so that no byte of a vector can change unnoticed.
-std::vector<std::string> lint_wires(const VectorSet& set, const ProtocolLookup& protocol);
+std::vector<std::string> lint_wires(const VectorSet& set, const Protocols& protocols);
 
 /// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are
 /// unique.
@@ -28,7 +26,7 @@ std::vector<std::string> lint_statements(const VectorSet& set);
 std::vector<std::string> lint_readings(const VectorSet& set);
 
 /// Facts of kind `table` against the tables in src/.
-std::vector<std::string> lint_tables(const VectorSet& set, const ProtocolLookup& protocol);
+std::vector<std::string> lint_tables(const VectorSet& set, const Protocols& protocols);
 
 /// Each quote stands in its manual's text (white space folded) and has five words or is a table
 /// row.

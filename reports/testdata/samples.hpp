@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/results/case_result.hpp"
-#include "harness/results/ndjson.hpp"
+#include "reports/results/case_result.hpp"
+#include "reports/results/ndjson.hpp"
 
 namespace fieldproof::samples {
 

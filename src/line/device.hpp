@@ -21,6 +21,12 @@ struct Burst {
   Time end() const { return start + character_time * static_cast<Duration::rep>(bytes.size()); }
 };
 
+/// The moments at which a transmission began and its last stop bit ended.
+struct Sent {
+  Time start{};
+  Time end{};
+};
+
 /// A server, client, inverter or modem as a state machine on given time. Nothing in it sleeps or
 /// asks a clock.
 class Device {

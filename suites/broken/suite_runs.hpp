@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
-#include "harness/cli/tool.hpp"
-#include "harness/results/ndjson.hpp"
+#include "reports/results/ndjson.hpp"
+#include "suites/tool/tool.hpp"
 
 namespace fieldproof {
 

@@ -9,12 +9,6 @@
 
 namespace fieldproof {
 
-/// The table that the harness asks for.
-std::span<const Protocol* const> protocols() {
-  static const std::array table{&ls_bus::protocol()};
-  return table;
-}
-
 namespace ls_bus {
 namespace {
 

@@ -7,9 +7,6 @@
 
 namespace fieldproof {
 
-// The table of protocols lives in suites/; these tests need none.
-std::span<const Protocol* const> protocols() { return {}; }
-
 namespace modbus {
 namespace {
 

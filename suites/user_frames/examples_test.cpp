@@ -1,7 +1,7 @@
 // The example of a protocol of one's own, as a user runs it: with the built tool.
 #include <gmock/gmock.h>
 
-#include "harness/cli/tool.hpp"
+#include "suites/tool/tool.hpp"
 
 namespace fieldproof {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/endpoints/device_host.hpp"
+#include "harness/hosting/device_host.hpp"
 #include "suites/ls_bus/broken/broken_inverter.hpp"
 #include "suites/ls_bus/broken/faults.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/endpoints/device_host.hpp"
+#include "harness/hosting/device_host.hpp"
 #include "suites/modbus/broken/broken_server.hpp"
 #include "suites/modbus/broken/faults.hpp"
 

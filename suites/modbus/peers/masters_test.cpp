@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "harness/cli/tool.hpp"
+#include "suites/tool/tool.hpp"
 
 namespace fieldproof {
 namespace {

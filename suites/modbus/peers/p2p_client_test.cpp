@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/cli/tool.hpp"
+#include "suites/tool/tool.hpp"
 
 namespace fieldproof {
 namespace {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "harness/cli/tool.hpp"
+#include "suites/tool/tool.hpp"
 
 namespace fieldproof {
 namespace {

@@ -10,6 +10,7 @@
 #include "harness/endpoints/emulator.hpp"
 #include "harness/vectors/loader.hpp"
 #include "suites/p2p/broken/faults.hpp"
+#include "suites/protocols.hpp"
 
 namespace fieldproof::p2p {
 
@@ -49,7 +50,7 @@ std::string model_of(const Case& one) {
 }
 
 CaseResult run(const Case& source, const Behaviour& behaviour) {
-  const auto protocol = std::ranges::find(protocols(), source.protocol, &Protocol::name);
+  const Protocol& protocol = *protocols().find(source.protocol);
   EmulatorEndpoint endpoint({"emulator", model_of(source), {}},
                             [&](std::string_view model, const nlohmann::json& config) {
                               return make_broken_client(behaviour, source.protocol, model, config);
@@ -57,7 +58,7 @@ CaseResult run(const Case& source, const Behaviour& behaviour) {
   BenchOptions options;
   options.profile.name = "emulator";
   options.profile.protocols = {source.protocol};
-  Bench bench(endpoint, **protocol, options);
+  Bench bench(endpoint, protocol, options);
   return bench.run(source);
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/endpoints/device_host.hpp"
+#include "harness/hosting/device_host.hpp"
 #include "src/xgt_cnet/plc_config.hpp"
 #include "suites/xgt_cnet/broken/broken_server.hpp"
 

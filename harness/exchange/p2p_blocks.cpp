@@ -1,0 +1,102 @@
+#include "harness/exchange/p2p_blocks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "src/base/letters.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using nlohmann::json;
+
+/// Vectors may write a number as text: "${size}".
+json plain_value(const json& value) {
+  if (!value.is_string()) return value;
+  const std::string& text = value.get_ref<const std::string&>();
+  const bool number =
+      !text.empty() && text.size() < 6 && text.find_first_not_of("0123456789") == std::string::npos;
+  return number ? json(std::stoi(text)) : value;
+}
+
+void make_list(json& block, const char* key) {
+  if (block.contains(key) && block[key].is_string()) block[key] = json::array({block[key]});
+}
+
+std::string list_of(const json& block, const char* key) {
+  return block.contains(key)
+             ? fmt::format("{}", fmt::join(block[key].get<std::vector<std::string>>(), ", "))
+             : "?";
+}
+
+std::string text_of(const json& block, const char* key) {
+  const json value = block.value(key, json());
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
+std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
+  std::vector<json> result;
+  if (!blocks.is_array()) return result;
+  for (const json& given : blocks) {
+    json block{{"parameter", p2p.value("parameter", json(1))},
+               {"block", result.size()},
+               {"channel", p2p.value("channel", json(1))},
+               {"function", "read"}};
+    const std::string function = given.is_object() ? given.value("function", "read") : "";
+    if (function == "read" || function == "write")
+      block.update({{"command", "single"}, {"type", "word"}, {"size", 1}});
+    block.update(given);
+    for (json& value : block) value = plain_value(value);
+    if (block.contains("flag")) block["flag"] = upper(block["flag"].get<std::string>());
+    make_list(block, "read");
+    make_list(block, "save");
+    result.push_back(std::move(block));
+  }
+  return result;
+}
+
+std::vector<json> p2p_blocks(const json& config) {
+  const auto p2p = config.find("p2p");
+  if (p2p == config.end() || !p2p->is_object()) return {};
+  return complete_blocks(p2p->value("blocks", json()), *p2p);
+}
+
+std::string flag_of(const json& block) { return block.value("flag", ""); }
+
+bool runs_by_clock(const json& block) {
+  const std::string flag = flag_of(block);
+  return !flag.empty() && (flag.front() != '%' || flag.starts_with("%F"));
+}
+
+std::vector<std::string> sent_addresses(const json& block) {
+  if (block.value("function", "") != "write" || !block.contains("read")) return {};
+  return block["read"].get<std::vector<std::string>>();
+}
+
+std::string in_words(const json& block, std::string_view protocol) {
+  const std::string function = block.value("function", "read");
+  std::string text =
+      fmt::format("P2P {} block {}: {} client, channel {}, {}", text_of(block, "parameter"),
+                  text_of(block, "block"), protocol, text_of(block, "channel"), function);
+  if (block.contains("frame")) text += " " + text_of(block, "frame");
+  if (block.contains("command")) {
+    text += fmt::format(", {}", text_of(block, "command"));
+    text += block["command"] == "continuous"
+                ? fmt::format(", {} x {}", text_of(block, "size"), text_of(block, "type"))
+                : ", " + text_of(block, "type");
+  }
+  if (block.contains("flag")) text += ", on " + flag_of(block);
+  const std::string station = " of station " + text_of(block, "station");
+  if (function == "read")
+    text += fmt::format(", from {}{}, into {}", list_of(block, "read"), station,
+                        list_of(block, "save"));
+  if (function == "write")
+    text += fmt::format(", from {}, into {}{}", list_of(block, "read"), list_of(block, "save"),
+                        station);
+  return text;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,48 @@
+#include "harness/exchange/p2p_blocks.hpp"
+
+#include <gmock/gmock.h>
+
+namespace fieldproof {
+namespace {
+
+using nlohmann::json;
+
+TEST(P2pBlocks, EveryDefaultIsWrittenOut) {
+  const auto blocks = p2p_blocks(json::parse(R"({"p2p": {"parameter": 2, "blocks": [
+    {"flag": "%mx00000", "read": "%MW100", "save": "%MW200", "station": "2"}, {"function": "receive", "frame": "A.B"}]}})"));
+  ASSERT_EQ(blocks.size(), 2u);
+  EXPECT_EQ(
+      blocks[0],
+      json::parse(
+          R"({"parameter": 2, "block": 0, "channel": 1, "function": "read", "command": "single", "type": "word", "size": 1,
+    "flag": "%MX00000", "read": ["%MW100"], "save": ["%MW200"], "station": 2})"));
+  EXPECT_EQ(
+      blocks[1],
+      json::parse(
+          R"({"parameter": 2, "block": 1, "channel": 1, "function": "receive", "frame": "A.B"})"));
+  EXPECT_TRUE(p2p_blocks(json::object()).empty());
+}
+
+TEST(P2pBlocks, ClocksAreWhatNobodySets) {
+  for (const char* flag : {"F92", "_T200MS", "%FX00920"})
+    EXPECT_TRUE(runs_by_clock({{"flag", flag}})) << flag;
+  for (const char* flag : {"%MX00000", ""}) EXPECT_FALSE(runs_by_clock({{"flag", flag}})) << flag;
+}
+
+TEST(P2pBlocks, OnlyWritesSendMemory) {
+  EXPECT_THAT(sent_addresses({{"function", "write"}, {"read", {"%MW1", "%MW2"}}}),
+              testing::ElementsAre("%MW1", "%MW2"));
+  EXPECT_TRUE(sent_addresses({{"function", "read"}, {"read", {"%MW1"}}}).empty());
+}
+
+TEST(P2pBlocks, AnEngineerCanSetThemUpFromTheWords) {
+  const json read = complete_blocks(json::parse(
+      R"([{"block": 3, "flag": "F92", "command": "continuous", "size": 4, "read": "%MW100", "save": "%MW200", "station": 2}])"))
+      [0];
+  EXPECT_EQ(in_words(read, "xgt-cnet"),
+            "P2P 1 block 3: xgt-cnet client, channel 1, read, continuous, 4 x word, on F92, from "
+            "%MW100 of station 2, into %MW200");
+}
+
+}  // namespace
+}  // namespace fieldproof

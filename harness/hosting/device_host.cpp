@@ -1,0 +1,238 @@
+#include "harness/hosting/device_host.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+
+#include "harness/endpoints/device_control.hpp"
+#include "harness/hosting/host_port.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/interrupt.hpp"
+#include "src/line/settings.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int exit_usage = 2;
+constexpr int exit_trouble = 3;
+/// A device that is due again and again must not keep the host from listening.
+constexpr int most_at_once = 1000;
+
+void complain(const std::string& message) { fmt::print(stderr, "fieldproof: {}\n", message); }
+
+class DeviceHost {
+ public:
+  DeviceHost(const HostOptions& options, HostPort& port)
+      : options_(options), port_(port), control_(options.control), hangup_(catch_hangup()) {}
+
+  Status begin(const json& config);
+  int run();
+
+ private:
+  enum Slot : std::size_t { interrupt_slot, hangup_slot, control_slot, first_port_slot };
+
+  void wait();
+  Status hear();
+  void run_due(Time until);
+  void tell_time();
+  void transmit(const Bytes& bytes);
+  void serve_control();
+  void answer_lines();
+  void power_cycle();
+  void show(bool to_device, ByteView bytes);
+
+  const HostOptions& options_;
+  HostPort& port_;
+  UniqueFd control_;
+  int hangup_;
+  RunClock clock_;
+  std::unique_ptr<EmulatedDevice> device_;
+  Time device_time_{};
+  std::string control_text_;
+  bool control_closed_ = false;
+  std::vector<pollfd> fds_;
+};
+
+/// Replaces the device by a fresh one. What waits on the line belongs to the old one.
+Status DeviceHost::begin(const json& config) {
+  json merged = options_.config;
+  merged.update(config);
+  if (!options_.model.empty()) merged["model"] = options_.model;
+  merged.emplace("station", 1);  // as the in-process emulator, and as a bench asks by default
+  merged.emplace("inter_character_floor_ms", options_.inter_character_floor_ms);
+  Result<std::unique_ptr<EmulatedDevice>> device = options_.make_device(merged);
+  if (!device) return device.error();
+  device_ = std::move(*device);
+  port_.flush();
+  return ok();
+}
+
+int DeviceHost::run() {
+  while (!interrupted() && !control_closed_) {
+    wait();
+    // The line first: what was sent before a question over the control socket counts before its
+    // answer.
+    if (const Status heard = hear(); !heard) {
+      complain(heard.error().message);
+      return exit_trouble;
+    }
+    run_due(clock_.now());
+    if (fds_[hangup_slot].revents != 0 || fds_[control_slot].revents != 0) tell_time();
+    if (fds_[hangup_slot].revents != 0) power_cycle();
+    if (fds_[control_slot].revents != 0) serve_control();
+  }
+  return 0;
+}
+
+void DeviceHost::wait() {
+  fds_.assign({{interrupt_fd(), POLLIN, 0}, {hangup_, POLLIN, 0}, {control_.get(), POLLIN, 0}});
+  port_.add_to(fds_);
+  timespec timeout{};
+  const std::optional<Time> wake = device_->wake_at();
+  if (wake) {
+    const Duration left = std::max(*wake - clock_.now(), Duration::zero());
+    timeout = {static_cast<time_t>(left / 1s), static_cast<long>((left % 1s).count())};
+  }
+  if (::ppoll(fds_.data(), fds_.size(), wake ? &timeout : nullptr, nullptr) > 0) return;
+  for (pollfd& one : fds_) one.revents = 0;
+}
+
+/// Feeds what has arrived. Where the device was due meanwhile, the host looked late, and the bytes
+/// may have come in time: they count as come at that moment, so that a busy machine does not look
+/// like a gap on the line.
+Status DeviceHost::hear() {
+  if (std::none_of(fds_.begin() + first_port_slot, fds_.end(),
+                   [](const pollfd& one) { return one.revents != 0; }))
+    return ok();
+  for (;;) {
+    Result<Bytes> bytes = port_.read();
+    if (!bytes) return bytes.error();
+    if (bytes->empty()) return ok();
+    Time moment = clock_.now();
+    if (const std::optional<Time> wake = device_->wake_at()) moment = std::min(moment, *wake);
+    device_time_ = std::max(device_time_, moment);
+    show(true, *bytes);
+    device_->receive(Burst{std::move(*bytes), device_time_, {}});
+    run_due(device_time_);  // not until now: more may be waiting to be read
+  }
+}
+
+void DeviceHost::run_due(Time until) {
+  for (int i = 0; i < most_at_once; ++i) {
+    const std::optional<Time> wake = device_->wake_at();
+    if (!wake || *wake > until) return;
+    device_time_ = std::max(device_time_, *wake);
+    transmit(device_->advance(device_time_));
+  }
+}
+
+/// What is changed through the back door is changed now, not when the device last had something to
+/// do: a client whose flag rises counts its time-out from here.
+void DeviceHost::tell_time() {
+  device_time_ = std::max(device_time_, clock_.now());
+  transmit(device_->advance(device_time_));
+}
+
+void DeviceHost::transmit(const Bytes& bytes) {
+  if (bytes.empty()) return;
+  port_.write(bytes);
+  show(false, bytes);
+}
+
+void DeviceHost::serve_control() {
+  std::array<char, 4096> buffer;
+  const ssize_t n = ::recv(control_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (n <= 0) {
+    control_closed_ = true;  // the bench has ended
+    return;
+  }
+  control_text_.append(buffer.data(), static_cast<std::size_t>(n));
+  answer_lines();
+}
+
+void DeviceHost::answer_lines() {
+  for (std::size_t end; (end = control_text_.find('\n')) != std::string::npos;
+       control_text_.erase(0, end + 1)) {
+    std::string answer = answer_control(
+        std::string_view(control_text_).substr(0, end),
+        [this](const json& config) { return begin(config); }, [this] { return device_.get(); });
+    for (std::string_view left = answer; !left.empty();) {
+      const ssize_t n = ::send(control_.get(), left.data(), left.size(), MSG_NOSIGNAL);
+      if (n < 0 && errno == EINTR && !interrupted()) continue;
+      if (n < 0) {
+        control_closed_ = true;
+        return;
+      }
+      left.remove_prefix(static_cast<std::size_t>(n));
+    }
+  }
+}
+
+void DeviceHost::power_cycle() {
+  std::uint64_t count = 0;
+  [[maybe_unused]] const ssize_t n = ::read(hangup_, &count, sizeof count);
+  if (const Status done = device_->act("power_cycle"); !done) complain(done.error().message);
+}
+
+void DeviceHost::show(bool to_device, ByteView bytes) {
+  if (options_.monitor) options_.monitor({clock_.now(), to_device, bytes});
+}
+
+void announce(const HostOptions& options, const std::string& where) {
+  if (options.say) return options.say(where);
+  if (options.control >= 0) return;  // a bench started it, and knows
+  fmt::print("{}\n", where);
+  std::fflush(stdout);
+}
+
+int host(const HostOptions& options, Result<std::unique_ptr<HostPort>> port) {
+  if (!port) {
+    complain(port.error().message);
+    return exit_trouble;
+  }
+  catch_interrupts();
+  DeviceHost host(options, **port);
+  if (const Status made = host.begin(json::object()); !made) {
+    complain(made.error().message);
+    return exit_usage;
+  }
+  announce(options, (*port)->describe());
+  return host.run();
+}
+
+}  // namespace
+
+std::string monitor_line(const Traffic& traffic) {
+  std::string text = to_text(traffic.bytes);
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' ' || c > '~'; }, '.');
+  return fmt::format("{:>12.3f} ms  {}  {:>4}  {}  {}", to_ms(traffic.moment),
+                     traffic.to_device ? "received" : "sent    ", traffic.bytes.size(),
+                     to_hex(traffic.bytes), text);
+}
+
+int host_on_tty(const HostOptions& options) {
+  const auto line = options.config.find("line");
+  const bool given = line != options.config.end() && line->is_string();
+  return host(options, open_tty_port(options.tty,
+                                     given ? line->get<std::string>() : to_string(LineSettings{})));
+}
+
+int host_on_tcp(const HostOptions& options) { return host(options, open_tcp_port(options.tcp)); }
+
+int host_device(const HostOptions& options) {
+  return options.tcp.empty() ? host_on_tty(options) : host_on_tcp(options);
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,256 @@
+#include "harness/hosting/device_host.hpp"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <termios.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <thread>
+
+#include "harness/endpoints/tcp.hpp"
+#include "harness/endpoints/test_endpoint_name.hpp"
+#include "harness/hosting/tiny_device.hpp"
+#include "harness/system/fd_link.hpp"
+#include "harness/system/interrupt.hpp"
+#include "harness/system/pty_pair.hpp"
+
+namespace fieldproof {
+namespace {
+
+using endpoint_tests::endpoint_name;
+using endpoint_tests::receive_text;
+using testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+/// A host in a thread; the end of the control socket ends it.
+class Hosted {
+ public:
+  explicit Hosted(HostOptions options) {
+    int ends[2];
+    EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
+    control_.emplace(UniqueFd(ends[0]), "control");
+    options.control = ends[1];
+    if (!options.make_device) options.make_device = endpoint_tests::make_tiny_device;
+    if (options.model.empty()) options.model = "tiny";
+    options.say = [this](std::string_view line) { said_.set_value(std::string(line)); };
+    thread_ = std::thread([this, options] { code_ = host_device(options); });
+    where = said_.get_future().get();
+  }
+  ~Hosted() { end(); }
+  int end() {
+    control_.reset();
+    if (thread_.joinable()) thread_.join();
+    return code_;
+  }
+  int wait() {
+    thread_.join();
+    return code_;
+  }
+  std::string ask(const std::string& line) {
+    EXPECT_TRUE(control_->send(to_bytes(line + '\n')));
+    return receive_text(*control_, "\n");
+  }
+  std::string where;
+
+ private:
+  std::optional<FdLink> control_;
+  std::promise<std::string> said_;
+  std::thread thread_;
+  int code_ = -1;
+};
+
+FdLink open_client(const std::string& path) {
+  UniqueFd fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  EXPECT_TRUE(fd) << path;
+  return FdLink(std::move(fd), path);
+}
+
+std::string new_path(const std::string& name) {
+  const std::string path =
+      testing::TempDir() + "/fieldproof_" + name + '_' + std::to_string(::getpid());
+  fs::remove(path);
+  return path;
+}
+
+TEST(DeviceHost, MakesAPtyAndSaysItsPath) {
+  Hosted host({});
+  ASSERT_THAT(host.where, testing::StartsWith("pty /dev/pts/"));
+  FdLink client = open_client(host.where.substr(4));
+  ASSERT_TRUE(client.send(to_bytes("hello.")));
+  EXPECT_EQ(receive_text(client, ">"), "<hello>");
+  EXPECT_EQ(host.end(), 0);
+}
+
+TEST(DeviceHost, ANewPathBecomesALinkUntilTheEnd) {
+  HostOptions options;
+  options.tty = new_path("link");
+  fs::create_symlink("/dev/pts/no_such", options.tty);  // left by a host that was killed
+  Hosted host(options);
+  EXPECT_THAT(host.where, HasSubstr("linked from " + options.tty));
+  {
+    FdLink client = open_client(options.tty);
+    ASSERT_TRUE(client.send(to_bytes("one.")));
+    EXPECT_EQ(receive_text(client, ">"), "<one>");
+  }
+  FdLink again = open_client(options.tty);
+  ASSERT_TRUE(again.send(to_bytes("two.")));
+  EXPECT_EQ(receive_text(again, ">"), "<two>");
+  EXPECT_EQ(host.end(), 0);
+  EXPECT_FALSE(fs::is_symlink(options.tty));
+}
+
+TEST(DeviceHost, AFileIsRefusedAndKept) {
+  HostOptions options;
+  options.make_device = endpoint_tests::make_tiny_device;
+  options.tty = new_path("file");
+  std::ofstream(options.tty) << "precious";
+  EXPECT_EQ(host_on_tty(options), 3);
+  EXPECT_TRUE(fs::is_regular_file(options.tty));
+  fs::remove(options.tty);
+}
+
+TEST(DeviceHost, ATerminalIsOpenedRaw) {
+  Result<PtyPair> pty = open_pty_pair();
+  ASSERT_TRUE(pty);
+  termios cooked{};
+  ASSERT_EQ(::tcgetattr(pty->slave.get(), &cooked), 0);
+  cooked.c_lflag |= ECHO | ICANON;
+  ASSERT_EQ(::tcsetattr(pty->slave.get(), TCSANOW, &cooked), 0);
+  HostOptions options;
+  options.tty = pty->path;
+  Hosted host(options);
+  FdLink bench(std::move(pty->master), "bench");
+  ASSERT_TRUE(bench.send(to_bytes("raw\x04.")));
+  EXPECT_EQ(receive_text(bench, ">"), "<raw\x04>");
+  EXPECT_EQ(host.end(), 0);
+}
+
+TEST(DeviceHost, AVanishedTerminalIsTrouble) {
+  Result<PtyPair> pty = open_pty_pair();
+  ASSERT_TRUE(pty);
+  HostOptions options;
+  options.tty = pty->path;
+  Hosted host(options);
+  pty->slave.reset();
+  pty->master.reset();
+  EXPECT_EQ(host.wait(), 3);
+}
+
+TEST(DeviceHost, ADeviceThatCannotBeMadeIsAUsageError) {
+  HostOptions options;
+  options.make_device = endpoint_tests::make_tiny_device;
+  options.model = "xgk";
+  EXPECT_EQ(host_on_tty(options), 2);
+}
+
+TEST(DeviceHost, ServesTheControlSocket) {
+  HostOptions options;
+  options.config = {{"station", 7}, {"delay_ms", 0}};
+  Hosted host(options);
+  EXPECT_EQ(host.ask(R"({"set":{"address":"%MW1","hex":"12"}})"), "{\"ok\":true}\n");
+  EXPECT_EQ(host.ask(R"({"get":{"address":"%MW1","digits":2}})"),
+            "{\"ok\":true,\"value\":\"12\"}\n");
+  EXPECT_EQ(host.ask(R"({"begin":{"delay_ms":1}})"), "{\"ok\":true}\n");
+  EXPECT_THAT(host.ask(R"({"get":{"address":"%MW1","digits":2}})"), HasSubstr("nothing was set"))
+      << "the device is fresh";
+  const auto answer = nlohmann::json::parse(host.ask(R"({"get":{"address":"@config"}})"));
+  EXPECT_EQ(
+      nlohmann::json::parse(answer["value"].get<std::string>()),
+      nlohmann::json(
+          {{"model", "tiny"}, {"station", 7}, {"delay_ms", 1}, {"inter_character_floor_ms", 20}}));
+}
+
+TEST(DeviceHost, TheStationIsOneUnlessGiven) {
+  Hosted host({});
+  EXPECT_THAT(host.ask(R"({"get":{"address":"@config"}})"), HasSubstr(R"(\"station\":1)"));
+}
+
+TEST(DeviceHost, RepliesWhenTheDeviceIsDue) {
+  HostOptions options;
+  options.config = {{"delay_ms", 30}};
+  Hosted host(options);
+  FdLink client = open_client(host.where.substr(4));
+  const Result<Sent> sent = client.send(to_bytes("later."));
+  ASSERT_TRUE(sent);
+  EXPECT_EQ(receive_text(client, ">"), "<later>");
+  EXPECT_GE(client.now() - sent->start, 30ms);
+}
+
+TEST(DeviceHost, AGapEndsAFrame) {
+  Hosted host({});
+  FdLink client = open_client(host.where.substr(4));
+  ASSERT_TRUE(client.send(to_bytes("lost")));
+  ASSERT_TRUE(client.receive(client.now() + 100ms));  // five times the gap
+  ASSERT_TRUE(client.send(to_bytes("kept.")));
+  EXPECT_EQ(receive_text(client, ">"), "<kept>");
+  EXPECT_THAT(host.ask(R"({"get":{"address":"@dropped"}})"), HasSubstr("\"1\""));
+}
+
+TEST(DeviceHost, HangupIsAPowerCycle) {
+  Hosted host({});
+  host.ask(R"({"set":{"address":"%MW1","hex":"12"}})");
+  ASSERT_EQ(::kill(::getpid(), SIGHUP), 0);
+  EXPECT_THAT(host.ask(R"({"get":{"address":"%MW1"}})"), HasSubstr("nothing was set"));
+}
+
+TEST(DeviceHost, AnInterruptEndsItWell) {
+  Hosted host({});
+  interrupt();
+  EXPECT_EQ(host.wait(), 0);
+  clear_interrupt();
+}
+
+TEST(DeviceHost, ServesSocketsOneAfterAnotherAndTogether) {
+  HostOptions options;
+  options.tcp = "127.0.0.1:0";
+  Hosted host(options);
+  ASSERT_THAT(host.where, testing::StartsWith("tcp 127.0.0.1:"));
+  const EndpointName name = endpoint_name("tcp", host.where.substr(4));
+  {
+    auto first = open_tcp(name);
+    ASSERT_TRUE(first) << first.error().message;
+    ASSERT_TRUE((*first)->send(to_bytes("first.")));
+    EXPECT_EQ(receive_text(**first, ">"), "<first>");
+  }
+  auto one = open_tcp(name);
+  auto two = open_tcp(name);
+  ASSERT_TRUE(one && two);
+  for (const auto& client : {one->get(), two->get(), one->get()}) {
+    ASSERT_TRUE(client->send(to_bytes("in turn.")));
+    EXPECT_EQ(receive_text(*client, ">"), "<in turn>");
+  }
+  const Result<Burst> nothing = (*two)->receive(Time{0});
+  ASSERT_TRUE(nothing);
+  EXPECT_TRUE(nothing->bytes.empty()) << "a reply went to another client";
+}
+
+TEST(DeviceHost, ShowsTheTraffic) {
+  std::vector<std::string> lines;
+  HostOptions options;
+  options.monitor = [&](const Traffic& traffic) {
+    lines.push_back(monitor_line(traffic).substr(17));
+  };
+  Hosted host(options);
+  FdLink client = open_client(host.where.substr(4));
+  ASSERT_TRUE(client.send(to_bytes("\x05.")));
+  EXPECT_EQ(receive_text(client, ">"), "<\x05>");
+  host.end();
+  EXPECT_THAT(lines,
+              testing::ElementsAre("received     2  05 2E  ..", "sent         3  3C 05 3E  <.>"));
+}
+
+TEST(DeviceHost, AMonitorLineHasTimeDirectionSizeHexAndText) {
+  const Bytes bytes = to_bytes(
+      "\x05"
+      "01rSS");
+  EXPECT_EQ(monitor_line({12'345'600ns, true, bytes}),
+            "      12.346 ms  received     6  05 30 31 72 53 53  .01rSS");
+}
+
+}  // namespace
+}  // namespace fieldproof

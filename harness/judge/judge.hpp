@@ -1,0 +1,54 @@
+// From what happened to a verdict: a pure function, the only place that decides.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/exchange/prepared_case.hpp"
+#include "harness/exchange/transcript.hpp"
+
+namespace fieldproof {
+
+struct JudgeRules {
+  double guard_band = 0.1;    // the last part of a limit that is MARGINAL
+  Duration timing_floor{};    // a limit below it is INCONCLUSIVE
+  Duration link_floor{};      // the part of it that is not the device's own answer time
+  Duration turnaround_min{};  // a reply that begins sooner collides with a partner that still
+                              // drives the line
+  Duration max_gap =
+      4010417ns;  // silence allowed inside a reply (003 4.3.1: 3.5 characters of 11 bits)
+  Duration period_tolerance{};  // of `every`; 0: a twentieth of it, or the timing floor where that
+                                // is more
+  bool binding_decisions = true;  // a missed `decision` is FAIL, else NON-STRICT
+  bool binding_timing =
+      true;  // a late answer is FAIL, else NON-STRICT (the limit is a decision, too)
+};
+
+struct Judgement {
+  Verdict verdict = Verdict::error;
+  std::string message;
+  std::vector<std::string> notes;
+  const PreparedFrame* expected =
+      nullptr;        // of the failing step, the alternative that comes nearest
+  Received received;  // what came instead
+  std::vector<Difference> differences;
+  std::map<std::string, std::string> readings;
+  std::vector<double> response_ms;
+};
+
+Judgement judge(const PreparedCase& prepared, const Transcript& transcript, const JudgeRules& rules,
+                const Protocol& protocol);
+
+/// A result that knows its case, and no verdict yet.
+CaseResult result_of(const Case& source);
+/// Notes where a case runs at another station than the manual's example names.
+void note_transposition(const PreparedCase& prepared, CaseResult& result);
+/// Writes a judgement into the result of its case.
+void take_judgement(Judgement judgement, CaseResult& result);
+
+/// The fields in which two frames differ, named by the protocol.
+std::vector<Difference> compare_frames(ByteView expected, ByteView received,
+                                       const Protocol& protocol);
+
+}  // namespace fieldproof

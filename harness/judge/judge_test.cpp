@@ -1,0 +1,339 @@
+// Exchange and judge together, over a scripted endpoint: what happened on the line, and the verdict
+// that follows.
+#include "harness/judge/judge.hpp"
+
+#include <gmock/gmock.h>
+
+#include "harness/exchange/exchange.hpp"
+#include "harness/exchange/scripted_endpoint.hpp"
+#include "harness/judge/recording.hpp"
+#include "harness/test_protocol.hpp"
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof {
+namespace {
+
+using testing::HasSubstr;
+using Pieces = std::vector<ScriptedEndpoint::Piece>;
+
+class JudgeTest : public testing::Test {
+ protected:
+  /// Loads a case with these steps and attributes, runs it against `endpoint`, judges it by
+  /// `rules`.
+  Judgement judged(const std::string& steps, const std::string& level = "must",
+                   const std::string& basis = "printed") {
+    set_ = {};
+    load_vector_text(R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": ")j" + level +
+                         R"j(", "basis": ")j" + basis + R"j(", "why": "because we say so",
+      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "steps": [)j" +
+                         steps + "]}]",
+                     "f.json", set_);
+    EXPECT_THAT(set_.problems, testing::IsEmpty());
+    Result<PreparedCase> prepared = prepare(set_.cases.at(0), 1, protocol_);
+    EXPECT_TRUE(prepared);
+    prepared_ = *prepared;
+    Exchange exchange(endpoint, protocol_, {});
+    transcript = exchange.run(prepared_);
+    exchange.close(prepared_, transcript);
+    const Judgement judgement = judge(prepared_, transcript, rules, protocol_);
+    expect_recording_judged_alike(judgement);
+    return judgement;
+  }
+
+  /// Whatever is judged live is judged alike from a result file.
+  void expect_recording_judged_alike(const Judgement& live) {
+    CaseResult recorded;
+    recorded.id = "xgt_cnet/a/b";
+    recorded.exchange = recorded_events(transcript);
+    recorded.recording = make_recording(prepared_, transcript, rules);
+    EXPECT_EQ(recorded.recording.stimulus.empty(), transcript.trouble.has_value())
+        << "trouble of the bench cannot be judged";
+    if (transcript.trouble) return;
+    const auto loaded = nlohmann::json::parse(nlohmann::json(recorded).dump()).get<CaseResult>();
+    const Result<Transcript> again = replay(loaded, prepared_, 500ms);
+    ASSERT_TRUE(again) << again.error().message;
+    const Judgement offline = judge(prepared_, *again, rules, protocol_);
+    EXPECT_EQ(offline.verdict, live.verdict) << offline.message;
+    EXPECT_EQ(offline.message, live.message);
+    EXPECT_EQ(offline.received.bytes, live.received.bytes);
+    EXPECT_EQ(offline.response_ms, live.response_ms);
+    EXPECT_EQ(offline.readings, live.readings);
+  }
+
+  static std::string ask() { return R"({"send": "'<ask>'"}, {"expect": "'<answer>'"})"; }
+
+  ScriptedEndpoint endpoint;
+  JudgeRules rules;
+  Transcript transcript;
+
+ private:
+  TestProtocol protocol_;
+  VectorSet set_;
+  PreparedCase prepared_;
+};
+
+TEST_F(JudgeTest, TheExpectedReplyPasses) {
+  endpoint.answers["<ask>"] = Pieces{{10ms, "<answer>"}};
+  const Judgement result = judged(ask());
+  EXPECT_EQ(result.verdict, Verdict::pass) << result.message;
+  ASSERT_EQ(result.response_ms.size(), 1u);
+  EXPECT_DOUBLE_EQ(result.response_ms[0], 10.0);
+}
+
+/// Both ends of a turnaround, its guard band and the floor below which it cannot be judged.
+TEST_F(JudgeTest, TurnaroundHasALeastTime) {
+  rules.turnaround_min = 4ms;
+  const auto verdict = [&](Duration after) {
+    endpoint.answers["<ask>"] = Pieces{{after, "<answer>"}};
+    return judged(ask());
+  };
+  EXPECT_EQ(verdict(3999us).verdict, Verdict::fail);
+  EXPECT_EQ(verdict(3999us).message,
+            "early answer: 3.999 ms after the request, the turnaround is 4.000 ms at least");
+  EXPECT_EQ(verdict(4ms).verdict, Verdict::marginal);
+  EXPECT_EQ(verdict(4399us).verdict, Verdict::marginal);
+  EXPECT_EQ(verdict(4400us).verdict, Verdict::pass);
+  rules.binding_timing = false;
+  EXPECT_EQ(verdict(3999us).verdict, Verdict::non_strict);
+  rules.timing_floor = 5ms;
+  EXPECT_EQ(verdict(3999us).verdict, Verdict::inconclusive);
+}
+
+TEST_F(JudgeTest, TheLimitOfTheProfileBelowTheFloorIsInconclusiveToo) {
+  endpoint.answers["<ask>"] = Pieces{{10ms, "<answer>"}};
+  rules.timing_floor = 501ms;
+  EXPECT_EQ(judged(ask()).verdict, Verdict::inconclusive);
+  rules.timing_floor = 500ms;
+  EXPECT_EQ(judged(ask()).verdict, Verdict::pass);
+}
+
+TEST_F(JudgeTest, NoAnswerFails) {
+  const Judgement result = judged(ask());
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_EQ(result.message, "no answer within 500 ms");
+  ASSERT_NE(result.expected, nullptr);
+}
+
+TEST_F(JudgeTest, AnotherReplyFailsAtTheFieldThatDiffers) {
+  endpoint.answers["<ask>"] = Pieces{{10ms, "<ansWer>"}};
+  const Judgement result = judged(ask());
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_EQ(result.message, "byte 4: expected w, got W");
+  ASSERT_EQ(result.differences.size(), 1u);
+}
+
+TEST_F(JudgeTest, AReplyCutShortFails) {
+  endpoint.answers["<ask>"] = Pieces{{10ms, "<answ"}};
+  EXPECT_EQ(judged(ask()).message, "byte 5: expected e, got nothing");
+}
+
+TEST_F(JudgeTest, BytesAfterTheReplyFailTheSameCase) {
+  endpoint.answers["<ask>"] = Pieces{{10ms, "<answer>xy"}};
+  EXPECT_EQ(judged(ask()).message, "2 bytes after the complete exchange: 'xy'");
+}
+
+TEST_F(JudgeTest, BytesMuchLaterStillBelongToTheCase) {
+  endpoint.answers["<ask>"] = Pieces{{10ms, "<answer>"}, {900ms, "<answer>"}};
+  EXPECT_THAT(judged(ask()).message, HasSubstr("8 bytes after the complete exchange"));
+}
+
+TEST_F(JudgeTest, BytesBeforeTheNextSendBelongToWhatWasOpen) {
+  endpoint.answers["<ask>"] = Pieces{{0ms, "<answer>x"}};
+  EXPECT_THAT(judged(ask() + ", " + ask()).message, HasSubstr("after the complete exchange"));
+}
+
+TEST_F(JudgeTest, TwoRepliesInOneBurstAnswerTwoExpectations) {
+  endpoint.answers["<ask><ask>"] = Pieces{{1ms, "<answer><other>"}};
+  const Judgement result =
+      judged(R"({"send": "'<ask>'*2"}, {"expect": "'<answer>'"}, {"expect": "'<other>'"})");
+  EXPECT_EQ(result.verdict, Verdict::pass) << result.message;
+}
+
+TEST_F(JudgeTest, OurOwnRequestIsNamedEcho) {
+  endpoint.answers["<ask>"] = Pieces{{0ms, "<ask>"}};
+  EXPECT_THAT(judged(ask()).message, HasSubstr("our own request came back (echo)"));
+}
+
+TEST_F(JudgeTest, ALateAnswerFailsWhereTimingBindsAndIsNeverCreditedToTheNextRequest) {
+  endpoint.answers["<ask>"] = Pieces{{600ms, "<answer>"}};
+  EXPECT_THAT(judged(ask()).message,
+              HasSubstr("late answer: 600.0 ms after the request, the limit is 500 ms"));
+  rules.binding_timing = false;
+  EXPECT_EQ(judged(ask()).verdict, Verdict::non_strict);
+}
+
+TEST_F(JudgeTest, ALateAnswerToAnEarlierRequestIsSurplusThere) {
+  endpoint.answers["<ask>"] = Pieces{{600ms, "<answer>"}};
+  endpoint.answers["<next>"] = Pieces{{10ms, "<answer>"}};
+  const Judgement result = judged(
+      R"({"send": "'<ask>'"}, {"wait": "100ms"}, {"send": "'<next>'"}, {"expect": "'<answer>'"})");
+  EXPECT_EQ(result.verdict, Verdict::fail);
+}
+
+TEST_F(JudgeTest, TheGuardBandIsMarginal) {
+  endpoint.answers["<ask>"] = Pieces{{460ms, "<answer>"}};
+  EXPECT_EQ(judged(ask()).verdict, Verdict::marginal);
+}
+
+TEST_F(JudgeTest, ALimitOfTheVectorBindsAlways) {
+  endpoint.answers["<ask>"] = Pieces{{60ms, "<answer>"}};
+  rules.binding_timing = false;
+  EXPECT_EQ(judged(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "50ms"})").verdict,
+            Verdict::fail);
+}
+
+TEST_F(JudgeTest, ALimitBelowTheFloorOfTheLinkIsInconclusive) {
+  endpoint.answers["<ask>"] = Pieces{{3ms, "<answer>"}};
+  rules.timing_floor = 20ms;
+  EXPECT_EQ(judged(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "5ms"})").verdict,
+            Verdict::inconclusive);
+}
+
+TEST_F(JudgeTest, ASplitAnswerFailsAtTheGap) {
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<ans"}, {25ms, "wer>"}};
+  const Judgement result = judged(ask());
+  EXPECT_EQ(result.message,
+            "split answer: 20.0 ms of silence before byte 4 of the reply, the limit is 4.0 ms");
+}
+
+TEST_F(JudgeTest, ABytePerSecondIsNoReply) {
+  endpoint.answers["<ask>"] = Pieces{{1s, "<"}, {2s, "a"}, {3s, "n"}};
+  EXPECT_EQ(judged(ask()).verdict, Verdict::fail);
+}
+
+TEST_F(JudgeTest, AFloodFails) {
+  endpoint.answers["<ask>"] = Pieces(50, {1ms, std::string(1000, 'x')});
+  const Judgement result = judged(ask());
+  EXPECT_THAT(result.message, HasSubstr("floods"));
+  EXPECT_TRUE(transcript.flooded);
+}
+
+TEST_F(JudgeTest, SilenceIsWaitedOutAndBroken) {
+  const std::string steps = R"({"send": "'<bad>'"}, {"silence": true})";
+  EXPECT_EQ(judged(steps).verdict, Verdict::pass);
+  endpoint.answers["<bad>"] = Pieces{{900ms, "<answer>"}};
+  EXPECT_EQ(judged(steps).message, "8 bytes came where silence is due: '<answer>'");
+}
+
+TEST_F(JudgeTest, InRealTimeAProbeProvesSilence) {
+  endpoint.can.simulated = false;
+  endpoint.answers["<probe>"] = Pieces{{1ms, "<alive>"}};
+  const std::string steps = R"({"send": "'<bad>'"}, {"silence": true})";
+  EXPECT_EQ(judged(steps).verdict, Verdict::pass);
+  EXPECT_LT(endpoint.now(), 200ms) << "no wait longer than the proof needs";
+  endpoint.answers["<bad>"] = Pieces{{1ms, "<answer>"}};
+  EXPECT_EQ(judged(steps).message, "8 bytes came where silence is due: '<answer>'");
+}
+
+TEST_F(JudgeTest, InRealTimeWhatComesBeforeTheClosingProbesReplyBelongsToTheCase) {
+  endpoint.can.simulated = false;
+  endpoint.answers["<probe>"] = Pieces{{1ms, "<alive>"}};
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}, {5ms, "<answer>"}};
+  EXPECT_THAT(judged(ask()).message, HasSubstr("8 bytes after the complete exchange"));
+}
+
+TEST_F(JudgeTest, ALinkThatDiesIsBlamedOnTheFrame) {
+  endpoint.can.simulated = false;
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
+  EXPECT_EQ(judged(ask()).message, "link dead after this frame: nothing answers any more");
+}
+
+TEST_F(JudgeTest, ADeviceThatAnswersProbesItsOwnWayIsAlive) {
+  endpoint.can.simulated = false;
+  endpoint.answers["<probe>"] = Pieces{{1ms, "<what?>"}};
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
+  EXPECT_EQ(judged(ask()).verdict, Verdict::pass);
+}
+
+TEST_F(JudgeTest, MemoryIsComparedWhateverTheCase) {
+  endpoint.can.back_door = true;
+  endpoint.memory["%MW1"] = "00ff";
+  EXPECT_EQ(judged(R"({"check": {"%MW1": "00FF"}})").verdict, Verdict::pass);
+  endpoint.memory["%MW1"] = "00FE";
+  EXPECT_EQ(judged(R"({"check": {"%MW1": "00FF"}})").message, "%MW1 holds 00FE, 00FF is due");
+}
+
+TEST_F(JudgeTest, WithoutABackDoorMemoryGoesThroughTheProtocol) {
+  endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
+  endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<1234>"}};
+  EXPECT_EQ(judged(R"({"set": {"%MW1": "1234"}}, {"check": {"%MW1": "1234"}})").verdict,
+            Verdict::pass);
+}
+
+TEST_F(JudgeTest, AWriteThatTheDeviceRefusesFails) {
+  endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<no>"}};
+  const Judgement result = judged(R"({"set": {"%MW1": "1234"}})");
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_EQ(result.message, "cannot set %MW1: not <ok>");
+}
+
+TEST_F(JudgeTest, WhatTheEndpointCannotDoIsBlocked) {
+  EXPECT_EQ(judged(R"({"do": "dance"})").verdict, Verdict::blocked);
+  EXPECT_EQ(judged(R"({"open": true})").verdict, Verdict::blocked);
+}
+
+TEST_F(JudgeTest, AnAllowedAlternativeIsNonStrictAndItsReadingIsNoted) {
+  const std::string steps =
+      R"({"send": "'<ask>'"}, {"expect": {"reading": "echo", "as_sent": "'<ss>'", "upper": "'<SS>'"}})";
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<ss>"}};
+  EXPECT_EQ(judged(steps).verdict, Verdict::pass);
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<SS>"}};
+  const Judgement result = judged(steps);
+  EXPECT_EQ(result.verdict, Verdict::non_strict);
+  EXPECT_EQ(result.readings.at("echo"), "upper");
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<sS>"}};
+  EXPECT_EQ(judged(steps).verdict, Verdict::fail);
+}
+
+TEST_F(JudgeTest, CapturesTieStepsTogether) {
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<1234>"}};
+  endpoint.answers["<1234!>"] = Pieces{{1ms, "<1234>"}};
+  EXPECT_EQ(
+      judged(
+          R"({"send": "'<ask>'"}, {"expect": "'<' {id:4} '>'"}, {"send": "'<' {id} '!>'"}, {"expect": "'<' {id} '>'"})")
+          .verdict,
+      Verdict::pass);
+}
+
+TEST_F(JudgeTest, LevelAndBasisDecideWhatAMissMeans) {
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<no>"}};
+  EXPECT_EQ(judged(ask(), "must").verdict, Verdict::fail);
+  EXPECT_EQ(judged(ask(), "should").verdict, Verdict::non_strict);
+  EXPECT_EQ(judged(ask(), "info").verdict, Verdict::info);
+  EXPECT_EQ(judged(ask(), "must", "decision").verdict, Verdict::fail);
+  rules.binding_decisions = false;
+  EXPECT_EQ(judged(ask(), "must", "decision").verdict, Verdict::non_strict);
+}
+
+TEST_F(JudgeTest, AFailingPortIsAnErrorNotAFailure) {
+  endpoint.fails_after = 0;
+  const Judgement result = judged(ask());
+  EXPECT_EQ(result.verdict, Verdict::error);
+  EXPECT_EQ(result.message, "the port is gone");
+}
+
+TEST_F(JudgeTest, NothingPassesByDefault) {
+  PreparedCase nothing;
+  Case source;
+  nothing.source = &source;
+  EXPECT_EQ(judge(nothing, {}, {}, TestProtocol{}).verdict, Verdict::error);
+}
+
+TEST_F(JudgeTest, ACadenceIsMeasured) {
+  endpoint.answers["<go>"] = Pieces{{100ms, "<tick>"}, {300ms, "<tick>"}, {500ms, "<tick>"}};
+  const std::string steps =
+      R"({"send": "'<go>'"}, {"expect": "'<tick>'", "times": 3, "every": "200ms"})";
+  EXPECT_EQ(judged(steps).verdict, Verdict::pass);
+  endpoint.answers["<go>"][2].after = 450ms;
+  EXPECT_THAT(judged(steps).message, HasSubstr("came after 150.0 ms instead of every 200.0 ms"));
+}
+
+TEST_F(JudgeTest, PausesStandWhereTheNotationHasThem) {
+  (void)judged(R"({"send": "'<a' ~50ms 'b' ~2c 'c>'"})");
+  ASSERT_EQ(transcript.events.size(), 3u);
+  EXPECT_EQ(transcript.events[1].start - transcript.events[0].end, 50ms);
+  EXPECT_EQ(transcript.events[2].start - transcript.events[1].end, 2ms);
+}
+
+}  // namespace
+}  // namespace fieldproof

@@ -1,0 +1,48 @@
+#include "harness/run/line_matrix.hpp"
+
+#include <gmock/gmock.h>
+
+namespace fieldproof {
+namespace {
+
+std::string steps(std::string_view text) {
+  const Result<std::vector<LineSettings>> read = parse_line_matrix(text);
+  if (!read) return read.error().message;
+  std::string result;
+  for (const LineSettings& one : *read) result += to_string(one) + ' ';
+  return result;
+}
+
+TEST(LineMatrix, SpeedBySpeed) {
+  EXPECT_EQ("38400-8N1 38400-8E1 115200-8N1 115200-8E1 ", steps("38400,115200 x 8N1,8E1"));
+  EXPECT_EQ("9600-8N1 ", steps("9600x8N1"));
+  EXPECT_EQ("9600-7O2 19200-7O2 ", steps(" 9600 , 19200 x 7o2 "));
+}
+
+TEST(LineMatrix, AllIsWhatTheManualLists) {
+  EXPECT_EQ(96u, parse_line_matrix("all")->size());
+  EXPECT_EQ(8u, parse_line_matrix("all x 8N1")->size());
+  EXPECT_EQ(12u, parse_line_matrix("9600 x all")->size());
+}
+
+TEST(LineMatrix, ErrorsNameThePart) {
+  for (const char* text : {"", "9600", "9600 x", "x 8N1", "9600,, x 8N1", "300 x 8N1", "9600 x 9N1",
+                           "9600 x 8N1,8N1", "8N1 x 9600"})
+    EXPECT_THAT(steps(text),
+                testing::StartsWith("cannot read --matrix '" + std::string(text) + "': "));
+  EXPECT_THAT(steps("9600 x 8N1,8n1"), testing::HasSubstr("9600-8N1 stands there twice"));
+}
+
+TEST(LineMatrix, EachKindTakesWhatItCanSet) {
+  const LineSettings step{38400, 7, 'E', 2};
+  EXPECT_EQ("38400-7E2", at_line({"emulator", "xbc-h", {}}, step).option("line", ""));
+  EXPECT_EQ("38400-7E2", at_line({"pty", "xbc-h", {}}, step).option("line", ""));
+  const EndpointName serial = at_line({"serial", "/dev/ttyUSB0", {{"baud", "9600"}}}, step);
+  EXPECT_EQ("38400", serial.option("baud", ""));
+  EXPECT_EQ("7E2", serial.option("frame", ""));
+  EXPECT_TRUE(at_line({"tcp", "h:1", {}}, step).options.empty());
+  EXPECT_EQ("38400 x 7E2", matrix_text(step));
+}
+
+}  // namespace
+}  // namespace fieldproof

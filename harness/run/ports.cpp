@@ -1,0 +1,144 @@
+#include "harness/run/ports.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "harness/run/exit_code.hpp"
+#include "harness/run/line_matrix.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+Status open_journal(const RunOptions& options, DutPlan& plan) {
+  if (plan.journal.empty()) return ok();
+  Result<Journal> journal = Journal::open(plan.journal);
+  if (!journal) return journal.error();
+  for (const JournalDevice& device : {plan.bench.device, plan.bench.aux_device}) {
+    if (options.discard_journal)
+      if (Status discarded = journal->discard(device); !discarded) return discarded;
+    const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) {
+      return is_same_device(one.device, device);
+    });
+    if (open > 0)
+      return fail(
+          fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of "
+                      "its values; type: fieldproof restore {}\n"
+                      "(or forget them: --discard-journal)",
+                      device.endpoint, open, shell_word(plan.journal)));
+  }
+  plan.bench.journal = std::make_shared<Journal>(std::move(*journal));
+  return ok();
+}
+
+}  // namespace
+
+Status open_journals(const RunOptions& options, RunPlan& plan) {
+  Status opened = open_journal(options, plan);
+  for (std::size_t i = 0; i < plan.others.size() && opened; ++i)
+    opened = open_journal(options, plan.others[i]);
+  return opened;
+}
+
+Result<Fixtures> Fixtures::open(const DutPlan& plan) {
+  Fixtures fixtures;
+  if (plan.aux)
+    if (const Status opened = fixtures.open_aux(*plan.aux, plan.bench.aux_device, plan.known);
+        !opened)
+      return opened.error();
+  if (plan.stimulus.empty() || plan.stimulus == "-") return fixtures;
+  Result<std::unique_ptr<Stimulus>> stimulus = Stimulus::start(plan.stimulus);
+  if (!stimulus) return stimulus.error();
+  fixtures.stimulus_ = std::move(*stimulus);
+  return fixtures;
+}
+
+void Fixtures::give(BenchOptions& bench, const std::string& stimulus) const {
+  if (aux_) bench.aux = {aux_.get(), aux_protocol_, aux_station_};
+  bench.endpoint_is_stimulus = stimulus == "-";
+  if (stimulus_)
+    bench.stimulus = [program = stimulus_.get()](const std::string& line) {
+      return program->tell(line);
+    };
+}
+
+Status Fixtures::open_aux(const EndpointName& name, const JournalDevice& device,
+                          const Protocols& known) {
+  const Result<const Protocol*> protocol = known.choose(device.protocol, "");
+  if (!protocol) return fail("--aux: " + protocol.error().message);
+  Result<std::unique_ptr<Protocol>> configured =
+      (*protocol)->configured(device.model, device.config);
+  if (!configured) return fail("--aux: " + configured.error().message);
+  aux_configured_ = std::move(*configured);
+  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(name, **protocol);
+  if (!endpoint) return fail("--aux: " + endpoint.error().message);
+  aux_ = std::move(*endpoint);
+  aux_protocol_ = aux_configured_ ? aux_configured_.get() : *protocol;
+  aux_station_ = device.station;
+  const Result<bool> alive =
+      Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
+  if (!alive) return alive.error();
+  return *alive ? ok()
+                : Status(fail(fmt::format("nothing answers on --aux {} at station {}",
+                                          aux_->describe(), aux_station_)));
+}
+
+Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan) {
+  std::vector<Fixtures> all;
+  const auto open = [&](DutPlan& dut) -> Status {
+    Result<Fixtures> fixtures = Fixtures::open(dut);
+    if (!fixtures) return fixtures.error();
+    fixtures->give(dut.bench, dut.stimulus);
+    all.push_back(std::move(*fixtures));
+    return ok();
+  };
+  Status opened = open(plan);
+  for (std::size_t i = 0; i < plan.others.size() && opened; ++i) opened = open(plan.others[i]);
+  if (!opened) return opened.error();
+  return all;
+}
+
+Result<std::vector<Benches>> open_ports(const RunPlan& plan) {
+  std::vector<Benches> ports;
+  const auto open = [&](const DutPlan& dut) -> Status {
+    Result<Benches> port = Benches::open(
+        plan.matrix.empty() ? dut.endpoint : at_line(dut.endpoint, plan.matrix.front()),
+        dut.protocols, dut.bench);
+    if (!port) return port.error();
+    ports.push_back(std::move(*port));
+    return ok();
+  };
+  if (const Status opened = open(plan); !opened) return opened.error();
+  for (const DutPlan& other : plan.others)
+    if (const Status opened = open(other); !opened) return opened.error();
+  return ports;
+}
+
+namespace {
+
+Status take_fingerprint(DutPlan& dut, Benches& port, bool wanted) {
+  const Fingerprint& declared = dut.identity.fingerprint;
+  if (declared.empty() && !wanted) return ok();
+  Result<Fingerprint> found = port.fingerprint();
+  if (!found && declared.empty()) return ok();
+  if (!found) return found.error();
+  dut.identity.fingerprint_found = std::move(*found);
+  const std::string difference = fingerprint_difference(declared, dut.identity.fingerprint_found);
+  if (difference.empty()) return ok();
+  return fail(
+      fmt::format("this is not the device '{}' of the bench file: {}; connect that device, or take "
+                  "the fingerprint anew with "
+                  "fieldproof probe ENDPOINT --fingerprint",
+                  dut.identity.name, difference));
+}
+
+}  // namespace
+
+Status take_fingerprints(RunPlan& plan, std::vector<Benches>& ports, bool wanted) {
+  Status taken = take_fingerprint(plan, ports.front(), wanted);
+  for (std::size_t i = 0; i < plan.others.size() && taken; ++i)
+    taken = take_fingerprint(plan.others[i], ports[i + 1], wanted);
+  return taken;
+}
+
+}  // namespace fieldproof

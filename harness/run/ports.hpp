@@ -1,0 +1,46 @@
+// What a run talks to: one port for each device, and what stands beside it: a second channel, a
+// stimulus.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/bench/benches.hpp"
+#include "harness/exchange/stimulus.hpp"
+#include "harness/run/run_plan.hpp"
+
+namespace fieldproof {
+
+/// What a device has besides its endpoint. Outlives its benches.
+class Fixtures {
+ public:
+  static Result<Fixtures> open(const DutPlan& plan);
+  void give(BenchOptions& bench, const std::string& stimulus) const;
+
+ private:
+  Status open_aux(const EndpointName& name, const JournalDevice& device, const Protocols& known);
+
+  std::unique_ptr<Endpoint> aux_;
+  std::unique_ptr<Protocol>
+      aux_configured_;  // as the profile declares it; nullptr: nothing to declare
+  const Protocol* aux_protocol_ = nullptr;
+  int aux_station_ = 1;
+  std::unique_ptr<Stimulus> stimulus_;
+};
+
+/// Opens the journal of each device that may be written. The error says what an earlier run left,
+/// and what to type.
+Status open_journals(const RunOptions& options, RunPlan& plan);
+
+/// Opens what stands beside each device of the plan, and gives it to its bench.
+Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan);
+
+/// One port a device; the error is that of the first that cannot be opened.
+Result<std::vector<Benches>> open_ports(const RunPlan& plan);
+
+/// Another device on the desk than the bench file has? Also looked at for a sheet to sign
+/// (`wanted`), which then shows it.
+Status take_fingerprints(RunPlan& plan, std::vector<Benches>& ports, bool wanted);
+
+}  // namespace fieldproof

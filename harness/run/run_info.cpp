@@ -1,0 +1,92 @@
+#include "harness/run/run_info.hpp"
+
+#include <fmt/format.h>
+#include <cstdint>
+#include <set>
+
+#include "harness/run/timestamp.hpp"
+#include "harness/run/tool_vectors.hpp"
+#include "harness/vectors/fingerprint.hpp"
+#include "reports/results/shard.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+/// What the devices have in common stays in `info`, each has an entry of its own.
+void name_devices(const RunPlan& plan, const std::vector<Benches>& ports,
+                  const std::vector<std::string>& floors, RunInfo& info) {
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    const DutPlan& own = plan.dut(i);
+    DutInfo one{
+        ports[i].describe(), {{"station", std::to_string(own.bench.station)}}, own.identity};
+    if (!own.line.empty()) one.properties["line"] = own.line;
+    if (i < floors.size() && !floors[i].empty()) one.properties["floor"] = floors[i];
+    info.duts.push_back(std::move(one));
+  }
+  for (std::size_t i = 1; i < info.duts.size(); ++i) {
+    info.identity = in_common(info.identity, info.duts[i].identity);
+    info.endpoint += ", " + info.duts[i].endpoint;
+  }
+  info.properties.erase("station");
+  info.properties.erase("line");
+  info.properties.erase("floor");
+}
+
+/// Tells shards of one selection from those of another.
+std::string selection(const RunPlan& plan) {
+  std::uint64_t print = empty_fingerprint;
+  for (const Case* one : plan.selected) print = extend_fingerprint(print, one->id + '\n');
+  return fmt::format("{} cases, {:016x}", plan.selected.size(), print);
+}
+
+/// The mistakes of the manuals that the selected cases met.
+std::vector<ErratumInfo> errata(const RunPlan& plan) {
+  std::set<std::string> selected;
+  for (const Case* one : plan.selected) selected.insert(one->vector_id);
+  std::vector<ErratumInfo> met;
+  for (const Erratum& one : plan.vectors.errata)
+    if (selected.contains(one.vector_id)) met.push_back(erratum_info(one));
+  return met;
+}
+
+}  // namespace
+
+Gate gate_of(const RunOptions& options) {
+  return {options.strict, options.fail_on_marginal, options.qualify};
+}
+
+RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vector<Benches>& ports,
+                 const std::vector<std::string>& floors) {
+  RunInfo info;
+  info.tool_version = FIELDPROOF_VERSION;
+  info.started = timestamp();
+  info.endpoint = ports.front().describe();
+  info.profile = plan.bench.profile.name;
+  info.command = options.command;
+  info.vectors_hash = plan.vectors.hash;
+  info.properties["gate"] = to_string(gate_of(options));
+  info.properties["station"] = std::to_string(plan.bench.station);
+  info.properties["protocol"] = ports.front().protocol_names();
+  if (!plan.bench.profile.notes.empty())
+    info.properties["profile_notes"] = plan.bench.profile.notes;
+  if (!plan.bench.profile.title.empty()) info.properties["device"] = plan.bench.profile.title;
+  if (options.seed >= 0) info.properties["seed"] = std::to_string(options.seed);
+  if (options.repeat > 1) info.properties["repeat"] = std::to_string(options.repeat);
+  if (!plan.line.empty()) info.properties["line"] = plan.line;
+  if (!plan.matrix.empty()) info.properties["matrix"] = options.matrix;
+  if (plan.soak > 0ns) info.properties["duration"] = options.duration;
+  if (!floors.empty() && !floors.front().empty()) info.properties["floor"] = floors.front();
+  info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan.bench.profile.response_max));
+  info.identity = plan.identity;
+  info.hashes = plan.hashes;
+  if (const std::optional<Shard> shard = shard_of_environment()) {
+    info.properties["shard"] = to_string(*shard);
+    info.properties["selection"] = selection(plan);
+  }
+  info.errata = errata(plan);
+  if (!plan.others.empty()) name_devices(plan, ports, floors, info);
+  return info;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,42 @@
+// What `run` is asked for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fieldproof {
+
+struct RunOptions {
+  std::string endpoint;  // empty: of the bench file's device, else "emulator:"
+  std::string profile;   // empty: by the endpoint
+  std::string filter;
+  std::string vectors;  // empty: the tool's own
+  std::string out = "fieldproof-out";
+  std::string junit, json, html;  // empty: in `out`
+  std::string capture;            // empty: none
+  std::string bench;              // bench file
+  std::vector<std::string> duts;  // devices of it; several share the cases
+  std::string journal;            // empty: in `out`
+  bool discard_journal = false;   // forget what an earlier run did not put back
+  std::string waivers;
+  std::string baseline;  // results of an earlier run, to compare with
+  std::string power_cycle;
+  std::string role;      // "client", "server"; empty: both
+  std::string stimulus;  // what makes a device ask: a command, or "-": the program of exec:
+  std::string aux;       // a second channel of the PLC under test
+  std::vector<std::string> allow_write;
+  std::vector<std::string> gtest_arguments;
+  std::string floor;        // the link's own uncertainty: "2ms"; empty: measured
+  std::string loop;         // endpoint with an emulator behind it, to measure the link with
+  std::string matrix;       // line settings to repeat the cases with: "38400 x 8N1,8E1"
+  std::string reconfigure;  // command that sets the device for a step of the matrix; empty: the
+                            // engineer does
+  std::string duration;     // soak: "8h"
+  int seed = -1;            // >= 0: shuffled by it
+  int repeat = 1;
+  bool strict = false, qualify = false, fail_on_marginal = false;
+  bool fail_fast = false, dry_run = false, verbose = false, skip_absent = false;
+  std::string command;  // as typed, for reports
+};
+
+}  // namespace fieldproof

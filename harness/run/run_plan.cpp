@@ -1,0 +1,331 @@
+#include "harness/run/run_plan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "harness/bench/bench_file.hpp"
+#include "harness/paths.hpp"
+#include "harness/run/exit_code.hpp"
+#include "harness/run/line_matrix.hpp"
+#include "harness/run/tool_vectors.hpp"
+#include "harness/system/stable_name.hpp"
+#include "reports/results/sha256.hpp"
+#include "src/base/duration.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_emulated(const EndpointName& endpoint) {
+  return endpoint.kind == "emulator" || endpoint.kind == "pty";
+}
+
+/// A model without a profile of its own: what a user-defined frame file describes.
+bool is_bare_model(const EndpointName& endpoint, const DataPaths& data, const Protocols& known) {
+  if (endpoint.target.empty() || fs::exists(data.profiles / (endpoint.target + ".json")))
+    return false;
+  const Result<const Protocol*> protocol =
+      known.choose(endpoint.option("protocol", ""), endpoint.target);
+  return protocol && (*protocol)->has_model(endpoint.target);
+}
+
+/// The model that an endpoint emulates is its profile; a real device has one of its own.
+std::string profile_for(const RunOptions& options, const EndpointName& endpoint,
+                        const DataPaths& data, const Protocols& known) {
+  if (!options.profile.empty()) return options.profile;
+  if (is_emulated(endpoint))
+    return endpoint.target.empty() || is_bare_model(endpoint, data, known) ? "emulator"
+                                                                           : endpoint.target;
+  complain(
+      "no --profile given: judged as xbc-h, whose every decision binds; a real module wants a "
+      "profile of its own, such as xbc-dxxxh",
+      0);
+  return "xbc-h";
+}
+
+std::string replay_command(const RunOptions& options) {
+  std::string command = "fieldproof run --endpoint " + shell_word(options.endpoint);
+  if (!options.profile.empty()) command += " --profile " + shell_word(options.profile);
+  if (!options.vectors.empty()) command += " --vectors " + shell_word(options.vectors);
+  for (const std::string& range : options.allow_write)
+    command += " --allow-write " + shell_word(range);
+  if (!options.journal.empty()) command += " --journal " + shell_word(options.journal);
+  if (!options.power_cycle.empty()) command += " --power-cycle " + shell_word(options.power_cycle);
+  if (!options.stimulus.empty()) command += " --stimulus " + shell_word(options.stimulus);
+  if (!options.aux.empty()) command += " --aux " + shell_word(options.aux);
+  if (!options.floor.empty()) command += " --floor " + shell_word(options.floor);
+  if (!options.loop.empty()) command += " --loop " + shell_word(options.loop);
+  if (!options.reconfigure.empty()) command += " --reconfigure " + shell_word(options.reconfigure);
+  if (options.strict) command += " --strict";
+  if (options.fail_on_marginal) command += " --fail-on marginal";
+  return command + " --filter ";
+}
+
+Result<BenchOptions> bench_options(const RunOptions& options, const EndpointName& endpoint,
+                                   const std::string& profile_name, const DataPaths& data) {
+  BenchOptions bench;
+  Result<Profile> profile = load_profile(profile_name, data.profiles);
+  if (!profile) return profile.error();
+  bench.profile = std::move(*profile);
+  if (is_emulated(endpoint) && bench.profile.model.empty())
+    bench.profile.model = fs::path(endpoint.target).stem();
+  for (const std::string& range : options.allow_write)
+    if (Status allowed = bench.fence.allow(range); !allowed) return allowed.error();
+  nlohmann::json station{{"station", endpoint.option("station", "1")}};
+  const std::optional<int> number = config_station(station, 1);
+  if (!number)
+    return fail(
+        fmt::format("station '{}' is not a number from 0 to 255", endpoint.option("station", "1")));
+  bench.station = *number;
+  bench.power_cycle_command = options.power_cycle;
+  bench.replay = replay_command(options);
+  return bench;
+}
+
+/// What the bench file says of the device `dut` (empty: there is no bench file), where no option
+/// says otherwise. Endpoint, station and line go together.
+Result<RunOptions> with_bench_device(RunOptions options, const std::string& dut, DutPlan& plan) {
+  if (!dut.empty()) {
+    const Result<BenchFile> file = load_bench_file(options.bench);
+    if (!file) return file.error();
+    const Result<BenchDevice> device = find_device(*file, dut);
+    if (!device) return device.error();
+    if (options.endpoint.empty()) {
+      options.endpoint = endpoint_of(*device);
+      plan.line = device->line;
+    }
+    if (options.profile.empty()) options.profile = device->profile;
+    if (options.allow_write.empty()) options.allow_write = device->allow_write;
+    if (options.stimulus.empty()) options.stimulus = device->stimulus;
+    if (options.aux.empty()) options.aux = device->aux;
+    plan.identity = device->identity;
+  }
+  if (options.endpoint.empty()) options.endpoint = "emulator:";
+  return options;
+}
+
+/// The options of timing: floor, line matrix, soak.
+Status read_timing_options(const RunOptions& options, RunPlan& plan) {
+  for (const auto& [name, given] : {std::pair{"--matrix", !options.matrix.empty()},
+                                    {"--duration", !options.duration.empty()},
+                                    {"--loop", !options.loop.empty()}})
+    if (given && !plan.others.empty())
+      return fail(fmt::format("{} is of one device; give one --dut", name));
+  if (!options.floor.empty()) {
+    const bool plain = options.floor.find_first_not_of("0123456789.") == std::string::npos;
+    const Result<Duration> floor = parse_duration(plain ? options.floor + "ms" : options.floor);
+    if (!floor) return fail("--floor: " + floor.error().message);
+    plan.floor = AdapterFloor{AdapterFloor::Source::by_hand, *floor};
+  }
+  if (!options.loop.empty()) {
+    if (plan.floor)
+      return fail("--floor and --loop exclude each other: the floor is given, or it is measured");
+    const Result<EndpointName> loop = parse_endpoint(options.loop);
+    if (!loop) return fail("--loop: " + loop.error().message);
+    plan.loop = *loop;
+  }
+  if (!options.matrix.empty()) {
+    Result<std::vector<LineSettings>> steps = parse_line_matrix(options.matrix);
+    if (!steps) return steps.error();
+    plan.matrix = std::move(*steps);
+    if (!sets_device(plan.endpoint) && options.reconfigure.empty() && !isatty(STDIN_FILENO))
+      return fail(
+          "--matrix needs somebody who sets the device at each step: run it in a terminal, or give "
+          "--reconfigure COMMAND");
+  } else if (!options.reconfigure.empty()) {
+    return fail("--reconfigure belongs to --matrix; give both");
+  }
+  if (!options.duration.empty()) {
+    const Result<Duration> duration = parse_duration(options.duration);
+    if (!duration) return fail("--duration: " + duration.error().message);
+    if (*duration == 0ns) return fail("--duration: a soak of no time runs nothing");
+    if (!options.matrix.empty() || options.repeat > 1)
+      return fail("--duration excludes --matrix and --repeat: it repeats until the time is over");
+    plan.soak = *duration;
+  }
+  return ok();
+}
+
+/// What a qualification sheet speaks of.
+Status hash_files(const fs::path& vectors, const std::string& profile, const DataPaths& data,
+                  std::map<std::string, std::string>& hashes) {
+  const std::pair<std::string, fs::path> files[] = {
+      {"tool", own_executable()},
+      {"vectors", vectors},
+      {"profile " + profile, profile_path(profile, data.profiles)},
+      {"profiles folder", data.profiles}};  // what a profile extends
+  for (const auto& [name, path] : files) {
+    Result<std::string> hash = sha256_of_tree(path);
+    if (!hash) return hash.error();
+    hashes[name] = std::move(*hash);
+  }
+  return ok();
+}
+
+/// The option `protocol`; else what the profile declares: of an emulator all that cases are
+/// selected of, else the first.
+Result<std::vector<const Protocol*>> protocols_of(const DutPlan& plan,
+                                                  const std::vector<const Case*>& selected) {
+  std::vector<std::string> names = plan.bench.profile.protocols;
+  const auto is_selected = [&](const std::string& name) {
+    return std::ranges::any_of(selected, [&](const Case* one) { return one->protocol == name; });
+  };
+  const std::string first = plan.endpoint.option("protocol", names.empty() ? "" : names.front());
+  if (is_emulated(plan.endpoint) && !plan.endpoint.options.contains("protocol"))
+    std::erase_if(names, std::not_fn(is_selected));
+  else
+    names = {first};
+  if (names.empty()) names = {first};
+  const std::string& model =
+      is_emulated(plan.endpoint) ? plan.endpoint.target : plan.bench.profile.model;
+  std::vector<const Protocol*> protocols;
+  for (const std::string& name : names) {
+    const Result<const Protocol*> protocol = plan.known.choose(name, model);
+    if (!protocol)
+      return fail(fmt::format("cannot run on {}:{}: {}", plan.endpoint.kind, plan.endpoint.target,
+                              protocol.error().message));
+    protocols.push_back(*protocol);
+  }
+  return protocols;
+}
+
+/// Devices that share a run have a journal each.
+std::string journal_path(const RunOptions& options, const std::string& dut) {
+  fs::path path = options.journal.empty() ? fs::path(options.out) / "journal.ndjson"
+                                          : fs::path(options.journal);
+  if (options.duts.size() > 1)
+    path.replace_filename(path.stem().string() + "-" + dut + path.extension().string());
+  return path.string();
+}
+
+/// `profile` becomes the name of the device's profile.
+Result<DutPlan> make_dut_plan(const RunOptions& given, const Protocols& known,
+                              const std::string& dut, const std::vector<const Case*>& selected,
+                              std::string& profile) {
+  DutPlan plan;
+  plan.known = known;
+  const DataPaths data = find_data();
+  const Result<RunOptions> options = with_bench_device(given, dut, plan);
+  if (!options) return options.error();
+  Result<EndpointName> endpoint = parse_endpoint(options->endpoint);
+  if (!endpoint) return endpoint.error();
+  plan.endpoint = std::move(*endpoint);
+  if (const std::string stable =
+          plan.endpoint.kind == "serial" ? stable_name(plan.endpoint.target) : "";
+      !stable.empty())
+    complain(fmt::format("{} may be another adapter next time; its stable name is {}",
+                         plan.endpoint.target, stable),
+             0);
+  profile = profile_for(*options, plan.endpoint, data, known);
+  Result<BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data);
+  if (!bench) return bench.error();
+  plan.bench = std::move(*bench);
+  plan.bench.device = {options->endpoint, plan.bench.station, "", plan.bench.profile.model,
+                       plan.bench.profile.config};
+  if (!is_emulated(plan.endpoint) && !plan.bench.fence.empty())
+    plan.journal = journal_path(*options, dut);
+  Result<std::vector<const Protocol*>> spoken = protocols_of(plan, selected);
+  if (!spoken) return spoken.error();
+  plan.protocols = std::move(*spoken);
+  if (std::ranges::all_of(selected, [](const Case* one) { return is_client_case(*one); }))
+    plan.bench.client_cases = selected;
+  plan.stimulus = options->stimulus;
+  if (!options->aux.empty()) {
+    Result<EndpointName> aux = parse_endpoint(options->aux);
+    if (!aux) return fail("--aux: " + aux.error().message);
+    const std::optional<int> station =
+        config_station({{"station", aux->option("station", "1")}}, 1);
+    if (!station)
+      return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255",
+                              aux->option("station", "1")));
+    plan.bench.aux_device = {options->aux, *station, aux->option("protocol", "xgt-cnet"),
+                             plan.bench.profile.model, plan.bench.profile.config};
+    plan.aux = std::move(*aux);
+  }
+  if (const Status checked = check_fingerprint(plan.identity.fingerprint, *plan.protocols.front());
+      !checked)
+    return fail(fmt::format("cannot use bench file {}: devices.{}: {}", given.bench, dut,
+                            checked.error().message));
+  return plan;
+}
+
+/// Devices that share the cases must be alike for them: which one takes a case is chance.
+Status check_alike(const DutPlan& first, const DutPlan& other, const std::vector<Waiver>& waivers) {
+  const auto differ = [&](const std::string& what, const std::string& a, const std::string& b) {
+    return fail(
+        fmt::format("cannot share the cases between {} and {}: {} {} and {}; run them apart",
+                    first.identity.name, other.identity.name, what, a, b));
+  };
+  const std::string& a = first.bench.profile.name;
+  const std::string& b = other.bench.profile.name;
+  if (a != b) return differ("their profiles are", a, b);
+  if (first.protocols != other.protocols)
+    return differ("they speak", std::string(first.protocols.front()->name()),
+                  std::string(other.protocols.front()->name()));
+  const bool by_firmware = std::ranges::any_of(waivers, [](const Waiver& one) {
+    return !one.firmware_from.empty() || !one.firmware_to.empty();
+  });
+  if (by_firmware && first.identity.firmware != other.identity.firmware)
+    return differ("waivers ask for the firmware, which is", first.identity.firmware,
+                  other.identity.firmware);
+  return ok();
+}
+
+Status check_duts(const RunOptions& options) {
+  if (options.bench.empty() != options.duts.empty())
+    return fail("--bench FILE and --dut NAME go together; give both");
+  if (options.duts.size() > 1 && !options.endpoint.empty())
+    return fail("--endpoint names one port, --dut several; leave --endpoint out");
+  for (const std::string& dut : options.duts) {
+    if (dut.empty()) return fail("--dut needs the name of a device");
+    if (std::ranges::count(options.duts, dut) > 1)
+      return fail(fmt::format("--dut {} is given twice; leave one", dut));
+  }
+  return ok();
+}
+
+}  // namespace
+
+Result<RunPlan> make_run_plan(const RunOptions& options, const Protocols& known) {
+  RunPlan plan;
+  if (const Status duts = check_duts(options); !duts) return duts.error();
+  Result<std::vector<Waiver>> waivers = load_waivers(options.waivers);
+  if (!waivers) return waivers.error();
+  plan.waivers = std::move(*waivers);
+  Result<VectorSet> loaded = load_sound_vectors(options.vectors);
+  if (!loaded) return loaded.error();
+  plan.vectors = std::move(*loaded);
+  for (const Case& one : plan.vectors.cases)
+    if (matches_filter(one.id, options.filter) && has_role(one, options.role))
+      plan.selected.push_back(&one);
+  std::string profile;
+  Result<DutPlan> first = make_dut_plan(
+      options, known, options.duts.empty() ? "" : options.duts.front(), plan.selected, profile);
+  if (!first) return first.error();
+  static_cast<DutPlan&>(plan) = std::move(*first);
+  for (std::size_t i = 1; i < options.duts.size(); ++i) {
+    Result<DutPlan> other = make_dut_plan(options, known, options.duts[i], plan.selected, profile);
+    if (!other) return other.error();
+    if (const Status alike = check_alike(plan, *other, plan.waivers); !alike) return alike.error();
+    plan.others.push_back(std::move(*other));
+  }
+  if (const Status read = read_timing_options(options, plan); !read) return read.error();
+  if (const std::vector<std::string> lost = unknown_targets(plan.waivers, case_ids(plan.vectors));
+      !lost.empty())
+    return fail(fmt::format("cannot use waivers {}: {}; remove or correct them", options.waivers,
+                            fmt::join(lost, ", ")));
+  if (options.qualify)
+    if (const Status hashed =
+            hash_files(vectors_path(options.vectors), profile, find_data(), plan.hashes);
+        !hashed)
+      return hashed.error();
+  return plan;
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,106 @@
+#include "harness/run/shared_run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <chrono>
+#include <thread>
+
+#include "harness/judge/judge.hpp"
+#include "harness/system/interrupt.hpp"
+
+namespace fieldproof {
+
+SharedRun::SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult on_result)
+    : ports_(std::move(ports)), on_result_(std::move(on_result)), tasks_(std::move(tasks)) {}
+
+void SharedRun::execute() {
+  {
+    std::vector<std::jthread> threads;
+    for (const Port& port : ports_) threads.emplace_back([this, &port] { serve(port); });
+  }
+  interrupted_ = interrupted_ && !hung_;  // the watchdog ends a hanging case in the way of Ctrl-C
+  if (interrupted_ || hung_) return;
+  for (Task task; take(task);) {
+    if (task.earlier) {
+      report({task.source, task.repeat}, *task.earlier);
+      continue;
+    }
+    CaseResult result = result_of(*task.source);
+    result.verdict = Verdict::blocked;
+    result.message = fmt::format("no port is left: {}", fmt::join(stops_, "; "));
+    report(task, std::move(result));
+  }
+}
+
+void SharedRun::serve(const Port& port) {
+  const auto cannot = [&](const std::string& when, const Error& error) {
+    const std::lock_guard lock(mutex_);
+    interrupted_ |= error.interrupted;
+    stops_.push_back(port.name + ": " + when + error.message);
+    if (!error.interrupted) troubles_.push_back(stops_.back());
+  };
+  if (!port.unable.empty()) return cannot("", Error{port.unable});
+  Watchdog watchdog;
+  for (Task task; take(task);)
+    if (!run(port, task, watchdog)) return;
+  if (fieldproof::interrupted()) return;
+  if (const Status still = port.benches->start(); !still)
+    cannot("after the last case: ", still.error());
+}
+
+/// Waits while another port may still give its case back.
+bool SharedRun::take(Task& task) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return over_ || !tasks_.empty() || running_ == 0; });
+  if (over_ || tasks_.empty()) return false;
+  task = std::move(tasks_.front());
+  tasks_.pop_front();
+  ++running_;
+  return true;
+}
+
+bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
+  watchdog.watch(task.source->id);
+  const auto started = std::chrono::steady_clock::now();
+  CaseResult result = port.benches->run(*task.source);
+  result.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  result.dut = port.name;
+  const bool hung = watchdog.done();
+  const bool ended = fieldproof::interrupted() && !hung;
+  const bool failed = !ended && (hung || port.benches->port_failed());
+  const bool lost = failed && !hung && !task.earlier;
+  const bool done = ended || hung || !port.benches->stopped().empty();
+  if (hung)
+    result.message = "the bench hung in this case for more than a minute; " + result.message;
+  {
+    const std::lock_guard lock(mutex_);
+    hung_ |= hung;
+    interrupted_ |= ended;
+    over_ |= hung || ended;
+    if (done)
+      stops_.push_back(port.name + ": " +
+                       (hung ? "hung in " + result.id : port.benches->stopped()));
+    if (done && !ended) troubles_.push_back(stops_.back());
+    if (lost) tasks_.push_front({task.source, task.repeat, std::move(result)});
+    if (ended || lost) --running_;
+  }
+  changed_.notify_all();
+  if (ended || lost) return false;  // not finished here: the case has no result of this port
+  report(task, std::move(result));
+  return !done;
+}
+
+void SharedRun::report(const Task& task, CaseResult result) {
+  result.repeat = task.repeat;
+  if (task.earlier)
+    result.notes.push_back(fmt::format("begun on {}, whose port failed", task.earlier->dut));
+  {
+    const std::lock_guard lock(mutex_);
+    over_ |= !on_result_(*task.source, std::move(result));
+    --running_;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,35 @@
+#include "harness/run/tool_vectors.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/paths.hpp"
+
+namespace fieldproof {
+
+std::filesystem::path vectors_path(const std::string& option) {
+  return option.empty() ? find_data().vectors : std::filesystem::path(option);
+}
+
+Result<VectorSet> load_sound_vectors(const std::string& option) {
+  VectorSet vectors = load_vectors(vectors_path(option), find_data().vectors / "schema.json");
+  if (vectors.problems.empty()) return vectors;
+  return fail(fmt::format(
+      "{}\n{} in the vectors; nothing was sent. `fieldproof lint` shows them all",
+      fmt::join(vectors.problems, "\n"),
+      vectors.problems.size() == 1 ? "1 problem"
+                                   : fmt::format("{} problems", vectors.problems.size())));
+}
+
+std::vector<std::string> case_ids(const VectorSet& set) {
+  std::vector<std::string> ids;
+  for (const Case& one : set.cases) ids.push_back(one.id);
+  return ids;
+}
+
+ErratumInfo erratum_info(const Erratum& erratum) {
+  return {erratum.vector_id, erratum.manual,  erratum.section,
+          erratum.printed,   erratum.correct, erratum.why};
+}
+
+}  // namespace fieldproof

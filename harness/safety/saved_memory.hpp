@@ -1,0 +1,63 @@
+// Puts back what a case writes on a real device: reads before, keeps a journal, writes back after,
+// and reads again.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/exchange/memory_access.hpp"
+#include "harness/safety/journal.hpp"
+
+namespace fieldproof {
+
+class SavedMemory {
+ public:
+  /// `device` is what the journal says of it. Without a journal nothing may be written.
+  SavedMemory(Endpoint& endpoint, const Protocol& protocol, Duration patience, JournalDevice device,
+              std::shared_ptr<Journal> journal)
+      : protocol_(protocol),
+        memory_(endpoint, protocol, patience),
+        device_(std::move(device)),
+        journal_(std::move(journal)) {}
+
+  /// Before a case: each place that is not known from an earlier case is read, and all are on the
+  /// disk when this returns. Errors say why the case must not write; what could be read is in the
+  /// journal then, too.
+  Status save(const std::vector<Protocol::Written>& written);
+  /// The last error of `save` was of the port, not of the device.
+  bool port_failed() const { return port_failed_; }
+  /// The device left the last read or write unanswered.
+  bool silent() const { return memory_.silent(); }
+
+  /// After it: what has changed is put back, the latest first. Empty, or what could not be, and
+  /// why.
+  std::string restore();
+  /// What is not put back: "%MW100 = 00E2, %MW101 = 0000".
+  std::string open_places() const;
+  /// Puts back one entry of a journal. Errors say what it holds instead.
+  Status put_back(const OpenEntry& entry);
+
+ private:
+  using Key = std::pair<std::string, std::size_t>;  // address and digits
+  Result<std::string> read(const Protocol::Place& place);
+  std::vector<Protocol::Place> words_of(const std::string& address, std::size_t digits) const;
+  Result<std::string> word_by_word(const Protocol::Place& place);
+  Status write(const OpenEntry& entry, const std::string& holds);
+  bool is_open(const Key& key) const;
+
+  const Protocol& protocol_;
+  MemoryAccess memory_;
+  JournalDevice device_;
+  std::shared_ptr<Journal> journal_;
+  bool port_failed_ = false, endpoint_failed_ = false;
+  std::map<Key, std::string>
+      known_;  // what places held when this run first came to them; empty: no such memory
+};
+
+/// `written` without overlaps, and joined where words are adjacent; what nobody can tell is left
+/// out.
+std::vector<Protocol::Written> joined(std::vector<Protocol::Written> written);
+
+}  // namespace fieldproof

@@ -1,0 +1,27 @@
+// Several runs as one: the shards of a selection, done at once on several machines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/compare/result_file.hpp"
+
+namespace fieldproof {
+
+/// The run that the files add up to, and what is amiss with it.
+struct MergedRun {
+  RunInfo run;
+  std::vector<CaseResult> results;    // each once, in the order of the files
+  std::vector<std::string> troubles;  // a shard is missing, was killed, or had trouble of its own:
+                                      // the merged run is not whole
+  bool interrupted = false;           // one of them was
+  bool failed = false;                // one of them ended with exit 1, whatever its cases say
+  double seconds = 0;                 // of the longest
+};
+
+/// Errors name the two files and what differs: vectors, tool, profile, gate, files hashed for a
+/// qualification, selection, shards, or the verdict of a case that both have. Equal results of one
+/// case count once.
+Result<MergedRun> merge_results(const std::vector<ResultFile>& files);
+
+}  // namespace fieldproof

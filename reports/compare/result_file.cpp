@@ -1,0 +1,103 @@
+#include "reports/compare/result_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "reports/compare/junit_reader.hpp"
+#include "reports/results/file_error.hpp"
+#include "reports/results/ndjson.hpp"
+
+namespace fieldproof {
+namespace {
+
+using nlohmann::json;
+
+constexpr int newest_schema = 1;
+
+Result<std::string> read_text(const std::string& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return file_error("read", path, errno);
+  std::string text;
+  try {
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  } catch (const std::ios_base::failure&) {  // a folder opens, but does not read
+    return file_error("read", path, errno != 0 ? errno : EIO);
+  }
+  if (file.bad()) return file_error("read", path, errno != 0 ? errno : EIO);
+  return text;
+}
+
+/// The first line of NDJSON is {"run": ...} and nothing else.
+bool is_ndjson(const std::string& text) {
+  const json first = json::parse(
+      text.begin(),
+      text.begin() + static_cast<std::ptrdiff_t>(std::min(text.find('\n'), text.size())), nullptr,
+      false);
+  return first.is_object() && first.size() == 1 && first.contains("run");
+}
+
+Result<ResultFile> from_ndjson(const std::string& path) {
+  ResultFile file;
+  auto log = read_ndjson(path, [&](const CaseResult& result) { file.results.push_back(result); });
+  if (!log) return log.error();
+  file.run = std::move(log->run);
+  file.end = std::move(log->end);
+  return file;
+}
+
+Result<ResultFile> from_json_text(const std::string& path, const std::string& text) {
+  const auto broken = [&](const std::string& place, const std::string& cause) {
+    return fail(fmt::format(
+        "cannot read {}{}: {}; is it results.json, results.ndjson or JUnit, and complete?", path,
+        place, cause));
+  };
+  ResultFile file;
+  std::string place;
+  try {
+    const json document = json::parse(text);
+    if (!document.is_object() || !document.contains("cases") || !document.contains("run"))
+      return broken("", "it is JSON, but no result of a run");
+    const int schema = document.value("schema", 0);
+    if (schema < 1 || schema > newest_schema)
+      return fail(
+          fmt::format("cannot read {}: its schema is {}, this version knows {}; use the version "
+                      "that wrote it, or a newer one",
+                      path, schema, newest_schema));
+    place = ", run";
+    document.at("run").get_to(file.run);
+    for (const json& one : document.at("cases")) {
+      place = fmt::format(", case {}", file.results.size() + 1);
+      file.results.push_back(one.get<CaseResult>());
+    }
+    place = ", end";
+    if (const json& end = document.value("end", json()); !end.is_null())
+      file.end = end.get<RunEnd>();
+  } catch (const json::exception& error) {
+    return broken(place, error.what());
+  }
+  return file;
+}
+
+}  // namespace
+
+Result<ResultFile> read_result_file(const std::string& path) {
+  const Result<std::string> text = read_text(path);
+  if (!text) return text.error();
+  const std::size_t start = text->starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  const std::size_t first = text->find_first_not_of(" \t\r\n", start);
+  if (first == std::string::npos)
+    return fail(
+        fmt::format("cannot read {}: it is empty; the run was killed before it began", path));
+  Result<ResultFile> file = (*text)[first] == '<' ? read_junit_text(*text, path)
+                            : is_ndjson(*text)    ? from_ndjson(path)
+                                                  : from_json_text(path, *text);
+  if (file) file->path = path;
+  return file;
+}
+
+}  // namespace fieldproof

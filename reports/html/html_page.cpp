@@ -1,0 +1,35 @@
+#include "reports/html/html_page.hpp"
+
+namespace fieldproof {
+
+std::string html_page(std::string_view title, const HtmlWriter& body) {
+  HtmlWriter page;
+  page.markup("<!DOCTYPE html>\n");
+  page.element("html", {{"xmlns", "http://www.w3.org/1999/xhtml"}, {"lang", "en"}}, [&] {
+    page.element("head", {}, [&] {
+      page.empty("meta", {{"charset", "utf-8"}});
+      page.empty("meta",
+                 {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+      page.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
+      page.element("title", {}, title);
+      page.element("style", {}, [&] { page.markup(html_style); });
+    });
+    page.markup("\n");
+    page.element("body", {}, [&] { page.element("main", {}, [&] { page.markup(body.str()); }); });
+  });
+  page.markup("\n");
+  return page.take();
+}
+
+std::string verdict_class(Verdict verdict) {
+  std::string name = "v-";
+  for (const char c : to_string(verdict))
+    name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return name;
+}
+
+void write_verdict(HtmlWriter& out, Verdict verdict) {
+  out.element("span", {{"class", "verdict " + verdict_class(verdict)}}, to_string(verdict));
+}
+
+}  // namespace fieldproof

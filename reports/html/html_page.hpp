@@ -1,0 +1,25 @@
+// What every HTML report looks like: one file, without network and without script.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "reports/html/html_writer.hpp"
+#include "reports/results/verdict.hpp"
+
+namespace fieldproof {
+
+/// Doctype, head with the style sheet, and <body><main> around what `body` is.
+std::string html_page(std::string_view title, const HtmlWriter& body);
+
+/// The style sheet: colours of both schemes, tables, print. Classes are described in
+/// html_style.cpp.
+extern const char* const html_style;
+
+/// The class of a verdict's colour: "v-pass", "v-non-strict".
+std::string verdict_class(Verdict verdict);
+
+/// <span class="verdict v-fail">FAIL</span>
+void write_verdict(HtmlWriter& out, Verdict verdict);
+
+}  // namespace fieldproof

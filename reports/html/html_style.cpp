@@ -1,0 +1,175 @@
+#include "reports/html/html_page.hpp"
+
+namespace fieldproof {
+
+// Colours are named once and mean a verdict everywhere: text in --c on its own tint. Neither '<'
+// nor '&' may stand here.
+const char* const html_style = R"css(
+:root{color-scheme:light dark;--paper:#fff;--ink:#1b1f24;--soft:#59636e;--rule:#d8dee4;--tint:#f5f7f9;--link:#0757b3;
+--good:#17703a;--good-tint:#e6f4ea;--bad:#b3201b;--bad-tint:#fdecea;--warn:#8a5a00;--warn-tint:#fff4d6;--cool:#3b5b8c;--cool-tint:#e8eef8;--mark:#ffd9d6}
+@media (prefers-color-scheme:dark){:root{--paper:#0f1318;--ink:#e4e8ed;--soft:#98a4b1;--rule:#2b333d;--tint:#171d24;--link:#79b4ff;
+--good:#63cf8a;--good-tint:#12291b;--bad:#ff8a80;--bad-tint:#33171a;--warn:#e9b949;--warn-tint:#2f2611;--cool:#9db9e6;--cool-tint:#1a2536;--mark:#7a2620}}
+*{box-sizing:border-box}
+body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,"Segoe UI","Helvetica Neue",Arial,"Noto Sans CJK KR",sans-serif}
+main{max-width:1120px;margin:0 auto;padding:20px 20px 60px}
+h1{margin:0;font-size:30px;line-height:1.2}
+h2{margin:40px 0 10px;font-size:20px}
+p{margin:6px 0}
+a{color:var(--link)}
+small{display:block;color:var(--soft);font-size:12px;overflow-wrap:anywhere}
+code,pre,.ids{font-family:ui-monospace,"DejaVu Sans Mono","Cascadia Mono",Consolas,monospace;font-size:12.5px}
+code{overflow-wrap:anywhere}
+em{color:var(--warn);font-style:normal}
+summary{cursor:pointer}
+table{border-collapse:collapse;width:100%}
+th,td{padding:5px 10px 5px 0;text-align:left;vertical-align:top;font-weight:normal;overflow-wrap:anywhere}
+thead th{color:var(--soft);font-size:12px;border-bottom:1px solid var(--rule);white-space:nowrap}
+.num{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+
+.v-pass,.v-info{--c:var(--good);--t:var(--good-tint)}
+.v-fail,.v-xpass,.v-error{--c:var(--bad);--t:var(--bad-tint)}
+.v-marginal,.v-non-strict,.v-xfail{--c:var(--warn);--t:var(--warn-tint)}
+.v-skip,.v-blocked,.v-inconclusive{--c:var(--cool);--t:var(--cool-tint)}
+.v-info{--c:var(--soft);--t:var(--tint)}
+.verdict{display:inline-block;padding:1px 7px;border-radius:4px;background:var(--t);color:var(--c);font-size:11.5px;font-weight:700;letter-spacing:.03em;white-space:nowrap}
+
+.banner{padding:20px 24px;border-radius:10px;border-left:8px solid var(--c);background:var(--t)}
+.banner.good{--c:var(--good);--t:var(--good-tint)}
+.banner.bad{--c:var(--bad);--t:var(--bad-tint)}
+.banner h1{color:var(--c)}
+.banner .device{margin:0;color:var(--soft);overflow-wrap:anywhere}
+.banner .detail{margin:4px 0 0;font-size:17px}
+.bar{display:flex;height:10px;margin:14px 0;gap:2px}
+.bar span{min-width:4px;background:var(--c);border-radius:2px}
+.tiles{display:flex;flex-wrap:wrap;gap:10px;margin:0 0 18px;padding:0;list-style:none}
+.tiles li{flex:1 1 150px;max-width:270px;padding:8px 12px;border:1px solid var(--rule);border-radius:8px}
+.tiles b{margin-right:8px;color:var(--c);font-size:22px;font-variant-numeric:tabular-nums}
+.columns{display:grid;grid-template-columns:1fr 1fr;gap:0 40px}
+.facts{height:max-content}
+.wide th{width:170px!important}
+.facts th{width:130px;color:var(--soft)}
+.facts tr{border-bottom:1px solid var(--rule)}
+nav{display:flex;flex-wrap:wrap;gap:4px 18px;margin-top:18px}
+
+.case{margin:8px 0;border:1px solid var(--rule);border-left:4px solid var(--c);border-radius:6px;padding:0 14px}
+.case summary{padding:8px 0;overflow-wrap:anywhere}
+.case[open]{padding-bottom:12px}
+.message{display:block;padding-left:20px;color:var(--c)}
+.clause q{display:block;margin-top:2px;padding-left:12px;border-left:3px solid var(--rule);color:var(--soft)}
+.monitor,.differences{margin:12px 0}
+.monitor td,.differences td{border-bottom:1px solid var(--rule)}
+.differences{width:auto}
+.differences td:nth-child(2){color:var(--good)}
+.differences td:nth-child(3){color:var(--bad)}
+.monitor th:nth-child(-n+2),.monitor .num{width:86px;text-align:right}
+.monitor .way{width:84px;text-align:center;color:var(--soft);white-space:nowrap}
+.monitor td{font-size:13px}
+.monitor code{display:block}
+.monitor .notation{white-space:pre-wrap}
+.monitor .hex{color:var(--soft)}
+.monitor .note .notation{color:var(--soft);font-style:italic}
+.monitor .expected{background:var(--good-tint)}
+.monitor .judged{background:var(--bad-tint)}
+.monitor .judged .hex,.monitor .expected .hex{color:inherit}
+mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-weight:700}
+.remarks{margin:8px 0;padding-left:18px;color:var(--soft)}
+.remarks b{color:var(--ink);font-weight:600}
+.replay{margin:8px 0 0;padding:8px 10px;border-radius:6px;background:var(--tint);white-space:pre-wrap;overflow-wrap:anywhere}
+
+.matrix{border-top:1px solid var(--rule)}
+.matrix .head,.section>summary{display:grid;grid-template-columns:minmax(120px,1fr) repeat(var(--columns),84px);align-items:center}
+.matrix .head{padding-top:14px;color:var(--soft);border-bottom:1px solid var(--rule)}
+.matrix .head .name{color:var(--ink);font-size:14px;font-weight:600}
+.matrix .head span,.section>summary span{padding:2px 6px;text-align:right;font-size:14px}
+.matrix .head span{font-size:10.5px}
+.matrix .head .name,.section>summary .name{text-align:left}
+.section{border-bottom:1px solid var(--rule)}
+.section>summary:hover{background:var(--tint)}
+.section>summary .name::before{content:"\25B8";display:inline-block;width:16px;color:var(--soft)}
+.section[open]>summary .name::before{content:"\25BE"}
+.section>summary span[data-verdict]{color:var(--c);font-weight:600;font-variant-numeric:tabular-nums}
+.section>summary .none{color:var(--soft);font-weight:400}
+.section .case{margin-left:16px}
+.lines,.passes{margin:0 0 10px 16px;width:calc(100% - 16px);font-size:13px}
+.lines td:first-child{width:110px}
+.lines th{width:38%}
+.passes{table-layout:fixed;font:12px/1.45 ui-monospace,"DejaVu Sans Mono",Consolas,monospace}
+.passes th{width:34%}
+.passes td:last-child{width:90px;text-align:right;color:var(--soft)}
+.cut{margin-left:16px;color:var(--warn)}
+
+.timing .plot{width:42%;padding-right:16px}
+.timing svg{display:block;width:100%;overflow:visible}
+.timing text{fill:var(--soft);font-size:10px}
+.timing td{vertical-align:middle;border-bottom:1px solid var(--rule)}
+.bars{fill:var(--link);opacity:.75}
+.box{stroke:var(--ink);stroke-width:2}
+.median{stroke:var(--ink);stroke-width:2}
+.grid{stroke:var(--rule)}
+.limit{stroke:var(--bad);stroke-width:1.5;stroke-dasharray:4 3}
+
+.list td,.list th{border-bottom:1px solid var(--rule)}
+.list .num{padding-right:20px}
+.ids{color:var(--soft)}
+.errata th{width:200px}
+.errata td:last-child{width:110px}
+.legend{padding:0;list-style:none}
+.legend li{margin:4px 0}
+.legend .verdict{min-width:112px;text-align:center;margin-right:6px}
+.sheet{margin-top:50px;padding-top:30px;border-top:3px solid var(--ink)}
+.sheet .banner{margin-top:16px}
+.signatures{display:grid;grid-template-columns:1fr 1fr;gap:40px;margin-top:40px;break-inside:avoid}
+.signatures p{margin:0;padding-top:34px;border-bottom:1px solid var(--ink);color:var(--soft)}
+
+@media (max-width:960px){
+.matrix .head{display:block}
+.matrix .head span:not(.name){display:none}
+.section>summary{display:flex;flex-wrap:wrap}
+.section>summary .none{display:none}
+.section>summary .name{flex:1 1 100%}
+.section>summary span[data-verdict]::after{content:" " attr(data-verdict);font-size:11px;font-weight:400}
+}
+@media (max-width:720px){
+main{padding:12px 12px 40px}
+h1{font-size:24px}
+.columns{grid-template-columns:1fr}
+.tiles li{flex-basis:42%;max-width:none}
+.passes,.passes tbody,.passes tr,.passes th,.passes td,.lines,.lines tbody,.lines tr,.lines th,.lines td{display:block;width:auto!important;padding:0}
+.passes tr,.lines tr{padding:6px 0;border-bottom:1px solid var(--rule)}
+.passes td:last-child{text-align:left}
+.monitor thead{display:none}
+.monitor tr{display:grid;grid-template-columns:auto auto 1fr;border-bottom:1px solid var(--rule)}
+.monitor td{border:0;width:auto!important;text-align:left!important}
+.monitor td:last-child{grid-column:1/-1;padding-top:0}
+.timing thead th:nth-child(n+3),.timing td:nth-child(n+4){display:none}
+.timing .plot{width:60%}
+.facts th{width:100px}
+}
+@media print{
+:root{--paper:#fff;--ink:#000;--soft:#444;--rule:#bbb;--tint:#f4f4f4;--good:#17703a;--good-tint:#eef7f0;--bad:#b3201b;--bad-tint:#fdf0ef;--warn:#8a5a00;--warn-tint:#fff8e6;--cool:#3b5b8c;--cool-tint:#eef2f9;--mark:#ffd9d6;--link:#0757b3}
+*{print-color-adjust:exact}
+body{font-size:9pt;line-height:1.4}
+h1{font-size:17pt}
+h2{font-size:12pt;margin-top:22px}
+th,td{padding-top:3px;padding-bottom:3px}
+.banner{padding:10px 16px}
+.tiles{gap:6px}
+.tiles li{flex-basis:120px;padding:4px 8px}
+.tiles b{font-size:13pt}
+small,.verdict{font-size:7.5pt}
+code,pre,.ids,.monitor td{font-size:8pt}
+.facts th{width:90px}
+main{max-width:none;padding:0}
+nav{display:none}
+h2{break-after:avoid}
+tr,.tiles li,.section>summary,.banner{break-inside:avoid}
+.case::details-content{content-visibility:visible;display:block;height:auto}
+.section .case::details-content{content-visibility:hidden}
+.sheet{break-before:page;border:0;margin:0;padding:0}
+.sheet ~ *{break-before:auto}
+.list details::details-content{content-visibility:visible;display:block}
+}
+@page{margin:15mm 14mm;@bottom-right{content:counter(page) " / " counter(pages);font-size:9pt}}
+)css";
+
+}  // namespace fieldproof

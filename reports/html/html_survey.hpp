@@ -1,0 +1,64 @@
+// What the HTML report gathers from a file of results in one pass. Cases are rendered as they are
+// read, so that memory follows the size of the report and not that of the results; what a report
+// cannot hold is counted, and said.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/html/html_writer.hpp"
+#include "reports/results/ndjson.hpp"
+#include "reports/text/tally.hpp"
+
+namespace fieldproof {
+
+/// A section of a manual, in the order in which a person counts: 7.1.2, 7.1.10, Appendix 3.1.
+struct SectionName {
+  std::string manual, section;
+};
+bool operator<(const SectionName& a, const SectionName& b);
+
+struct SectionReport {
+  Tally tally;
+  HtmlWriter red;         // lines that lead to the blocks at the top
+  HtmlWriter remarkable;  // blocks of what was judged and did not plainly pass
+  HtmlWriter unjudged;    // lines: SKIP, BLOCKED, INCONCLUSIVE
+  HtmlWriter passes;      // lines
+  std::size_t unlisted = 0;
+};
+
+/// A named alternative that the device took.
+struct Reading {
+  std::size_t cases = 0;
+  std::string example, clause, title;  // of the first case
+};
+
+/// Cases that were not judged, for one reason.
+struct Unexecuted {
+  std::vector<std::string> ids;  // the first of them
+  std::size_t cases = 0;
+};
+
+struct HtmlSurvey {
+  RunLog log;
+  Tally tally;
+  HtmlWriter broken;  // blocks of what turns every gate red: FAIL, XPASS, ERROR
+  HtmlWriter red;     // blocks of what turns this gate red: NON-STRICT, MARGINAL
+  std::size_t red_unlisted = 0;
+  std::map<SectionName, SectionReport> sections;
+  std::map<std::string, std::vector<double>> response_ms;            // by group: "xgt_cnet/rss"
+  std::map<std::string, std::map<std::string, Reading>> readings;    // name: what was taken
+  std::map<std::pair<Verdict, std::string>, Unexecuted> unexecuted;  // by verdict and reason
+  std::vector<std::pair<ErratumInfo, Tally>> errata;  // met by cases that were executed
+  std::size_t transposed = 0;  // cases moved to the device's station or addresses
+};
+
+/// Blocks and lines that one report holds; more are only counted.
+inline constexpr std::size_t html_block_limit = 500;
+inline constexpr std::size_t html_line_limit = 20'000;
+
+Result<HtmlSurvey> survey_for_html(const std::string& ndjson, const Gate& gate);
+
+}  // namespace fieldproof

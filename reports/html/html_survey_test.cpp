@@ -1,0 +1,117 @@
+#include "reports/html/html_survey.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fmt/format.h>
+
+#include "reports/testdata/parsed_html.hpp"
+#include "reports/testdata/samples.hpp"
+
+namespace fieldproof {
+namespace {
+
+using samples::with;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Survey : public testing::Test {
+ protected:
+  HtmlSurvey survey(const std::vector<CaseResult>& results, const Gate& gate = {},
+                    const RunInfo& run = samples::run_info()) {
+    const std::string path = folder_ / "results.ndjson";
+    auto writer = NdjsonWriter::create(path);
+    EXPECT_TRUE(writer);
+    EXPECT_TRUE(writer->write(run));
+    for (const CaseResult& result : results) EXPECT_TRUE(writer->write(result));
+    auto made = survey_for_html(path, gate);
+    EXPECT_TRUE(made) << made.error().message;
+    return std::move(*made);
+  }
+
+  samples::Folder folder_;
+};
+
+TEST(SectionNames, AreOrderedAsAPersonCounts) {
+  const auto less = [](const char* a, const char* b) {
+    return SectionName{"m", a} < SectionName{"m", b};
+  };
+  EXPECT_TRUE(less("7.1.2", "7.1.10"));
+  EXPECT_FALSE(less("7.1.10", "7.1.2"));
+  EXPECT_TRUE(less("7.1.2", "7.1.2 (1)(a)"));
+  EXPECT_TRUE(less("7.1.2 (9)", "7.1.2 (10)"));
+  EXPECT_TRUE(less("11.1", "Appendix 3.1"));
+  EXPECT_FALSE(less("7.1", "7.1"));
+  // A strict order also of what differs in leading zeros only.
+  EXPECT_NE(less("7.01", "7.1"), less("7.1", "7.01"));
+  EXPECT_TRUE((SectionName{"a", "9"} < SectionName{"b", "1"}));
+}
+
+TEST_F(Survey, WhatTurnsEveryGateRedStandsFirst) {
+  const HtmlSurvey made = survey({with(Verdict::non_strict, "a/lenient"),
+                                  with(Verdict::fail, "a/bad"), with(Verdict::error, "a/port")},
+                                 {.strict = true});
+  HtmlWriter red;
+  red.element("div", {}, [&] {
+    red.markup(made.broken.str());
+    red.markup(made.red.str());
+  });
+  EXPECT_THAT(samples::ParsedHtml(red.str()).texts("//summary/b"),
+              ElementsAre("a/bad", "a/port", "a/lenient"));
+}
+
+TEST_F(Survey, WhatWasNotJudgedIsGroupedByReason) {
+  const HtmlSurvey made = survey(
+      {with(Verdict::blocked, "a/one", "needs M"), with(Verdict::blocked, "a/two", "needs M"),
+       with(Verdict::skip, "a/three", "other model"), with(Verdict::pass, "a/four")});
+  ASSERT_EQ(2u, made.unexecuted.size());
+  const Unexecuted& blocked = made.unexecuted.at({Verdict::blocked, "needs M"});
+  EXPECT_EQ(2u, blocked.cases);
+  EXPECT_THAT(blocked.ids, ElementsAre("a/one", "a/two"));
+}
+
+TEST_F(Survey, ReadingsAreCountedByWhatWasTaken) {
+  auto one = with(Verdict::pass, "a/one"), two = with(Verdict::pass, "a/two"),
+       three = with(Verdict::pass, "a/three");
+  one.readings = two.readings = {{"type_echo", "upper"}};
+  three.readings = {{"type_echo", "as_sent"}};
+  const HtmlSurvey made = survey({one, two, three});
+  EXPECT_EQ(2u, made.readings.at("type_echo").at("upper").cases);
+  EXPECT_EQ("a/one", made.readings.at("type_echo").at("upper").example);
+  EXPECT_EQ(1u, made.readings.at("type_echo").at("as_sent").cases);
+}
+
+TEST_F(Survey, ErrataAreMetByExecutedCasesOfTheirVector) {
+  RunInfo run = samples::run_info();
+  for (const char* vector : {"a/v", "a/w", "a/blocked"})
+    run.errata.push_back({vector, "m", "1", "printed", "correct", "why"});
+  const HtmlSurvey made =
+      survey({with(Verdict::pass, "a/v/first"), with(Verdict::fail, "a/v/second"),
+              with(Verdict::pass, "a/vx"), with(Verdict::blocked, "a/blocked")},
+             {}, run);
+  ASSERT_EQ(1u, made.errata.size());
+  EXPECT_EQ("a/v", made.errata[0].first.vector_id);
+  EXPECT_EQ("1 PASS, 1 FAIL", to_string(made.errata[0].second));
+}
+
+TEST_F(Survey, MovedCasesAreCounted) {
+  auto moved = with(Verdict::pass, "a/one");
+  moved.notes = {"transposed: station 1 to 7", "transposed: %MW100 to %MW300"};
+  EXPECT_EQ(1u, survey({moved, with(Verdict::pass, "a/two")}).transposed);
+}
+
+TEST_F(Survey, WhatOneReportCannotHoldIsCounted) {
+  std::vector<CaseResult> many;
+  for (std::size_t i = 0; i < html_block_limit + 7; ++i)
+    many.push_back(with(Verdict::fail, fmt::format("a/n{}", i)));
+  const HtmlSurvey made = survey(many);
+  EXPECT_EQ(7u, made.red_unlisted);
+  EXPECT_EQ(html_block_limit + 7, made.tally.of(Verdict::fail));
+  EXPECT_THAT(made.broken.str(), HasSubstr(fmt::format("a/n{}<", html_block_limit - 1)));
+  EXPECT_THAT(made.broken.str(), testing::Not(HasSubstr(fmt::format("a/n{}<", html_block_limit))));
+  EXPECT_THAT(made.sections.begin()->second.red.str(),
+              HasSubstr(fmt::format("a/n{}<", html_block_limit + 6)))
+      << "its line is there";
+}
+
+}  // namespace
+}  // namespace fieldproof

@@ -1,0 +1,152 @@
+#include "reports/html/html_timing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fieldproof {
+namespace {
+
+constexpr double width = 400, left = 8, right = 392, height = 30, base = 24;
+constexpr std::size_t bins = 96;
+
+std::string number(double value) { return fmt::format("{:.1f}", value); }
+
+/// Whole decades of milliseconds across the plot.
+struct Scale {
+  int first = 0, last = 1;  // powers of ten
+
+  /// What is below the first decade (0 on simulated time) stands at the left edge.
+  double x(double ms) const {
+    const double decade = ms > 0 ? std::log10(ms) : first;
+    return left +
+           (right - left) * (std::clamp<double>(decade, first, last) - first) / (last - first);
+  }
+};
+
+Scale scale_of(const std::map<std::string, std::vector<double>>& response_ms, double limit_ms) {
+  double least = 1e9, greatest = std::max(limit_ms, 1e-3);
+  for (const auto& [group, times] : response_ms) {
+    for (const double ms : times) {
+      if (ms > 0) least = std::min(least, ms);
+      greatest = std::max(greatest, ms);
+    }
+  }
+  Scale scale;
+  scale.last = static_cast<int>(std::ceil(std::log10(std::min(greatest, 1e9))));
+  scale.first = std::clamp(static_cast<int>(std::floor(std::log10(std::min(least, 1.0)))), -3,
+                           scale.last - 1);
+  return scale;
+}
+
+/// Bars of one path. Heights by square root: one slow answer among a thousand must still be seen.
+std::string histogram(const std::vector<double>& times, const Scale& scale) {
+  std::array<std::size_t, bins> counts{};
+  const double bin_width = (right - left) / bins;
+  for (const double ms : times)
+    ++counts[std::min(bins - 1, static_cast<std::size_t>((scale.x(ms) - left) / bin_width))];
+  const double most = std::sqrt(static_cast<double>(*std::ranges::max_element(counts)));
+  std::string path;
+  for (std::size_t i = 0; i < bins; ++i) {
+    if (counts[i] == 0) continue;
+    const double bar = std::max(2.0, (base - 4) * std::sqrt(static_cast<double>(counts[i])) / most);
+    path += fmt::format("M{:.1f} {}v-{:.1f}h{:.1f}v{:.1f}z",
+                        left + bin_width * static_cast<double>(i), base, bar, bin_width, bar);
+  }
+  return path;
+}
+
+void line(HtmlWriter& out, std::string_view css, double x, double top, double bottom) {
+  out.empty("path",
+            {{"class", css}, {"d", fmt::format("M{:.1f} {}V{}", x, number(top), number(bottom))}});
+}
+
+void decades(HtmlWriter& out, const Scale& scale) {
+  for (int power = scale.first; power <= scale.last; ++power)
+    line(out, "grid", scale.x(std::pow(10, power)), 0, base);
+}
+
+void write_plot(HtmlWriter& out, const std::vector<double>& sorted, const Scale& scale,
+                double limit_ms) {
+  const std::string what = fmt::format("{:.3f} to {:.3f} ms, median {:.3f} ms", sorted.front(),
+                                       sorted.back(), percentile(sorted, 0.5));
+  const std::string box = fmt::format("0 0 {} {}", width, height);
+  out.element("svg",
+              {{"xmlns", "http://www.w3.org/2000/svg"},
+               {"viewBox", box},
+               {"role", "img"},
+               {"aria-label", what}},
+              [&] {
+                decades(out, scale);
+                out.empty("path", {{"class", "bars"}, {"d", histogram(sorted, scale)}});
+                const double low = scale.x(percentile(sorted, 0.25)),
+                             high = scale.x(percentile(sorted, 0.75));
+                out.empty("path", {{"class", "box"},
+                                   {"d", fmt::format("M{:.1f} {}H{:.1f}", low, base + 3,
+                                                     std::max(high, low + 1))}});
+                line(out, "median", scale.x(percentile(sorted, 0.5)), base, height);
+                if (limit_ms > 0) line(out, "limit", scale.x(limit_ms), 0, height);
+              });
+}
+
+void write_axis(HtmlWriter& out, const Scale& scale) {
+  const std::string box = fmt::format("0 0 {} 14", width);
+  out.element(
+      "svg",
+      {{"xmlns", "http://www.w3.org/2000/svg"},
+       {"viewBox", box},
+       {"role", "img"},
+       {"aria-label", "milliseconds"}},
+      [&] {
+        for (int power = scale.first; power <= scale.last; ++power) {
+          const char* anchor = power == scale.first  ? "start"
+                               : power == scale.last ? "end"
+                                                     : "middle";
+          const double x = power == scale.first  ? 0
+                           : power == scale.last ? width
+                                                 : scale.x(std::pow(10, power));
+          const std::string label =
+              fmt::format("{:g}{}", std::pow(10, power), power == scale.last ? " ms" : "");
+          out.element("text", {{"x", number(x)}, {"y", "11"}, {"text-anchor", anchor}}, label);
+        }
+      });
+}
+
+}  // namespace
+
+double percentile(const std::vector<double>& sorted, double part) {
+  const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
+  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
+}
+
+void write_timing(HtmlWriter& out, const std::map<std::string, std::vector<double>>& response_ms,
+                  double limit_ms) {
+  const Scale scale = scale_of(response_ms, limit_ms);
+  out.element("table", {{"class", "timing"}}, [&] {
+    out.element("thead", {}, [&] {
+      out.element("tr", {}, [&] {
+        out.element("th", {}, "cases");
+        out.element("th", {{"class", "plot"}}, [&] { write_axis(out, scale); });
+        for (const char* head : {"replies", "least", "median", "99 %", "greatest"})
+          out.element("th", {{"class", "num"}}, head);
+      });
+    });
+    out.element("tbody", {}, [&] {
+      for (const auto& [group, times] : response_ms) {
+        std::vector<double> sorted = times;
+        std::ranges::sort(sorted);
+        out.element("tr", {}, [&] {
+          out.element("td", {}, group);
+          out.element("td", {{"class", "plot"}}, [&] { write_plot(out, sorted, scale, limit_ms); });
+          out.element("td", {{"class", "num"}}, fmt::format("{}", sorted.size()));
+          for (const double part : {0.0, 0.5, 0.99, 1.0})
+            out.element("td", {{"class", "num"}}, fmt::format("{:.3f}", percentile(sorted, part)));
+        });
+      }
+    });
+  });
+}
+
+}  // namespace fieldproof

@@ -1,0 +1,159 @@
+// What one case came to: the only thing that reports see.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/results/verdict.hpp"
+#include "src/base/bytes.hpp"
+#include "src/base/result.hpp"
+#include "src/base/time.hpp"
+
+namespace fieldproof {
+
+/// A line of the exchange, as a frame monitor would show it.
+struct Event {
+  enum class Kind { sent, received, note };
+  Kind kind = Kind::note;
+  Time start{};
+  Time end{};
+  Bytes bytes;       // sent, received
+  std::string text;  // frame notation of the bytes, or the note: "set %MW100 = 1234", "silence
+                     // until 1000.0 ms"
+  int step = -1;  // the executed step whose bytes these are; -1: of none (a probe and its answer)
+  bool surplus = false;  // bytes that no step was waiting for
+};
+
+/// What an executed step came to, besides the frames in the exchange.
+struct StepOutcome {
+  Time stimulus{};  // expect: the end of what the reply answers
+  std::vector<std::pair<std::string, std::string>> memory;  // check: address, and what it held
+  std::string refused;  // set, check, do: why it could not be done
+  bool refused_by_device = false;
+};
+
+/// Where a case was moved on a real device: what it names in these words of the area lies so many
+/// words further on.
+struct Move {
+  std::string area;
+  std::uint32_t first = 0, last = 0;  // in words
+  int words = 0;
+
+  bool operator==(const Move&) const = default;
+};
+
+/// What makes an exchange fit to be judged again (`fieldproof judge`).
+struct Recording {
+  std::string stimulus;       // fingerprint of all that was done to the device; empty: nothing was
+  int station = 1;            // that the frames were made for
+  std::vector<Move> moves{};  // of its addresses, before the frames were made
+  std::vector<StepOutcome> steps;
+  bool flooded = false;
+  std::string dead;         // why the link counts as dead after the case
+  Duration timing_floor{};  // what this link could show: JudgeRules
+  Duration link_floor{};    // the part of it that is not the device's own: no smaller shift between
+                            // runs counts
+  Duration max_gap{};
+  Duration period_tolerance{};
+};
+
+/// One field that differs: "block count", expected "01", received "00", hint "".
+struct Difference {
+  std::string field;
+  std::string expected;
+  std::string received;
+  std::string hint;
+};
+
+struct CaseResult {
+  std::string id;    // "xgt_cnet/rss/two_words", unique in a run together with `line` and `repeat`
+  std::string line;  // step of a line matrix: "38400-8N1"; empty: there is none
+  int repeat = 0;    // 0-based repetition
+  std::string dut;   // which device, where the run has several (RunInfo::duts); else empty
+  int rev = 1;
+  std::string protocol;  // "xgt-cnet"
+  std::string title;
+  std::string level;  // must, should, info
+  std::string basis;  // printed, derived, decision
+  std::string manual, section, quote;
+
+  Verdict verdict = Verdict::error;
+  std::string message;             // one line: what is wrong and, where known, what to do
+  std::vector<std::string> notes;  // transposition, line errors, waiver, reading taken
+  std::string expected;            // notation of what had to come at the failing step
+  Bytes expected_bytes;            // as far as the notation fixes them
+  std::string expected_hex;        // with ?? for open bytes
+  std::string received;            // notation of what came
+  Bytes received_bytes;
+  std::vector<Difference> differences;
+  std::vector<Event> exchange;
+  Recording recording;
+  std::map<std::string, std::string> readings;  // named alternatives taken: type_echo = upper
+  std::vector<double> response_ms;              // request's last byte to reply's first, each expect
+  double seconds = 0;                           // wall clock
+  std::string replay;                           // command that runs just this case again
+};
+
+/// Which device it is, as the engineer entered it: no command of these protocols reads it from the
+/// device.
+struct Identity {
+  std::string name;  // in the bench file
+  std::string maker, model, serial, firmware;
+  std::string operator_name, notes;
+  std::map<std::string, std::string> fingerprint;  // declared: what harmless reads must find
+  std::map<std::string, std::string>
+      fingerprint_found;  // by the bench; empty where it did not look
+};
+
+/// The fields that both have alike, the others empty.
+Identity in_common(Identity a, const Identity& b);
+
+/// One of several devices that shared a run.
+struct DutInfo {
+  std::string endpoint;
+  std::map<std::string, std::string> properties;  // station, line
+  Identity identity = {};
+};
+
+/// A mistake of a manual that the vectors of this run know of.
+struct ErratumInfo {
+  std::string vector_id, manual, section;
+  std::string printed, correct, why;
+};
+
+/// What a run is about: the first line of the NDJSON file and the head of each report.
+struct RunInfo {
+  std::string tool_version;
+  std::string started;  // ISO 8601 with zone
+  std::string endpoint, profile, command;
+  std::string vectors_hash;
+  std::map<std::string, std::string> properties;  // station, line, seed, options
+  Identity identity = {};
+  std::map<std::string, std::string> hashes = {};  // SHA-256 of tool, vectors, profile
+  std::vector<ErratumInfo> errata = {};            // of the selected cases
+  std::vector<DutInfo> duts =
+      {};  // where there are several; `identity` then holds what they have in common
+};
+
+/// How a run ended: the last line of the NDJSON file; absent when it was killed.
+struct RunEnd {
+  std::string finished;
+  double seconds = 0;
+  int exit_code = 0;
+  bool interrupted = false;
+  std::string trouble;  // empty, or why the run stopped early
+};
+
+void to_json(nlohmann::json& json, const CaseResult& result);
+void to_json(nlohmann::json& json, const RunInfo& info);
+void to_json(nlohmann::json& json, const RunEnd& end);
+/// Throws nlohmann::json::exception on a foreign shape.
+void from_json(const nlohmann::json& json, CaseResult& result);
+void from_json(const nlohmann::json& json, RunInfo& info);
+void from_json(const nlohmann::json& json, RunEnd& end);
+
+}  // namespace fieldproof

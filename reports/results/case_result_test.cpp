@@ -1,0 +1,170 @@
+#include "reports/results/case_result.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace fieldproof {
+namespace {
+
+using nlohmann::json;
+
+CaseResult full_result() {
+  CaseResult result;
+  result.id = "xgt_cnet/rss/two_words";
+  result.line = "38400-8N1";
+  result.repeat = 2;
+  result.dut = "c41a";
+  result.rev = 3;
+  result.protocol = "xgt-cnet";
+  result.title = "Read two words";
+  result.level = "must";
+  result.basis = "printed";
+  result.manual = "xgb-cnet-en-1.6";
+  result.section = "7.1.5 (1)(e)";
+  result.quote = "This example supposes when 1 WORD";
+  result.verdict = Verdict::non_strict;
+  result.message = "command type in upper case";
+  result.notes = {"station 1 -> 3", "\x05 <b> 국"};
+  result.expected = "[ACK st]";
+  result.expected_bytes = {0x06, 0x30};
+  result.expected_hex = "06 30 ??";
+  result.received = "ACK '1'";
+  result.received_bytes = {0x06, 0x31};
+  result.differences = {{"station", "00", "01", "the request's"}, {"BCC", "4C", "4D", ""}};
+  result.exchange = {{Event::Kind::sent, 0ns, 1234567ns, {0x05, 0xFF}, "ENQ FF"},
+                     {Event::Kind::received, 2000001ns, 3600s + 1ns, {0x06, 0x31}, "ACK '1'"},
+                     {Event::Kind::note, 5ms, 5ms, {}, "silence until 1000.0 ms"}};
+  result.recording.stimulus = "0123456789abcdef";
+  result.readings = {{"type_echo", "upper"}};
+  result.response_ms = {0.765434, 12};
+  result.seconds = 0.125;
+  result.replay = "fieldproof run --filter xgt_cnet/rss/two_words";
+  return result;
+}
+
+TEST(CaseResultJson, EveryFieldComesBack) {
+  const CaseResult result = full_result();
+  const json first = result;
+  const auto again = json::parse(first.dump()).get<CaseResult>();
+  EXPECT_EQ(first, json(again));
+  EXPECT_EQ(result.id, again.id);
+  EXPECT_EQ(2, again.repeat);
+  EXPECT_EQ(Verdict::non_strict, again.verdict);
+  EXPECT_EQ(result.notes, again.notes);
+  EXPECT_EQ(result.expected_bytes, again.expected_bytes);
+  EXPECT_EQ(result.received_bytes, again.received_bytes);
+  ASSERT_EQ(2u, again.differences.size());
+  EXPECT_EQ("the request's", again.differences[0].hint);
+  ASSERT_EQ(3u, again.exchange.size());
+  EXPECT_EQ(Event::Kind::received, again.exchange[1].kind);
+  EXPECT_EQ(2000001ns, again.exchange[1].start) << "times are exact to the nanosecond";
+  EXPECT_EQ(3600s + 1ns, again.exchange[1].end);
+  EXPECT_EQ(result.exchange[0].bytes, again.exchange[0].bytes);
+  EXPECT_EQ(result.readings, again.readings);
+  EXPECT_EQ(result.response_ms, again.response_ms);
+  EXPECT_EQ(0.125, again.seconds);
+  EXPECT_EQ(result.replay, again.replay);
+}
+
+TEST(CaseResultJson, NoFieldIsForgotten) {
+  // As many keys as fields, when none is empty. The binding does not compile once a field is added:
+  // then extend it, full_result(), to_json and from_json.
+  const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, manual, section, quote,
+               verdict, message, notes, expected, expected_bytes, expected_hex, received,
+               received_bytes, differences, exchange, recording, readings, response_ms, seconds,
+               replay] = full_result();
+  EXPECT_EQ(27u, json(full_result()).size());
+}
+
+TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
+  CaseResult result;
+  result.id = "a/b";
+  result.verdict = Verdict::pass;
+  EXPECT_EQ(
+      json::parse(
+          R"({"id":"a/b","rev":1,"protocol":"","title":"","level":"","basis":"","verdict":"PASS","seconds":0.0})"),
+      json(result));
+}
+
+TEST(CaseResultJson, BytesAreHex) {
+  CaseResult result;
+  for (int b = 0; b < 256; ++b) result.received_bytes.push_back(static_cast<Byte>(b));
+  const json object = result;
+  EXPECT_EQ("00 01 02", object["received_bytes"].get<std::string>().substr(0, 8));
+  EXPECT_EQ(result.received_bytes, object.get<CaseResult>().received_bytes);
+}
+
+TEST(CaseResultJson, ForeignShapesThrow) {
+  const auto read = [](const char* text) { return json::parse(text).get<CaseResult>(); };
+  EXPECT_THROW(read(R"({"verdict":"PASS"})"), json::exception);
+  EXPECT_THROW(read(R"({"id":"a/b"})"), json::exception);
+  EXPECT_THROW(read(R"({"id":"a/b","verdict":"GREEN"})"), json::exception);
+  EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","notes":"x"})"), json::exception);
+  EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","received_bytes":"0G"})"), json::exception);
+  EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","exchange":[{"kind":"lost"}]})"),
+               json::exception);
+  EXPECT_THROW(
+      read(R"({"id":"a/b","verdict":"PASS","exchange":[{"kind":"note","start_ms":1e300}]})"),
+      json::exception);
+  EXPECT_THROW(read("[]"), json::exception);
+  EXPECT_THROW(read("null"), json::exception);
+}
+
+TEST(RunJson, HeadAndEndComeBack) {
+  const RunInfo info{
+      "0.1.0", "2026-11-21T12:39:03+00:00", "emulator:xbc-h", "xbc-h", "fieldproof run",
+      "a1b2",  {{"station", "1"}}};
+  const auto info_again = json(info).get<RunInfo>();
+  EXPECT_EQ(json(info), json(info_again));
+  EXPECT_EQ("a1b2", info_again.vectors_hash);
+  EXPECT_EQ(info.properties, info_again.properties);
+  EXPECT_EQ(7u, json(info).size()) << "what was not entered is left out";
+
+  const RunEnd end{"2026-11-21T12:39:04+00:00", 1.5, 130, true, "interrupted"};
+  const auto end_again = json(end).get<RunEnd>();
+  EXPECT_EQ(json(end), json(end_again));
+  EXPECT_EQ(130, end_again.exit_code);
+  EXPECT_TRUE(end_again.interrupted);
+  EXPECT_EQ("interrupted", end_again.trouble);
+}
+
+TEST(RunJson, IdentityHashesAndErrataComeBack) {
+  RunInfo info;
+  info.identity = {"bench-1", "LS",     "XBC-DN32H",         "S/N 7",           "V1.8",
+                   "Kim",     "port 2", {{"areas", "PMLK"}}, {{"areas", "PML"}}};
+  info.hashes = {{"tool", "00ff"}};
+  info.errata = {
+      {"xgt_cnet/rss/two_words", "xgb-cnet-en-1.6", "7.1.5", "H2550", "H255057", "six characters"}};
+  const auto again = json(info).get<RunInfo>();
+  // As in NoFieldIsForgotten.
+  const auto& [name, maker, model, serial, firmware, operator_name, notes, fingerprint,
+               fingerprint_found] = again.identity;
+  EXPECT_EQ(9u, json(again)["identity"].size());
+  EXPECT_EQ("V1.8", firmware);
+  EXPECT_EQ("Kim", operator_name);
+  EXPECT_EQ(info.identity.fingerprint, fingerprint);
+  EXPECT_EQ(info.identity.fingerprint_found, fingerprint_found);
+  EXPECT_EQ(info.hashes, again.hashes);
+  ASSERT_EQ(1u, again.errata.size());
+  EXPECT_EQ("six characters", again.errata[0].why);
+  EXPECT_EQ(json(info), json(again));
+}
+
+TEST(RunJson, SeveralDevicesComeBack) {
+  RunInfo info;
+  info.duts = {{"serial:/dev/a",
+                {{"station", "3"}},
+                {"a", "LS", "XBL-C41A", "S/N 7", "V1.8", "Kim", "", {}, {}}},
+               {"serial:/dev/b", {}, {}}};
+  const auto again = json(info).get<RunInfo>();
+  ASSERT_EQ(2u, again.duts.size());
+  const auto& [endpoint, properties, identity] = again.duts[0];
+  EXPECT_EQ("serial:/dev/a", endpoint);
+  EXPECT_EQ(info.duts[0].properties, properties);
+  EXPECT_EQ("S/N 7", identity.serial);
+  EXPECT_EQ(json(info), json(again));
+}
+
+}  // namespace
+}  // namespace fieldproof

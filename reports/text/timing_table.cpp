@@ -1,0 +1,74 @@
+#include "reports/text/timing_table.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reports/text/case_text.hpp"
+
+namespace fieldproof {
+
+namespace {
+
+using Times = std::map<std::string, ResponseTimes>;
+
+nlohmann::json to_object(const Times& times) {
+  nlohmann::json object = nlohmann::json::object();
+  for (const auto& [name, one] : times) object[name] = figures_of(one);
+  return object;
+}
+
+void add(Times& all, const std::string& name, const CaseResult& result) {
+  ResponseTimes& times = all[name];
+  for (const double ms : result.response_ms) times.add(ms);
+}
+
+}  // namespace
+
+void TimingTable::add(const CaseResult& result) {
+  if (result.response_ms.empty()) return;
+  const std::size_t first = result.id.find('/');
+  const std::string line = result.line.empty() ? "" : " [" + result.line + "]";
+  fieldproof::add(protocols_, result.id.substr(0, first), result);
+  fieldproof::add(
+      groups_,
+      (first == std::string::npos ? result.id
+                                  : result.id.substr(0, result.id.find('/', first + 1))) +
+          line,
+      result);
+  if (too_many_) return;
+  fieldproof::add(cases_, case_name(result), result);
+  too_many_ = cases_.size() > case_limit;
+  if (too_many_) cases_.clear();
+}
+
+TimingTable::Rows TimingTable::rows(std::size_t limit) const {
+  const bool by_case = !too_many_ && cases_.size() <= limit;
+  const Times& chosen = by_case ? cases_ : groups_.size() <= limit ? groups_ : protocols_;
+  Rows rows;
+  for (const auto& [name, times] : chosen) rows.emplace_back(name, figures_of(times));
+  return rows;
+}
+
+nlohmann::json TimingTable::json() const {
+  nlohmann::json object{{"groups", to_object(groups_)}};
+  if (!too_many_) object["cases"] = to_object(cases_);
+  return object;
+}
+
+std::string timing_text(const TimingTable::Rows& rows) {
+  if (rows.empty()) return "";
+  std::size_t width = 0;
+  for (const auto& [name, figures] : rows) width = std::max(width, name.size());
+  const std::string head = "reply times in ms";
+  width = std::max(width + 2, head.size());
+  std::string text = fmt::format("{:<{}}  {:>8} {:>10} {:>10} {:>10} {:>10}\n", head, width,
+                                 "replies", "min", "median", "p99", "max");
+  for (const auto& [name, figures] : rows)
+    text +=
+        fmt::format("  {:<{}}  {:>8} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f}\n", name, width - 2,
+                    figures.count, figures.least, figures.median, figures.p99, figures.greatest);
+  return text;
+}
+
+}  // namespace fieldproof

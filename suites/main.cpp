@@ -1,0 +1,355 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <functional>
+
+#include "harness/cli/commands.hpp"
+#include "suites/protocols.hpp"
+
+namespace {
+
+using namespace fieldproof;
+
+/// Appears in every help text, so that a pipeline's author need not open the README.
+constexpr const char* exit_codes =
+    "Exit codes: 0 gate met, 1 conformance failed, 2 usage or invalid input, 3 bench trouble, 4 "
+    "nothing selected or executed,\n"
+    "77 hardware absent (--skip-absent), 130 interrupted.";
+
+/// What fails the gate, for commands that judge.
+template <typename Options>
+void add_gate(CLI::App& app, Options& options) {
+  app.add_flag("--strict", options.strict, "NON-STRICT fails the gate");
+  app.add_option_function<std::string>(
+         "--fail-on", [&options](const std::string&) { options.fail_on_marginal = true; },
+         "marginal: MARGINAL fails the gate")
+      ->check(CLI::IsMember({"marginal"}));
+  app.add_flag("--qualify", options.qualify, "BLOCKED and INCONCLUSIVE fail the gate");
+}
+
+void add_role(CLI::App& app, std::string& role) {
+  app.add_option("--role", role, "Only cases of a device that asks (client), or answers (server)")
+      ->check(CLI::IsMember({"client", "server"}));
+}
+
+void add_judge(CLI::App& app, JudgeOptions& judge) {
+  app.add_option("results", judge.file, "OUT/results.ndjson or OUT/results.json")->required();
+  app.add_option("--profile", judge.profile, "Judge by another profile than it was recorded with");
+  app.add_option("--filter", judge.filter,
+                 "Cases by id: globs separated by ':', a leading '-' excludes");
+  app.add_option("--vectors", judge.vectors, "Another folder of vectors");
+  app.add_option("--waivers", judge.waivers, "JSON file of accepted failures");
+  app.add_option("--out", judge.out, "Folder of the reports")->capture_default_str();
+  app.add_option("--junit", judge.junit, "JUnit file, instead of OUT/junit.xml");
+  app.add_option("--json", judge.json, "JSON file, instead of OUT/results.json");
+  app.add_option("--html", judge.html, "HTML file, instead of OUT/report.html");
+  add_gate(app, judge);
+  app.add_flag("-v,--verbose", judge.verbose, "Show every case with its exchange");
+}
+
+void add_run(CLI::App& app, RunOptions& run) {
+  app.add_option("--endpoint", run.endpoint,
+                 "emulator:[MODEL][?option=value&...], pty:MODEL, "
+                 "serial:PATH?baud=38400&frame=8N1&station=1, exec:COMMAND ({tty} is the port), "
+                 "tcp:HOST:PORT")
+      ->default_str("emulator:");
+  app.add_option(
+      "--bench", run.bench,
+      "JSON file of the devices on this bench; --dut names one, and other options override it");
+  app.add_option("--dut", run.duts,
+                 "Device of the bench file: gives endpoint, profile, --allow-write and identity; "
+                 "several (--dut A --dut B) share the cases")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--profile", run.profile,
+                 "What the device declares: a name from the profiles folder, or a JSON file");
+  app.add_option("--filter", run.filter,
+                 "Cases by id: globs separated by ':', a leading '-' excludes");
+  add_role(app, run.role);
+  app.add_option("--stimulus", run.stimulus,
+                 "Client role: command that makes the device ask, told by lines of JSON; -: the "
+                 "program of exec: itself");
+  app.add_option("--aux", run.aux,
+                 "A second port of the same PLC, as server: serial:PATH?station=3; for memory that "
+                 "--endpoint cannot reach");
+  app.add_option("--vectors", run.vectors, "Another folder of vectors");
+  app.add_option("--out", run.out, "Folder of the reports")->capture_default_str();
+  app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");
+  app.add_option("--json", run.json, "JSON file, instead of OUT/results.json");
+  app.add_option("--html", run.html,
+                 "HTML file, instead of OUT/report.html; with --qualify it holds a sheet to sign");
+  app.add_option("--capture", run.capture,
+                 "The traffic as pcapng for Wireshark; Modbus RTU: tshark -d rtacser.data,mbrtu");
+  app.add_option("--waivers", run.waivers,
+                 "JSON file of accepted failures: id, reason, owner, text, expires, firmware");
+  app.add_option("--baseline", run.baseline,
+                 "Results of an earlier run: what got worse since then fails the gate");
+  app.add_option("--allow-write", run.allow_write,
+                 "Real devices: what may be written: M, M100-M199, h1230-h12FF, all (outputs P, Q, "
+                 "U only when named)");
+  app.add_option(
+      "--journal", run.journal,
+      "Real devices: what they held before, instead of OUT/journal.ndjson; see fieldproof restore");
+  app.add_flag("--discard-journal", run.discard_journal,
+               "Forget what an earlier run on this device did not put back");
+  app.add_option("--power-cycle", run.power_cycle,
+                 "Command that switches a real device off and on");
+  app.add_option(
+      "--floor", run.floor,
+      "The link's own uncertainty, instead of measuring it: 2ms; shorter limits are INCONCLUSIVE");
+  app.add_option("--loop", run.loop,
+                 "Measure the link's uncertainty here, where `fieldproof emulate` answers over the "
+                 "same kind of adapter");
+  app.add_option("--matrix", run.matrix,
+                 "Repeat the cases for each line setting: \"38400,115200 x 8N1,8E1\", or all");
+  app.add_option("--reconfigure", run.reconfigure,
+                 "Command that sets the device for a step of --matrix (SPEED FRAME behind it); "
+                 "else the engineer is asked");
+  app.add_option("--duration", run.duration, "Soak: repeat the cases for so long: 90s, 30m, 8h");
+  app.add_option("--seed", run.seed, "Shuffle the cases by this seed")
+      ->check(CLI::Range(0, 99'999));
+  app.add_option("--repeat", run.repeat, "Run the selection so many times")
+      ->check(CLI::Range(1, 1'000'000));
+  add_gate(app, run);
+  app.add_flag("--fail-fast", run.fail_fast, "Stop at the first verdict that fails the gate");
+  app.add_flag("--dry-run", run.dry_run, "Print what would run");
+  app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
+  app.add_flag("-v,--verbose", run.verbose, "Show every case with its exchange");
+  app.allow_extras();
+  app.prefix_command(false);
+}
+
+/// CLI11 leaves what it does not know here: GoogleTest's own options pass, but not those that would
+/// get in our way.
+std::string unknown_argument(const std::vector<std::string>& extras,
+                             std::vector<std::string>& gtest_arguments) {
+  for (const std::string& extra : extras) {
+    if (extra.starts_with("--gtest_repeat")) return "--gtest_repeat is refused: use --repeat";
+    if (extra.starts_with("--gtest_output"))
+      return "--gtest_output is refused: use --junit and --json; GoogleTest's XML loses control "
+             "bytes";
+    if (extra.starts_with("--gtest_filter")) return "--gtest_filter is refused: use --filter";
+    if (!extra.starts_with("--gtest_"))
+      return fmt::format("unknown argument '{}'; see fieldproof run --help", extra);
+    gtest_arguments.push_back(extra);
+  }
+  return {};
+}
+
+std::string command_line(int argc, char** argv) {
+  std::string line = "fieldproof";
+  for (int i = 1; i < argc; ++i) line += " " + shell_word(argv[i]);
+  return line;
+}
+
+int run_tool(int argc, char** argv) {
+  CLI::App app(
+      "fieldproof proves, clause by clause of the manual, that a PLC communication module speaks "
+      "its protocols.",
+      "fieldproof");
+  app.set_version_flag("--version", FIELDPROOF_VERSION);
+  app.require_subcommand(1);
+  app.footer(exit_codes);
+  std::function<int()> chosen;
+
+  RunOptions run;
+  CLI::App* run_app = app.add_subcommand("run", "Run the cases against an endpoint and judge it");
+  add_run(*run_app, run);
+  run_app->footer(exit_codes);
+  run.command = command_line(argc, argv);
+
+  ListOptions list;
+  CLI::App* list_app = app.add_subcommand("list", "List the cases");
+  list_app->add_option("--filter,filter", list.filter, "Cases by id: globs separated by ':'");
+  add_role(*list_app, list.role);
+  list_app->add_option("--vectors", list.vectors, "Another folder of vectors");
+  list_app->add_flag(
+      "--coverage", list.coverage,
+      "Traceability: the statements of the manuals, their vectors, and what is not tested and why");
+  list_app->add_option("--results", list.results,
+                       "With --coverage: the verdicts of this run (NDJSON, JSON or JUnit)");
+  list_app->add_option("--html", list.html, "With --coverage: HTML file");
+  list_app
+      ->add_option("--min-coverage", list.min_coverage,
+                   "With --coverage: exit 1 below this share of statements that have a vector, or "
+                   "were judged in --results")
+      ->check(CLI::Range(0.0, 100.0));
+  CLI::Option* list_json = list_app->add_flag(
+      "--json", list.json,
+      "Each expanded case with the bytes of its steps; with --coverage: each statement");
+  list_app->add_flag("--markdown", list.markdown, "With --coverage: tables")->excludes(list_json);
+
+  LintOptions lint;
+  CLI::App* lint_app = app.add_subcommand("lint", "Check vectors, statements and profiles");
+  lint_app->add_option("--vectors", lint.vectors, "Another folder of vectors");
+  lint_app
+      ->add_option("--manuals", lint.manuals,
+                   "Folder of the manuals' text: quotes are checked against it")
+      ->check(CLI::ExistingDirectory);
+  lint_app->add_flag("--lock", lint.lock, "Lock the verified quotes (quotes.lock)");
+
+  EmulateOptions emulate;
+  CLI::App* emulate_app =
+      app.add_subcommand("emulate", "A stand-in device behind a pty or a socket");
+  emulate_app
+      ->add_option("model", emulate.model,
+                   "MODEL[?station=1&protocol=...]: xbc-h, xbm-s, xec-h, inverter, modem")
+      ->required();
+  CLI::Option* tcp = emulate_app->add_option("--tcp", emulate.tcp, "Listen on HOST:PORT");
+  emulate_app->add_option("--pty", emulate.pty, "A terminal to open, or the link to a new pty")
+      ->excludes(tcp);
+  emulate_app->add_option("--p2p", emulate.p2p,
+                          "P2P parameters, a JSON file: the device is the client that asks");
+  emulate_app->add_option(
+      "--monitor", emulate.monitor,
+      "CSV file of the frame monitor: each frame with its result, time and data");
+  emulate_app->add_option("--control", emulate.control, "Back door of the harness")->group("");
+  emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
+  emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");
+
+  ProbeOptions probe;
+  CLI::App* probe_app = app.add_subcommand("probe",
+                                           "Find the device on a port: speed, frame, station, "
+                                           "protocol; or say what is wrong with the line");
+  probe_app
+      ->add_option("endpoint", probe.endpoint,
+                   "serial:PATH, rfc2217:HOST:PORT, tcp:HOST:PORT, exec:COMMAND; "
+                   "emulator:MODEL?line=38400-8E1 to try it out")
+      ->required();
+  probe_app->add_option("--station", probe.stations, "Only these: 5 or 0-31 (default 0-31)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  probe_app->add_option("--speed", probe.speeds, "Only these: 9600 (default 1200 to 115200)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  probe_app
+      ->add_option("--frame", probe.frames,
+                   "Only these: 8N1 (default 8 or 7 data bits, parity N, E or O)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  probe_app
+      ->add_option("--protocol", probe.protocols,
+                   "Only these: xgt-cnet (default each that has a harmless read)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  probe_app->add_option("--wait", probe.wait_ms, "How long an answer may take, in ms")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 60'000));
+  probe_app->add_flag("--all", probe.all, "Go on after the first find");
+  probe_app->add_flag("--fingerprint", probe.fingerprint,
+                      "Read which areas the device has and where they end, for the bench file");
+  probe_app->footer(
+      "Exit codes: 0 found, 1 something is wrong and named, 2 usage, 3 port trouble, 130 "
+      "interrupted.");
+
+  FrameOptions frame;
+  CLI::App* frame_app =
+      app.add_subcommand("frame", "Explain a frame field by field, with its checks computed");
+  frame_app
+      ->add_option("frame", frame.frame,
+                   "Notation, hex or raw: \"[ENQ st 'rSS' '01' name(%MW100) EOT BCC]\"")
+      ->required();
+  frame_app->add_option("--protocol", frame.protocol,
+                        "the one that the frame fits best when absent");
+  frame_app->add_option("--station", frame.station, "What `st` stands for")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 255));
+
+  ErrataOptions errata;
+  CLI::App* errata_app =
+      app.add_subcommand("errata", "List the mistakes of the manuals and their proofs");
+  errata_app->add_option("--vectors", errata.vectors, "Another folder of vectors");
+  CLI::Option* errata_json = errata_app->add_flag("--json", errata.json);
+  errata_app->add_flag("--markdown", errata.markdown)->excludes(errata_json);
+
+  ReportOptions report;
+  CLI::App* report_app = app.add_subcommand(
+      "report",
+      "Derive JUnit, JSON, HTML and a capture from the results of a run, finished or killed");
+  report_app->add_option("results", report.ndjson, "OUT/results.ndjson")->required();
+  report_app->add_option("--junit", report.junit);
+  report_app->add_option("--json", report.json);
+  report_app->add_option("--html", report.html);
+  report_app->add_option("--capture", report.capture, "pcapng for Wireshark");
+
+  CompareOptions compare;
+  CLI::App* compare_app =
+      app.add_subcommand("compare", "What changed between runs: verdicts, reasons, reply times");
+  compare_app
+      ->add_option(
+          "results", compare.files,
+          "Results of two or more runs (NDJSON, JSON or JUnit): each is compared with the first")
+      ->required()
+      ->expected(2, -1);
+  compare_app->add_option("--html", compare.html, "HTML file of the comparison");
+  compare_app->add_option("--junit", compare.junit,
+                          "JUnit file of the comparison: what got worse is a failure");
+  compare_app->footer(
+      "Exit codes: 0 nothing got worse, 1 something got worse, 2 a file cannot be read.");
+
+  MergeOptions merge;
+  CLI::App* merge_app = app.add_subcommand(
+      "merge", "One report of the shards of a run (GTEST_TOTAL_SHARDS, GTEST_SHARD_INDEX)");
+  merge_app->add_option("results", merge.files, "results.json or results.ndjson of each shard")
+      ->required();
+  merge_app->add_option("--out", merge.out, "Folder of the reports")->capture_default_str();
+  merge_app->add_option("--junit", merge.junit, "JUnit file, instead of OUT/junit.xml");
+  merge_app->add_option("--json", merge.json, "JSON file, instead of OUT/results.json");
+  merge_app->add_option("--html", merge.html, "HTML file, instead of OUT/report.html");
+  merge_app->footer(exit_codes);
+  merge.command = command_line(argc, argv);
+
+  JudgeOptions judge;
+  CLI::App* judge_app = app.add_subcommand(
+      "judge", "Judge a recorded run again by today's vectors, without the device");
+  add_judge(*judge_app, judge);
+  judge_app->footer(exit_codes);
+  judge.command = command_line(argc, argv);
+
+  RestoreOptions restore;
+  CLI::App* restore_app =
+      app.add_subcommand("restore", "Put back what an interrupted run left on a real device");
+  restore_app->add_option("journal", restore.journal, "OUT/journal.ndjson")->required();
+  restore_app->add_option("--endpoint", restore.endpoint,
+                          "Where the device is reached now, if not as the journal says");
+  restore_app->footer(
+      "Exit codes: 0 all is as it was, 2 usage, 3 something could not be put back, 130 "
+      "interrupted.");
+
+  run_app->callback([&] {
+    const std::string wrong = unknown_argument(run_app->remaining(), run.gtest_arguments);
+    chosen = [&run, wrong] {
+      return wrong.empty() ? run_command(run, protocols()) : complain(wrong, exit_code::usage);
+    };
+  });
+  list_app->callback([&] { chosen = [&] { return list_command(list, protocols()); }; });
+  lint_app->callback([&] { chosen = [&] { return lint_command(lint, protocols()); }; });
+  emulate_app->callback([&] { chosen = [&] { return emulate_command(emulate, protocols()); }; });
+  probe_app->callback([&] { chosen = [&] { return probe_command(probe, protocols()); }; });
+  frame_app->callback([&] { chosen = [&] { return frame_command(frame, protocols()); }; });
+  errata_app->callback([&] { chosen = [&] { return errata_command(errata); }; });
+  compare_app->callback([&] { chosen = [&] { return compare_command(compare); }; });
+  merge_app->callback([&] { chosen = [&] { return merge_command(merge); }; });
+  judge_app->callback([&] { chosen = [&] { return judge_command(judge, protocols()); }; });
+  restore_app->callback([&] { chosen = [&] { return restore_command(restore, protocols()); }; });
+  report_app->callback([&] { chosen = [&] { return report_command(report); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_code::ok : exit_code::usage;
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_tool(argc, argv);
+  } catch (const std::exception& error) {
+    return complain(
+        fmt::format("internal error: {}; please report it with the command line", error.what()),
+        exit_code::trouble);
+  }
+}

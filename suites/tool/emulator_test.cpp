@@ -1,0 +1,212 @@
+// The built tool against its own emulator: the run that every user starts with, and what steers it.
+#include <gmock/gmock.h>
+
+#include <memory>
+#include <sstream>
+
+#include "suites/tool/tool_files.hpp"
+
+namespace fieldproof {
+namespace {
+
+using testing::HasSubstr;
+
+/// All vectors against the default endpoint, once for all tests of this suite.
+class DefaultRun : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TestFolder>();
+    finished_ = run_tool({"run", "--out", *folder_ / "out"});
+    results_ = read_results(*folder_ / "out/results.ndjson");
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static std::size_t count(const std::string& verdict) {
+    const auto counts = results_.counts();
+    const auto found = counts.find(verdict);
+    return found == counts.end() ? 0 : found->second;
+  }
+
+  static inline std::unique_ptr<TestFolder> folder_;
+  static inline Finished finished_;
+  static inline Results results_;
+};
+
+TEST_F(DefaultRun, is_green) {
+  EXPECT_EQ(finished_.code, 0) << finished_.out << finished_.err;
+  EXPECT_EQ(finished_.err, "");
+  EXPECT_GT(results_.cases.size(), 1000u);
+  EXPECT_EQ(results_.end.at("exit_code"), finished_.code);
+}
+
+TEST_F(DefaultRun, judges_each_listed_case_once) {
+  const Finished list = run_tool({"list", "--json"});
+  ASSERT_EQ(list.code, 0) << list.err;
+  std::vector<std::string> listed;
+  for (const nlohmann::json& one : nlohmann::json::parse(list.out)) listed.push_back(one.at("id"));
+  EXPECT_EQ(results_.ids(), listed);
+}
+
+TEST_F(DefaultRun, junit_is_valid_and_its_names_are_unique) {
+  expect_valid_junit(*folder_ / "out/junit.xml");
+  Junit junit;
+  read_junit(*folder_ / "out/junit.xml", junit);
+  EXPECT_EQ(junit.cases.size(), junit.children);
+}
+
+TEST_F(DefaultRun, counts_of_junit_are_those_of_the_results) {
+  Junit junit;
+  read_junit(*folder_ / "out/junit.xml", junit);
+  EXPECT_EQ(junit.tests, results_.cases.size());
+  EXPECT_EQ(junit.children, results_.cases.size());
+  EXPECT_EQ(junit.failures, count("FAIL") + count("XPASS"));
+  EXPECT_EQ(junit.failures, junit.with("failure"));
+  EXPECT_EQ(junit.errors, count("ERROR"));
+  EXPECT_EQ(junit.errors, junit.with("error"));
+  EXPECT_EQ(junit.skipped,
+            count("SKIP") + count("BLOCKED") + count("INCONCLUSIVE") + count("XFAIL"));
+  EXPECT_EQ(junit.skipped, junit.with("skipped"));
+}
+
+TEST_F(DefaultRun, counts_of_json_and_console_are_those_of_the_results) {
+  nlohmann::json counts =
+      nlohmann::json::parse(read_text(*folder_ / "out/results.json")).at("counts");
+  EXPECT_EQ(counts["total"], results_.cases.size());
+  counts.erase("total");
+  std::map<std::string, std::size_t> console;
+  std::istringstream lines(finished_.out);
+  for (std::string line;
+       std::getline(lines, line);) {  // "  2199  PASS          as the manual says"
+    std::istringstream words(line);
+    std::size_t number = 0;
+    std::string verdict;
+    if (line.starts_with("  ") && words >> number >> verdict) console[verdict] = number;
+  }
+  EXPECT_EQ(console, results_.counts());
+  for (const auto& [verdict, number] : counts.items()) EXPECT_EQ(number, count(verdict)) << verdict;
+  EXPECT_THAT(finished_.out,
+              HasSubstr("\n" + std::to_string(results_.cases.size()) + " cases in "));
+}
+
+/// What steers a run does not ask how many cases there are: sixty are quick.
+constexpr int some = 60;
+
+std::vector<std::string> order(const std::vector<std::string>& more,
+                               const ProcessOptions& options = {}) {
+  const TestFolder folder;
+  std::vector<std::string> arguments{"run", "--vectors", write_vectors(folder, many_vectors(some)),
+                                     "--out", folder / "out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Finished finished = run_tool(arguments, options);
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  return read_results(folder / "out/results.ndjson").ids();
+}
+
+TEST(EmulatorRun, seed_settles_the_order) {
+  const std::vector<std::string> plain = order({});
+  const std::vector<std::string> seven = order({"--seed", "7"});
+  EXPECT_EQ(plain.size(), std::size_t(some));
+  EXPECT_EQ(seven, order({"--seed", "7"}));
+  EXPECT_NE(seven, order({"--seed", "8"}));
+  EXPECT_NE(seven, plain);
+  EXPECT_THAT(seven, testing::UnorderedElementsAreArray(plain));
+}
+
+TEST(EmulatorRun, shards_are_a_partition) {
+  std::vector<std::string> all;
+  for (int shard = 0; shard < 3; ++shard) {
+    const std::vector<std::string> part = order(
+        {},
+        {.environment = {{"GTEST_TOTAL_SHARDS", "3"}, {"GTEST_SHARD_INDEX", std::to_string(shard)}},
+         .folder = ""});
+    EXPECT_FALSE(part.empty());
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  EXPECT_THAT(all, testing::UnorderedElementsAreArray(order({})));
+}
+
+TEST(EmulatorRun, empty_shard_is_green_with_reports) {
+  const TestFolder folder;
+  const std::string vectors = write_vectors(folder, {small_vector("one/alone")});
+  std::size_t sum = 0;
+  for (const std::string& shard : {std::string("0"), std::string("1")}) {
+    const std::string out = folder / ("out" + shard);
+    const Finished finished = run_tool(
+        {"run", "--vectors", vectors, "--out", out},
+        {.environment = {{"GTEST_TOTAL_SHARDS", "2"}, {"GTEST_SHARD_INDEX", shard}}, .folder = ""});
+    EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+    expect_reports(out);
+    sum += read_results(out + "/results.ndjson").cases.size();
+  }
+  EXPECT_EQ(sum, 1u);
+}
+
+/// GoogleTest would take its filter from the environment, and a job that runs nothing would be
+/// green.
+TEST(EmulatorRun, environment_cannot_empty_the_selection) {
+  const TestFolder folder;
+  const std::string vectors = write_vectors(folder, {small_vector("one/alone")});
+  const Finished finished =
+      run_tool({"run", "--vectors", vectors, "--out", folder / "out"},
+               {.environment = {{"GTEST_FILTER", "no_such_test"}}, .folder = ""});
+  const bool executed = read_results(folder / "out/results.ndjson").cases.size() == 1;
+  EXPECT_TRUE(executed || finished.code != 0) << "exit 0 with nothing executed\n" << finished.out;
+}
+
+TEST(EmulatorRun, repeat_judges_each_case_so_often) {
+  const TestFolder folder;
+  const std::vector<std::string> once = order({});
+  const Finished finished = run_tool({"run", "--vectors", write_vectors(folder, many_vectors(some)),
+                                      "--repeat", "3", "--out", folder / "out"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  std::map<std::string, std::set<int>> repeats;
+  const Results results = read_results(folder / "out/results.ndjson");
+  for (const nlohmann::json& one : results.cases)
+    repeats[one.at("id")].insert(one.value("repeat", 0));
+  EXPECT_EQ(results.cases.size(), 3 * once.size());
+  for (const std::string& id : once) EXPECT_EQ(repeats[id], (std::set<int>{0, 1, 2})) << id;
+  expect_reports(folder / "out");
+  Junit junit;
+  read_junit(folder / "out/junit.xml", junit);
+  EXPECT_EQ(junit.cases.size(), results.cases.size()) << "names are not unique";
+}
+
+TEST(EmulatorRun, fail_fast_stops_at_the_first_red_case) {
+  const TestFolder folder;
+  const std::string vectors = write_vectors(
+      folder, {small_vector("fast/a"), small_vector("fast/b", wrong_word), small_vector("fast/c")});
+  const Finished all = run_tool({"run", "--vectors", vectors, "--out", folder / "all"});
+  const Finished fast =
+      run_tool({"run", "--vectors", vectors, "--out", folder / "fast", "--fail-fast"});
+  EXPECT_EQ(all.code, 1);
+  EXPECT_EQ(fast.code, 1);
+  EXPECT_THAT(read_results(folder / "all/results.ndjson").ids(), testing::SizeIs(3));
+  EXPECT_THAT(read_results(folder / "fast/results.ndjson").ids(),
+              testing::ElementsAre("xgt_cnet/fast/a", "xgt_cnet/fast/b"));
+  expect_reports(folder / "fast");
+}
+
+TEST(EmulatorRun, dry_run_starts_and_writes_nothing) {
+  const TestFolder folder;
+  const std::string vectors = write_vectors(folder, many_vectors(5));
+  const Finished finished =
+      run_tool({"run", "--endpoint", "exec:touch " + quoted(folder / "started") + "; cat",
+                "--profile", "xbc-h", "--vectors", vectors, "--out", folder / "out", "--dry-run"});
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  for (int i = 0; i < 5; ++i)
+    EXPECT_THAT(finished.out, HasSubstr("xgt_cnet/many/n100" + std::to_string(i)));
+  EXPECT_FALSE(std::filesystem::exists(folder / "started"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST(EmulatorRun, filter_without_a_match_is_an_error) {
+  const TestFolder folder;
+  const Finished finished =
+      run_tool({"run", "--filter", "xgt_cnet/nonsense*", "--out", folder / "out"});
+  EXPECT_EQ(finished.code, 4);
+  EXPECT_THAT(finished.err, HasSubstr("no case matches --filter 'xgt_cnet/nonsense*'"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace fieldproof

@@ -1,0 +1,60 @@
+// The installed tool: finds its vectors and profiles beside itself, wherever it is started.
+#include <gmock/gmock.h>
+
+#include "suites/tool/tool_files.hpp"
+
+namespace fieldproof {
+namespace {
+
+using testing::HasSubstr;
+
+class Installed : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Finished finished =
+        run_program({"cmake", "--install", FIELDPROOF_BINARY_DIR, "--prefix", folder_ / "usr"});
+    ASSERT_EQ(finished.code, 0) << finished.out << finished.err;
+    std::filesystem::create_directory(folder_ / "elsewhere");
+  }
+  Finished run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), folder_ / "usr/bin/fieldproof");
+    return run_program(arguments, {.environment = {}, .folder = folder_ / "elsewhere"});
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(Installed, runs_green_from_another_folder) {
+  const Finished finished = run({"run", "--profile", "xbc-h"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_GT(read_results(folder_ / "elsewhere/fieldproof-out/results.ndjson").counts()["PASS"],
+            1000u);
+  expect_reports(folder_ / "elsewhere/fieldproof-out");
+  const Finished lint = run({"lint"});
+  EXPECT_EQ(lint.code, 0) << lint.out.substr(0, 2000) << lint.err;
+}
+
+/// Not those of the source tree, which a developer's machine still has.
+TEST_F(Installed, takes_its_own_vectors_and_profiles) {
+  const std::string data = folder_ / "usr/share/fieldproof";
+  for (const char* protocol :
+       {"xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus", "user_frames", "udata"})
+    std::filesystem::remove_all(data + "/vectors/" + protocol);
+  folder_.write("usr/share/fieldproof/vectors/xgt_cnet/test.json",
+                nlohmann::ordered_json::array({small_vector("own/vector")}).dump());
+  std::filesystem::rename(data + "/profiles/xbc-h.json", data + "/profiles/own.json");
+  const Finished list = run({"list"});
+  EXPECT_EQ(list.code, 0) << list.err;
+  EXPECT_THAT(list.out, HasSubstr("\n1 cases"));
+  const Finished unknown = run({"run", "--profile", "xbc-h"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("own"));
+  EXPECT_EQ(run({"run", "--profile", "own"}).code, 0);
+}
+
+TEST_F(Installed, is_the_version_that_was_built) {
+  EXPECT_EQ(run({"--version"}).out, run_tool({"--version"}).out);
+}
+
+}  // namespace
+}  // namespace fieldproof

@@ -1,0 +1,131 @@
+// The built tool over a stock ser2net, and two users of one port.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <memory>
+
+#include "harness/endpoints/rfc2217_test_servers.hpp"
+#include "suites/tool/tool_files.hpp"
+
+namespace fieldproof {
+namespace {
+
+using endpoint_tests::Ser2net;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Two ptys that socat joins: ser2net has one, a device the other.
+class RemotePort : public testing::Test {
+ protected:
+  RemotePort()
+      : socat_({"socat", "-d", "-d", "pty,raw,echo=0,link=" + (folder_ / "bench"),
+                "pty,raw,echo=0,link=" + (folder_ / "device")}) {
+    EXPECT_TRUE(socat_.wait_for("starting data transfer loop"));
+    server_ = std::make_unique<Ser2net>(folder_ / "bench");
+  }
+
+  std::string endpoint() const { return "rfc2217:" + server_->where() + "?baud=115200"; }
+  static std::vector<std::string> arguments(const std::string& endpoint, const std::string& out) {
+    return {"run",           "--endpoint", endpoint, "--profile", "xbc-h",
+            "--allow-write", "all,P,Q,U",  "--out",  out};
+  }
+  Results run(const std::string& endpoint, const std::string& filter) {
+    std::vector<std::string> all = arguments(endpoint, folder_ / "out");
+    all.insert(all.end(), {"--filter", filter});
+    const Finished finished = run_tool(all);
+    EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+    expect_reports(folder_ / "out");
+    return read_results(folder_ / "out/results.ndjson");
+  }
+
+  /// testdata/device.py answers `until` requests, then tells and is silent: the bench is in the
+  /// middle of something.
+  std::unique_ptr<Process> device_that_tells(int until) {
+    const std::string path = folder_ / "told";
+    EXPECT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    told_.reset(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+    return std::make_unique<Process>(std::vector<std::string>{
+        "/usr/bin/python3", FIELDPROOF_SOURCE_DIR "/suites/tool/testdata/device.py", "tell",
+        folder_ / "device", path, std::to_string(until)});
+  }
+  bool told() const {
+    pollfd one{told_.get(), POLLIN, 0};
+    return ::poll(&one, 1, 60'000) == 1;
+  }
+
+  TestFolder folder_;
+  UniqueFd told_;
+  Process socat_;
+  std::unique_ptr<Ser2net> server_;
+};
+
+TEST_F(RemotePort, gives_the_verdicts_of_the_emulator) {
+  Process device({FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
+  ASSERT_TRUE(device.wait_for(folder_ / "device"));
+  const std::string filter = "xgt_cnet/rss/*";
+  const Results in_process = run("emulator:xbc-h", filter), remote = run(endpoint(), filter);
+  ASSERT_EQ(remote.cases.size(), in_process.cases.size());
+  int judged = 0;
+  for (const nlohmann::json& one : remote.cases) {
+    const std::string id = one.at("id"), verdict = one.at("verdict");
+    // What needs a back door, a declaration or a wire; endpoints_test.cpp holds the list of these.
+    if (verdict == "BLOCKED" || verdict == "INCONCLUSIVE") continue;
+    EXPECT_EQ(verdict, in_process.verdict(id)) << id << ": " << one.value("message", "");
+    judged += verdict == "PASS" || verdict == "INFO";
+  }
+  EXPECT_GT(judged, 60);
+  EXPECT_THAT(remote.run.dump(), HasSubstr("rfc2217:" + server_->where() + " 115200-8N1"));
+}
+
+TEST_F(RemotePort, a_server_killed_in_the_middle_is_trouble_with_reports) {
+  const std::unique_ptr<Process> device = device_that_tells(41);
+  std::vector<std::string> all = arguments(endpoint(), folder_ / "out");
+  all.insert(all.end(), {"--vectors", write_vectors(folder_, many_vectors(200))});
+  Process tool(tool_arguments(all));
+  ASSERT_TRUE(told());
+  server_->kill();
+  const Finished finished = tool.wait();
+  EXPECT_EQ(finished.code, 3) << finished.out << finished.err;
+  const Results results = read_results(folder_ / "out/results.ndjson");
+  EXPECT_EQ(results.counts().at("ERROR"), 1u);
+  EXPECT_GE(results.counts().at("PASS"), 1u);
+  EXPECT_EQ(results.counts().at("PASS") + 1 + results.counts().at("BLOCKED"), 200u)
+      << "the rest cannot be judged";
+  EXPECT_THAT(finished.out, AllOf(HasSubstr(server_->where()),
+                                  HasSubstr("see that the device or serial server still runs")));
+  expect_reports(folder_ / "out");
+}
+
+TEST_F(RemotePort, a_server_that_is_not_there_is_trouble) {
+  const std::string where = server_->where();
+  server_.reset();
+  const Finished finished = run_tool(arguments("rfc2217:" + where, folder_ / "out"));
+  EXPECT_EQ(finished.code, 3);
+  EXPECT_THAT(finished.err,
+              AllOf(HasSubstr(where),
+                    HasSubstr("nothing listens there; start the device or serial server")));
+}
+
+/// The first one waits for a device that never answers.
+TEST_F(RemotePort, a_second_user_is_told_of_the_first) {
+  server_.reset();
+  const std::unique_ptr<Process> device = device_that_tells(0);
+  Process first(tool_arguments(arguments("serial:" + (folder_ / "bench"), folder_ / "first")));
+  ASSERT_TRUE(told());
+  const Finished second = run_tool(arguments("serial:" + (folder_ / "bench"), folder_ / "second"));
+  EXPECT_EQ(second.code, 3);
+  EXPECT_THAT(second.err, AllOf(HasSubstr("cannot open " + (folder_ / "bench") +
+                                          ": the port is in use by process "),
+                                HasSubstr(" (fieldproof) since 20"),
+                                HasSubstr("end that process or choose another port")));
+  // Killed, it leaves its lock: the next user takes it over and says so.
+  first.signal(SIGKILL);
+  EXPECT_EQ(first.wait().code, 128 + SIGKILL);
+  Process third(tool_arguments(arguments("serial:" + (folder_ / "bench"), folder_ / "third")));
+  EXPECT_TRUE(third.wait_for("took over the lock of " + (folder_ / "bench")));
+  third.signal(SIGINT);
+  EXPECT_EQ(third.wait().code, 130);
+}
+
+}  // namespace
+}  // namespace fieldproof
