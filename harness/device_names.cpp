@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <charconv>
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 namespace {
 
 /// Elements in so many words; nothing where it is no whole number of them.
-std::optional<std::int64_t> elements_in(const DeviceAddress& address, int words) {
+std::optional<std::int64_t> elements_in(const plc::DeviceAddress& address, int words) {
   if (address.contact) return words;
   switch (address.type) {
     case 'X': return std::int64_t{words} * 16;
@@ -17,7 +17,7 @@ std::optional<std::int64_t> elements_in(const DeviceAddress& address, int words)
     case 'W': return words;
     default: break;
   }
-  const int width = static_cast<int>(type_bytes(address.type) / 2);
+  const int width = static_cast<int>(plc::type_bytes(address.type) / 2);
   if (words % width != 0) return std::nullopt;
   return words / width;
 }
@@ -35,26 +35,28 @@ std::optional<std::string> add_to(std::string_view text, std::int64_t step) {
 
 }  // namespace
 
-Protocol::Written memory_of(const PlcModel& model, const DeviceAddress& address,
+Protocol::Written memory_of(const plc::PlcModel& model, const plc::DeviceAddress& address,
                             std::uint32_t count, std::string_view name) {
   const std::string area(1, model.areas[address.area].letter);
   const std::uint32_t last = address.index + std::max(count, 1u) - 1;
   if (address.contact) return {area, address.index, last, std::string(name), true};
   if (address.type == 'X') return {area, address.index / 16, last / 16, std::string(name)};
-  const std::uint32_t bytes = type_bytes(address.type);
+  const std::uint32_t bytes = plc::type_bytes(address.type);
   return {area, address.index * bytes / 2, ((last + 1) * bytes - 1) / 2, std::string(name)};
 }
 
-std::optional<Protocol::Written> named_memory(const PlcModel& model, std::string_view name,
+std::optional<Protocol::Written> named_memory(const plc::PlcModel& model, std::string_view name,
                                               std::size_t digits) {
-  const ParsedAddress parsed = parse_address(model, name);
+  const plc::ParsedAddress parsed = plc::parse_address(model, name);
   if (!parsed) return std::nullopt;
-  const auto count = static_cast<std::uint32_t>(digits / (2 * type_bytes(parsed.address.type)));
+  const auto count =
+      static_cast<std::uint32_t>(digits / (2 * plc::type_bytes(parsed.address.type)));
   return memory_of(model, parsed.address, count, name);
 }
 
-std::optional<std::string> moved_name(const PlcModel& model, std::string_view name, int words) {
-  const ParsedAddress parsed = parse_address(model, name);
+std::optional<std::string> moved_name(const plc::PlcModel& model, std::string_view name,
+                                      int words) {
+  const plc::ParsedAddress parsed = plc::parse_address(model, name);
   if (!parsed || name.find('.') != std::string_view::npos) return std::nullopt;
   // XBM and XBC: decimal word and one hex digit for the bit.
   const bool word_and_bit = parsed.address.type == 'X' && !parsed.address.contact && !model.iec;
@@ -66,12 +68,13 @@ std::optional<std::string> moved_name(const PlcModel& model, std::string_view na
   if (!sum) return std::nullopt;
   std::string moved =
       std::string(name.substr(0, 3)) + *sum + std::string(name.substr(name.size() - tail));
-  if (!parse_address(model, moved)) return std::nullopt;
+  if (!plc::parse_address(model, moved)) return std::nullopt;
   return moved;
 }
 
-std::vector<Protocol::Place> places_on(const PlcModel& model, const Protocol::Written& written) {
-  const DeviceArea* area = written.area.size() == 1 ? model.area(written.area[0]) : nullptr;
+std::vector<Protocol::Place> places_on(const plc::PlcModel& model,
+                                       const Protocol::Written& written) {
+  const plc::DeviceArea* area = written.area.size() == 1 ? model.area(written.area[0]) : nullptr;
   if (area && !area->write) return {};
   std::vector<Protocol::Place> places;
   if (written.contacts) {
@@ -91,4 +94,4 @@ std::vector<Protocol::Place> places_on(const PlcModel& model, const Protocol::Wr
   return places;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

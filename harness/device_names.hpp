@@ -5,23 +5,24 @@
 #include "harness/protocol.hpp"
 #include "src/plc/address.hpp"
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 /// The words, or contacts, that `count` elements from `address` on lie in.
-Protocol::Written memory_of(const PlcModel& model, const DeviceAddress& address,
+Protocol::Written memory_of(const plc::PlcModel& model, const plc::DeviceAddress& address,
                             std::uint32_t count, std::string_view name);
 
 /// What so many hex digits at a name stand for; nothing where the model has no such memory.
-std::optional<Protocol::Written> named_memory(const PlcModel& model, std::string_view name,
+std::optional<Protocol::Written> named_memory(const plc::PlcModel& model, std::string_view name,
                                               std::size_t digits);
 
 /// "%MW100" and 20: "%MW120"; "%MX0010A" and 4: "%MX0014A". As many characters, the same type and
 /// place in the word; a contact moves by contacts. Nothing where there is no such name: more
 /// digits, half a double word, past the area, "%IW0.0.0".
-std::optional<std::string> moved_name(const PlcModel& model, std::string_view name, int words);
+std::optional<std::string> moved_name(const plc::PlcModel& model, std::string_view name, int words);
 
 /// `written` as names: the words that the model has, and those past its area; each contact by
 /// itself. None of a read-only area.
-std::vector<Protocol::Place> places_on(const PlcModel& model, const Protocol::Written& written);
+std::vector<Protocol::Place> places_on(const plc::PlcModel& model,
+                                       const Protocol::Written& written);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

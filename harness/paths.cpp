@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 namespace fs = std::filesystem;
 
@@ -23,4 +23,4 @@ DataPaths find_data() {
           source / "suites" / "user_frames" / "definitions"};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

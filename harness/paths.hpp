@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 struct DataPaths {
   std::filesystem::path vectors;  // with schema.json, manuals.json, statements/, quotes.lock
@@ -18,4 +18,4 @@ DataPaths find_data();
 /// The running program itself.
 std::filesystem::path own_executable();
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 bool faultless(const std::vector<Field>& fields) {
   return !fields.empty() &&
          std::ranges::all_of(fields, [](const Field& field) { return field.problem.empty(); });
 }
 
-FrameResult Protocol::monitor_result(ByteView frame, bool, bool) const {
-  return faultless(explain(frame)) ? FrameResult::user_definition : FrameResult::unknown;
+plc::FrameResult Protocol::monitor_result(ByteView frame, bool, bool) const {
+  return faultless(explain(frame)) ? plc::FrameResult::user_definition : plc::FrameResult::unknown;
 }
 
 Result<std::unique_ptr<Protocol>> Protocol::configured(std::string_view,
@@ -48,4 +48,4 @@ std::optional<Bytes> Protocol::moved_field(ByteView frame, const AddressField& f
 
 std::uint32_t Protocol::words_of(std::string_view) const { return ~0u; }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

@@ -15,7 +15,7 @@
 #include "src/plc/emulated_device.hpp"
 #include "src/plc/frame_monitor.hpp"
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 /// One named part of a frame, as `frame` and the field-by-field difference show it.
 struct Field {
@@ -44,7 +44,7 @@ class Protocol {
 
   /// A new emulated device in its power-on state. Errors name the model or the key of `config`
   /// (vectors/README.md).
-  virtual Result<std::unique_ptr<EmulatedDevice>> make_device(
+  virtual Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
       std::string_view model, const nlohmann::json& config) const = 0;
 
   /// The station number as it stands in a frame.
@@ -58,7 +58,7 @@ class Protocol {
 
   /// What a frame monitor says of a frame that a client (else a server) sends or receives:
   /// `unknown` where it is damaged, or none that this side deals with.
-  virtual FrameResult monitor_result(ByteView frame, bool client, bool sent) const;
+  virtual plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const;
 
   /// The silence that must lie between anything on the line and the next request. Modbus RTU ends a
   /// frame by it. Zero where a frame has an end of its own.
@@ -152,4 +152,4 @@ class Protocol {
   virtual Status check_fact(const nlohmann::json& facts) const = 0;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

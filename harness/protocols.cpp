@@ -6,7 +6,7 @@
 
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 const Protocol* Protocols::find(std::string_view name) const {
   for (const Protocol* protocol : table_)
@@ -42,4 +42,4 @@ Result<const Protocol*> Protocols::choose(std::string_view name, std::string_vie
   return name.empty() ? unknown_model(*this, model) : unknown_protocol(*this, name);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

@@ -7,7 +7,7 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 /// A view: the table outlives it. The first protocol is the default.
 class Protocols {
@@ -29,4 +29,4 @@ class Protocols {
   std::span<const Protocol* const> table_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

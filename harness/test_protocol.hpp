@@ -7,13 +7,13 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof {
+namespace fieldproof::harness {
 
 struct TestProtocol : Protocol {
   std::string_view name() const override { return "xgt-cnet"; }
   std::vector<std::string> models() const override { return {"test"}; }
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view,
-                                                      const nlohmann::json&) const override {
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_device(std::string_view,
+                                                           const nlohmann::json&) const override {
     return fail("no device");
   }
   Bytes station_bytes(int station) const override {
@@ -62,4 +62,4 @@ struct TestProtocol : Protocol {
   Status check_fact(const nlohmann::json&) const override { return ok(); }
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::harness

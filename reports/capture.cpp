@@ -12,7 +12,11 @@
 #include "reports/text/report_file.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::CaseResult;
+using results::Event;
+
 namespace {
 
 /// Another piece of the same frame? What belongs to no step is a probe, which is sent in one piece,
@@ -31,8 +35,8 @@ std::string comment_of(const CaseResult& result, const Event& event) {
     part = fmt::format(", step {}", event.step + 1);
   else if (!result.recording.stimulus.empty())
     part = ", probe";  // without a recording the steps are not known
-  return xml_line(case_label(result).substr(0, 1000)) + part + ": " +
-         std::string(to_string(result.verdict));
+  return text::xml_line(text::case_label(result).substr(0, 1000)) + part + ": " +
+         std::string(results::to_string(result.verdict));
 }
 
 void join(CapturedFrame& frame, const Event& event) {
@@ -82,13 +86,13 @@ class Capture {
  public:
   explicit Capture(std::ostream& out) : out_(out) {}
 
-  void begin(const RunInfo& run) {
-    const Identity& device = run.identity;
-    const std::string hardware = xml_line(
+  void begin(const results::RunInfo& run) {
+    const results::Identity& device = run.identity;
+    const std::string hardware = text::xml_line(
         fmt::format("{} {} {} {}", device.maker, device.model, device.serial, device.firmware));
-    out_ << pcapng_section("fieldproof " + xml_line(run.tool_version),
+    out_ << pcapng_section("fieldproof " + text::xml_line(run.tool_version),
                            hardware.find_first_not_of(' ') == std::string::npos ? "" : hardware);
-    endpoint_ = xml_line(run.endpoint);
+    endpoint_ = text::xml_line(run.endpoint);
     calendar_.begin_run(run.started);
   }
 
@@ -106,7 +110,7 @@ class Capture {
   std::uint32_t interface_of(const std::string& protocol) {
     const auto [found, added] =
         interfaces_.emplace(protocol, static_cast<std::uint32_t>(interfaces_.size()));
-    if (added) out_ << pcapng_interface(linktype_rtac_serial, xml_line(protocol), endpoint_);
+    if (added) out_ << pcapng_interface(linktype_rtac_serial, text::xml_line(protocol), endpoint_);
     return found->second;
   }
 
@@ -133,16 +137,16 @@ std::vector<CapturedFrame> captured_frames(const CaseResult& result) {
   return frames;
 }
 
-Result<Tally> write_capture(const std::string& ndjson, const std::string& path) {
+Result<text::Tally> write_capture(const std::string& ndjson, const std::string& path) {
   // The head of the file comes before the first packet, and before the results are read.
-  const Result<RunLog> head = read_ndjson(ndjson, [](const CaseResult&) {});
+  const Result<results::RunLog> head = results::read_ndjson(ndjson, [](const CaseResult&) {});
   if (!head) return head.error();
-  Result<ReportFile> file = ReportFile::create(path);
+  Result<text::ReportFile> file = text::ReportFile::create(path);
   if (!file) return file.error();
   Capture capture(file->out());
   capture.begin(head->run);
-  Tally tally;
-  const Result<RunLog> log = read_ndjson(ndjson, [&](const CaseResult& result) {
+  text::Tally tally;
+  const Result<results::RunLog> log = results::read_ndjson(ndjson, [&](const CaseResult& result) {
     tally.add(result.verdict);
     capture.add(result);
   });
@@ -151,4 +155,4 @@ Result<Tally> write_capture(const std::string& ndjson, const std::string& path) 
   return tally;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -8,7 +8,7 @@
 #include "reports/text/tally.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
 
 /// Reads the results in `ndjson` (of a killed run too) and writes `path`: the frames of all cases
 /// in both directions, as RTAC serial (linktype 250), one interface a protocol, with step, case and
@@ -20,7 +20,7 @@ namespace fieldproof {
 /// Times are those of the bench, counted from the start of the run as the clock of the computer
 /// gave it (in seconds). Simulated clocks of several protocols run one after the other, as their
 /// cases did.
-Result<Tally> write_capture(const std::string& ndjson, const std::string& path);
+Result<text::Tally> write_capture(const std::string& ndjson, const std::string& path);
 
 /// What one step sent, or took, as a whole: the pieces in which a port delivers a frame are joined.
 struct CapturedFrame {
@@ -30,6 +30,6 @@ struct CapturedFrame {
   Bytes bytes;
   std::string comment;  // "xgt_cnet/rss/one_word, step 2: FAIL; pause of 20.000 ms after 5 bytes"
 };
-std::vector<CapturedFrame> captured_frames(const CaseResult& result);
+std::vector<CapturedFrame> captured_frames(const results::CaseResult& result);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

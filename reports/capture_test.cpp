@@ -5,7 +5,10 @@
 #include "reports/pcapng.hpp"
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::Event;
+
 namespace {
 
 using testing::HasSubstr;
@@ -15,8 +18,8 @@ Event piece(Event::Kind kind, const char* hex, Time start, int step, bool surplu
   return {kind, start, start + 1ms, *from_hex(hex), "", step, surplus};
 }
 
-CaseResult with_exchange(std::vector<Event> exchange) {
-  CaseResult result = samples::with(Verdict::pass, "a/b");
+results::CaseResult with_exchange(std::vector<Event> exchange) {
+  results::CaseResult result = samples::with(results::Verdict::pass, "a/b");
   result.recording.stimulus = "1";
   result.exchange = std::move(exchange);
   return result;
@@ -79,7 +82,7 @@ TEST(Capture, IsThereWholeOrNotAtAll) {
   samples::write_results(folder / "results.ndjson", {samples::failure()}, false);
   const auto counts = write_capture(folder / "results.ndjson", folder / "run.pcapng");
   ASSERT_TRUE(counts) << counts.error().message;
-  EXPECT_EQ(1u, counts->of(Verdict::fail));
+  EXPECT_EQ(1u, counts->of(results::Verdict::fail));
   EXPECT_THAT(samples::read_file(folder / "run.pcapng"), StartsWith("\x0A\x0D\x0D\x0A"));
   std::ofstream(folder / "results.ndjson", std::ios::app) << "damage\n";
   EXPECT_FALSE(write_capture(folder / "results.ndjson", folder / "other.pcapng"));
@@ -89,4 +92,4 @@ TEST(Capture, IsThereWholeOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

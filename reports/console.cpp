@@ -10,7 +10,10 @@
 #include "reports/text/run_text.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::Verdict;
+
 namespace {
 
 constexpr std::size_t verdict_width = 14;   // INCONCLUSIVE and two spaces
@@ -19,8 +22,8 @@ constexpr std::size_t red_limit = 20;       // red cases named again in the summ
 constexpr Duration shortest_display = 20ms;
 const std::string erase_line = "\r\x1b[K";
 
-const char* colour_code(Verdict verdict, const Gate& gate) {
-  if (gates(verdict, gate)) return "1;31";  // bold red
+const char* colour_code(Verdict verdict, const results::Gate& gate) {
+  if (results::gates(verdict, gate)) return "1;31";  // bold red
   switch (verdict) {
     case Verdict::pass:
     case Verdict::info: return "32";  // green
@@ -35,19 +38,19 @@ std::string coloured(const std::string& text, const char* code, const ConsoleOpt
 
 /// The word of a verdict in its colour, then blanks up to `width`.
 std::string verdict_word(Verdict verdict, std::size_t width, const ConsoleOptions& options) {
-  const std::string word(to_string(verdict));
+  const std::string word(results::to_string(verdict));
   return coloured(word, colour_code(verdict, options.gate), options) +
          std::string(width - word.size(), ' ');
 }
 
-std::string counts(const Tally& tally, const ConsoleOptions& options) {
+std::string counts(const text::Tally& tally, const ConsoleOptions& options) {
   const std::size_t digits = std::to_string(tally.total()).size();
   std::string text;
-  for (Verdict verdict : Tally::verdicts) {
+  for (Verdict verdict : text::Tally::verdicts) {
     if (tally.of(verdict) == 0) continue;
     const std::string word = verdict_word(verdict, verdict_width, options);
     text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, word,
-                        verdict_meaning(verdict), gate_hint(verdict, options.gate));
+                        text::verdict_meaning(verdict), text::gate_hint(verdict, options.gate));
   }
   return text;
 }
@@ -69,41 +72,46 @@ std::string rough_time(double seconds) {
 
 std::string outcome(const Summary& summary, const ConsoleOptions& options) {
   const int code = summary.end.exit_code;
-  std::string text = coloured(exit_meaning(code), code == 0 ? "32" : "1;31", options);
-  if (const std::string red = red_counts(summary.tally, options.gate); !red.empty())
+  std::string text = coloured(text::exit_meaning(code), code == 0 ? "32" : "1;31", options);
+  if (const std::string red = text::red_counts(summary.tally, options.gate); !red.empty())
     text += ": " + red;
-  if (!summary.end.trouble.empty()) text += fmt::format("; {}", xml_line(summary.end.trouble));
+  if (!summary.end.trouble.empty())
+    text += fmt::format("; {}", text::xml_line(summary.end.trouble));
   return fmt::format("exit {}: {}\n", code, text);
 }
 
 }  // namespace
 
-std::string run_head(const RunInfo& run) {
-  std::string text =
-      fmt::format("fieldproof {}  {}", xml_line(run.tool_version), xml_line(run.endpoint));
-  if (!run.profile.empty()) text += fmt::format("  profile {}", xml_line(run.profile));
+std::string run_head(const results::RunInfo& run) {
+  std::string text = fmt::format("fieldproof {}  {}", text::xml_line(run.tool_version),
+                                 text::xml_line(run.endpoint));
+  if (!run.profile.empty()) text += fmt::format("  profile {}", text::xml_line(run.profile));
   for (const auto& [name, value] : run.properties)
-    text += fmt::format("  {}={}", xml_line(name), xml_line(value));
-  for (const DutInfo& dut : run.duts)
-    text += fmt::format("\n  {}: {}", xml_line(dut.identity.name), xml_line(device_text(dut)));
+    text += fmt::format("  {}={}", text::xml_line(name), text::xml_line(value));
+  for (const results::DutInfo& dut : run.duts)
+    text += fmt::format("\n  {}: {}", text::xml_line(dut.identity.name),
+                        text::xml_line(text::device_text(dut)));
   return text + '\n';
 }
 
-std::string case_report(const CaseResult& result, const ConsoleOptions& options) {
-  const bool red = gates(result.verdict, options.gate);
+std::string case_report(const results::CaseResult& result, const ConsoleOptions& options) {
+  const bool red = results::gates(result.verdict, options.gate);
   if (!red && !options.verbose) return "";
-  std::string text = verdict_word(result.verdict, verdict_width, options) + case_label(result);
-  if (!result.message.empty()) text += "  " + xml_line(result.message);
+  std::string text =
+      verdict_word(result.verdict, verdict_width, options) + text::case_label(result);
+  if (!result.message.empty()) text += "  " + text::xml_line(result.message);
   text += '\n';
   // A case that never started has nothing but its message.
   const bool executed = red || !result.exchange.empty();
   if (executed)
     text +=
-        indent(case_block(result, {.limit = console_limit, .exchange = options.verbose}), 2) + '\n';
+        text::indent(
+            text::case_block(result, {.limit = console_limit, .exchange = options.verbose}), 2) +
+        '\n';
   return text;
 }
 
-std::string Progress::line(const Tally& tally, std::size_t total, const std::string& next_id,
+std::string Progress::line(const text::Tally& tally, std::size_t total, const std::string& next_id,
                            Duration elapsed) {
   if (!options_.terminal || (shown_ && elapsed - drawn_ < shortest_display)) return "";
   const std::size_t done = tally.total();
@@ -116,7 +124,7 @@ std::string Progress::line(const Tally& tally, std::size_t total, const std::str
   if (done > 0 && elapsed >= 1s)
     text += ", ~" + rough_time(std::chrono::duration<double>(elapsed).count() /
                                static_cast<double>(done) * static_cast<double>(left));
-  text += "  " + xml_line(next_id);
+  text += "  " + text::xml_line(next_id);
   // A line that wraps cannot be erased.
   const auto room = static_cast<std::size_t>(std::max(options_.width - 1, 0));
   if (text.size() > room) text.resize(room);
@@ -132,9 +140,9 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   std::string text =
       fmt::format("\n{} case{} in {:.1f} s\n", total, total == 1 ? "" : "s", summary.end.seconds);
   text += counts(summary.tally, options);
-  if (const std::string timing = timing_text(summary.timing); !timing.empty())
+  if (const std::string timing = text::timing_text(summary.timing); !timing.empty())
     text += '\n' + timing;
-  if (summary.soak) text += '\n' + soak_text(*summary.soak);
+  if (summary.soak) text += '\n' + results::soak_text(*summary.soak);
   text += red_cases(summary.red);
   std::size_t width = 0;
   for (const auto& [kind, path] : summary.reports) width = std::max(width, kind.size());
@@ -144,4 +152,4 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   return text + '\n' + outcome(summary, options);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

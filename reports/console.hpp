@@ -11,10 +11,10 @@
 #include "reports/text/tally.hpp"
 #include "reports/text/timing_table.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
 
 struct ConsoleOptions {
-  Gate gate = {};
+  results::Gate gate = {};
   bool verbose = false;   // -v: every case, with its exchange
   bool terminal = false;  // a moving progress line, and colour
   bool colour = true;     // on a terminal; false where NO_COLOR is set
@@ -22,11 +22,11 @@ struct ConsoleOptions {
 };
 
 /// What a run is about, before its first case.
-std::string run_head(const RunInfo& run);
+std::string run_head(const results::RunInfo& run);
 
 /// A case as it happens: one line, and the block of case_text.hpp, when it turns the gate red or
 /// with -v; else nothing.
-std::string case_report(const CaseResult& result, const ConsoleOptions& options);
+std::string case_report(const results::CaseResult& result, const ConsoleOptions& options);
 
 /// The one line that moves. Only on a terminal: a log gets the cases that turn the gate red, and
 /// the summary.
@@ -38,7 +38,7 @@ class Progress {
   /// before case `next_id` runs. `elapsed` counts from the start of the run. Empty where the line
   /// is younger than 20 ms: a terminal must not slow down cases of a tenth of a millisecond, while
   /// each case on a real line still shows.
-  std::string line(const Tally& tally, std::size_t total, const std::string& next_id,
+  std::string line(const text::Tally& tally, std::size_t total, const std::string& next_id,
                    Duration elapsed);
 
   /// Removes the line before anything else is printed; empty where none stands.
@@ -51,17 +51,17 @@ class Progress {
 };
 
 struct Summary {
-  Tally tally;
-  RunEnd end;
+  text::Tally tally;
+  results::RunEnd end;
   std::vector<std::string> red;  // labels of the cases that turned the gate red, in order
   std::vector<std::pair<std::string, std::string>>
       reports;  // kind and path: {"junit", "fieldproof-out/junit.xml"}
-  TimingTable::Rows timing = {};
-  std::optional<SoakSummary> soak = {};
+  text::TimingTable::Rows timing = {};
+  std::optional<results::SoakSummary> soak = {};
 };
 
 /// Counts of the verdicts that occur with their meaning, the red cases, exit code and its meaning,
 /// paths of the reports.
 std::string run_summary(const Summary& summary, const ConsoleOptions& options);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

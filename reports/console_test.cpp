@@ -4,7 +4,10 @@
 
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::Verdict;
+
 namespace {
 
 using testing::HasSubstr;
@@ -46,9 +49,9 @@ TEST(CaseReport, AFailureIsALineAndABlock) {
 }
 
 TEST(CaseReport, WhatTheGateLetsPassIsQuiet) {
-  for (Verdict verdict : Tally::verdicts) {
-    EXPECT_EQ(gates(verdict, {}), !case_report(samples::with(verdict, "a/b"), {}).empty())
-        << to_string(verdict);
+  for (Verdict verdict : text::Tally::verdicts) {
+    EXPECT_EQ(results::gates(verdict, {}), !case_report(samples::with(verdict, "a/b"), {}).empty())
+        << results::to_string(verdict);
   }
   EXPECT_THAT(case_report(samples::with(Verdict::non_strict, "a/b", "upper case"),
                           {.gate = {.strict = true}}),
@@ -95,8 +98,8 @@ TEST(CaseReport, AFloodIsCutShort) {
   EXPECT_LT(case_report(result, {}).size(), 5000u);
 }
 
-Tally tally_of(std::size_t passed, std::size_t failed = 0) {
-  Tally tally;
+text::Tally tally_of(std::size_t passed, std::size_t failed = 0) {
+  text::Tally tally;
   tally.add(Verdict::pass, passed);
   tally.add(Verdict::fail, failed);
   return tally;
@@ -202,4 +205,4 @@ TEST(RunSummary, NamesTheFirstOfManyRedCases) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

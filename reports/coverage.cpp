@@ -8,7 +8,11 @@
 #include "reports/text/markdown_text.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::Verdict;
+using text::Tally;
+
 namespace {
 
 using nlohmann::ordered_json;
@@ -31,13 +35,13 @@ std::string plural(std::size_t count, const char* noun) {
 
 bool any_judged(const Tally& tally) {
   return std::ranges::any_of(Tally::verdicts, [&](Verdict verdict) {
-    return is_judged(verdict) && tally.of(verdict) > 0;
+    return results::is_judged(verdict) && tally.of(verdict) > 0;
   });
 }
 
 std::string verdicts_text(const CoverageStatement& statement) {
   const Tally verdicts = statement.verdicts();
-  return verdicts.total() == 0 ? "not run" : to_string(verdicts);
+  return verdicts.total() == 0 ? "not run" : text::to_string(verdicts);
 }
 
 std::string first_why_not(const CoverageStatement& statement) {
@@ -64,7 +68,7 @@ ordered_json vector_json(const CoverageVector& vector, bool with_results) {
   object["verdicts"] = ordered_json::object();
   for (const Verdict verdict : Tally::verdicts)
     if (vector.verdicts.of(verdict) > 0)
-      object["verdicts"][std::string(to_string(verdict))] = vector.verdicts.of(verdict);
+      object["verdicts"][std::string(results::to_string(verdict))] = vector.verdicts.of(verdict);
   if (!vector.why_not.empty()) object["not_judged"] = vector.why_not;
   return object;
 }
@@ -121,7 +125,7 @@ std::string coverage_summary(const Coverage& coverage) {
     text += fmt::format(
         "; judged in {}: {}, of which {} failed; not judged there: {}, facts without wire effect: "
         "{}",
-        xml_line(coverage.results), counts.judged(), counts.count(Traced::failed),
+        text::xml_line(coverage.results), counts.judged(), counts.count(Traced::failed),
         counts.count(Traced::unjudged), counts.count(Traced::table));
   return text + fmt::format("; coverage {:.1f} %", counts.percent(coverage.with_results()));
 }
@@ -150,7 +154,7 @@ std::string coverage_text(const Coverage& coverage) {
       if (!section || *section != statement.section) text += "  " + statement.section + '\n';
       section = &statement.section;
       text += fmt::format("    {:<36}  {}\n", statement.id,
-                          xml_line(trace_text(statement, coverage.with_results())));
+                          text::xml_line(trace_text(statement, coverage.with_results())));
     }
   }
   return text + '\n' + coverage_summary(coverage) + '\n';
@@ -187,22 +191,23 @@ std::string coverage_json(const Coverage& coverage) {
 
 std::string coverage_markdown(const Coverage& coverage) {
   std::string text =
-      fmt::format("# Traceability\n\n{}\n", markdown_cell(coverage_summary(coverage)));
+      fmt::format("# Traceability\n\n{}\n", text::markdown_cell(coverage_summary(coverage)));
   for (const CoverageManual& manual : coverage.manuals) {
-    text += fmt::format("\n## {}: {}\n\n", markdown_cell(manual.id), markdown_cell(manual.title));
+    text += fmt::format("\n## {}: {}\n\n", text::markdown_cell(manual.id),
+                        text::markdown_cell(manual.title));
     if (manual.statements.empty())
       text += "no statements are listed yet\n";
     else
-      text += markdown_head({"section", "statement", "quote", "vectors", "result"});
+      text += text::markdown_head({"section", "statement", "quote", "vectors", "result"});
     for (const CoverageStatement& statement : manual.statements) {
       std::string ids;
       for (const CoverageVector& vector : statement.vectors)
         ids += (ids.empty() ? "" : ", ") + vector.id;
-      text += markdown_row({statement.section, statement.id, statement.quote, ids,
-                            trace_text(statement, coverage.with_results())});
+      text += text::markdown_row({statement.section, statement.id, statement.quote, ids,
+                                  trace_text(statement, coverage.with_results())});
     }
   }
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -8,14 +8,14 @@
 
 #include "reports/text/tally.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
 
 /// A vector that cites a statement.
 struct CoverageVector {
   std::string id, title;
   bool table = false;     // a fact without wire effect: `lint` checks it, no device does
   std::size_t cases = 0;  // that it expands to
-  Tally verdicts;         // of a run, where its results are given
+  text::Tally verdicts;   // of a run, where its results are given
   std::string why_not;    // why cases of it were not judged there: the first reason
 };
 
@@ -29,7 +29,7 @@ struct CoverageStatement {
   std::vector<CoverageVector> vectors;  // that cite it
 
   Traced state(bool with_results) const;
-  Tally verdicts() const;
+  text::Tally verdicts() const;
 };
 
 struct CoverageManual {
@@ -72,4 +72,4 @@ std::string coverage_text(const Coverage& coverage);
 std::string coverage_json(const Coverage& coverage);
 std::string coverage_markdown(const Coverage& coverage);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -7,7 +7,10 @@
 #include "reports/html/html_page.hpp"
 #include "reports/text/report_file.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using html::HtmlWriter;
+
 namespace {
 
 struct Column {
@@ -50,10 +53,10 @@ void write_vectors(HtmlWriter& out, const CoverageStatement& statement, bool wit
   for (const CoverageVector& vector : statement.vectors) {
     out.element("div", {{"title", vector.title}}, [&] {
       out.element("code", {}, vector.id);
-      for (const Verdict verdict : Tally::verdicts) {
+      for (const results::Verdict verdict : text::Tally::verdicts) {
         if (!with_results || vector.verdicts.of(verdict) == 0) continue;
         out.markup(" ");
-        write_verdict(out, verdict);
+        html::write_verdict(out, verdict);
         out.text(fmt::format(" {}", vector.verdicts.of(verdict)));
       }
     });
@@ -127,14 +130,14 @@ std::string coverage_html(const Coverage& coverage) {
   const std::vector<Column> columns = columns_of(coverage);
   for (const CoverageManual& manual : coverage.manuals)
     write_manual(body, manual, columns, coverage.with_results());
-  return html_page("fieldproof: traceability", body);
+  return html::html_page("fieldproof: traceability", body);
 }
 
 Status write_coverage_html(const Coverage& coverage, const std::string& path) {
-  Result<ReportFile> file = ReportFile::create(path);
+  Result<text::ReportFile> file = text::ReportFile::create(path);
   if (!file) return file.error();
   file->out() << coverage_html(coverage);
   return file->commit();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -6,7 +6,7 @@
 #include "reports/coverage.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
 
 /// The page: what is covered, then each manual by section; a section opens to its statements, their
 /// vectors and verdicts.
@@ -15,4 +15,4 @@ std::string coverage_html(const Coverage& coverage);
 /// Writes it; `path` appears whole or not at all.
 Status write_coverage_html(const Coverage& coverage, const std::string& path);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -9,11 +9,13 @@
 #include "reports/html/html_survey.hpp"
 #include "reports/text/markdown_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::ErratumInfo;
 
 void sort_errata(std::vector<ErratumInfo>& errata) {
   std::ranges::stable_sort(errata, std::less<>{}, [](const ErratumInfo& one) {
-    return SectionName{one.manual, one.section};
+    return html::SectionName{one.manual, one.section};
   });
 }
 
@@ -42,12 +44,12 @@ std::string errata_markdown(const std::vector<ErratumInfo>& errata) {
   const std::string* manual = nullptr;
   for (const ErratumInfo& one : errata) {
     if (!manual || *manual != one.manual)
-      text += fmt::format("\n## {}\n\n{}", markdown_cell(one.manual),
-                          markdown_head({"section", "printed", "correct", "why", "vector"}));
+      text += fmt::format("\n## {}\n\n{}", text::markdown_cell(one.manual),
+                          text::markdown_head({"section", "printed", "correct", "why", "vector"}));
     manual = &one.manual;
-    text += markdown_row({one.section, one.printed, one.correct, one.why, one.vector_id});
+    text += text::markdown_row({one.section, one.printed, one.correct, one.why, one.vector_id});
   }
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -6,14 +6,14 @@
 
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
 
 /// By manual and section, in the order in which a person counts.
-void sort_errata(std::vector<ErratumInfo>& errata);
+void sort_errata(std::vector<results::ErratumInfo>& errata);
 
-std::string errata_text(const std::vector<ErratumInfo>& errata);
-std::string errata_json(const std::vector<ErratumInfo>& errata);
+std::string errata_text(const std::vector<results::ErratumInfo>& errata);
+std::string errata_json(const std::vector<results::ErratumInfo>& errata);
 /// A heading and a table for each manual.
-std::string errata_markdown(const std::vector<ErratumInfo>& errata);
+std::string errata_markdown(const std::vector<results::ErratumInfo>& errata);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

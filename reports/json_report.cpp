@@ -8,7 +8,10 @@
 #include "reports/text/report_file.hpp"
 #include "reports/text/timing_table.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using text::Tally;
+
 namespace {
 
 using nlohmann::json;
@@ -20,8 +23,8 @@ std::string print(const json& value) {
 /// Total first, then in the order of the design's table (a json object would sort them).
 std::string counts(const Tally& tally) {
   std::string text = fmt::format("{{\"total\":{}", tally.total());
-  for (Verdict verdict : Tally::verdicts)
-    text += fmt::format(",\"{}\":{}", to_string(verdict), tally.of(verdict));
+  for (results::Verdict verdict : Tally::verdicts)
+    text += fmt::format(",\"{}\":{}", results::to_string(verdict), tally.of(verdict));
   return text + '}';
 }
 
@@ -29,13 +32,13 @@ std::string counts(const Tally& tally) {
 
 Result<Tally> write_json(const std::string& ndjson, const std::string& path) {
   Tally tally;
-  TimingTable timing;
-  auto log = read_ndjson(ndjson, [&](const CaseResult& result) {
+  text::TimingTable timing;
+  auto log = results::read_ndjson(ndjson, [&](const results::CaseResult& result) {
     tally.add(result.verdict);
     timing.add(result);
   });
   if (!log) return log.error();
-  auto file = ReportFile::create(path);
+  auto file = text::ReportFile::create(path);
   if (!file) return file.error();
 
   std::ostream& out = file->out();
@@ -45,7 +48,7 @@ Result<Tally> write_json(const std::string& ndjson, const std::string& path) {
   if (!log->samples.empty()) out << ",\n\"samples\":" << print(log->samples);
   out << ",\n\"cases\":[";
   Tally written;
-  auto again = read_ndjson(ndjson, [&](const CaseResult& result) {
+  auto again = results::read_ndjson(ndjson, [&](const results::CaseResult& result) {
     out << (written.total() == 0 ? "\n" : ",\n") << print(result);
     written.add(result.verdict);
   });
@@ -60,4 +63,4 @@ Result<Tally> write_json(const std::string& ndjson, const std::string& path) {
   return tally;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -9,7 +9,10 @@
 #include "reports/junit.hpp"
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::Verdict;
+
 namespace {
 
 using nlohmann::json;
@@ -17,7 +20,7 @@ using samples::with;
 
 class JsonReport : public testing::Test {
  protected:
-  json report(const std::vector<CaseResult>& results, bool end = true) {
+  json report(const std::vector<results::CaseResult>& results, bool end = true) {
     samples::write_results(results_, results, end);
     auto tally = write_json(results_, report_);
     EXPECT_TRUE(tally) << tally.error().message;
@@ -30,7 +33,7 @@ class JsonReport : public testing::Test {
 };
 
 TEST_F(JsonReport, HoldsTheWholeRun) {
-  const json document = report({samples::failure(), with(Verdict::pass, "a/b")});
+  const json document = report({samples::failure(), samples::with(Verdict::pass, "a/b")});
   EXPECT_EQ(1, document["schema"]);
   EXPECT_EQ(json(samples::run_info()), document["run"]);
   EXPECT_EQ(json(samples::run_end()), document["end"]);
@@ -42,7 +45,7 @@ TEST_F(JsonReport, HoldsTheWholeRun) {
 }
 
 TEST_F(JsonReport, AKilledRunHasNoEnd) {
-  const json document = report({with(Verdict::pass, "a/b")}, false);
+  const json document = report({samples::with(Verdict::pass, "a/b")}, false);
   EXPECT_TRUE(document.contains("end"));
   EXPECT_TRUE(document["end"].is_null());
   EXPECT_EQ(1u, document["cases"].size());
@@ -60,25 +63,25 @@ TEST_F(JsonReport, EveryByteComesBack) {
   for (int b = 0; b < 256; ++b) result.received_bytes.push_back(static_cast<Byte>(b));
   result.message = "<script> ]]> \x05 \xFF";
   const json document = report({result});
-  EXPECT_EQ(result.received_bytes, document["cases"][0].get<CaseResult>().received_bytes);
+  EXPECT_EQ(result.received_bytes, document["cases"][0].get<results::CaseResult>().received_bytes);
   EXPECT_EQ("<script> ]]> \x05 \xEF\xBF\xBD", document["cases"][0]["message"]);
 }
 
 TEST_F(JsonReport, DamageLeavesNoReport) {
-  samples::write_results(results_, {with(Verdict::pass, "a/b")});
+  samples::write_results(results_, {samples::with(Verdict::pass, "a/b")});
   std::ofstream(results_, std::ios::app) << "rubbish\n";
   EXPECT_FALSE(write_json(results_, report_));
   EXPECT_EQ(1u, folder_.files());
 }
 
 /// 100 results with verdicts in uneven numbers, so that no two counts are alike by chance.
-std::vector<CaseResult> uneven_results() {
-  std::vector<CaseResult> results;
-  for (std::size_t i = 0; i < Tally::verdicts.size(); ++i) {
+std::vector<results::CaseResult> uneven_results() {
+  std::vector<results::CaseResult> results;
+  for (std::size_t i = 0; i < text::Tally::verdicts.size(); ++i) {
     for (std::size_t n = 0; n <= i * 2; ++n) {
-      results.push_back(with(Tally::verdicts[i],
-                             "xgt_cnet/v" + std::to_string(i) + "/n" + std::to_string(n),
-                             "because"));
+      results.push_back(samples::with(text::Tally::verdicts[i],
+                                      "xgt_cnet/v" + std::to_string(i) + "/n" + std::to_string(n),
+                                      "because"));
     }
   }
   return results;
@@ -87,7 +90,7 @@ std::vector<CaseResult> uneven_results() {
 TEST_F(JsonReport, AllReportsCountAlike) {
   const auto results = uneven_results();
   const json document = report(results);
-  const Gate gate{.strict = true};
+  const results::Gate gate{.strict = true};
   const std::string junit_path = folder_ / "junit.xml";
   auto tally = write_junit(results_, junit_path, gate);
   ASSERT_TRUE(tally) << tally.error().message;
@@ -100,7 +103,7 @@ TEST_F(JsonReport, AllReportsCountAlike) {
   ASSERT_TRUE(junit.load_file(junit_path.c_str()));
   const pugi::xml_node root = junit.child("testsuites");
   const auto count = [&](Verdict verdict) {
-    return document["counts"].at(std::string(to_string(verdict))).get<unsigned>();
+    return document["counts"].at(std::string(results::to_string(verdict))).get<unsigned>();
   };
   EXPECT_EQ(document["counts"]["total"].get<unsigned>(), root.attribute("tests").as_uint());
   EXPECT_EQ(count(Verdict::fail) + count(Verdict::xpass) + count(Verdict::non_strict),
@@ -109,11 +112,11 @@ TEST_F(JsonReport, AllReportsCountAlike) {
 
   const std::string text = run_summary({*tally, {}, {}, {}}, {.gate = gate});
   EXPECT_THAT(text, testing::HasSubstr("\n" + std::to_string(results.size()) + " cases in"));
-  for (Verdict verdict : Tally::verdicts) {
+  for (Verdict verdict : text::Tally::verdicts) {
     EXPECT_THAT(text, testing::ContainsRegex(" " + std::to_string(count(verdict)) + "  " +
-                                             std::string(to_string(verdict)) + " "));
+                                             std::string(results::to_string(verdict)) + " "));
   }
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -14,19 +14,26 @@
 #include "reports/text/timing_table.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::CaseResult;
+using results::Gate;
+using results::Verdict;
+using text::JunitOutcome;
+using text::Tally;
+
 namespace {
 
 struct Suite {
   std::string protocol = {};
   Tally tally = {};
   double seconds = 0;
-  TimingTable timing = {};
+  text::TimingTable timing = {};
 };
 
 /// What the first pass finds.
 struct Survey {
-  RunLog log;
+  results::RunLog log;
   std::vector<Suite> suites;
 };
 
@@ -36,7 +43,7 @@ struct Counts {
 
 Result<Survey> survey_results(const std::string& ndjson) {
   std::vector<Suite> suites;
-  auto log = read_ndjson(ndjson, [&](const CaseResult& result) {
+  auto log = results::read_ndjson(ndjson, [&](const CaseResult& result) {
     auto suite = std::find_if(suites.begin(), suites.end(),
                               [&](const Suite& s) { return s.protocol == result.protocol; });
     if (suite == suites.end()) suite = suites.insert(suites.end(), {.protocol = result.protocol});
@@ -54,7 +61,7 @@ Counts counts_of(const Tally& tally, const Gate& gate) {
   Counts counts;
   counts.tests = tally.total();
   for (Verdict verdict : Tally::verdicts) {
-    switch (junit_outcome(verdict, gate)) {
+    switch (text::junit_outcome(verdict, gate)) {
       case JunitOutcome::failure: counts.failures += tally.of(verdict); break;
       case JunitOutcome::error: counts.errors += tally.of(verdict); break;
       case JunitOutcome::skipped: counts.skipped += tally.of(verdict); break;
@@ -68,13 +75,13 @@ Counts counts_of(const Tally& tally, const Gate& gate) {
 std::string seconds_text(double seconds) { return fmt::format("{:.3f}", seconds); }
 
 void set(pugi::xml_node node, const char* name, const std::string& value) {
-  node.append_attribute(name).set_value(xml_line(value).c_str());
+  node.append_attribute(name).set_value(text::xml_line(value).c_str());
 }
 void set(pugi::xml_node node, const char* name, std::size_t value) {
   node.append_attribute(name).set_value(static_cast<unsigned long long>(value));
 }
 void set_body(pugi::xml_node node, const std::string& body) {
-  node.text().set(xml_text(body).c_str());
+  node.text().set(text::xml_text(body).c_str());
 }
 
 std::string print(pugi::xml_node node, unsigned depth) {
@@ -109,7 +116,7 @@ std::string root_tag(const Survey& survey, const Gate& gate) {
   return opening_tag(node, 0);
 }
 
-std::string suite_tag(const Suite& suite, const RunLog& log, const Gate& gate) {
+std::string suite_tag(const Suite& suite, const results::RunLog& log, const Gate& gate) {
   const Counts counts = counts_of(suite.tally, gate);
   pugi::xml_document document;
   pugi::xml_node node = document.append_child("testsuite");
@@ -123,7 +130,7 @@ std::string suite_tag(const Suite& suite, const RunLog& log, const Gate& gate) {
   return opening_tag(node, 1);
 }
 
-std::string properties(const Suite& suite, const RunLog& log, const Gate& gate) {
+std::string properties(const Suite& suite, const results::RunLog& log, const Gate& gate) {
   pugi::xml_document document;
   pugi::xml_node list = document.append_child("properties");
   const auto add = [&](const std::string& name, const std::string& value) {
@@ -136,22 +143,23 @@ std::string properties(const Suite& suite, const RunLog& log, const Gate& gate) 
   add("profile", log.run.profile);
   add("command", log.run.command);
   add("vectors", log.run.vectors_hash);
-  add("gate", to_string(gate));
+  add("gate", text::to_string(gate));
   for (const auto& [name, value] : log.run.properties) {
     if (name != "gate") add(name, value);  // this report's gate is the one above
   }
-  for (const DutInfo& dut : log.run.duts) add("dut." + dut.identity.name, device_text(dut));
+  for (const results::DutInfo& dut : log.run.duts)
+    add("dut." + dut.identity.name, text::device_text(dut));
   add("end", log.end ? log.end->finished : "missing");
   if (log.end) add("exit_code", std::to_string(log.end->exit_code));
-  if (const std::string why = early_end(log); !why.empty()) add("ended_early", why);
-  if (log.soak) add("soak", soak_text(*log.soak));
+  if (const std::string why = text::early_end(log); !why.empty()) add("ended_early", why);
+  if (log.soak) add("soak", results::soak_text(*log.soak));
   for (const auto& [name, figures] : suite.timing.rows())
-    add("reply times " + name, to_string(figures));
+    add("reply times " + name, results::to_string(figures));
   return print(list, 2);
 }
 
 std::string headline(const CaseResult& result) {
-  return fmt::format("{}: {}\n", to_string(result.verdict), case_message(result));
+  return fmt::format("{}: {}\n", results::to_string(result.verdict), text::case_message(result));
 }
 
 /// What a case that does not fail has to say.
@@ -161,20 +169,21 @@ std::string remarks(const CaseResult& result) {
     case Verdict::non_strict:
     case Verdict::info:
     case Verdict::xfail:
-    case Verdict::inconclusive: return headline(result) + case_block(result);
+    case Verdict::inconclusive: return headline(result) + text::case_block(result);
     default: break;
   }
-  std::string text = result.dut.empty() ? "" : fmt::format("device {}\n", xml_line(result.dut));
-  for (const std::string& note : result.notes) text += xml_line(note) + '\n';
+  std::string text =
+      result.dut.empty() ? "" : fmt::format("device {}\n", text::xml_line(result.dut));
+  for (const std::string& note : result.notes) text += text::xml_line(note) + '\n';
   return text;
 }
 
 void add_outcome(pugi::xml_node testcase, const CaseResult& result, const char* element) {
   pugi::xml_node node = testcase.append_child(element);
-  set(node, "type", std::string(to_string(result.verdict)));
-  set(node, "message", case_message(result));
+  set(node, "type", std::string(results::to_string(result.verdict)));
+  set(node, "message", text::case_message(result));
   // GitLab shows the body and not the message.
-  set_body(node, headline(result) + case_block(result, {.exchange = true}));
+  set_body(node, headline(result) + text::case_block(result, {.exchange = true}));
 }
 
 std::string testcase(const CaseResult& result, const Gate& gate) {
@@ -184,14 +193,14 @@ std::string testcase(const CaseResult& result, const Gate& gate) {
   set(node, "classname", classname);
   set(node, "name", name);
   set(node, "time", seconds_text(result.seconds));
-  switch (junit_outcome(result.verdict, gate)) {
+  switch (text::junit_outcome(result.verdict, gate)) {
     case JunitOutcome::failure: add_outcome(node, result, "failure"); break;
     case JunitOutcome::error: add_outcome(node, result, "error"); break;
     case JunitOutcome::skipped: {
       pugi::xml_node skipped = node.append_child("skipped");
-      set(skipped, "type", std::string(to_string(result.verdict)));
+      set(skipped, "type", std::string(results::to_string(result.verdict)));
       set(skipped, "message",
-          fmt::format("{}: {}", to_string(result.verdict), case_message(result)));
+          fmt::format("{}: {}", results::to_string(result.verdict), text::case_message(result)));
       [[fallthrough]];
     }
     case JunitOutcome::plain:
@@ -202,10 +211,10 @@ std::string testcase(const CaseResult& result, const Gate& gate) {
 }
 
 Status write_suite(std::ostream& out, const std::string& ndjson, const Suite& suite,
-                   const RunLog& log, const Gate& gate) {
+                   const results::RunLog& log, const Gate& gate) {
   out << suite_tag(suite, log, gate) << properties(suite, log, gate);
   Tally written;
-  auto again = read_ndjson(ndjson, [&](const CaseResult& result) {
+  auto again = results::read_ndjson(ndjson, [&](const CaseResult& result) {
     if (result.protocol != suite.protocol) return;
     written.add(result.verdict);
     out << testcase(result, gate);
@@ -216,7 +225,7 @@ Status write_suite(std::ostream& out, const std::string& ndjson, const Suite& su
         "cannot report {}: it changed while it was read; wait for the run to end, then repeat",
         ndjson));
   }
-  if (const std::string why = early_end(log); !why.empty()) {
+  if (const std::string why = text::early_end(log); !why.empty()) {
     pugi::xml_document document;
     pugi::xml_node node = document.append_child("system-err");
     set_body(node, why);
@@ -245,7 +254,7 @@ JunitName junit_name(const CaseResult& result) {
 Result<Tally> write_junit(const std::string& ndjson, const std::string& path, const Gate& gate) {
   auto survey = survey_results(ndjson);
   if (!survey) return survey.error();
-  auto file = ReportFile::create(path);
+  auto file = text::ReportFile::create(path);
   if (!file) return file.error();
 
   file->out() << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" << root_tag(*survey, gate);
@@ -260,4 +269,4 @@ Result<Tally> write_junit(const std::string& ndjson, const std::string& path, co
   return all;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -10,7 +10,11 @@
 
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
+
+using results::CaseResult;
+using results::Verdict;
+
 namespace {
 
 using samples::with;
@@ -19,11 +23,12 @@ using testing::HasSubstr;
 class Junit : public testing::Test {
  protected:
   /// Writes the report of the results and loads it again.
-  void report(const std::vector<CaseResult>& results, const Gate& gate = {}, bool end = true) {
+  void report(const std::vector<CaseResult>& results, const results::Gate& gate = {},
+              bool end = true) {
     samples::write_results(results_, results, end);
     make(gate);
   }
-  void make(const Gate& gate = {}) {
+  void make(const results::Gate& gate = {}) {
     auto tally = write_junit(results_, report_, gate);
     ASSERT_TRUE(tally) << tally.error().message;
     const auto loaded = document_.load_file(report_.c_str());
@@ -61,9 +66,9 @@ class Junit : public testing::Test {
 
 std::vector<CaseResult> one_of_each() {
   std::vector<CaseResult> results;
-  for (Verdict verdict : Tally::verdicts) {
-    results.push_back(
-        with(verdict, "xgt_cnet/each/v" + std::to_string(static_cast<int>(verdict)), "because"));
+  for (Verdict verdict : text::Tally::verdicts) {
+    results.push_back(samples::with(
+        verdict, "xgt_cnet/each/v" + std::to_string(static_cast<int>(verdict)), "because"));
     results.back().seconds = 0.001;
   }
   return results;
@@ -92,7 +97,7 @@ void expect_counts_equal_children(pugi::xml_node root) {
 
 TEST(JunitNames, FolderAndGroupAreTheClass) {
   const auto name = [](const std::string& id, int repeat = 0) {
-    auto result = with(Verdict::pass, id);
+    auto result = samples::with(Verdict::pass, id);
     result.repeat = repeat;
     const auto [classname, rest] = junit_name(result);
     return classname + "|" + rest;
@@ -166,9 +171,10 @@ TEST_F(Junit, CountsEqualTheChildren) {
 }
 
 TEST_F(Junit, OneSuiteAProtocolInOrderOfAppearance) {
-  auto modbus = with(Verdict::pass, "modbus/fc3/one");
+  auto modbus = samples::with(Verdict::pass, "modbus/fc3/one");
   modbus.protocol = "modbus-rtu";
-  report({with(Verdict::pass, "xgt_cnet/rss/a"), modbus, with(Verdict::fail, "xgt_cnet/rss/b")});
+  report({samples::with(Verdict::pass, "xgt_cnet/rss/a"), modbus,
+          samples::with(Verdict::fail, "xgt_cnet/rss/b")});
   std::string layout;
   for (pugi::xml_node node : root().children("testsuite")) {
     layout += std::string(node.attribute("name").value()) + ":";
@@ -193,7 +199,7 @@ TEST_F(Junit, TheRunIsInThePropertiesOfTheSuite) {
 }
 
 TEST_F(Junit, RepetitionsHaveNamesOfTheirOwn) {
-  std::vector<CaseResult> results(3, with(Verdict::pass, "xgt_cnet/rss/a"));
+  std::vector<CaseResult> results(3, samples::with(Verdict::pass, "xgt_cnet/rss/a"));
   results[1].repeat = 1;
   results[2].repeat = 2;
   report(results);
@@ -233,7 +239,7 @@ TEST_F(Junit, NothingThatADeviceSendsBreaksTheFile) {
 TEST_F(Junit, AFrameOfAMebibyteIsWhole) {
   auto result = samples::failure();
   result.received_bytes.assign(1 << 20, 0x15);
-  report({result, with(Verdict::pass, "xgt_cnet/rss/after")});
+  report({result, samples::with(Verdict::pass, "xgt_cnet/rss/after")});
   EXPECT_THAT(testcase("one_word").child("failure").text().get(), HasSubstr("FFFF0  15 15"));
   expect_counts_equal_children(root());
   if (have_xmllint()) {
@@ -243,7 +249,7 @@ TEST_F(Junit, AFrameOfAMebibyteIsWhole) {
 
 TEST_F(Junit, LongIdsStayWhole) {
   const std::string part(4000, 'x');
-  report({with(Verdict::fail, part + "/" + part + "/" + part)});
+  report({samples::with(Verdict::fail, part + "/" + part + "/" + part)});
   EXPECT_EQ("fieldproof." + part + "." + part,
             suite().child("testcase").attribute("classname").value());
   EXPECT_EQ(part, suite().child("testcase").attribute("name").value());
@@ -285,7 +291,7 @@ TEST_F(Junit, TheSchemaRefusesWhatJenkinsAndGitLabRefuse) {
 }
 
 TEST_F(Junit, AKilledRunSaysSo) {
-  report({samples::failure(), with(Verdict::pass, "xgt_cnet/rss/a")}, {}, false);
+  report({samples::failure(), samples::with(Verdict::pass, "xgt_cnet/rss/a")}, {}, false);
   std::ofstream(results_, std::ios::app | std::ios::binary) << "{\"case\":{\"id\":\"xgt";
   make();
   EXPECT_EQ("missing", property("end"));
@@ -299,7 +305,7 @@ TEST_F(Junit, AKilledRunSaysSo) {
 
 TEST_F(Junit, ARunWithoutResultsSaysWhy) {
   {
-    auto writer = NdjsonWriter::create(results_);
+    auto writer = results::NdjsonWriter::create(results_);
     ASSERT_TRUE(writer);
     ASSERT_TRUE(writer->write(samples::run_info()));
     auto end = samples::run_end(3);
@@ -324,4 +330,4 @@ TEST_F(Junit, DamagedResultsLeaveTheOldReport) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::reports {
 namespace {
 
 constexpr std::size_t largest_packet = 262'144;  // WTAP_MAX_PACKET_SIZE_STANDARD of Wireshark
@@ -104,4 +104,4 @@ std::string pcapng_packet(const SerialPacket& packet) {
   return finish(enhanced_packet, std::move(body));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -8,7 +8,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::reports {
 
 /// SEL RTAC serial: 12 bytes of header before each frame, which say its time and direction.
 inline constexpr std::uint16_t linktype_rtac_serial = 250;
@@ -31,4 +31,4 @@ struct SerialPacket {
 /// what is longer is cut there, as its two lengths then say.
 std::string pcapng_packet(const SerialPacket& packet);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::reports

@@ -23,15 +23,19 @@
 #include "src/xgt_cnet/plc.hpp"
 #include "suites/protocols.hpp"
 
-namespace fieldproof {
+namespace fieldproof::suites {
+
+using endpoints::Endpoint;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-const Protocol& xgt() { return *protocols().find("xgt-cnet"); }
+const harness::Protocol& xgt() { return *protocols().find("xgt-cnet"); }
 
 std::unique_ptr<Endpoint> open(const std::string& text) {
-  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(*parse_endpoint(text), xgt());
+  Result<std::unique_ptr<Endpoint>> endpoint =
+      endpoints::open_endpoint(*endpoints::parse_endpoint(text), xgt());
   if (!endpoint) throw std::runtime_error(endpoint.error().message);
   return std::move(*endpoint);
 }
@@ -43,11 +47,11 @@ const char* one_word =
   "steps": [{"send": "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]"}, {"expect": "[ACK st 'rSS' '01' '02' '0000' ETX BCC]"}]}])j";
 
 struct OneWord {
-  VectorSet set;
-  PreparedCase prepared;
+  vectors::VectorSet set;
+  exchange::PreparedCase prepared;
   OneWord() {
-    load_vector_text(one_word, "bench", set);
-    prepared = *prepare(set.cases.at(0), 1, xgt());
+    vectors::load_vector_text(one_word, "bench", set);
+    prepared = *exchange::prepare(set.cases.at(0), 1, xgt());
   }
 };
 
@@ -57,15 +61,16 @@ double median(std::vector<double>& samples) {
   return samples[samples.size() / 2];
 }
 
-void judge_or_throw(const PreparedCase& prepared, const Transcript& transcript) {
-  const Judgement judgement = judge(prepared, transcript, {}, xgt());
-  if (judgement.verdict != Verdict::pass) throw std::runtime_error(judgement.message);
+void judge_or_throw(const exchange::PreparedCase& prepared,
+                    const exchange::Transcript& transcript) {
+  const judging::Judgement judgement = judging::judge(prepared, transcript, {}, xgt());
+  if (judgement.verdict != results::Verdict::pass) throw std::runtime_error(judgement.message);
 }
 
 void in_process_exchange(benchmark::State& state) {
   const OneWord one;
   const std::unique_ptr<Endpoint> endpoint = open("emulator:xbc-h");
-  Exchange exchange(*endpoint, xgt(), {});
+  exchange::Exchange exchange(*endpoint, xgt(), {});
   for (auto _ : state) {
     (void)_;
     judge_or_throw(one.prepared, exchange.run(one.prepared));
@@ -75,15 +80,15 @@ void in_process_exchange(benchmark::State& state) {
 BENCHMARK(in_process_exchange);
 
 void whole_suite(benchmark::State& state) {
-  const DataPaths data = find_data();
-  const VectorSet set = load_vectors(data.vectors);
+  const harness::DataPaths data = harness::find_data();
+  const vectors::VectorSet set = vectors::load_vectors(data.vectors);
   const std::unique_ptr<Endpoint> endpoint = open("emulator:");
-  BenchOptions options;
-  options.profile = *load_profile("emulator", data.profiles);
+  bench::BenchOptions options;
+  options.profile = *bench::load_profile("emulator", data.profiles);
   for (auto _ : state) {
     (void)_;
-    Bench bench(*endpoint, xgt(), options);
-    for (const Case& source : set.cases) benchmark::DoNotOptimize(bench.run(source));
+    bench::Bench bench(*endpoint, xgt(), options);
+    for (const vectors::Case& source : set.cases) benchmark::DoNotOptimize(bench.run(source));
   }
   state.counters["cases"] = static_cast<double>(set.cases.size());
 }
@@ -92,7 +97,7 @@ BENCHMARK(whole_suite)->Unit(benchmark::kMillisecond);
 void load_all_vectors(benchmark::State& state) {
   for (auto _ : state) {
     (void)_;
-    benchmark::DoNotOptimize(load_vectors(find_data().vectors));
+    benchmark::DoNotOptimize(vectors::load_vectors(harness::find_data().vectors));
   }
 }
 BENCHMARK(load_all_vectors)->Unit(benchmark::kMillisecond);
@@ -142,10 +147,10 @@ void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
   const OneWord one;
   const std::unique_ptr<Endpoint> endpoint = open("pty:xbc-h");
   if (!endpoint->begin(nlohmann::json::object())) throw std::runtime_error("cannot begin");
-  Exchange exchange(*endpoint, xgt(), {});
+  exchange::Exchange exchange(*endpoint, xgt(), {});
   const Bytes request = one.prepared.steps[0].frames[0].frame.bytes;
   const std::size_t reply = one.prepared.steps[1].frames[0].frame.bytes.size();
-  Result<PtyPair> pair = open_pty_pair();
+  Result<os::PtyPair> pair = os::open_pty_pair();
   if (!pair) throw std::runtime_error(pair.error().message);
   const BareEcho echo(pair->slave.get(), request.size(), reply);
   fcntl(pair->master.get(), F_SETFL, fcntl(pair->master.get(), F_GETFL) & ~O_NONBLOCK);
@@ -154,7 +159,7 @@ void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
     (void)_;
     bare.push_back(bare_round_trip_us(pair->master.get(), request, reply));
     const auto started = Clock::now();
-    const Transcript transcript = exchange.run(one.prepared);
+    const exchange::Transcript transcript = exchange.run(one.prepared);
     ours.push_back(std::chrono::duration<double, std::micro>(Clock::now() - started).count());
     judge_or_throw(one.prepared, transcript);
   }
@@ -169,7 +174,7 @@ BENCHMARK(pty_exchange_against_bare_ping_pong)->Unit(benchmark::kMicrosecond)->I
 nlohmann::json saturating_p2p() {
   nlohmann::json blocks = nlohmann::json::array();
   for (unsigned channel : {1u, 2u})
-    for (unsigned i = 0; i < p2p_blocks / 2; ++i) {
+    for (unsigned i = 0; i < p2p::p2p_blocks / 2; ++i) {
       const std::string here = "%MW" + std::to_string(100 * channel + 4 * i),
                         there = "%DW" + std::to_string(4 * i);
       const bool run = i % 4 >= 2, write = i % 2 == 1;
@@ -188,23 +193,24 @@ nlohmann::json saturating_p2p() {
 /// One hour of P2P traffic: two channels of a PLC, each on a line of its own with an XGT server.
 void p2p_hour_on_two_channels(benchmark::State& state) {
   constexpr Time hour = 3600s, slice = 1s;
-  const LineSettings settings{.baud = 115200};
-  const PortConfig partner{.station = 2, .line = settings};
+  const line::LineSettings settings{.baud = 115200};
+  const plc::PortConfig partner{.station = 2, .line = settings};
   std::uint64_t services = 0, errors = 0;
   for (auto _ : state) {
     (void)_;
-    const auto client = make_p2p_plc("xbc-h", saturating_p2p(), [](const PortConfig& port) {
-      return std::make_unique<XgtP2pDriver>(port.gap());
-    });
+    const auto client =
+        p2p::make_p2p_plc("xbc-h", saturating_p2p(), [](const plc::PortConfig& port) {
+          return std::make_unique<xgt_cnet::XgtP2pDriver>(port.gap());
+        });
     if (!client) throw std::runtime_error(client.error().message);
-    const auto first = make_plc(partner), second = make_plc(partner);
-    SimulatedLine lines[] = {SimulatedLine(settings), SimulatedLine(settings)};
+    const auto first = xgt_cnet::make_plc(partner), second = xgt_cnet::make_plc(partner);
+    line::SimulatedLine lines[] = {line::SimulatedLine(settings), line::SimulatedLine(settings)};
     lines[0].attach((*client)->channel(1), settings);
     lines[0].attach(**first, settings);
     lines[1].attach((*client)->channel(2), settings);
     lines[1].attach(**second, settings);
     for (Time until = slice; until <= hour; until += slice)
-      for (SimulatedLine& line : lines)
+      for (line::SimulatedLine& line : lines)
         while (line.now() < until) line.receive(until);
     for (unsigned channel : {1u, 2u}) {
       services += (*client)->channel(channel).counters().services;
@@ -221,7 +227,7 @@ BENCHMARK(p2p_hour_on_two_channels)->Unit(benchmark::kSecond)->Iterations(1);
 /// grow with the run.
 void tool_run(benchmark::State& state) {
   const std::filesystem::path out = std::filesystem::temp_directory_path() / "fieldproof_bench";
-  const std::string command = (own_executable().parent_path() / "fieldproof").string() +
+  const std::string command = (harness::own_executable().parent_path() / "fieldproof").string() +
                               " run --filter 'xgt_cnet/rss/two_words/*' --repeat " +
                               std::to_string(state.range(0)) + " --out " + out.string() +
                               " >/dev/null";
@@ -237,6 +243,6 @@ void tool_run(benchmark::State& state) {
 BENCHMARK(tool_run)->Arg(1)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::suites
 
 BENCHMARK_MAIN();

@@ -32,7 +32,7 @@ void add_role(CLI::App& app, std::string& role) {
       ->check(CLI::IsMember({"client", "server"}));
 }
 
-void add_judge(CLI::App& app, JudgeOptions& judge) {
+void add_judge(CLI::App& app, cli::JudgeOptions& judge) {
   app.add_option("results", judge.file, "OUT/results.ndjson or OUT/results.json")->required();
   app.add_option("--profile", judge.profile, "Judge by another profile than it was recorded with");
   app.add_option("--filter", judge.filter,
@@ -47,7 +47,7 @@ void add_judge(CLI::App& app, JudgeOptions& judge) {
   app.add_flag("-v,--verbose", judge.verbose, "Show every case with its exchange");
 }
 
-void add_run(CLI::App& app, RunOptions& run) {
+void add_run(CLI::App& app, run::RunOptions& run) {
   app.add_option("--endpoint", run.endpoint,
                  "emulator:[MODEL][?option=value&...], pty:MODEL, "
                  "serial:PATH?baud=38400&frame=8N1&station=1, exec:COMMAND ({tty} is the port), "
@@ -138,7 +138,7 @@ std::string unknown_argument(const std::vector<std::string>& extras,
 
 std::string command_line(int argc, char** argv) {
   std::string line = "fieldproof";
-  for (int i = 1; i < argc; ++i) line += " " + shell_word(argv[i]);
+  for (int i = 1; i < argc; ++i) line += " " + run::shell_word(argv[i]);
   return line;
 }
 
@@ -152,13 +152,13 @@ int run_tool(int argc, char** argv) {
   app.footer(exit_codes);
   std::function<int()> chosen;
 
-  RunOptions run;
+  run::RunOptions run;
   CLI::App* run_app = app.add_subcommand("run", "Run the cases against an endpoint and judge it");
   add_run(*run_app, run);
   run_app->footer(exit_codes);
   run.command = command_line(argc, argv);
 
-  ListOptions list;
+  cli::ListOptions list;
   CLI::App* list_app = app.add_subcommand("list", "List the cases");
   list_app->add_option("--filter,filter", list.filter, "Cases by id: globs separated by ':'");
   add_role(*list_app, list.role);
@@ -179,7 +179,7 @@ int run_tool(int argc, char** argv) {
       "Each expanded case with the bytes of its steps; with --coverage: each statement");
   list_app->add_flag("--markdown", list.markdown, "With --coverage: tables")->excludes(list_json);
 
-  LintOptions lint;
+  cli::LintOptions lint;
   CLI::App* lint_app = app.add_subcommand("lint", "Check vectors, statements and profiles");
   lint_app->add_option("--vectors", lint.vectors, "Another folder of vectors");
   lint_app
@@ -188,7 +188,7 @@ int run_tool(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   lint_app->add_flag("--lock", lint.lock, "Lock the verified quotes (quotes.lock)");
 
-  EmulateOptions emulate;
+  cli::EmulateOptions emulate;
   CLI::App* emulate_app =
       app.add_subcommand("emulate", "A stand-in device behind a pty or a socket");
   emulate_app
@@ -207,7 +207,7 @@ int run_tool(int argc, char** argv) {
   emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
   emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");
 
-  ProbeOptions probe;
+  cli::ProbeOptions probe;
   CLI::App* probe_app = app.add_subcommand("probe",
                                            "Find the device on a port: speed, frame, station, "
                                            "protocol; or say what is wrong with the line");
@@ -242,7 +242,7 @@ int run_tool(int argc, char** argv) {
       "Exit codes: 0 found, 1 something is wrong and named, 2 usage, 3 port trouble, 130 "
       "interrupted.");
 
-  FrameOptions frame;
+  cli::FrameOptions frame;
   CLI::App* frame_app =
       app.add_subcommand("frame", "Explain a frame field by field, with its checks computed");
   frame_app
@@ -255,14 +255,14 @@ int run_tool(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(0, 255));
 
-  ErrataOptions errata;
+  cli::ErrataOptions errata;
   CLI::App* errata_app =
       app.add_subcommand("errata", "List the mistakes of the manuals and their proofs");
   errata_app->add_option("--vectors", errata.vectors, "Another folder of vectors");
   CLI::Option* errata_json = errata_app->add_flag("--json", errata.json);
   errata_app->add_flag("--markdown", errata.markdown)->excludes(errata_json);
 
-  ReportOptions report;
+  cli::ReportOptions report;
   CLI::App* report_app = app.add_subcommand(
       "report",
       "Derive JUnit, JSON, HTML and a capture from the results of a run, finished or killed");
@@ -272,7 +272,7 @@ int run_tool(int argc, char** argv) {
   report_app->add_option("--html", report.html);
   report_app->add_option("--capture", report.capture, "pcapng for Wireshark");
 
-  CompareOptions compare;
+  cli::CompareOptions compare;
   CLI::App* compare_app =
       app.add_subcommand("compare", "What changed between runs: verdicts, reasons, reply times");
   compare_app
@@ -287,7 +287,7 @@ int run_tool(int argc, char** argv) {
   compare_app->footer(
       "Exit codes: 0 nothing got worse, 1 something got worse, 2 a file cannot be read.");
 
-  MergeOptions merge;
+  cli::MergeOptions merge;
   CLI::App* merge_app = app.add_subcommand(
       "merge", "One report of the shards of a run (GTEST_TOTAL_SHARDS, GTEST_SHARD_INDEX)");
   merge_app->add_option("results", merge.files, "results.json or results.ndjson of each shard")
@@ -299,14 +299,14 @@ int run_tool(int argc, char** argv) {
   merge_app->footer(exit_codes);
   merge.command = command_line(argc, argv);
 
-  JudgeOptions judge;
+  cli::JudgeOptions judge;
   CLI::App* judge_app = app.add_subcommand(
       "judge", "Judge a recorded run again by today's vectors, without the device");
   add_judge(*judge_app, judge);
   judge_app->footer(exit_codes);
   judge.command = command_line(argc, argv);
 
-  RestoreOptions restore;
+  cli::RestoreOptions restore;
   CLI::App* restore_app =
       app.add_subcommand("restore", "Put back what an interrupted run left on a real device");
   restore_app->add_option("journal", restore.journal, "OUT/journal.ndjson")->required();
@@ -319,25 +319,33 @@ int run_tool(int argc, char** argv) {
   run_app->callback([&] {
     const std::string wrong = unknown_argument(run_app->remaining(), run.gtest_arguments);
     chosen = [&run, wrong] {
-      return wrong.empty() ? run_command(run, protocols()) : complain(wrong, exit_code::usage);
+      return wrong.empty() ? cli::run_command(run, suites::protocols())
+                           : run::complain(wrong, run::exit_code::usage);
     };
   });
-  list_app->callback([&] { chosen = [&] { return list_command(list, protocols()); }; });
-  lint_app->callback([&] { chosen = [&] { return lint_command(lint, protocols()); }; });
-  emulate_app->callback([&] { chosen = [&] { return emulate_command(emulate, protocols()); }; });
-  probe_app->callback([&] { chosen = [&] { return probe_command(probe, protocols()); }; });
-  frame_app->callback([&] { chosen = [&] { return frame_command(frame, protocols()); }; });
-  errata_app->callback([&] { chosen = [&] { return errata_command(errata); }; });
-  compare_app->callback([&] { chosen = [&] { return compare_command(compare); }; });
-  merge_app->callback([&] { chosen = [&] { return merge_command(merge); }; });
-  judge_app->callback([&] { chosen = [&] { return judge_command(judge, protocols()); }; });
-  restore_app->callback([&] { chosen = [&] { return restore_command(restore, protocols()); }; });
-  report_app->callback([&] { chosen = [&] { return report_command(report); }; });
+  list_app->callback(
+      [&] { chosen = [&] { return cli::list_command(list, suites::protocols()); }; });
+  lint_app->callback(
+      [&] { chosen = [&] { return cli::lint_command(lint, suites::protocols()); }; });
+  emulate_app->callback(
+      [&] { chosen = [&] { return cli::emulate_command(emulate, suites::protocols()); }; });
+  probe_app->callback(
+      [&] { chosen = [&] { return cli::probe_command(probe, suites::protocols()); }; });
+  frame_app->callback(
+      [&] { chosen = [&] { return cli::frame_command(frame, suites::protocols()); }; });
+  errata_app->callback([&] { chosen = [&] { return cli::errata_command(errata); }; });
+  compare_app->callback([&] { chosen = [&] { return cli::compare_command(compare); }; });
+  merge_app->callback([&] { chosen = [&] { return cli::merge_command(merge); }; });
+  judge_app->callback(
+      [&] { chosen = [&] { return cli::judge_command(judge, suites::protocols()); }; });
+  restore_app->callback(
+      [&] { chosen = [&] { return cli::restore_command(restore, suites::protocols()); }; });
+  report_app->callback([&] { chosen = [&] { return cli::report_command(report); }; });
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_code::ok : exit_code::usage;
+    return app.exit(error) == 0 ? run::exit_code::ok : run::exit_code::usage;
   }
   return chosen();
 }
@@ -348,8 +356,8 @@ int main(int argc, char** argv) {
   try {
     return run_tool(argc, argv);
   } catch (const std::exception& error) {
-    return complain(
+    return run::complain(
         fmt::format("internal error: {}; please report it with the command line", error.what()),
-        exit_code::trouble);
+        run::exit_code::trouble);
   }
 }

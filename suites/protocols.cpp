@@ -8,14 +8,14 @@
 #include "suites/user_frames/protocol.hpp"
 #include "suites/xgt_cnet/protocol.hpp"
 
-namespace fieldproof {
+namespace fieldproof::suites {
 
-Protocols protocols() {
+harness::Protocols protocols() {
   // One line each; the first is the default.
-  static const std::array table{&xgt_cnet::protocol(),    &modbus::rtu(),
-                                &modbus::ascii(),         &ls_bus::protocol(),
-                                &user_frames::protocol(), &udata::protocol()};
-  return std::span<const Protocol* const>(table);
+  static const std::array table{&xgt_cnet_suite::protocol(),    &modbus_suite::rtu(),
+                                &modbus_suite::ascii(),         &ls_bus_suite::protocol(),
+                                &user_frames_suite::protocol(), &udata_suite::protocol()};
+  return std::span<const harness::Protocol* const>(table);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::suites

@@ -3,8 +3,8 @@
 
 #include "harness/protocols.hpp"
 
-namespace fieldproof {
+namespace fieldproof::suites {
 
-Protocols protocols();
+harness::Protocols protocols();
 
-}  // namespace fieldproof
+}  // namespace fieldproof::suites

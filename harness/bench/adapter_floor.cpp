@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 namespace {
 
@@ -39,7 +39,7 @@ std::string to_string(const AdapterFloor& measured, Duration floor) {
   const std::string value = fmt::format("{:.1f} ms", to_ms(floor));
   if (measured.source == AdapterFloor::Source::by_hand) return value + " (given by hand)";
   if (measured.times.count() == 0) return value + " (declared; no probe was answered)";
-  const ResponseFigures figures = figures_of(measured.times);
+  const results::ResponseFigures figures = results::figures_of(measured.times);
   const char* from = measured.source == AdapterFloor::Source::loop
                          ? "over the loop"
                          : "by the device, its own time included";
@@ -47,4 +47,4 @@ std::string to_string(const AdapterFloor& measured, Duration floor) {
                      figures.count, from, figures.least, figures.median, figures.p99);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -7,7 +7,7 @@
 #include "reports/results/response_times.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 /// Answers to the probe, measured before the first case.
 struct AdapterFloor {
@@ -20,7 +20,7 @@ struct AdapterFloor {
   };
   Source source = Source::device;
   Duration given{};  // by_hand
-  ResponseTimes times = {};
+  results::ResponseTimes times = {};
 
   Duration floor() const;
 };
@@ -41,4 +41,4 @@ Duration gap_floor(Duration declared, const std::optional<AdapterFloor>& measure
 /// p99 1.2 ms)"
 std::string to_string(const AdapterFloor& measured, Duration floor);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::bench {
 namespace {
 
 AdapterFloor measured(AdapterFloor::Source source) {
@@ -48,4 +48,4 @@ TEST(AdapterFloor, InWords) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

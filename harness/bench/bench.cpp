@@ -11,7 +11,13 @@
 #include "harness/system/hook.hpp"
 #include "harness/vectors/loader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
+
+using exchange::PreparedCase;
+using harness::Protocol;
+using results::CaseResult;
+using results::Verdict;
+using vectors::Case;
 
 namespace {
 
@@ -41,14 +47,14 @@ std::string plain(const json& value) {
 
 }  // namespace
 
-Bench::Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
+Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
     : endpoint_(endpoint),
       protocol_(protocol),
       options_(std::move(options)),
       arming_(protocol, {options_.endpoint_is_stimulus
                              ? [&endpoint](const std::string& line) { return endpoint.tell(line); }
                              : options_.stimulus,
-                         complete_blocks(options_.profile.prepared_blocks),
+                         exchange::complete_blocks(options_.profile.prepared_blocks),
                          options_.aux.endpoint != nullptr}),
       memory_(endpoint, protocol, options_.profile.response_max, options_.aux, &arming_),
       exchange_(endpoint, protocol, timing(), options_.aux, &arming_),
@@ -57,16 +63,16 @@ Bench::Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
                       options_.aux.protocol ? *options_.aux.protocol : protocol,
                       options_.profile.response_max, options_.aux_device, options_.journal) {}
 
-ExchangeTiming Bench::timing() const {
-  ExchangeTiming timing;
+exchange::ExchangeTiming Bench::timing() const {
+  exchange::ExchangeTiming timing;
   timing.response_max = options_.profile.response_max;
   timing.promised_silence = std::max<Duration>(timing.promised_silence, 2 * timing.response_max);
   return timing;
 }
 
-JudgeRules Bench::rules() const {
-  JudgeRules rules;
-  const Capabilities& can = endpoint_.capabilities();
+judging::JudgeRules Bench::rules() const {
+  judging::JudgeRules rules;
+  const endpoints::Capabilities& can = endpoint_.capabilities();
   rules.guard_band = options_.profile.guard_band;
   const Duration declared = std::max(options_.profile.floor, can.timing_floor);
   rules.timing_floor = timing_floor(declared, options_.profile.response_max, floor_);
@@ -124,7 +130,7 @@ Status Bench::end_asking(const PreparedCase& prepared) {
 Result<bool> Bench::wait_for_request() {
   for (const Case* one : options_.client_cases) {
     if (outside_profile(*one).verdict != Verdict::pass) continue;
-    const Result<PreparedCase> prepared = prepare(*one, options_.station, protocol_);
+    const Result<PreparedCase> prepared = exchange::prepare(*one, options_.station, protocol_);
     if (!prepared || !prepared->expects_requests() ||
         blocked(*one, *prepared).verdict != Verdict::pass ||
         below_floor(*prepared).verdict != Verdict::pass)
@@ -142,7 +148,8 @@ Result<bool> Bench::wait_for_request() {
 
 Result<std::optional<AdapterFloor>> Bench::measure_floor() {
   if (endpoint_.capabilities().simulated || !answers_) return std::optional<AdapterFloor>();
-  Result<ResponseTimes> times = exchange_.time_probes(options_.station, floor_probes, floor_budget);
+  Result<results::ResponseTimes> times =
+      exchange_.time_probes(options_.station, floor_probes, floor_budget);
   if (!times) return times.error();
   return std::optional(AdapterFloor{AdapterFloor::Source::device, {}, std::move(*times)});
 }
@@ -154,7 +161,7 @@ Result<Fingerprint> Bench::fingerprint() {
 
 int Bench::station_for(const Case& source) const {
   if (endpoint_.capabilities().real_device) return options_.station;
-  return config_station(source.config, options_.station).value_or(options_.station);
+  return vectors::config_station(source.config, options_.station).value_or(options_.station);
 }
 
 json Bench::device_config(const Case& source) const {
@@ -178,7 +185,7 @@ Bench::Eligibility Bench::outside_profile(const Case& source) const {
     return {Verdict::skip, fmt::format("for {}; the profile declares {}",
                                        fmt::join(source.models, ", "), profile.model)};
   for (const auto& [pattern, reason] : profile.exclude)
-    if (matches_filter(source.id, pattern))
+    if (vectors::matches_filter(source.id, pattern))
       return {Verdict::skip, "excluded by the profile: " + reason};
   return {};
 }
@@ -202,13 +209,14 @@ std::string Bench::undeclared(const json& config) const {
 /// error: it cannot be set.
 Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCase& prepared) const {
   std::vector<Protocol::Written> written;
-  const AuxLink& aux = options_.aux;
+  const exchange::AuxLink& aux = options_.aux;
   if (!aux.endpoint) return written;
   std::vector<std::pair<std::string, std::string>> memory = prepared.source->memory;
-  for (const nlohmann::json& block : p2p_blocks(prepared.source->config))
-    if (!flag_of(block).empty() && !runs_by_clock(block)) memory.emplace_back(flag_of(block), "00");
-  for (const PreparedStep& step : prepared.steps)
-    if (step.step->kind == Step::Kind::set)
+  for (const nlohmann::json& block : exchange::p2p_blocks(prepared.source->config))
+    if (!exchange::flag_of(block).empty() && !exchange::runs_by_clock(block))
+      memory.emplace_back(exchange::flag_of(block), "00");
+  for (const exchange::PreparedStep& step : prepared.steps)
+    if (step.step->kind == vectors::Step::Kind::set)
       memory.insert(memory.end(), step.step->memory.begin(), step.step->memory.end());
   for (const auto& [address, hex] : memory) {
     const Result<std::vector<Bytes>> requests =
@@ -237,8 +245,8 @@ std::string Bench::fence_objection(const PreparedCase& prepared) const {
     return {};
   };
   if (std::string why = unsettable(prepared.source->memory); !why.empty()) return why;
-  for (const PreparedStep& step : prepared.steps)
-    if (step.step->kind == Step::Kind::set)
+  for (const exchange::PreparedStep& step : prepared.steps)
+    if (step.step->kind == vectors::Step::Kind::set)
       if (std::string why = unsettable(step.step->memory); !why.empty()) return why;
   return options_.fence.objection(written_by(prepared), protocol_);
 }
@@ -258,23 +266,24 @@ std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) c
         for (const Bytes& request : *requests) add(request);
   };
   add_memory(prepared.source->memory);
-  for (const PreparedStep& step : prepared.steps) {
-    if (step.step->kind == Step::Kind::set) add_memory(step.step->memory);
-    if (step.step->kind == Step::Kind::send) add(step.frames.front().frame.bytes);
+  for (const exchange::PreparedStep& step : prepared.steps) {
+    if (step.step->kind == vectors::Step::Kind::set) add_memory(step.step->memory);
+    if (step.step->kind == vectors::Step::Kind::send) add(step.frames.front().frame.bytes);
   }
   return written;
 }
 
 Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepared) const {
-  const Capabilities& can = endpoint_.capabilities();
+  const endpoints::Capabilities& can = endpoint_.capabilities();
   if (!can.real_device) return {};
   if (prepared.is_client()) {
     if (std::string why = arming_.objection(source, device_config(source)); !why.empty())
       return {Verdict::blocked, why};
   } else if (!source.transpose &&
-             config_station(source.config, options_.station) != options_.station)
-    return {Verdict::blocked, fmt::format("is about station {}; the device is station {}",
-                                          *config_station(source.config, 1), options_.station)};
+             vectors::config_station(source.config, options_.station) != options_.station)
+    return {Verdict::blocked,
+            fmt::format("is about station {}; the device is station {}",
+                        *vectors::config_station(source.config, 1), options_.station)};
   if (std::string why = undeclared(source.config); !why.empty()) return {Verdict::blocked, why};
   if (prepared.looks_at_counters() && !prepared.is_client())
     return {Verdict::blocked,
@@ -285,7 +294,7 @@ Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepar
 }
 
 Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
-  const Capabilities& can = endpoint_.capabilities();
+  const endpoints::Capabilities& can = endpoint_.capabilities();
   if (can.wire) return {};
   const json& config = prepared.source->config;
   if (config.contains("line") || config.contains("bench_line"))
@@ -302,7 +311,7 @@ Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
 }
 
 CaseResult Bench::run(const Case& source) {
-  CaseResult result = result_of(source);
+  CaseResult result = judging::result_of(source);
   result.replay = options_.replay + "'" + source.id + "'";
   const auto decline = [&](const Eligibility& why) {
     result.verdict = why.verdict;
@@ -311,26 +320,26 @@ CaseResult Bench::run(const Case& source) {
   };
   if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass)
     return decline(outside);
-  const Result<PreparedCase> as_printed = prepare(source, station_for(source), protocol_);
+  const Result<PreparedCase> as_printed = exchange::prepare(source, station_for(source), protocol_);
   if (!as_printed) return decline({Verdict::error, as_printed.error().message});
   if (const Eligibility why = blocked(source, *as_printed); why.verdict != Verdict::pass)
     return decline(why);
   // A real device is written only where it is allowed.
   std::optional<Case> elsewhere;
-  std::vector<Move> moves;
+  std::vector<results::Move> moves;
   if (endpoint_.capabilities().real_device && !as_printed->is_client()) {
-    const Result<std::vector<Move>> planned =
-        plan_moves(source, station_for(source), options_.fence, protocol_);
+    const Result<std::vector<results::Move>> planned =
+        safety::plan_moves(source, station_for(source), options_.fence, protocol_);
     if (!planned) return decline({Verdict::blocked, planned.error().message});
     moves = *planned;
   }
   if (!moves.empty()) {
-    Result<Case> moved = moved_case(source, station_for(source), moves, protocol_);
+    Result<Case> moved = safety::moved_case(source, station_for(source), moves, protocol_);
     if (!moved) return decline({Verdict::blocked, moved.error().message});
     elsewhere = std::move(*moved);
   }
   const Result<PreparedCase> prepared =
-      elsewhere ? prepare(*elsewhere, station_for(source), protocol_) : as_printed;
+      elsewhere ? exchange::prepare(*elsewhere, station_for(source), protocol_) : as_printed;
   if (!prepared) return decline({Verdict::error, prepared.error().message});
   if (endpoint_.capabilities().real_device)
     if (std::string why = fence_objection(*prepared); !why.empty())
@@ -338,7 +347,7 @@ CaseResult Bench::run(const Case& source) {
   if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass)
     return decline(why);
   if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
-  for (const Move& move : moves) result.notes.push_back(note_of(move, protocol_));
+  for (const results::Move& move : moves) result.notes.push_back(safety::note_of(move, protocol_));
   execute(*prepared, result);
   if (!result.recording.stimulus.empty()) result.recording.moves = moves;
   errors_in_a_row_ = result.verdict == Verdict::error ? errors_in_a_row_ + 1 : 0;
@@ -348,7 +357,7 @@ CaseResult Bench::run(const Case& source) {
 }
 
 void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
-  note_transposition(prepared, result);
+  judging::note_transposition(prepared, result);
   const bool real = endpoint_.capabilities().real_device;
   if (real && !save_memory(prepared, result)) return;
   if (prepare_device(prepared, result)) exchange(prepared, result);
@@ -358,7 +367,7 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
 }
 
 void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
-  Transcript transcript = exchange_.run(prepared);
+  exchange::Transcript transcript = exchange_.run(prepared);
   exchange_.close(prepared, transcript);
   if (!transcript.trouble)
     if (const Status over = end_asking(prepared); !over) transcript.trouble = over.error();
@@ -372,7 +381,7 @@ bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
   if (std::ranges::any_of(written, &Protocol::Written::unknown))
     result.notes.push_back(
         "not saved before: nobody can tell where a damaged write request would write");
-  SavedMemory& memory = saved_for(prepared);
+  safety::SavedMemory& memory = saved_for(prepared);
   const Status saved = memory.save(written);
   if (saved) return true;
   // A device that the bench starts itself forgets all with its process: there the case may name the
@@ -395,7 +404,7 @@ bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
 std::string Bench::put_back() {
   if (!endpoint_.capabilities().real_device) return {};
   std::string open;
-  for (SavedMemory* memory : {&saved_, &saved_over_aux_}) {
+  for (safety::SavedMemory* memory : {&saved_, &saved_over_aux_}) {
     [[maybe_unused]] const std::string problem = memory->restore();
     if (const std::string places = memory->open_places(); !places.empty())
       open += (open.empty() ? "" : ", ") + places;
@@ -441,7 +450,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   const auto set = [&](const std::string& address, const std::string& hex) {
     const Status done = memory_.set(prepared, address, hex);
     if (done)
-      result.exchange.push_back({Event::Kind::note,
+      result.exchange.push_back({results::Event::Kind::note,
                                  endpoint_.now(),
                                  endpoint_.now(),
                                  {},
@@ -465,19 +474,20 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   return true;
 }
 
-void Bench::judge_exchange(const PreparedCase& prepared, const Transcript& transcript,
+void Bench::judge_exchange(const PreparedCase& prepared, const exchange::Transcript& transcript,
                            CaseResult& result) {
-  take_judgement(judge(prepared, transcript, rules(), protocol_), result);
-  result.recording = make_recording(prepared, transcript, rules());
-  for (Event& event : recorded_events(transcript)) {
-    if (event.kind != Event::Kind::note) event.text = print_bytes(event.bytes);
+  judging::take_judgement(judging::judge(prepared, transcript, rules(), protocol_), result);
+  result.recording = judging::make_recording(prepared, transcript, rules());
+  for (results::Event& event : judging::recorded_events(transcript)) {
+    if (event.kind != results::Event::Kind::note) event.text = notation::print_bytes(event.bytes);
     result.exchange.push_back(std::move(event));
   }
   if (const std::string errors = endpoint_.line_errors(); !errors.empty())
     result.notes.push_back("the driver counted " + errors);
 }
 
-void Bench::after(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result) {
+void Bench::after(const PreparedCase& prepared, const exchange::Transcript& transcript,
+                  CaseResult& result) {
   if (transcript.trouble)
     return stop("the port failed in " + result.id + ": " + transcript.trouble->message,
                 &*transcript.trouble);
@@ -522,7 +532,7 @@ void Bench::revive(CaseResult& result) {
 
 bool Bench::power_cycle(CaseResult& result) {
   const bool hook = !options_.power_cycle_command.empty();
-  if (hook && !run_hook(options_.power_cycle_command, {}, {})) {
+  if (hook && !os::run_hook(options_.power_cycle_command, {}, {})) {
     result.notes.push_back("the --power-cycle command failed");
     return false;
   }
@@ -539,4 +549,4 @@ void Bench::stop(std::string why, const Error* error) {
   interrupted_ = error && error->interrupted;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -19,27 +19,27 @@
 #include "harness/safety/saved_memory.hpp"
 #include "harness/vectors/case.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 struct BenchOptions {
   Profile profile;
-  WriteFence fence;
+  safety::WriteFence fence;
   int station = 1;  // the device's, where the endpoint cannot become another station
   std::string power_cycle_command;    // --power-cycle: what switches a real device off and on
   std::string replay;                 // command line that the id of the case completes
-  AuxLink aux;                        // --aux: a second channel of the PLC under test
-  TellStimulus stimulus;              // --stimulus: what makes the device ask; empty: none
+  exchange::AuxLink aux;              // --aux: a second channel of the PLC under test
+  exchange::TellStimulus stimulus;    // --stimulus: what makes the device ask; empty: none
   bool endpoint_is_stimulus = false;  // --stimulus -: the endpoint's own program is told
-  std::vector<const Case*>
-      client_cases;      // all that are selected, where every one of them is of a device that asks
-  JournalDevice device;  // for the journal of a real device
-  JournalDevice aux_device;          // of `aux`
-  std::shared_ptr<Journal> journal;  // without one nothing is written to a real device
+  std::vector<const vectors::Case*>
+      client_cases;  // all that are selected, where every one of them is of a device that asks
+  safety::JournalDevice device;              // for the journal of a real device
+  safety::JournalDevice aux_device;          // of `aux`
+  std::shared_ptr<safety::Journal> journal;  // without one nothing is written to a real device
 };
 
 class Bench {
  public:
-  Bench(Endpoint& endpoint, const Protocol& protocol, BenchOptions options);
+  Bench(endpoints::Endpoint& endpoint, const harness::Protocol& protocol, BenchOptions options);
 
   /// The first sanity exchange: does anything answer at all? The error tells the engineer what to
   /// check.
@@ -58,7 +58,7 @@ class Bench {
   Result<Fingerprint> fingerprint();
 
   /// Never throws; whatever goes wrong is in the result.
-  CaseResult run(const Case& source);
+  results::CaseResult run(const vectors::Case& source);
 
   /// After the last case: tries again to put back what could not be. Empty, or what a real device
   /// does not hold as before.
@@ -71,50 +71,53 @@ class Bench {
 
  private:
   struct Eligibility {
-    Verdict verdict = Verdict::pass;
+    results::Verdict verdict = results::Verdict::pass;
     std::string reason;
   };
-  Eligibility outside_profile(const Case& source) const;
-  Eligibility blocked(const Case& source, const PreparedCase& prepared) const;
-  CaseResult run_as_it_is(const Case& source, const std::vector<Move>& moves);
-  Eligibility below_floor(const PreparedCase& prepared) const;
+  Eligibility outside_profile(const vectors::Case& source) const;
+  Eligibility blocked(const vectors::Case& source, const exchange::PreparedCase& prepared) const;
+  results::CaseResult run_as_it_is(const vectors::Case& source,
+                                   const std::vector<results::Move>& moves);
+  Eligibility below_floor(const exchange::PreparedCase& prepared) const;
   std::string undeclared(const nlohmann::json& config) const;
-  Result<std::vector<Protocol::Written>> written_over_aux(const PreparedCase& prepared) const;
-  std::string fence_objection(const PreparedCase& prepared) const;
+  Result<std::vector<harness::Protocol::Written>> written_over_aux(
+      const exchange::PreparedCase& prepared) const;
+  std::string fence_objection(const exchange::PreparedCase& prepared) const;
 
-  int station_for(const Case& source) const;
-  nlohmann::json device_config(const Case& source) const;
-  JudgeRules rules() const;
-  ExchangeTiming timing() const;
+  int station_for(const vectors::Case& source) const;
+  nlohmann::json device_config(const vectors::Case& source) const;
+  judging::JudgeRules rules() const;
+  exchange::ExchangeTiming timing() const;
 
   Result<bool> wait_for_request();
-  Status end_asking(const PreparedCase& prepared);
-  bool begin_case(const PreparedCase& prepared, CaseResult& result);
-  void execute(const PreparedCase& prepared, CaseResult& result);
-  std::vector<Protocol::Written> written_by(const PreparedCase& prepared) const;
-  SavedMemory& saved_for(const PreparedCase& prepared) {
+  Status end_asking(const exchange::PreparedCase& prepared);
+  bool begin_case(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  void execute(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  std::vector<harness::Protocol::Written> written_by(const exchange::PreparedCase& prepared) const;
+  safety::SavedMemory& saved_for(const exchange::PreparedCase& prepared) {
     return prepared.is_client() ? saved_over_aux_ : saved_;
   }
-  bool save_memory(const PreparedCase& prepared, CaseResult& result);
-  void exchange(const PreparedCase& prepared, CaseResult& result);
-  bool prepare_device(const PreparedCase& prepared, CaseResult& result);
-  void judge_exchange(const PreparedCase& prepared, const Transcript& transcript,
-                      CaseResult& result);
-  void look_for_device(CaseResult& result);
-  void revive(CaseResult& result);
-  bool power_cycle(CaseResult& result);
-  void after(const PreparedCase& prepared, const Transcript& transcript, CaseResult& result);
+  bool save_memory(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  void exchange(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  bool prepare_device(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  void judge_exchange(const exchange::PreparedCase& prepared,
+                      const exchange::Transcript& transcript, results::CaseResult& result);
+  void look_for_device(results::CaseResult& result);
+  void revive(results::CaseResult& result);
+  bool power_cycle(results::CaseResult& result);
+  void after(const exchange::PreparedCase& prepared, const exchange::Transcript& transcript,
+             results::CaseResult& result);
   void stop(std::string why, const Error* error = nullptr);
 
-  Endpoint& endpoint_;
-  const Protocol& protocol_;
+  endpoints::Endpoint& endpoint_;
+  const harness::Protocol& protocol_;
   BenchOptions options_;
-  Arming arming_;
-  MemoryAccess memory_;
-  Exchange exchange_;
+  exchange::Arming arming_;
+  exchange::MemoryAccess memory_;
+  exchange::Exchange exchange_;
   std::optional<AdapterFloor> floor_;  // nothing: what is declared
-  Readings readings_;
-  SavedMemory saved_, saved_over_aux_;
+  judging::Readings readings_;
+  safety::SavedMemory saved_, saved_over_aux_;
   std::string stopped_;
   int errors_in_a_row_ = 0;
   bool port_failed_ = false;
@@ -122,4 +125,4 @@ class Bench {
   bool interrupted_ = false;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

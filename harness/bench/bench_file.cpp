@@ -17,7 +17,7 @@
 #include "src/base/spelling.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 namespace {
 
@@ -68,7 +68,7 @@ std::vector<std::string> read_allow_write(const json& object, const std::string&
     if (!range.is_string())
       refuse(where + ".allow_write", "must be a list of texts: [\"M100-M199\"]");
     ranges.push_back(range);
-    if (const Status allowed = WriteFence().allow(ranges.back()); !allowed)
+    if (const Status allowed = safety::WriteFence().allow(ranges.back()); !allowed)
       refuse(where + ".allow_write", allowed.error().message);
   }
   return ranges;
@@ -85,8 +85,8 @@ std::map<std::string, std::string> read_fingerprint(const json& object, const st
   return fingerprint;
 }
 
-Identity read_identity(const json& object, const std::string& where) {
-  Identity identity;
+results::Identity read_identity(const json& object, const std::string& where) {
+  results::Identity identity;
   if (const auto found = object.find("identity"); found != object.end()) {
     const std::string here = where + ".identity";
     check_object(*found, here, identity_keys);
@@ -113,12 +113,12 @@ void check_endpoint(const BenchDevice& device, const std::string& where) {
   if (device.endpoint.empty())
     refuse(where,
            "has no \"endpoint\"; write how it is reached: \"serial:/dev/ttyUSB0?baud=38400\"");
-  const Result<EndpointName> name = parse_endpoint(device.endpoint);
+  const Result<endpoints::EndpointName> name = endpoints::parse_endpoint(device.endpoint);
   if (!name) refuse(where + ".endpoint", name.error().message);
   if (device.station && name->options.contains("station"))
     refuse(where + ".station", "the endpoint says a station, too; leave one of the two");
   if (device.line.empty()) return;
-  if (const auto line = parse_line_settings(device.line); !line)
+  if (const auto line = line::parse_line_settings(device.line); !line)
     refuse(where + ".line", line.error().message);
   for (const char* option : {"line", "baud", "frame"})
     if (name->options.contains(option))
@@ -136,7 +136,7 @@ BenchDevice read_device(const json& object, const std::string& name, const fs::p
   device.line = read_text(object, "line", where);
   device.stimulus = read_text(object, "stimulus", where);
   device.aux = read_text(object, "aux", where);
-  if (const auto aux = parse_endpoint(device.aux); !aux && !device.aux.empty())
+  if (const auto aux = endpoints::parse_endpoint(device.aux); !aux && !device.aux.empty())
     refuse(where + ".aux", aux.error().message);
   device.allow_write = read_allow_write(object, where);
   device.identity = read_identity(object, where);
@@ -198,11 +198,11 @@ std::string endpoint_of(const BenchDevice& device) {
   const auto add = [&](const std::string& option) {
     options += (options.empty() ? "" : "&") + option;
   };
-  const Result<EndpointName> name = parse_endpoint(device.endpoint);
+  const Result<endpoints::EndpointName> name = endpoints::parse_endpoint(device.endpoint);
   if (!name) return device.endpoint;
   if (device.station) add(fmt::format("station={}", *device.station));
-  if (const auto line = parse_line_settings(device.line); line && !device.line.empty()) {
-    const std::string text = to_string(*line);
+  if (const auto line = line::parse_line_settings(device.line); line && !device.line.empty()) {
+    const std::string text = line::to_string(*line);
     const std::size_t dash = text.find('-');
     if (name->kind == "serial")
       add(fmt::format("baud={}&frame={}", text.substr(0, dash), text.substr(dash + 1)));
@@ -212,4 +212,4 @@ std::string endpoint_of(const BenchDevice& device) {
   return device.endpoint + (name->options.empty() ? "?" : "&") + options;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

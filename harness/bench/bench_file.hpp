@@ -16,7 +16,7 @@
 #include "reports/results/case_result.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 struct BenchDevice {
   std::string endpoint;  // as written; endpoint_of() adds station and line
@@ -26,7 +26,7 @@ struct BenchDevice {
   std::string line;                      // "38400-8N1"; empty: what the endpoint says
   std::string stimulus, aux;             // as --stimulus and --aux take them
   std::vector<std::string> allow_write;  // as --allow-write takes them
-  Identity identity;                     // with the device's name, operator and notes
+  results::Identity identity;            // with the device's name, operator and notes
 };
 
 struct BenchFile {
@@ -48,4 +48,4 @@ Result<BenchDevice> find_device(const BenchFile& file, const std::string& name);
 /// the station alone.
 std::string endpoint_of(const BenchDevice& device);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -6,7 +6,7 @@
 
 #include "harness/endpoints/endpoint.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 namespace {
 
 using testing::ElementsAre;
@@ -70,7 +70,7 @@ TEST(BenchFile, StationAndLineBecomeOptionsOfTheEndpoint) {
   EXPECT_EQ(of("emulator:xbc-h"), "emulator:xbc-h?station=0&line=9600-8N1");
   EXPECT_EQ(of("tcp:host:2000"), "tcp:host:2000?station=0");
   EXPECT_EQ(of("exec:tool --what? {tty}"), "exec:tool --what? {tty}?station=0");
-  EXPECT_EQ(parse_endpoint(of("exec:tool --what? {tty}"))->option("station", ""), "0");
+  EXPECT_EQ(endpoints::parse_endpoint(of("exec:tool --what? {tty}"))->option("station", ""), "0");
 }
 
 TEST(BenchFile, PathsOfProfilesStartAtItsFolder) {
@@ -174,4 +174,4 @@ TEST(BenchFile, AnUnknownDeviceSuggestsANearOne) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -7,14 +7,17 @@
 #include "harness/test_protocol.hpp"
 #include "harness/vectors/loader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
+
+using results::CaseResult;
+using results::Verdict;
 
 namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using Pieces = std::vector<ScriptedEndpoint::Piece>;
+using Pieces = std::vector<exchange::ScriptedEndpoint::Piece>;
 
 class BenchTest : public testing::Test {
  protected:
@@ -27,8 +30,8 @@ class BenchTest : public testing::Test {
     options.device.endpoint = "serial:/dev/scripted";
     const std::string path =
         testing::TempDir() + "fieldproof_bench_test_" + std::to_string(::getpid()) + ".ndjson";
-    Result<Journal> journal = Journal::open(path);
-    options.journal = std::make_shared<Journal>(std::move(*journal));
+    Result<safety::Journal> journal = safety::Journal::open(path);
+    options.journal = std::make_shared<safety::Journal>(std::move(*journal));
     std::filesystem::remove(path);  // the open file stays
   }
 
@@ -42,7 +45,7 @@ class BenchTest : public testing::Test {
 
   CaseResult run(const std::string& text) {
     set_ = {};
-    load_vector_text(text, "f.json", set_);
+    vectors::load_vector_text(text, "f.json", set_);
     EXPECT_THAT(set_.problems, IsEmpty());
     if (!bench_) bench_.emplace(endpoint, protocol_, options);
     return bench_->run(set_.cases.at(0));
@@ -57,12 +60,12 @@ class BenchTest : public testing::Test {
     endpoint.can.real_device = true;
   }
 
-  ScriptedEndpoint endpoint;
+  exchange::ScriptedEndpoint endpoint;
   BenchOptions options;
 
  private:
-  TestProtocol protocol_;
-  VectorSet set_;
+  harness::TestProtocol protocol_;
+  vectors::VectorSet set_;
   std::optional<Bench> bench_;
 };
 
@@ -325,18 +328,18 @@ TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
 // ---- fence, profile
 // ------------------------------------------------------------------------------------------------
 
-struct FenceProtocol : TestProtocol {
+struct FenceProtocol : harness::TestProtocol {
   std::string_view output_areas() const override { return "PQU"; }
 };
 
-std::string objection(const std::string& allowed, const Protocol::Written& written) {
-  WriteFence fence;
+std::string objection(const std::string& allowed, const harness::Protocol::Written& written) {
+  safety::WriteFence fence;
   EXPECT_TRUE(fence.allow(allowed)) << allowed;
   return fence.objection({written}, FenceProtocol());
 }
 
 TEST(WriteFence, RangesAreaAndAll) {
-  const Protocol::Written m100{"M", 100, 101, "%MD50"};
+  const harness::Protocol::Written m100{"M", 100, 101, "%MD50"};
   EXPECT_EQ(objection("M100-M101", m100), "");
   EXPECT_EQ(objection("%MW0-%MW101", m100), "");
   EXPECT_EQ(objection("D,M", m100), "");
@@ -352,16 +355,16 @@ TEST(WriteFence, OutputsOnlyWhenNamed) {
 
 TEST(WriteFence, RangesThatMeetAreOne) {
   EXPECT_EQ(objection("M100,M101-M102", {"M", 100, 102, "%MW100"}), "");
-  WriteFence fence;
+  safety::WriteFence fence;
   ASSERT_TRUE(fence.allow("M110-M119,M100-M105,M106,D3"));
-  const std::vector<WriteFence::Words> words = fence.allowed("M", "P");
+  const std::vector<safety::WriteFence::Words> words = fence.allowed("M", "P");
   ASSERT_EQ(words.size(), 2u);
   EXPECT_EQ(words[0].last, 106u);
   EXPECT_EQ(words[1].first, 110u);
 }
 
 TEST(WriteFence, ParametersAreNamedByTheirHexAddress) {
-  const Protocol::Written parameter{"H", 0x1230, 0x1231, "1230"};
+  const harness::Protocol::Written parameter{"H", 0x1230, 0x1231, "1230"};
   for (const char* range : {"h1230-h1231", "1230-1231", "H1200-H12FF", "H"})
     EXPECT_EQ(objection(range, parameter), "") << range;
   EXPECT_NE(objection("h1231-h1232", parameter), "");
@@ -374,7 +377,7 @@ TEST(WriteFence, ADamagedRequestNeedsAll) {
 
 TEST(WriteFence, NonsenseIsRefusedByItsName) {
   for (const char* text : {"M-", "M5-M1", "M1-D2", "%MX1", "5", "M1x", "-"}) {
-    WriteFence fence;
+    safety::WriteFence fence;
     const Status allowed = fence.allow(text);
     ASSERT_FALSE(allowed) << text;
     EXPECT_THAT(allowed.error().message, HasSubstr("cannot read --allow-write '"));
@@ -382,4 +385,4 @@ TEST(WriteFence, NonsenseIsRefusedByItsName) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -2,20 +2,21 @@
 
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
-Result<Benches> Benches::open(const EndpointName& name,
-                              const std::vector<const Protocol*>& protocols,
+Result<Benches> Benches::open(const endpoints::EndpointName& name,
+                              const std::vector<const harness::Protocol*>& protocols,
                               const BenchOptions& options) {
   Benches benches;
-  for (const Protocol* protocol : protocols) {
-    EndpointName own = name;
+  for (const harness::Protocol* protocol : protocols) {
+    endpoints::EndpointName own = name;
     own.options["protocol"] = protocol->name();
-    Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(own, *protocol);
+    Result<std::unique_ptr<endpoints::Endpoint>> endpoint =
+        endpoints::open_endpoint(own, *protocol);
     if (!endpoint) return endpoint.error();
-    std::unique_ptr<Protocol> configured;
+    std::unique_ptr<harness::Protocol> configured;
     if ((*endpoint)->capabilities().real_device) {
-      Result<std::unique_ptr<Protocol>> declared =
+      Result<std::unique_ptr<harness::Protocol>> declared =
           protocol->configured(options.profile.model, options.profile.config);
       if (!declared)
         return fail("cannot use profile " + options.profile.name + ": " + declared.error().message);
@@ -39,7 +40,7 @@ Status Benches::start() {
   return ok();
 }
 
-CaseResult Benches::run(const Case& source) {
+results::CaseResult Benches::run(const vectors::Case& source) {
   const auto own = std::ranges::find_if(
       members_, [&](const Member& member) { return member.protocol->name() == source.protocol; });
   return (own == members_.end() ? members_.front() : *own).bench->run(source);
@@ -102,4 +103,4 @@ std::string Benches::protocol_names() const {
   return names;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

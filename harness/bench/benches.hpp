@@ -8,14 +8,14 @@
 
 #include "harness/bench/bench.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 class Benches {
  public:
   /// Opens one endpoint for each of `protocols` (at least one). Errors are those of
   /// `open_endpoint`.
-  static Result<Benches> open(const EndpointName& name,
-                              const std::vector<const Protocol*>& protocols,
+  static Result<Benches> open(const endpoints::EndpointName& name,
+                              const std::vector<const harness::Protocol*>& protocols,
                               const BenchOptions& options);
 
   /// The sanity exchange of each; of those that have not stopped.
@@ -36,7 +36,7 @@ class Benches {
   Status start_those_that_answer();
 
   /// On the bench of the case's protocol; a case of another protocol is SKIP.
-  CaseResult run(const Case& source);
+  results::CaseResult run(const vectors::Case& source);
 
   /// Do the links carry speed and character format?
   bool wire() const { return members_.front().endpoint->capabilities().wire; }
@@ -60,12 +60,12 @@ class Benches {
 
  private:
   struct Member {
-    const Protocol* protocol;
-    std::unique_ptr<Endpoint> endpoint;
-    std::unique_ptr<Protocol> configured;  // of a real device: as it declares itself
+    const harness::Protocol* protocol;
+    std::unique_ptr<endpoints::Endpoint> endpoint;
+    std::unique_ptr<harness::Protocol> configured;  // of a real device: as it declares itself
     std::unique_ptr<Bench> bench;
   };
   std::vector<Member> members_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -9,7 +9,10 @@
 #include "harness/notation/notation.hpp"
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
+
+using harness::Protocol;
+
 namespace {
 
 constexpr const char* areas_key = "areas";
@@ -22,7 +25,7 @@ std::string address_of(const std::string& area, std::uint32_t word) {
 
 class Reader {
  public:
-  Reader(Endpoint& endpoint, const Protocol& protocol, int station, Duration patience)
+  Reader(endpoints::Endpoint& endpoint, const Protocol& protocol, int station, Duration patience)
       : protocol_(protocol), station_(station), memory_(endpoint, protocol, patience) {}
 
   /// The last word of an area; nothing where the device has no such area.
@@ -62,20 +65,20 @@ class Reader {
       reply = std::move(*came);
       if (protocol_.frame_length(reply) == reply.size()) return bool(protocol_.read_reply(reply));
     }
-    return fail(
-        fmt::format("cannot take the fingerprint: a read of {} gets {}", address_of(area, word),
-                    reply.empty() ? "no answer" : "what is no reply: " + print_bytes(reply)));
+    return fail(fmt::format(
+        "cannot take the fingerprint: a read of {} gets {}", address_of(area, word),
+        reply.empty() ? "no answer" : "what is no reply: " + notation::print_bytes(reply)));
   }
 
   const Protocol& protocol_;
   int station_;
-  MemoryAccess memory_;
+  exchange::MemoryAccess memory_;
 };
 
 }  // namespace
 
-Result<Fingerprint> read_fingerprint(Endpoint& endpoint, const Protocol& protocol, int station,
-                                     Duration patience) {
+Result<Fingerprint> read_fingerprint(endpoints::Endpoint& endpoint, const Protocol& protocol,
+                                     int station, Duration patience) {
   const std::vector<Protocol::Area> areas = protocol.areas();
   if (areas.empty())
     return fail(fmt::format(
@@ -121,4 +124,4 @@ std::string fingerprint_difference(const Fingerprint& declared, const Fingerprin
 
 std::string to_string(const Fingerprint& fingerprint) { return nlohmann::json(fingerprint).dump(); }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

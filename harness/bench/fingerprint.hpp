@@ -7,7 +7,7 @@
 
 #include "harness/exchange/memory_access.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 /// {"areas": "PMKFTCLNDUR", "P": "0-1023", ...}: the areas that answer, and the first and last word
 /// of each.
@@ -16,11 +16,12 @@ using Fingerprint = std::map<std::string, std::string>;
 /// Asks for the ends that the known models declare and for the word past each; where a device ends
 /// elsewhere, the end is searched by halves. Errors: the protocol has no areas, the port failed, or
 /// a read gets no answer that can be read.
-Result<Fingerprint> read_fingerprint(Endpoint& endpoint, const Protocol& protocol, int station,
+Result<Fingerprint> read_fingerprint(endpoints::Endpoint& endpoint,
+                                     const harness::Protocol& protocol, int station,
                                      Duration patience);
 
 /// What a bench file declares must be what can be found; the error names the key that is not.
-Status check_fingerprint(const Fingerprint& declared, const Protocol& protocol);
+Status check_fingerprint(const Fingerprint& declared, const harness::Protocol& protocol);
 
 /// "area R: 0-10239 declared, none found", ...; empty where all that is declared was found.
 std::string fingerprint_difference(const Fingerprint& declared, const Fingerprint& found);
@@ -28,4 +29,4 @@ std::string fingerprint_difference(const Fingerprint& declared, const Fingerprin
 /// As a bench file takes it: {"areas": "PM", ...}.
 std::string to_string(const Fingerprint& fingerprint);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -6,7 +6,7 @@
 #include "harness/exchange/scripted_endpoint.hpp"
 #include "harness/test_protocol.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 namespace {
 
 using testing::Each;
@@ -15,24 +15,24 @@ using testing::SizeIs;
 using testing::StartsWith;
 
 /// Areas M and D, as two models declare them.
-struct AreaProtocol : TestProtocol {
+struct AreaProtocol : harness::TestProtocol {
   std::vector<Area> areas() const override { return {{"M", {99, 199}}, {"D", {9}}, {"R", {9}}}; }
   Result<std::string> read_reply(ByteView reply) const override {
     if (to_text(reply) == "<no>") return fail("refused");
-    return TestProtocol::read_reply(reply);
+    return harness::TestProtocol::read_reply(reply);
   }
 };
 
 /// A device with so many words of each area.
-struct AreaDevice : ScriptedEndpoint {
+struct AreaDevice : exchange::ScriptedEndpoint {
   std::map<char, std::uint32_t> words;
   std::string refusal = "<no>";
 
-  Result<Sent> send(ByteView bytes) override {
+  Result<line::Sent> send(ByteView bytes) override {
     const std::string request = to_text(bytes);  // <r%MW12>
     const bool has = std::stoul(request.substr(5)) < words[request[3]];
     answers[request] = {{1ms, has ? "<0000>" : refusal}};
-    return ScriptedEndpoint::send(bytes);
+    return exchange::ScriptedEndpoint::send(bytes);
   }
 };
 
@@ -94,9 +94,10 @@ TEST(Fingerprint, OnlyWhatCanBeFoundMayBeDeclared) {
   EXPECT_THAT(
       check_fingerprint({{"area", "M"}}, AreaProtocol()).error().message,
       HasSubstr("fingerprint.area is nothing that reads by xgt-cnet find; did you mean 'areas'?"));
-  EXPECT_THAT(check_fingerprint({{"areas", "M"}, {"M", ""}}, TestProtocol()).error().message,
-              HasSubstr("this protocol has none"));
+  EXPECT_THAT(
+      check_fingerprint({{"areas", "M"}, {"M", ""}}, harness::TestProtocol()).error().message,
+      HasSubstr("this protocol has none"));
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

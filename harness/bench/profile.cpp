@@ -11,7 +11,7 @@
 #include "src/base/duration.hpp"
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 namespace {
 
@@ -191,4 +191,4 @@ Result<Profile> load_profile(const std::string& name_or_path, const fs::path& fo
   return load(name_or_path, folder, {});
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

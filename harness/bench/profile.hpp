@@ -11,7 +11,7 @@
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 struct Profile {
   std::string name;  // "xbc-h"
@@ -48,4 +48,4 @@ Result<Profile> load_profile(const std::string& name_or_path, const std::filesys
 /// One profile's text, with what it extends already loaded into `base`.
 Result<Profile> parse_profile(const std::string& text, const std::string& file, Profile base);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

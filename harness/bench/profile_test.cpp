@@ -5,7 +5,7 @@
 #include <fstream>
 #include <map>
 
-namespace fieldproof {
+namespace fieldproof::bench {
 namespace {
 
 using testing::ElementsAre;
@@ -142,4 +142,4 @@ TEST(Profile, LimitsHaveUnits) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -6,18 +6,20 @@
 #include "harness/judge/recording.hpp"
 #include "harness/safety/transposition.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
+
+using results::Verdict;
 
 namespace {
 
-bool is_frame(const Event& event) { return event.kind != Event::Kind::note; }
+bool is_frame(const results::Event& event) { return event.kind != results::Event::Kind::note; }
 
 /// A result that was waived is judged by what it was before.
 Verdict before_waiver(Verdict verdict) {
   return verdict == Verdict::xfail ? Verdict::fail : verdict;
 }
 
-Rejudge::Outcome not_judged(const CaseResult& recorded, const std::string& why) {
+Rejudge::Outcome not_judged(const results::CaseResult& recorded, const std::string& why) {
   Rejudge::Outcome outcome{recorded, why};
   const bool exchanged =
       std::ranges::any_of(recorded.exchange, is_frame) && recorded.verdict != Verdict::error;
@@ -28,42 +30,47 @@ Rejudge::Outcome not_judged(const CaseResult& recorded, const std::string& why) 
 
 }  // namespace
 
-Rejudge::Rejudge(const VectorSet& vectors, Profile profile, const Protocols& protocols)
+Rejudge::Rejudge(const vectors::VectorSet& vectors, Profile profile,
+                 const harness::Protocols& protocols)
     : profile_(std::move(profile)), protocols_(protocols) {
-  for (const Case& one : vectors.cases) cases_[one.id] = &one;
+  for (const vectors::Case& one : vectors.cases) cases_[one.id] = &one;
 }
 
-Rejudge::Outcome Rejudge::judge(const CaseResult& recorded) {
+Rejudge::Outcome Rejudge::judge(const results::CaseResult& recorded) {
   const auto source = cases_.find(recorded.id);
   if (source == cases_.end()) return not_judged(recorded, "the vector is gone");
-  const Protocol* protocol = protocols_.find(source->second->protocol);
+  const harness::Protocol* protocol = protocols_.find(source->second->protocol);
   if (!protocol)
     return not_judged(recorded, fmt::format("there is no protocol '{}'", source->second->protocol));
   // On a real device the case may have been moved, by addresses that its configuration gives a
   // meaning.
-  const Result<std::unique_ptr<Protocol>> configured =
+  const Result<std::unique_ptr<harness::Protocol>> configured =
       protocol->configured(profile_.model, profile_.config);
-  const Protocol& declared = configured && *configured ? **configured : *protocol;
-  const Result<Case> moved =
-      moved_case(*source->second, recorded.recording.station, recorded.recording.moves, declared);
+  const harness::Protocol& declared = configured && *configured ? **configured : *protocol;
+  const Result<vectors::Case> moved = safety::moved_case(
+      *source->second, recorded.recording.station, recorded.recording.moves, declared);
   if (!moved) return not_judged(recorded, moved.error().message);
-  const Result<PreparedCase> prepared = prepare(*moved, recorded.recording.station, *protocol);
+  const Result<exchange::PreparedCase> prepared =
+      exchange::prepare(*moved, recorded.recording.station, *protocol);
   if (!prepared) return not_judged(recorded, prepared.error().message);
-  const Result<Transcript> transcript = replay(recorded, *prepared, profile_.response_max);
+  const Result<exchange::Transcript> transcript =
+      judging::replay(recorded, *prepared, profile_.response_max);
   if (!transcript) return not_judged(recorded, transcript.error().message);
 
-  Outcome outcome{result_of(*source->second), ""};
-  CaseResult& result = outcome.result;
-  for (const Move& move : recorded.recording.moves) result.notes.push_back(note_of(move, declared));
-  note_transposition(*prepared, result);
-  JudgeRules rules;
+  Outcome outcome{judging::result_of(*source->second), ""};
+  results::CaseResult& result = outcome.result;
+  for (const results::Move& move : recorded.recording.moves)
+    result.notes.push_back(safety::note_of(move, declared));
+  judging::note_transposition(*prepared, result);
+  judging::JudgeRules rules;
   rules.guard_band = profile_.guard_band;
   rules.binding_decisions = rules.binding_timing = profile_.binding_decisions;
   rules.timing_floor = std::max(profile_.floor, recorded.recording.timing_floor);
   rules.turnaround_min = profile_.turnaround_min;
   rules.max_gap = profile_.max_gap > 0ns ? profile_.max_gap : recorded.recording.max_gap;
   rules.period_tolerance = recorded.recording.period_tolerance;
-  take_judgement(fieldproof::judge(*prepared, *transcript, rules, *protocol), result);
+  judging::take_judgement(fieldproof::judging::judge(*prepared, *transcript, rules, *protocol),
+                          result);
   result.line = recorded.line;
   result.repeat = recorded.repeat;
   result.seconds = recorded.seconds;
@@ -73,4 +80,4 @@ Rejudge::Outcome Rejudge::judge(const CaseResult& recorded) {
   return outcome;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

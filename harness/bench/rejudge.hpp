@@ -10,26 +10,26 @@
 #include "harness/vectors/loader.hpp"
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 class Rejudge {
  public:
   /// Refers to `vectors`. The profile gives limits and how far decisions bind, as in a run.
-  Rejudge(const VectorSet& vectors, Profile profile, const Protocols& protocols);
+  Rejudge(const vectors::VectorSet& vectors, Profile profile, const harness::Protocols& protocols);
 
   struct Outcome {
-    CaseResult result;
+    results::CaseResult result;
     std::string why_not;  // why the exchange was not judged again; empty: it was
   };
   /// What was recorded without an exchange (SKIP, BLOCKED, trouble) keeps its verdict. An exchange
   /// that cannot be judged by today's vector is INCONCLUSIVE.
-  Outcome judge(const CaseResult& recorded);
+  Outcome judge(const results::CaseResult& recorded);
 
  private:
-  std::map<std::string, const Case*> cases_;
+  std::map<std::string, const vectors::Case*> cases_;
   Profile profile_;
-  Protocols protocols_;
-  Readings readings_;
+  harness::Protocols protocols_;
+  judging::Readings readings_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 namespace {
 
@@ -17,7 +17,7 @@ struct Context {
 
 class CaseTest : public testing::Test {
  public:
-  CaseTest(const Case& source, Context& context) : source_(source), context_(context) {}
+  CaseTest(const vectors::Case& source, Context& context) : source_(source), context_(context) {}
 
   void TestBody() override {
     if (context_.stopped) return;
@@ -26,7 +26,7 @@ class CaseTest : public testing::Test {
   }
 
  private:
-  const Case& source_;
+  const vectors::Case& source_;
   Context& context_;
 };
 
@@ -78,11 +78,11 @@ std::pair<std::string, std::string> split_id(const std::string& id) {
 
 }  // namespace
 
-std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOptions& options,
-                           const RunCase& run) {
+std::size_t run_with_gtest(const std::vector<const vectors::Case*>& cases,
+                           const RunnerOptions& options, const RunCase& run) {
   initialize(options);
   Context context{&run};
-  for (const Case* source : cases) {
+  for (const vectors::Case* source : cases) {
     const auto [suite, name] = split_id(source->id);
     testing::RegisterTest(
         suite.c_str(), name.c_str(), nullptr, nullptr, source->file.c_str(), 1,
@@ -95,4 +95,4 @@ std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOp
   return context.handed_over;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -10,7 +10,7 @@
 #include "harness/vectors/case.hpp"
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 struct RunnerOptions {
   int repeat = 1;  // -1: until `run` stops it
@@ -20,10 +20,10 @@ struct RunnerOptions {
 };
 
 /// Runs one case, by its index and repetition; false: stop here, the rest is not run.
-using RunCase = std::function<bool(const Case& source, int repeat)>;
+using RunCase = std::function<bool(const vectors::Case& source, int repeat)>;
 
 /// Registers the cases and runs them. Returns how many were handed to `run`; a shard may get none.
-std::size_t run_with_gtest(const std::vector<const Case*>& cases, const RunnerOptions& options,
-                           const RunCase& run);
+std::size_t run_with_gtest(const std::vector<const vectors::Case*>& cases,
+                           const RunnerOptions& options, const RunCase& run);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

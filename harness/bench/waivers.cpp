@@ -12,7 +12,9 @@
 #include "harness/vectors/loader.hpp"
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
+
+using results::Verdict;
 
 namespace {
 
@@ -135,8 +137,8 @@ std::vector<std::string> unknown_targets(const std::vector<Waiver>& waivers,
                                          const std::vector<std::string>& ids) {
   std::vector<std::string> result;
   for (const Waiver& waiver : waivers) {
-    if (std::ranges::any_of(ids,
-                            [&](const std::string& id) { return matches_filter(id, waiver.id); }))
+    if (std::ranges::any_of(
+            ids, [&](const std::string& id) { return vectors::matches_filter(id, waiver.id); }))
       continue;
     const std::vector<std::string_view> candidates(ids.begin(), ids.end());
     result.push_back(fmt::format("no case '{}'{}", waiver.id, suggestion(waiver.id, candidates)));
@@ -177,21 +179,22 @@ const Waiver* Waivers::find(const std::string& id) const {
     return std::pair(firmware_of(one) != Firmware::covered, is_glob(one));
   };
   for (const Waiver& one : waivers_)
-    if (matches_filter(id, one.id) && (!best || rank(one) < rank(*best))) best = &one;
+    if (vectors::matches_filter(id, one.id) && (!best || rank(one) < rank(*best))) best = &one;
   return best;
 }
 
-void Waivers::apply(CaseResult& result) {
+void Waivers::apply(results::CaseResult& result) {
   const Waiver* waiver = find(result.id);
-  if (!waiver || !is_judged(result.verdict)) return;
+  if (!waiver || !results::is_judged(result.verdict)) return;
   const Firmware firmware = firmware_of(*waiver);
   failed_[result.id] |= result.verdict == Verdict::fail;
   const auto note = [&](std::string text) { result.notes.push_back(std::move(text)); };
   if (result.verdict != Verdict::fail) {
     if (is_glob(*waiver) || firmware != Firmware::covered)
       return;  // a glob may cover cases that pass: see superfluous()
-    result.message = fmt::format("is {}, but waived as failing until {}: {}; remove the waiver",
-                                 to_string(result.verdict), waiver->expires, by_whom(*waiver));
+    result.message =
+        fmt::format("is {}, but waived as failing until {}: {}; remove the waiver",
+                    results::to_string(result.verdict), waiver->expires, by_whom(*waiver));
     result.verdict = Verdict::xpass;
   } else if (firmware == Firmware::unknown) {
     note(
@@ -219,19 +222,19 @@ void Waivers::apply(CaseResult& result) {
   }
 }
 
-std::vector<CaseResult> Waivers::superfluous(const std::vector<std::string>& ids) const {
-  std::vector<CaseResult> results;
+std::vector<results::CaseResult> Waivers::superfluous(const std::vector<std::string>& ids) const {
+  std::vector<results::CaseResult> results;
   for (const Waiver& waiver : waivers_) {
     if (!is_glob(waiver) || firmware_of(waiver) != Firmware::covered) continue;
     std::size_t covered = 0;
     const bool needed = std::ranges::any_of(ids, [&](const std::string& id) {
-      if (!matches_filter(id, waiver.id) || find(id) != &waiver) return false;
+      if (!vectors::matches_filter(id, waiver.id) || find(id) != &waiver) return false;
       ++covered;
       const auto judged = failed_.find(id);
       return judged == failed_.end() || judged->second;  // what was not judged proves nothing
     });
     if (needed || covered == 0) continue;
-    CaseResult result;
+    results::CaseResult result;
     result.id = std::string(waiver_result) + waiver.id;
     result.title = fmt::format("The waiver for {} is still needed", waiver.id);
     result.verdict = Verdict::xpass;
@@ -244,4 +247,4 @@ std::vector<CaseResult> Waivers::superfluous(const std::vector<std::string>& ids
   return results;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -9,7 +9,7 @@
 #include "reports/results/case_result.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 struct Waiver {
   std::string id;  // of a case, or a glob
@@ -40,11 +40,11 @@ class Waivers {
 
   /// FAIL becomes XFAIL while a waiver holds; otherwise the failure stays and a note says what
   /// became of the waiver. A case that is waived by its own id and no longer fails is XPASS.
-  void apply(CaseResult& result);
+  void apply(results::CaseResult& result);
 
   /// One XPASS for each glob whose cases, `ids` being all there are, were all judged and none
   /// failed.
-  std::vector<CaseResult> superfluous(const std::vector<std::string>& ids) const;
+  std::vector<results::CaseResult> superfluous(const std::vector<std::string>& ids) const;
 
  private:
   enum class Firmware { covered, other, unknown };
@@ -64,4 +64,4 @@ std::vector<std::string> unknown_targets(const std::vector<Waiver>& waivers,
 /// Compares versions by their numbers: "V1.10" is newer than "1.9". Negative, 0, positive.
 int compare_versions(std::string_view a, std::string_view b);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -2,7 +2,11 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof {
+namespace fieldproof::bench {
+
+using results::CaseResult;
+using results::Verdict;
+
 namespace {
 
 using testing::Contains;
@@ -163,4 +167,4 @@ TEST(Versions, AreComparedByTheirNumbers) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

@@ -2,7 +2,7 @@
 
 #include "harness/system/interrupt.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 Watchdog::Watchdog(Duration limit) : limit_(limit), thread_([this] { guard(); }) {}
 
@@ -36,10 +36,10 @@ void Watchdog::guard() {
   while (!changed_.wait_for(lock, limit_, [this] { return over_; })) {
     if (!watched_.empty() && round_ == seen) {
       bit_ = true;
-      interrupt();
+      os::interrupt();
     }
     seen = round_;
   }
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

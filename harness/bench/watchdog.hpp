@@ -9,7 +9,7 @@
 
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::bench {
 
 class Watchdog {
  public:
@@ -35,4 +35,4 @@ class Watchdog {
   std::thread thread_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::bench

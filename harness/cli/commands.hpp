@@ -9,9 +9,9 @@
 #include "harness/run/exit_code.hpp"
 #include "harness/run/run_options.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
-int run_command(const RunOptions& options, const Protocols& protocols);
+int run_command(const run::RunOptions& options, const harness::Protocols& protocols);
 
 struct ListOptions {
   std::string filter, vectors;
@@ -21,14 +21,14 @@ struct ListOptions {
   double min_coverage = 0;    // with coverage: percent of the statements
   bool json = false, markdown = false;
 };
-int list_command(const ListOptions& options, const Protocols& protocols);
+int list_command(const ListOptions& options, const harness::Protocols& protocols);
 
 struct LintOptions {
   std::string vectors;
   std::string manuals;  // folder of the manuals' text; empty: the lock file speaks for it
   bool lock = false;    // write quotes.lock after the quotes were verified
 };
-int lint_command(const LintOptions& options, const Protocols& protocols);
+int lint_command(const LintOptions& options, const harness::Protocols& protocols);
 
 struct EmulateOptions {
   std::string model;     // "xbc-h?station=1&protocol=xgt-cnet"
@@ -39,7 +39,7 @@ struct EmulateOptions {
   std::string tty;       // internal: the slave that the harness made
   bool verbose = false;
 };
-int emulate_command(const EmulateOptions& options, const Protocols& protocols);
+int emulate_command(const EmulateOptions& options, const harness::Protocols& protocols);
 
 struct ProbeOptions {
   std::string endpoint;
@@ -48,14 +48,14 @@ struct ProbeOptions {
   bool all = false;                                              // go on after the first find
   bool fingerprint = false;                                      // of each device that was found
 };
-int probe_command(const ProbeOptions& options, const Protocols& protocols);
+int probe_command(const ProbeOptions& options, const harness::Protocols& protocols);
 
 struct FrameOptions {
   std::string frame;
   std::string protocol;  // empty: the one that the frame fits best
   int station = 1;
 };
-int frame_command(const FrameOptions& options, const Protocols& protocols);
+int frame_command(const FrameOptions& options, const harness::Protocols& protocols);
 
 struct ErrataOptions {
   std::string vectors;
@@ -72,7 +72,7 @@ struct RestoreOptions {
   std::string journal;
   std::string endpoint;  // empty: the one that the journal names
 };
-int restore_command(const RestoreOptions& options, const Protocols& protocols);
+int restore_command(const RestoreOptions& options, const harness::Protocols& protocols);
 
 struct CompareOptions {
   std::vector<std::string> files;  // results: the first is what the others are compared with
@@ -100,6 +100,6 @@ struct JudgeOptions {
   bool verbose = false;
   std::string command;  // as typed, for reports
 };
-int judge_command(const JudgeOptions& options, const Protocols& protocols);
+int judge_command(const JudgeOptions& options, const harness::Protocols& protocols);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

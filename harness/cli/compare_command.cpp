@@ -8,35 +8,35 @@
 #include "reports/compare/compare_junit.hpp"
 #include "reports/compare/compare_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
-Status report_comparison(const ComparisonSet& set, const std::string& html,
+Status report_comparison(const compare::ComparisonSet& set, const std::string& html,
                          const std::string& junit) {
-  print(compare_text(set));
+  run::print(compare::compare_text(set));
   if (!html.empty())
-    if (Status written = write_compare_html(set, html); !written) return written;
+    if (Status written = compare::write_compare_html(set, html); !written) return written;
   if (!junit.empty())
-    if (Status written = write_compare_junit(set, junit); !written) return written;
+    if (Status written = compare::write_compare_junit(set, junit); !written) return written;
   return ok();
 }
 
 int compare_command(const CompareOptions& options) {
-  std::vector<RunSummary> runs;
+  std::vector<compare::RunSummary> runs;
   for (const std::string& path : options.files) {
-    const Result<ResultFile> file = read_result_file(path);
-    if (!file) return complain(file.error().message, exit_code::usage);
+    const Result<compare::ResultFile> file = compare::read_result_file(path);
+    if (!file) return run::complain(file.error().message, run::exit_code::usage);
     if (file->results.empty())
-      return complain(fmt::format("cannot compare {}: there is no result in it", path),
-                      exit_code::usage);
-    runs.push_back(summarize(*file));
+      return run::complain(fmt::format("cannot compare {}: there is no result in it", path),
+                           run::exit_code::usage);
+    runs.push_back(compare::summarize(*file));
   }
-  const ComparisonSet set(std::move(runs));
+  const compare::ComparisonSet set(std::move(runs));
   if (const Status reported = report_comparison(set, options.html, options.junit); !reported)
-    return complain(reported.error().message, exit_code::trouble);
-  const int code = set.worse() ? exit_code::failed : exit_code::ok;
-  print(fmt::format("\nexit {}: {}\n", code,
-                    set.worse() ? "something got worse" : "nothing got worse"));
+    return run::complain(reported.error().message, run::exit_code::trouble);
+  const int code = set.worse() ? run::exit_code::failed : run::exit_code::ok;
+  run::print(fmt::format("\nexit {}: {}\n", code,
+                         set.worse() ? "something got worse" : "nothing got worse"));
   return code;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -6,10 +6,10 @@
 #include "reports/compare/compare.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 /// Prints the comparison and writes the reports that are named; empty: not.
-Status report_comparison(const ComparisonSet& set, const std::string& html,
+Status report_comparison(const compare::ComparisonSet& set, const std::string& html,
                          const std::string& junit);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -8,32 +8,35 @@
 
 #include "reports/html/html_survey.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
+
+using reports::CoverageVector;
 
 namespace {
 
 using Vectors = std::map<std::string, CoverageVector>;    // by id
 using VectorOf = std::map<std::string, CoverageVector*>;  // by id of the case
 
-void add_results(const ResultFile& file, const VectorOf& vector_of) {
-  for (const CaseResult& result : file.results) {
+void add_results(const compare::ResultFile& file, const VectorOf& vector_of) {
+  for (const results::CaseResult& result : file.results) {
     const auto found = vector_of.find(result.id);
     if (found == vector_of.end()) continue;  // of a vector that is gone, or said about a waiver
     CoverageVector& vector = *found->second;
     vector.verdicts.add(result.verdict);
-    if (!is_judged(result.verdict) && vector.why_not.empty())
-      vector.why_not = fmt::format("{}: {}", to_string(result.verdict), result.message);
+    if (!results::is_judged(result.verdict) && vector.why_not.empty())
+      vector.why_not = fmt::format("{}: {}", results::to_string(result.verdict), result.message);
   }
 }
 
 }  // namespace
 
-Coverage trace(const VectorSet& set, const std::optional<ResultFile>& results) {
+reports::Coverage trace(const vectors::VectorSet& set,
+                        const std::optional<compare::ResultFile>& results) {
   Vectors vectors;
   VectorOf vector_of;
   std::map<std::string, std::set<std::string>> citing;  // ids of vectors by statement
-  for (const std::vector<Case>* cases : {&set.cases, &set.tables})
-    for (const Case& one : *cases) {
+  for (const std::vector<vectors::Case>* cases : {&set.cases, &set.tables})
+    for (const vectors::Case& one : *cases) {
       CoverageVector& vector =
           vectors
               .try_emplace(
@@ -47,24 +50,25 @@ Coverage trace(const VectorSet& set, const std::optional<ResultFile>& results) {
     }
   if (results) add_results(*results, vector_of);
 
-  Coverage coverage;
+  reports::Coverage coverage;
   coverage.vectors_hash = set.hash;
   if (results) coverage.results = results->path;
   if (results) coverage.endpoint = results->run.endpoint;
-  for (const Manual& manual : set.manuals) {
-    CoverageManual& traced =
-        coverage.manuals.emplace_back(CoverageManual{manual.id, manual.title, {}});
-    for (const Statement& one : set.statements) {
+  for (const vectors::Manual& manual : set.manuals) {
+    reports::CoverageManual& traced =
+        coverage.manuals.emplace_back(reports::CoverageManual{manual.id, manual.title, {}});
+    for (const vectors::Statement& one : set.statements) {
       if (one.manual != manual.id) continue;
-      CoverageStatement& statement = traced.statements.emplace_back(
-          CoverageStatement{one.id, one.section, one.quote, one.reason, {}});
+      reports::CoverageStatement& statement = traced.statements.emplace_back(
+          reports::CoverageStatement{one.id, one.section, one.quote, one.reason, {}});
       for (const std::string& id : citing[one.id]) statement.vectors.push_back(vectors.at(id));
     }
-    std::ranges::stable_sort(traced.statements, std::less<>{}, [&](const CoverageStatement& one) {
-      return SectionName{manual.id, one.section};
-    });
+    std::ranges::stable_sort(traced.statements, std::less<>{},
+                             [&](const reports::CoverageStatement& one) {
+                               return html::SectionName{manual.id, one.section};
+                             });
   }
   return coverage;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -7,10 +7,11 @@
 #include "reports/compare/result_file.hpp"
 #include "reports/coverage.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 /// Every manual with its statements, and the vectors that cite them. With `results`: what their
 /// cases came to.
-Coverage trace(const VectorSet& set, const std::optional<ResultFile>& results);
+reports::Coverage trace(const vectors::VectorSet& set,
+                        const std::optional<compare::ResultFile>& results);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

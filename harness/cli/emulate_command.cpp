@@ -13,26 +13,28 @@
 #include "harness/system/interrupt.hpp"
 #include "src/plc/multi_drop.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
+
+using plc::EmulatedDevice;
 
 namespace {
 
-void print_traffic(const Traffic& traffic) {
-  fmt::print("{}\n    {}\n", monitor_line(traffic), print_bytes(traffic.bytes));
+void print_traffic(const hosting::Traffic& traffic) {
+  fmt::print("{}\n    {}\n", hosting::monitor_line(traffic), notation::print_bytes(traffic.bytes));
   std::fflush(stdout);
 }
 
 /// The device, whose frames are recorded, and its `neighbours` on the same line: stations, or
 /// objects of config keys.
-Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol,
+Result<std::unique_ptr<EmulatedDevice>> make_stations(const harness::Protocol& protocol,
                                                       nlohmann::json config,
-                                                      const FrameMonitor::Record& record) {
+                                                      const plc::FrameMonitor::Record& record) {
   const std::string model = config.value("model", protocol.models().front());
   const nlohmann::json neighbours = config.value("neighbours", nlohmann::json::array());
   config.erase("model");
   config.erase("neighbours");
   Result<std::unique_ptr<EmulatedDevice>> first =
-      make_monitored_device(protocol, model, config, record);
+      harness::make_monitored_device(protocol, model, config, record);
   if (!first || neighbours.empty()) return first;
   std::vector<std::unique_ptr<EmulatedDevice>> devices;
   devices.push_back(std::move(*first));
@@ -44,33 +46,34 @@ Result<std::unique_ptr<EmulatedDevice>> make_stations(const Protocol& protocol,
     if (!device) return fail("neighbour " + neighbour.dump() + ": " + device.error().message);
     devices.push_back(std::move(*device));
   }
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<MultiDrop>(std::move(devices)));
+  return std::unique_ptr<EmulatedDevice>(std::make_unique<plc::MultiDrop>(std::move(devices)));
 }
 
 }  // namespace
 
-int emulate_command(const EmulateOptions& options, const Protocols& protocols) {
-  const Result<EndpointName> name = parse_endpoint("emulator:" + options.model);
-  if (!name) return complain(name.error().message, exit_code::usage);
-  const Result<const Protocol*> protocol =
+int emulate_command(const EmulateOptions& options, const harness::Protocols& protocols) {
+  const Result<endpoints::EndpointName> name =
+      endpoints::parse_endpoint("emulator:" + options.model);
+  if (!name) return run::complain(name.error().message, run::exit_code::usage);
+  const Result<const harness::Protocol*> protocol =
       protocols.choose(name->option("protocol", ""), name->target);
   if (!protocol)
-    return complain("cannot emulate " + options.model + ": " + protocol.error().message,
-                    exit_code::usage);
+    return run::complain("cannot emulate " + options.model + ": " + protocol.error().message,
+                         run::exit_code::usage);
 
-  HostOptions host;
+  hosting::HostOptions host;
   host.model = name->target;
   if (!options.p2p.empty()) {
     const Result<nlohmann::json> config = read_p2p_file(options.p2p);
-    if (!config) return complain(config.error().message, exit_code::usage);
+    if (!config) return run::complain(config.error().message, run::exit_code::usage);
     host.config = *config;
   }
   for (const auto& [key, value] : name->options)
     if (key != "protocol") host.config[key] = value;
-  FrameMonitor::Record record;
+  plc::FrameMonitor::Record record;
   if (!options.monitor.empty()) {
-    Result<FrameMonitor::Record> opened = open_monitor_file(options.monitor, name->target);
-    if (!opened) return complain(opened.error().message, exit_code::usage);
+    Result<plc::FrameMonitor::Record> opened = open_monitor_file(options.monitor, name->target);
+    if (!opened) return run::complain(opened.error().message, run::exit_code::usage);
     record = std::move(*opened);
   }
   host.make_device = [protocol = *protocol, record](const nlohmann::json& config) {
@@ -84,8 +87,8 @@ int emulate_command(const EmulateOptions& options, const Protocols& protocols) {
   host.tty = options.tty.empty() ? options.pty : options.tty;
   host.control = options.control;
   if (options.verbose) host.monitor = print_traffic;
-  catch_interrupts();
-  return host_device(host);
+  os::catch_interrupts();
+  return hosting::host_device(host);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -3,18 +3,18 @@
 #include "harness/run/tool_vectors.hpp"
 #include "reports/errata.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 int errata_command(const ErrataOptions& options) {
-  const Result<VectorSet> set = load_sound_vectors(options.vectors);
-  if (!set) return complain(set.error().message, exit_code::usage);
-  std::vector<ErratumInfo> errata;
-  for (const Erratum& one : set->errata) errata.push_back(erratum_info(one));
-  sort_errata(errata);
-  print(options.json       ? errata_json(errata)
-        : options.markdown ? errata_markdown(errata)
-                           : errata_text(errata));
-  return exit_code::ok;
+  const Result<vectors::VectorSet> set = run::load_sound_vectors(options.vectors);
+  if (!set) return run::complain(set.error().message, run::exit_code::usage);
+  std::vector<results::ErratumInfo> errata;
+  for (const vectors::Erratum& one : set->errata) errata.push_back(run::erratum_info(one));
+  reports::sort_errata(errata);
+  run::print(options.json       ? reports::errata_json(errata)
+             : options.markdown ? reports::errata_markdown(errata)
+                                : reports::errata_text(errata));
+  return run::exit_code::ok;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -8,7 +8,7 @@
 #include "harness/notation/frame_template.hpp"
 #include "harness/protocol.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 namespace {
 
@@ -18,9 +18,9 @@ Bytes read_monitor_text(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char close = text[i] == '[' ? ']' : text[i] == '<' ? '>' : '\0';
     const std::size_t end = close ? text.find(close, i) : std::string::npos;
-    const Result<Notation> word = end == std::string::npos
-                                      ? Result<Notation>(fail(""))
-                                      : parse_notation(text.substr(i + 1, end - i - 1));
+    const Result<notation::Notation> word =
+        end == std::string::npos ? Result<notation::Notation>(fail(""))
+                                 : notation::parse_notation(text.substr(i + 1, end - i - 1));
     if (word && word->size() == 1 && word->front().bytes.size() == 1) {
       bytes.push_back(word->front().bytes.front());
       i = end;
@@ -37,9 +37,9 @@ bool looks_like_hex(const std::string& text) {
 }
 
 /// Notation, hex or raw, in this order of likelihood.
-Result<Bytes> read_frame_text(const std::string& text, const Stations& stations) {
+Result<Bytes> read_frame_text(const std::string& text, const notation::Stations& stations) {
   if (looks_like_hex(text)) return *from_hex(text);
-  const Result<Notation> notation = parse_notation(text);
+  const Result<notation::Notation> notation = notation::parse_notation(text);
   if (!notation) {
     const bool raw = !text.empty() && (static_cast<unsigned char>(text[0]) < 0x20 ||
                                        text[0] == '[' || text[0] == '<');
@@ -48,40 +48,43 @@ Result<Bytes> read_frame_text(const std::string& text, const Stations& stations)
     if (monitor) return read_monitor_text(text);
     return notation.error();
   }
-  const Result<std::vector<FrameTemplate>> templates = make_templates(*notation, stations);
+  const Result<std::vector<notation::FrameTemplate>> templates =
+      notation::make_templates(*notation, stations);
   if (!templates) return templates.error();
-  return render(templates->front(), {});
+  return notation::render(templates->front(), {});
 }
 
 struct FrameReading {
-  const Protocol* protocol = nullptr;
+  const harness::Protocol* protocol = nullptr;
   Bytes bytes;
-  std::vector<Field> fields;
+  std::vector<harness::Field> fields;
 
   auto problems() const {
-    return std::ranges::count_if(fields, [](const Field& field) { return !field.problem.empty(); });
+    return std::ranges::count_if(
+        fields, [](const harness::Field& field) { return !field.problem.empty(); });
   }
 };
 
-Result<FrameReading> read_as(const Protocol& protocol, const FrameOptions& options) {
-  const Stations stations{protocol.station_bytes(options.station),
-                          protocol.station_bytes((options.station + 1) % 256)};
+Result<FrameReading> read_as(const harness::Protocol& protocol, const FrameOptions& options) {
+  const notation::Stations stations{protocol.station_bytes(options.station),
+                                    protocol.station_bytes((options.station + 1) % 256)};
   Result<Bytes> bytes = read_frame_text(options.frame, stations);
   if (!bytes) return bytes.error();
-  std::vector<Field> fields = protocol.explain(*bytes);
+  std::vector<harness::Field> fields = protocol.explain(*bytes);
   return FrameReading{&protocol, std::move(*bytes), std::move(fields)};
 }
 
 /// As the protocol that was named, else as the one with the fewest problems. One part alone
 /// explains nothing.
-Result<FrameReading> best_reading(const FrameOptions& options, const Protocols& protocols) {
+Result<FrameReading> best_reading(const FrameOptions& options,
+                                  const harness::Protocols& protocols) {
   if (!options.protocol.empty()) {
-    const Result<const Protocol*> protocol = protocols.choose(options.protocol, "");
+    const Result<const harness::Protocol*> protocol = protocols.choose(options.protocol, "");
     if (!protocol) return protocol.error();
     return read_as(**protocol, options);
   }
   Result<FrameReading> best = read_as(protocols.front(), options);
-  for (const Protocol* protocol : protocols) {
+  for (const harness::Protocol* protocol : protocols) {
     Result<FrameReading> other = read_as(*protocol, options);
     if (best && other && other->fields.size() > 1 && other->problems() < best->problems())
       best = std::move(other);
@@ -91,19 +94,19 @@ Result<FrameReading> best_reading(const FrameOptions& options, const Protocols& 
 
 }  // namespace
 
-int frame_command(const FrameOptions& options, const Protocols& protocols) {
+int frame_command(const FrameOptions& options, const harness::Protocols& protocols) {
   const Result<FrameReading> reading = best_reading(options, protocols);
-  if (!reading) return complain(reading.error().message, exit_code::usage);
+  if (!reading) return run::complain(reading.error().message, run::exit_code::usage);
   const ByteView bytes = reading->bytes;
-  fmt::print("{}\n{}\n{}, {} bytes\n\n", print_bytes(bytes), to_hex(bytes),
+  fmt::print("{}\n{}\n{}, {} bytes\n\n", notation::print_bytes(bytes), to_hex(bytes),
              reading->protocol->name(), bytes.size());
-  for (const Field& field : reading->fields) {
+  for (const harness::Field& field : reading->fields) {
     const std::string hex = to_hex(bytes.subspan(field.offset, field.size));
     fmt::print("{:>4}  {:<22} {:<30} {}\n", field.offset, field.name, field.text,
                hex.size() > 47 ? hex.substr(0, 44) + "..." : hex);
     if (!field.problem.empty()) fmt::print("      {:<22} ! {}\n", "", field.problem);
   }
-  return reading->problems() == 0 ? exit_code::ok : exit_code::failed;
+  return reading->problems() == 0 ? run::exit_code::ok : run::exit_code::failed;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

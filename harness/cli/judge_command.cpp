@@ -12,24 +12,25 @@
 #include "reports/text/case_text.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 namespace {
 
 /// Everything that is settled before the first case is judged.
 struct JudgePlan {
-  ResultFile recorded;
-  std::vector<const CaseResult*> selected;  // into `recorded`
-  VectorSet vectors;
-  Profile profile;
-  std::vector<Waiver> waivers;
-  Gate gate;
+  compare::ResultFile recorded;
+  std::vector<const results::CaseResult*> selected;  // into `recorded`
+  vectors::VectorSet vectors;
+  bench::Profile profile;
+  std::vector<bench::Waiver> waivers;
+  results::Gate gate;
 };
 
 /// As the run was judged, and stricter where an option says so.
-Gate gate_of(const JudgeOptions& options, const RunInfo& run) {
+results::Gate gate_of(const JudgeOptions& options, const results::RunInfo& run) {
   const auto recorded = run.properties.find("gate");
-  Gate gate = recorded == run.properties.end() ? Gate{} : parse_gate(recorded->second);
+  results::Gate gate =
+      recorded == run.properties.end() ? results::Gate{} : text::parse_gate(recorded->second);
   gate.strict |= options.strict;
   gate.qualify |= options.qualify;
   gate.fail_on_marginal |= options.fail_on_marginal;
@@ -38,39 +39,40 @@ Gate gate_of(const JudgeOptions& options, const RunInfo& run) {
 
 Result<JudgePlan> make_judge_plan(const JudgeOptions& options) {
   JudgePlan plan;
-  Result<ResultFile> recorded = read_result_file(options.file);
+  Result<compare::ResultFile> recorded = compare::read_result_file(options.file);
   if (!recorded) return recorded.error();
   plan.recorded = std::move(*recorded);
   const std::string profile_name =
       options.profile.empty() ? plan.recorded.run.profile : options.profile;
-  Result<Profile> profile = load_profile(profile_name, find_data().profiles);
+  Result<bench::Profile> profile = bench::load_profile(profile_name, harness::find_data().profiles);
   if (!profile)
     return fail(fmt::format(
         "cannot judge {} by the profile it was recorded with: {}; name one with --profile",
         options.file, profile.error().message));
   plan.profile = std::move(*profile);
-  Result<VectorSet> vectors = load_sound_vectors(options.vectors);
+  Result<vectors::VectorSet> vectors = run::load_sound_vectors(options.vectors);
   if (!vectors) return vectors.error();
   plan.vectors = std::move(*vectors);
-  Result<std::vector<Waiver>> waivers = load_waivers(options.waivers);
+  Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);
   // What a run said about its waivers is said anew.
-  for (const CaseResult& one : plan.recorded.results)
-    if (!one.id.starts_with(waiver_result) && matches_filter(one.id, options.filter))
+  for (const results::CaseResult& one : plan.recorded.results)
+    if (!one.id.starts_with(bench::waiver_result) &&
+        vectors::matches_filter(one.id, options.filter))
       plan.selected.push_back(&one);
   plan.gate = gate_of(options, plan.recorded.run);
   return plan;
 }
 
 /// The recorded run as it is judged today.
-RunInfo info_of(const JudgeOptions& options, const JudgePlan& plan) {
-  RunInfo info = plan.recorded.run;
+results::RunInfo info_of(const JudgeOptions& options, const JudgePlan& plan) {
+  results::RunInfo info = plan.recorded.run;
   info.properties["recorded_in"] = options.file;
   info.properties["recorded_by"] = info.tool_version;
   info.properties["recorded_vectors"] = info.vectors_hash;
-  info.properties["judged"] = timestamp();
-  info.properties["gate"] = to_string(plan.gate);
+  info.properties["judged"] = run::timestamp();
+  info.properties["gate"] = text::to_string(plan.gate);
   info.tool_version = FIELDPROOF_VERSION;
   info.profile = plan.profile.name;
   info.command = options.command;
@@ -79,9 +81,9 @@ RunInfo info_of(const JudgeOptions& options, const JudgePlan& plan) {
 }
 
 std::string replay_command(const JudgeOptions& options) {
-  std::string command = "fieldproof judge " + shell_word(options.file);
-  if (!options.profile.empty()) command += " --profile " + shell_word(options.profile);
-  if (!options.vectors.empty()) command += " --vectors " + shell_word(options.vectors);
+  std::string command = "fieldproof judge " + run::shell_word(options.file);
+  if (!options.profile.empty()) command += " --profile " + run::shell_word(options.profile);
+  if (!options.vectors.empty()) command += " --vectors " + run::shell_word(options.vectors);
   return command + " --filter ";
 }
 
@@ -92,8 +94,8 @@ struct News {
 };
 
 /// Was never sent: there is nothing to judge again, and nothing to say about it.
-bool not_executed(Verdict verdict) {
-  return verdict == Verdict::skip || verdict == Verdict::blocked;
+bool not_executed(results::Verdict verdict) {
+  return verdict == results::Verdict::skip || verdict == results::Verdict::blocked;
 }
 
 std::string list(const std::string& heading, const std::vector<std::string>& lines) {
@@ -104,58 +106,61 @@ std::string list(const std::string& heading, const std::vector<std::string>& lin
   return text;
 }
 
-News judge_all(const JudgeOptions& options, const JudgePlan& plan, RunReport& report,
-               const Protocols& protocols) {
+News judge_all(const JudgeOptions& options, const JudgePlan& plan, run::RunReport& report,
+               const harness::Protocols& protocols) {
   News news;
-  Rejudge rejudge(plan.vectors, plan.profile, protocols);
-  Waivers waivers(plan.waivers, timestamp().substr(0, 10), plan.recorded.run.identity.firmware);
-  for (const CaseResult* one : plan.selected) {
+  bench::Rejudge rejudge(plan.vectors, plan.profile, protocols);
+  bench::Waivers waivers(plan.waivers, run::timestamp().substr(0, 10),
+                         plan.recorded.run.identity.firmware);
+  for (const results::CaseResult* one : plan.selected) {
     auto [result, why_not] = rejudge.judge(*one);
     result.replay = replay_command(options) + "'" + result.id + "'";
     waivers.apply(result);
-    const std::string label = case_label(result);
+    const std::string label = text::case_label(result);
     if (!why_not.empty() && not_executed(result.verdict))
       ++news.not_executed;
     else if (!why_not.empty())
-      news.not_judged.push_back(fmt::format("{}: {}", label, xml_line(why_not)));
+      news.not_judged.push_back(fmt::format("{}: {}", label, text::xml_line(why_not)));
     else if (result.verdict != one->verdict)
-      news.changed.push_back(fmt::format("{}  {} -> {}  {}", label, to_string(one->verdict),
-                                         to_string(result.verdict), xml_line(result.message)));
+      news.changed.push_back(
+          fmt::format("{}  {} -> {}  {}", label, results::to_string(one->verdict),
+                      results::to_string(result.verdict), text::xml_line(result.message)));
     if (!report.add(result)) return news;
   }
-  for (const CaseResult& result : waivers.superfluous(case_ids(plan.vectors))) report.add(result);
+  for (const results::CaseResult& result : waivers.superfluous(run::case_ids(plan.vectors)))
+    report.add(result);
   return news;
 }
 
 }  // namespace
 
-int judge_command(const JudgeOptions& options, const Protocols& protocols) {
+int judge_command(const JudgeOptions& options, const harness::Protocols& protocols) {
   const Result<JudgePlan> plan = make_judge_plan(options);
-  if (!plan) return complain(plan.error().message, exit_code::usage);
+  if (!plan) return run::complain(plan.error().message, run::exit_code::usage);
   if (plan->selected.empty())
-    return complain(
+    return run::complain(
         fmt::format("no result in {} matches --filter '{}'", options.file, options.filter),
-        exit_code::nothing);
-  Result<ReportPaths> paths =
-      make_report_paths(options.out, options.json, options.junit, options.html);
-  if (!paths) return complain(paths.error().message, exit_code::trouble);
+        run::exit_code::nothing);
+  Result<run::ReportPaths> paths =
+      run::make_report_paths(options.out, options.json, options.junit, options.html);
+  if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
   std::error_code ignored;
   if (std::filesystem::equivalent(paths->front().second, options.file, ignored))
-    return complain(
+    return run::complain(
         fmt::format("the results would overwrite {}; name another folder with --out", options.file),
-        exit_code::usage);
-  Result<RunReport> report =
-      RunReport::create(std::move(*paths), console_options(plan->gate, options.verbose));
-  if (!report) return complain(report.error().message, exit_code::trouble);
+        run::exit_code::usage);
+  Result<run::RunReport> report =
+      run::RunReport::create(std::move(*paths), run::console_options(plan->gate, options.verbose));
+  if (!report) return run::complain(report.error().message, run::exit_code::trouble);
   if (const Status begun = report->begin(info_of(options, *plan)); !begun)
-    return complain(begun.error().message, exit_code::trouble);
+    return run::complain(begun.error().message, run::exit_code::trouble);
   const News news = judge_all(options, *plan, *report, protocols);
-  print(list("\nverdicts that changed", news.changed));
-  if (!news.not_judged.empty()) print(list("\nnot judged again", news.not_judged));
+  run::print(list("\nverdicts that changed", news.changed));
+  if (!news.not_judged.empty()) run::print(list("\nnot judged again", news.not_judged));
   if (news.not_executed > 0)
-    print(fmt::format("\nnot executed when this was recorded: {} SKIP or BLOCKED\n",
-                      news.not_executed));
+    run::print(fmt::format("\nnot executed when this was recorded: {} SKIP or BLOCKED\n",
+                           news.not_executed));
   return report->finish({});
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -12,7 +12,7 @@
 #include "harness/vectors/lint.hpp"
 #include "harness/vectors/loader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 namespace {
 
@@ -24,12 +24,12 @@ void add(std::vector<std::string>& all, std::vector<std::string> more) {
 
 /// What stands in a profile and means nothing to protocols and vectors. `whole`: the set is the one
 /// profiles are made for.
-std::vector<std::string> lint_profile(const Profile& profile, const VectorSet& set, bool whole,
-                                      const Protocols& protocols) {
+std::vector<std::string> lint_profile(const bench::Profile& profile, const vectors::VectorSet& set,
+                                      bool whole, const harness::Protocols& protocols) {
   std::vector<std::string> problems;
   bool emulated = profile.model.empty();
   for (const std::string& name : profile.protocols) {
-    const Result<const Protocol*> protocol = protocols.choose(name, "");
+    const Result<const harness::Protocol*> protocol = protocols.choose(name, "");
     if (!protocol)
       problems.push_back(protocol.error().message);
     else
@@ -39,19 +39,20 @@ std::vector<std::string> lint_profile(const Profile& profile, const VectorSet& s
     problems.push_back(fmt::format(
         "no case is for the model '{}'; write in \"notes\" why, or correct it", profile.model));
   for (const auto& [pattern, reason] : profile.exclude)
-    if (whole && std::ranges::none_of(
-                     set.cases, [&](const Case& one) { return matches_filter(one.id, pattern); }))
+    if (whole && std::ranges::none_of(set.cases, [&](const vectors::Case& one) {
+          return vectors::matches_filter(one.id, pattern);
+        }))
       problems.push_back(fmt::format("excludes '{}', which is no case", pattern));
   return problems;
 }
 
-std::vector<std::string> lint_profiles(const fs::path& folder, const VectorSet& set, bool whole,
-                                       const Protocols& protocols) {
+std::vector<std::string> lint_profiles(const fs::path& folder, const vectors::VectorSet& set,
+                                       bool whole, const harness::Protocols& protocols) {
   std::vector<std::string> problems;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;
     const std::string file = entry.path().filename().string(), name = entry.path().stem().string();
-    const Result<Profile> profile = load_profile(name, folder);
+    const Result<bench::Profile> profile = bench::load_profile(name, folder);
     if (!profile) {
       problems.push_back(profile.error().message);
       continue;
@@ -72,30 +73,31 @@ std::string read_lock(const fs::path& folder) {
 
 }  // namespace
 
-int lint_command(const LintOptions& options, const Protocols& protocols) {
-  const DataPaths data = find_data();
-  const fs::path folder = vectors_path(options.vectors);
-  VectorSet set = load_vectors(folder, data.vectors / "schema.json");
-  load_wires(folder, set);
+int lint_command(const LintOptions& options, const harness::Protocols& protocols) {
+  const harness::DataPaths data = harness::find_data();
+  const fs::path folder = run::vectors_path(options.vectors);
+  vectors::VectorSet set = vectors::load_vectors(folder, data.vectors / "schema.json");
+  vectors::load_wires(folder, set);
   std::vector<std::string> problems = set.problems;
-  add(problems, lint_wires(set, protocols));
-  add(problems, lint_statements(set));
-  add(problems, lint_readings(set));
-  add(problems, lint_tables(set, protocols));
+  add(problems, vectors::lint_wires(set, protocols));
+  add(problems, vectors::lint_statements(set));
+  add(problems, vectors::lint_readings(set));
+  add(problems, vectors::lint_tables(set, protocols));
   if (fs::is_directory(data.profiles))
     add(problems, lint_profiles(data.profiles, set, options.vectors.empty(), protocols));
   const std::vector<std::string> quotes = options.manuals.empty()
-                                              ? lint_lock(set, read_lock(folder))
-                                              : lint_quotes(set, options.manuals);
+                                              ? vectors::lint_lock(set, read_lock(folder))
+                                              : vectors::lint_quotes(set, options.manuals);
   add(problems, quotes);
   if (options.lock && options.manuals.empty())
-    return complain("--lock needs --manuals DIR: only verified quotes are locked",
-                    exit_code::usage);
-  if (options.lock && quotes.empty()) std::ofstream(folder / "quotes.lock") << quotes_lock(set);
+    return run::complain("--lock needs --manuals DIR: only verified quotes are locked",
+                         run::exit_code::usage);
+  if (options.lock && quotes.empty())
+    std::ofstream(folder / "quotes.lock") << vectors::quotes_lock(set);
   for (const std::string& problem : problems) fmt::print("{}\n", problem);
   fmt::print("{} cases, {} tables, {} statements, {} errata: {} problems\n", set.cases.size(),
              set.tables.size(), set.statements.size(), set.errata.size(), problems.size());
-  return problems.empty() ? exit_code::ok : exit_code::usage;
+  return problems.empty() ? run::exit_code::ok : run::exit_code::usage;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -9,7 +9,9 @@
 #include "harness/run/tool_vectors.hpp"
 #include "reports/coverage_html.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
+
+using vectors::Step;
 
 namespace {
 
@@ -21,7 +23,7 @@ ordered_json memory_json(const std::vector<std::pair<std::string, std::string>>&
   return result;
 }
 
-ordered_json partner_json(const PartnerSpec& partner) {
+ordered_json partner_json(const vectors::PartnerSpec& partner) {
   ordered_json result = partner.config;
   if (!partner.model.empty()) result["model"] = partner.model;
   if (!partner.memory.empty()) result["memory"] = memory_json(partner.memory);
@@ -29,21 +31,21 @@ ordered_json partner_json(const PartnerSpec& partner) {
   return result;
 }
 
-ordered_json kind_json(const PreparedStep& step) {
+ordered_json kind_json(const exchange::PreparedStep& step) {
   const Step& source = *step.step;
   switch (source.kind) {
     case Step::Kind::send:
-      return {{"send", to_hex_with_holes(step.frames.front().frame)},
+      return {{"send", notation::to_hex_with_holes(step.frames.front().frame)},
               {"notation", source.frames.front().text}};
     case Step::Kind::expect: {
-      ordered_json result{{"expect", to_hex_with_holes(step.frames.front().frame)},
+      ordered_json result{{"expect", notation::to_hex_with_holes(step.frames.front().frame)},
                           {"notation", source.frames.front().text}};
       if (step.frames.size() == 1) return result;
       result["alternatives"] = ordered_json::array();
-      for (const PreparedFrame& one : step.frames)
+      for (const exchange::PreparedFrame& one : step.frames)
         result["alternatives"].push_back({{"reading", source.reading},
                                           {"name", one.reading},
-                                          {"expect", to_hex_with_holes(one.frame)}});
+                                          {"expect", notation::to_hex_with_holes(one.frame)}});
       return result;
     }
     case Step::Kind::silence: return {{"silence", true}};
@@ -59,7 +61,7 @@ ordered_json kind_json(const PreparedStep& step) {
   return {};
 }
 
-ordered_json step_json(const PreparedStep& step) {
+ordered_json step_json(const exchange::PreparedStep& step) {
   const Step& source = *step.step;
   ordered_json result = kind_json(step);
   if (source.partner) result["partner"] = partner_json(*source.partner);
@@ -68,7 +70,7 @@ ordered_json step_json(const PreparedStep& step) {
   return result;
 }
 
-ordered_json case_json(const Case& one, const Protocols& protocols) {
+ordered_json case_json(const vectors::Case& one, const harness::Protocols& protocols) {
   ordered_json result{{"id", one.id},
                       {"rev", one.rev},
                       {"title", one.title},
@@ -84,56 +86,59 @@ ordered_json case_json(const Case& one, const Protocols& protocols) {
                       {"config", one.config},
                       {"memory", memory_json(one.memory)}};
   result["steps"] = ordered_json::array();
-  const Protocol* protocol = protocols.find(one.protocol);
+  const harness::Protocol* protocol = protocols.find(one.protocol);
   if (!protocol) return result;
-  const Result<PreparedCase> prepared =
-      prepare(one, config_station(one.config, 1).value_or(1), *protocol);
+  const Result<exchange::PreparedCase> prepared =
+      exchange::prepare(one, vectors::config_station(one.config, 1).value_or(1), *protocol);
   if (!prepared) return result;
-  for (const PreparedStep& step : prepared->steps) result["steps"].push_back(step_json(step));
+  for (const exchange::PreparedStep& step : prepared->steps)
+    result["steps"].push_back(step_json(step));
   return result;
 }
 
-int list_coverage(const ListOptions& options, const VectorSet& set) {
-  std::optional<ResultFile> results;
+int list_coverage(const ListOptions& options, const vectors::VectorSet& set) {
+  std::optional<compare::ResultFile> results;
   if (!options.results.empty()) {
-    Result<ResultFile> read = read_result_file(options.results);
-    if (!read) return complain(read.error().message, exit_code::usage);
+    Result<compare::ResultFile> read = compare::read_result_file(options.results);
+    if (!read) return run::complain(read.error().message, run::exit_code::usage);
     results = std::move(*read);
   }
-  const Coverage coverage = trace(set, results);
+  const reports::Coverage coverage = trace(set, results);
   if (!options.html.empty())
-    if (const Status written = write_coverage_html(coverage, options.html); !written)
-      return complain(written.error().message, exit_code::trouble);
-  print(options.json       ? coverage_json(coverage)
-        : options.markdown ? coverage_markdown(coverage)
-                           : coverage_text(coverage));
-  const CoverageCounts counts = count_statements(coverage);
+    if (const Status written = reports::write_coverage_html(coverage, options.html); !written)
+      return run::complain(written.error().message, run::exit_code::trouble);
+  run::print(options.json       ? reports::coverage_json(coverage)
+             : options.markdown ? reports::coverage_markdown(coverage)
+                                : reports::coverage_text(coverage));
+  const reports::CoverageCounts counts = reports::count_statements(coverage);
   const double percent = counts.percent(coverage.with_results());
   if (percent < options.min_coverage)
-    return complain(fmt::format("coverage is {:.1f} %, below --min-coverage {:g}", percent,
-                                options.min_coverage),
-                    exit_code::failed);
-  return counts.count(Traced::open) == 0 ? exit_code::ok : exit_code::failed;
+    return run::complain(fmt::format("coverage is {:.1f} %, below --min-coverage {:g}", percent,
+                                     options.min_coverage),
+                         run::exit_code::failed);
+  return counts.count(reports::Traced::open) == 0 ? run::exit_code::ok : run::exit_code::failed;
 }
 
 }  // namespace
 
-int list_command(const ListOptions& options, const Protocols& protocols) {
+int list_command(const ListOptions& options, const harness::Protocols& protocols) {
   if (!options.coverage && (options.markdown || !options.html.empty() || !options.results.empty() ||
                             options.min_coverage > 0))
-    return complain("--results, --markdown, --html and --min-coverage are about --coverage; add it",
-                    exit_code::usage);
+    return run::complain(
+        "--results, --markdown, --html and --min-coverage are about --coverage; add it",
+        run::exit_code::usage);
   if (options.coverage && !(options.filter + options.role).empty())
-    return complain("--filter and --role select cases; --coverage is of all statements",
-                    exit_code::usage);
-  const Result<VectorSet> loaded = load_sound_vectors(options.vectors);
-  if (!loaded) return complain(loaded.error().message, exit_code::usage);
-  const VectorSet& set = *loaded;
+    return run::complain("--filter and --role select cases; --coverage is of all statements",
+                         run::exit_code::usage);
+  const Result<vectors::VectorSet> loaded = run::load_sound_vectors(options.vectors);
+  if (!loaded) return run::complain(loaded.error().message, run::exit_code::usage);
+  const vectors::VectorSet& set = *loaded;
   if (options.coverage) return list_coverage(options, set);
   ordered_json all = ordered_json::array();
   std::size_t count = 0;
-  for (const Case& one : set.cases) {
-    if (!matches_filter(one.id, options.filter) || !has_role(one, options.role)) continue;
+  for (const vectors::Case& one : set.cases) {
+    if (!vectors::matches_filter(one.id, options.filter) || !vectors::has_role(one, options.role))
+      continue;
     ++count;
     if (options.json)
       all.push_back(case_json(one, protocols));
@@ -143,12 +148,12 @@ int list_command(const ListOptions& options, const Protocols& protocols) {
   if (options.json)
     fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
   if (count == 0)
-    return complain(
+    return run::complain(
         fmt::format("no case{} matches '{}'; `fieldproof list` shows them all",
                     options.role.empty() ? "" : " of role " + options.role, options.filter),
-        exit_code::nothing);
+        run::exit_code::nothing);
   if (!options.json) fmt::print("{} cases\n", count);
-  return exit_code::ok;
+  return run::exit_code::ok;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

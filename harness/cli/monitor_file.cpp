@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 namespace {
 
@@ -28,19 +28,20 @@ std::string elapsed_text(Duration elapsed) {
 
 }  // namespace
 
-Result<FrameMonitor::Record> open_monitor_file(const std::string& path, std::string_view model) {
+Result<plc::FrameMonitor::Record> open_monitor_file(const std::string& path,
+                                                    std::string_view model) {
   const auto file = std::make_shared<std::ofstream>(path, std::ios::binary);
-  if (!(*file << csv_header() << std::flush))
+  if (!(*file << plc::csv_header() << std::flush))
     return fail(
         fmt::format("cannot write {}: {}; give --monitor a file in a folder that you may write",
                     path, std::strerror(errno)));
   const bool has_clock = model != "xbm-s";
-  return FrameMonitor::Record(
-      [file, has_clock, first = std::optional<Time>()](const MonitoredFrame& frame) mutable {
+  return plc::FrameMonitor::Record(
+      [file, has_clock, first = std::optional<Time>()](const plc::MonitoredFrame& frame) mutable {
         if (!first) first = frame.time;
-        *file << csv_row(frame, has_clock ? clock_text() : elapsed_text(frame.time - *first))
+        *file << plc::csv_row(frame, has_clock ? clock_text() : elapsed_text(frame.time - *first))
               << std::flush;
       });
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 Result<nlohmann::json> read_p2p_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -29,13 +29,13 @@ Result<nlohmann::json> read_p2p_file(const std::string& path) {
   return config;
 }
 
-HostedFactory naming_file(HostedFactory make_device, std::string path) {
+hosting::HostedFactory naming_file(hosting::HostedFactory make_device, std::string path) {
   return [make_device = std::move(make_device), path = std::move(path)](
-             const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
-    Result<std::unique_ptr<EmulatedDevice>> device = make_device(config);
+             const nlohmann::json& config) -> Result<std::unique_ptr<plc::EmulatedDevice>> {
+    Result<std::unique_ptr<plc::EmulatedDevice>> device = make_device(config);
     if (!device) return fail(path + ": " + device.error().message);
     return device;
   };
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -6,13 +6,13 @@
 
 #include "harness/hosting/device_host.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 /// The configuration in a file, as in `given.config` (vectors/README.md); its role is client.
 /// Errors name the file.
 Result<nlohmann::json> read_p2p_file(const std::string& path);
 
 /// The same factory, whose errors name the file.
-HostedFactory naming_file(HostedFactory make_device, std::string path);
+hosting::HostedFactory naming_file(hosting::HostedFactory make_device, std::string path);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

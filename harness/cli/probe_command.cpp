@@ -10,7 +10,10 @@
 #include "harness/probe/target.hpp"
 #include "harness/system/interrupt.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
+
+using endpoints::EndpointName;
+using probe::Finding;
 
 namespace {
 
@@ -37,35 +40,35 @@ bool read_stations(const std::string& text, std::vector<int>& to) {
 /// What an option names, or what the endpoint's own option `key` says; an emulator's options
 /// describe the device.
 Texts chosen(const Texts& option, const EndpointName& endpoint, const std::string& key) {
-  if (!option.empty() || is_emulator(endpoint)) return option;
+  if (!option.empty() || probe::is_emulator(endpoint)) return option;
   const std::string own = endpoint.option(key, "");
   return own.empty() ? Texts{} : Texts{own};
 }
 
-Result<SearchSpace> space_of(const ProbeOptions& options, const EndpointName& endpoint,
-                             const Protocols& protocols) {
-  SearchSpace space;
+Result<probe::SearchSpace> space_of(const ProbeOptions& options, const EndpointName& endpoint,
+                                    const harness::Protocols& protocols) {
+  probe::SearchSpace space;
   for (const std::string& text : chosen(options.stations, endpoint, "station"))
     if (!read_stations(text, space.stations))
       return fail(fmt::format("cannot read station '{}': write 5, or 0-31, from 0 to 255", text));
   for (const std::string& text : chosen(options.speeds, endpoint, "baud")) {
-    const Result<LineSettings> line = parse_line_settings(text);
+    const Result<line::LineSettings> line = line::parse_line_settings(text);
     if (!line) return line.error();
     space.speeds.push_back(line->baud);
   }
   for (const std::string& text : chosen(options.frames, endpoint, "frame")) {
-    const Result<LineSettings> line = parse_line_settings("9600-" + text);
+    const Result<line::LineSettings> line = line::parse_line_settings("9600-" + text);
     if (!line) return line.error();
     space.frames.push_back(*line);
   }
   for (const std::string& text : chosen(options.protocols, endpoint, "protocol")) {
-    const Result<const Protocol*> protocol = protocols.choose(text, "");
+    const Result<const harness::Protocol*> protocol = protocols.choose(text, "");
     if (!protocol) return protocol.error();
     if ((*protocol)->probe(1, {}).empty())
       return fail(fmt::format("cannot search by {}: it has no harmless request of its own", text));
     space.protocols.push_back(*protocol);
   }
-  space.settable = has_line_settings(endpoint);
+  space.settable = probe::has_line_settings(endpoint);
   if (!space.settable && !(options.speeds.empty() && options.frames.empty()))
     return fail(fmt::format(
         "cannot search speeds and frames of {}: there are none; leave --speed and --frame out",
@@ -85,10 +88,10 @@ std::string counted(std::size_t count, const char* what) {
 }
 
 /// The search and its worst case, before it begins.
-std::string head(const ProbeOptions& options, const SearchSpace& all,
-                 const std::vector<Trial>& plan, Duration longest) {
+std::string head(const ProbeOptions& options, const probe::SearchSpace& all,
+                 const std::vector<probe::Trial>& plan, Duration longest) {
   std::vector<std::string_view> names;
-  for (const Protocol* protocol : all.protocols) names.push_back(protocol->name());
+  for (const harness::Protocol* protocol : all.protocols) names.push_back(protocol->name());
   std::string line;
   if (all.settable)
     line = fmt::format("{} x {} x ", counted(all.speeds.size(), "speed"),
@@ -109,10 +112,11 @@ class ProgressLine {
   ProgressLine(Duration each, bool settable)
       : each_(each), settable_(settable), terminal_(::isatty(STDERR_FILENO) != 0) {}
 
-  void show(std::size_t done, std::size_t total, const Observation& last) const {
-    const std::string text = fmt::format(
-        "[{}/{}] {}: {}", done, total, settable_ ? to_string(last.trial) : question_of(last.trial),
-        to_string(last.diagnosis.symptom));
+  void show(std::size_t done, std::size_t total, const probe::Observation& last) const {
+    const std::string text =
+        fmt::format("[{}/{}] {}: {}", done, total,
+                    settable_ ? probe::to_string(last.trial) : probe::question_of(last.trial),
+                    probe::to_string(last.diagnosis.symptom));
     if (!terminal_)
       fmt::print(stderr, "{}{}\n", text, last.diagnosis.echo ? " (echo)" : "");
     else
@@ -133,37 +137,39 @@ class ProgressLine {
 /// Its own module's profile is for the engineer to choose; this one exists and binds nothing that
 /// the manuals leave open.
 std::string run_line(const EndpointName& endpoint, const Finding& device, bool settable) {
-  std::string line = "fieldproof run --endpoint " +
-                     shell_word(to_string(name_of_found(endpoint, device.trial, settable)));
-  if (is_emulator(endpoint)) return line;
+  std::string line =
+      "fieldproof run --endpoint " +
+      run::shell_word(probe::to_string(probe::name_of_found(endpoint, device.trial, settable)));
+  if (probe::is_emulator(endpoint)) return line;
   const std::vector<std::string> models = device.trial.protocol->models();
   return line + " --profile " +
          (std::ranges::count(models, "xbc-h") > 0 ? "xbc-dxxxh" : models.front());
 }
 
 /// Of a device that was found; what went wrong is said and makes the exit code.
-int print_fingerprint(const EndpointName& endpoint, const Trial& device, bool settable,
+int print_fingerprint(const EndpointName& endpoint, const probe::Trial& device, bool settable,
                       Duration patience) {
-  EndpointName name = name_of_found(endpoint, device, settable);
+  EndpointName name = probe::name_of_found(endpoint, device, settable);
   name.options["protocol"] = device.protocol->name();
-  BenchOptions options;
+  bench::BenchOptions options;
   options.station = device.station;
   options.profile.response_max = patience;
-  Result<Benches> port = Benches::open(name, {device.protocol}, options);
-  if (!port) return complain(port.error().message, exit_code::trouble);
-  const Result<Fingerprint> found = port->fingerprint();
+  Result<bench::Benches> port = bench::Benches::open(name, {device.protocol}, options);
+  if (!port) return run::complain(port.error().message, run::exit_code::trouble);
+  const Result<bench::Fingerprint> found = port->fingerprint();
   if (!found)
-    return complain(found.error().message,
-                    found.error().interrupted ? exit_code::interrupted : exit_code::trouble);
-  fmt::print("{:<13} {}\n", "fingerprint", to_string(*found));
-  return exit_code::ok;
+    return run::complain(found.error().message, found.error().interrupted
+                                                    ? run::exit_code::interrupted
+                                                    : run::exit_code::trouble);
+  fmt::print("{:<13} {}\n", "fingerprint", bench::to_string(*found));
+  return run::exit_code::ok;
 }
 
 void report(const std::vector<Finding>& findings, const EndpointName& endpoint, bool settable) {
   for (const Finding& finding : findings) {
     const bool where = finding.trial.protocol && settable;
-    fmt::print("{:<13} {}{}\n", to_string(finding.kind),
-               where ? to_string(finding.trial.line) + ", " : "", finding.text);
+    fmt::print("{:<13} {}{}\n", probe::to_string(finding.kind),
+               where ? line::to_string(finding.trial.line) + ", " : "", finding.text);
     if (!finding.advice.empty()) fmt::print("{:<13} {}\n", "what to do", finding.advice);
     if (finding.kind != Finding::Kind::device) continue;
     if (settable)
@@ -173,60 +179,62 @@ void report(const std::vector<Finding>& findings, const EndpointName& endpoint, 
 }
 
 int exit_code_of(const std::vector<Finding>& findings, bool was_interrupted) {
-  if (was_interrupted) return exit_code::interrupted;
-  return std::ranges::any_of(findings, &Finding::is_problem) ? exit_code::failed : exit_code::ok;
+  if (was_interrupted) return run::exit_code::interrupted;
+  return std::ranges::any_of(findings, &Finding::is_problem) ? run::exit_code::failed
+                                                             : run::exit_code::ok;
 }
 
 }  // namespace
 
-int probe_command(const ProbeOptions& options, const Protocols& protocols) {
-  const Result<EndpointName> endpoint = parse_endpoint(options.endpoint);
-  if (!endpoint) return complain(endpoint.error().message, exit_code::usage);
-  Result<SearchSpace> space = space_of(options, *endpoint, protocols);
-  if (!space) return complain(space.error().message, exit_code::usage);
-  ProbeTiming timing;
+int probe_command(const ProbeOptions& options, const harness::Protocols& protocols) {
+  const Result<EndpointName> endpoint = endpoints::parse_endpoint(options.endpoint);
+  if (!endpoint) return run::complain(endpoint.error().message, run::exit_code::usage);
+  Result<probe::SearchSpace> space = space_of(options, *endpoint, protocols);
+  if (!space) return run::complain(space.error().message, run::exit_code::usage);
+  probe::ProbeTiming timing;
   timing.wait = std::chrono::milliseconds(options.wait_ms);
   timing.late = std::max(timing.late, timing.wait);
-  const Result<const Protocol*> spoken = protocols.choose(
-      endpoint->option("protocol", ""), is_emulator(*endpoint) ? endpoint->target : "");
+  const Result<const harness::Protocol*> spoken = protocols.choose(
+      endpoint->option("protocol", ""), probe::is_emulator(*endpoint) ? endpoint->target : "");
   if (!spoken)
-    return complain("cannot open " + options.endpoint + ": " + spoken.error().message,
-                    exit_code::usage);
-  const LineOpener open = line_opener(*endpoint, **spoken);
+    return run::complain("cannot open " + options.endpoint + ": " + spoken.error().message,
+                         run::exit_code::usage);
+  const probe::LineOpener open = probe::line_opener(*endpoint, **spoken);
 
-  catch_interrupts();
+  os::catch_interrupts();
   {
-    const Result<std::unique_ptr<Endpoint>> first = open(make_plan(*space, protocols).front().line);
-    if (!first) return complain(first.error().message, exit_code::trouble);
-    const Capabilities& link = (*first)->capabilities();
+    const Result<std::unique_ptr<endpoints::Endpoint>> first =
+        open(probe::make_plan(*space, protocols).front().line);
+    if (!first) return run::complain(first.error().message, run::exit_code::trouble);
+    const endpoints::Capabilities& link = (*first)->capabilities();
     if (endpoint->kind == "serial" && !link.wire) space->settable = false;  // a pty
   }
-  const std::vector<Trial> plan = make_plan(*space, protocols);
-  const Duration longest = longest_time(plan, timing.wait) + timing.listen;
-  fmt::print("{}", head(options, filled(*space, protocols), plan, longest));
+  const std::vector<probe::Trial> plan = probe::make_plan(*space, protocols);
+  const Duration longest = probe::longest_time(plan, timing.wait) + timing.listen;
+  fmt::print("{}", head(options, probe::filled(*space, protocols), plan, longest));
   std::fflush(stdout);
 
   const ProgressLine progress(longest / static_cast<Duration::rep>(plan.size()), space->settable);
-  Prober prober(open, protocols, timing,
-                [&](std::size_t done, std::size_t total, const Observation& last) {
-                  progress.show(done, total, last);
-                });
-  const Result<Search> search = prober.run(plan, options.all);
+  probe::Prober prober(open, protocols, timing,
+                       [&](std::size_t done, std::size_t total, const probe::Observation& last) {
+                         progress.show(done, total, last);
+                       });
+  const Result<probe::Search> search = prober.run(plan, options.all);
   progress.erase();
-  if (!search) return complain(search.error().message, exit_code::trouble);
+  if (!search) return run::complain(search.error().message, run::exit_code::trouble);
   for (const std::string& refused : search->not_offered)
     fmt::print("{:<13} {}\n", "not tried", refused);
   if (search->interrupted)
     fmt::print("{:<13} after {} of {}\n", "interrupted", search->trials, plan.size() + 1);
-  const std::vector<Finding> findings = conclude(*search, timing);
+  const std::vector<Finding> findings = probe::conclude(*search, timing);
   report(findings, *endpoint, space->settable);
   for (const Finding& finding : findings)
     if (options.fingerprint && finding.kind == Finding::Kind::device && !search->interrupted)
       if (const int code =
               print_fingerprint(*endpoint, finding.trial, space->settable, timing.wait);
-          code != exit_code::ok)
+          code != run::exit_code::ok)
         return code;
   return exit_code_of(findings, search->interrupted);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

@@ -7,7 +7,7 @@
 #include "harness/safety/saved_memory.hpp"
 #include "harness/system/interrupt.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
 
 namespace {
 
@@ -15,53 +15,53 @@ constexpr Duration start_patience = 10s, response_max = 500ms;
 
 /// A device of the journal, opened.
 struct Connection {
-  JournalDevice device;
-  std::unique_ptr<Endpoint> endpoint;
-  std::unique_ptr<Protocol> configured;
-  std::unique_ptr<SavedMemory> memory;
+  safety::JournalDevice device;
+  std::unique_ptr<endpoints::Endpoint> endpoint;
+  std::unique_ptr<harness::Protocol> configured;
+  std::unique_ptr<safety::SavedMemory> memory;
 };
 
 /// Opens the device and waits until it answers. Errors say what to check.
-Result<Connection> connect(const JournalDevice& device, const std::string& endpoint_text,
-                           const Protocols& protocols) {
+Result<Connection> connect(const safety::JournalDevice& device, const std::string& endpoint_text,
+                           const harness::Protocols& protocols) {
   Connection connection{device, {}, {}, {}};
-  Result<EndpointName> name = parse_endpoint(endpoint_text);
+  Result<endpoints::EndpointName> name = endpoints::parse_endpoint(endpoint_text);
   if (!name) return name.error();
   name->options["protocol"] = device.protocol;
-  const Result<const Protocol*> protocol = protocols.choose(device.protocol, device.model);
+  const Result<const harness::Protocol*> protocol = protocols.choose(device.protocol, device.model);
   if (!protocol) return protocol.error();
-  Result<std::unique_ptr<Protocol>> configured =
+  Result<std::unique_ptr<harness::Protocol>> configured =
       (*protocol)->configured(device.model, device.config);
   if (!configured) return configured.error();
   connection.configured = std::move(*configured);
-  const Protocol& declared = connection.configured ? *connection.configured : **protocol;
-  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(*name, declared);
+  const harness::Protocol& declared = connection.configured ? *connection.configured : **protocol;
+  Result<std::unique_ptr<endpoints::Endpoint>> endpoint = endpoints::open_endpoint(*name, declared);
   if (!endpoint) return endpoint.error();
   connection.endpoint = std::move(*endpoint);
   if (Status begun =
           connection.endpoint->begin({{"station", device.station}, {"model", device.model}});
       !begun)
     return begun.error();
-  Exchange exchange(*connection.endpoint, declared, {});
+  exchange::Exchange exchange(*connection.endpoint, declared, {});
   const Result<bool> alive = exchange.anything_answers(device.station, start_patience);
   if (!alive) return alive.error();
   if (!*alive)
     return fail(
         fmt::format("nothing answers on {} at station {}: check power, wiring and line settings",
                     endpoint_text, device.station));
-  connection.memory =
-      std::make_unique<SavedMemory>(*connection.endpoint, declared, response_max, device, nullptr);
+  connection.memory = std::make_unique<safety::SavedMemory>(*connection.endpoint, declared,
+                                                            response_max, device, nullptr);
   return connection;
 }
 
 class Restoration {
  public:
-  Restoration(Journal& journal, std::string endpoint, const Protocols& protocols)
+  Restoration(safety::Journal& journal, std::string endpoint, const harness::Protocols& protocols)
       : journal_(journal), endpoint_(std::move(endpoint)), protocols_(protocols) {}
 
   /// All that is open, the latest first; false where something could not be put back.
   bool run() {
-    const std::vector<OpenEntry> entries = journal_.open_entries();
+    const std::vector<safety::OpenEntry> entries = journal_.open_entries();
     for (auto one = entries.rbegin(); one != entries.rend(); ++one) {
       const Status done = put_back(*one);
       if (done)
@@ -76,11 +76,11 @@ class Restoration {
   }
 
  private:
-  const std::string& endpoint_of(const JournalDevice& device) const {
+  const std::string& endpoint_of(const safety::JournalDevice& device) const {
     return endpoint_.empty() ? device.endpoint : endpoint_;
   }
 
-  Status put_back(const OpenEntry& entry) {
+  Status put_back(const safety::OpenEntry& entry) {
     if (!connection_ || connection_->device != entry.device) {
       if (failed_ && failed_->first == entry.device) return failed_->second;
       connection_.reset();  // before the same port is opened again
@@ -95,36 +95,37 @@ class Restoration {
     return journal_.restored(entry);
   }
 
-  Journal& journal_;
+  safety::Journal& journal_;
   std::string endpoint_;
-  Protocols protocols_;
+  harness::Protocols protocols_;
   std::optional<Connection> connection_;
-  std::optional<std::pair<JournalDevice, Error>> failed_;
+  std::optional<std::pair<safety::JournalDevice, Error>> failed_;
   bool all_ = true;
 };
 
 }  // namespace
 
-int restore_command(const RestoreOptions& options, const Protocols& protocols) {
+int restore_command(const RestoreOptions& options, const harness::Protocols& protocols) {
   if (!std::filesystem::exists(options.journal))
-    return complain(fmt::format("cannot read journal {}: there is no such file; a run keeps it in "
-                                "its folder of reports, as journal.ndjson",
-                                options.journal),
-                    exit_code::usage);
-  Result<Journal> journal = Journal::open(options.journal);
-  if (!journal) return complain(journal.error().message, exit_code::usage);
+    return run::complain(
+        fmt::format("cannot read journal {}: there is no such file; a run keeps it in "
+                    "its folder of reports, as journal.ndjson",
+                    options.journal),
+        run::exit_code::usage);
+  Result<safety::Journal> journal = safety::Journal::open(options.journal);
+  if (!journal) return run::complain(journal.error().message, run::exit_code::usage);
   if (journal->open_entries().empty()) {
     fmt::print("nothing to put back: {} has no open entry\n", options.journal);
-    return exit_code::ok;
+    return run::exit_code::ok;
   }
-  catch_interrupts();
-  if (Restoration(*journal, options.endpoint, protocols).run()) return exit_code::ok;
-  if (interrupted()) return exit_code::interrupted;
-  return complain(
+  os::catch_interrupts();
+  if (Restoration(*journal, options.endpoint, protocols).run()) return run::exit_code::ok;
+  if (os::interrupted()) return run::exit_code::interrupted;
+  return run::complain(
       fmt::format(
           "not all is as it was; correct what is said above and type again: fieldproof restore {}",
-          shell_word(options.journal)),
-      exit_code::trouble);
+          run::shell_word(options.journal)),
+      run::exit_code::trouble);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

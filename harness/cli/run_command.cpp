@@ -24,7 +24,15 @@
 #include "harness/system/interrupt.hpp"
 #include "reports/results/ndjson.hpp"
 
-namespace fieldproof {
+namespace fieldproof::cli {
+
+using bench::Benches;
+using compare::RunSummary;
+using results::CaseResult;
+using run::RunOptions;
+using run::RunPlan;
+using run::RunReport;
+using vectors::Case;
 
 namespace {
 
@@ -40,7 +48,7 @@ class Run {
         report_(report),
         lines_(plan, ports.front(), options.reconfigure) {}
 
-  RunInfo info() const { return run_info(options_, plan_, ports_, floors_); }
+  results::RunInfo info() const { return run::run_info(options_, plan_, ports_, floors_); }
 
   /// Sanity exchange and floor of each device, which the head of the reports tells of; an error:
   /// nothing can run.
@@ -62,19 +70,20 @@ class Run {
     started_ = std::chrono::steady_clock::now();
     if (started && !plan_.others.empty()) return share_out();
     if (started) {
-      run_with_gtest(plan_.selected, runner_options(),
-                     [this](const Case& source, int round) { return run_case(source, round); });
+      bench::run_with_gtest(
+          plan_.selected, runner_options(),
+          [this](const Case& source, int round) { return run_case(source, round); });
       if (soak_ && report_.tally().total() > 0) report_.add(soak_->summary(seconds()));
       // Whoever vanished is trouble, whatever the verdict of the case in which it did. Steps of a
       // matrix are BLOCKED.
-      if (plan_.matrix.empty() && !interrupted() && end_.trouble.empty())
+      if (plan_.matrix.empty() && !os::interrupted() && end_.trouble.empty())
         end_.trouble = benches_.stopped();
       // The last sanity exchange: whatever the cases left behind, the device still answers.
-      if (!interrupted() && lines_.live())
+      if (!os::interrupted() && lines_.live())
         if (const Status still = benches_.start(); !still && !still.error().interrupted)
           end_.trouble = "after the last case: " + still.error().message;
       // Waivers that the whole run has shown to be needless turn the gate red.
-      for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors)))
+      for (const CaseResult& result : waivers_.superfluous(run::case_ids(plan_.vectors)))
         report_.add(result);
     } else if (started.error().interrupted) {
       end_.interrupted = true;
@@ -97,13 +106,13 @@ class Run {
     if (!loop) return fail("--loop: " + loop.error().message);
     if (const Status alive = loop->start(); !alive)
       return Error{"--loop: " + alive.error().message, alive.error().interrupted};
-    Result<std::optional<AdapterFloor>> measured = loop->measured_floor();
+    Result<std::optional<bench::AdapterFloor>> measured = loop->measured_floor();
     if (!measured) return measured.error();
     if (!*measured)
       return fail(
           "--loop: simulated time has no floor; name a link on real time, such as pty:xbc-h");
     plan_.floor = std::move(**measured);
-    plan_.floor->source = AdapterFloor::Source::loop;
+    plan_.floor->source = bench::AdapterFloor::Source::loop;
     return ok();
   }
 
@@ -148,11 +157,11 @@ class Run {
 
   bool add_to_soak(const CaseResult& result) {
     if (!report_.add(result, soak_->take(result, seconds()))) return false;
-    const std::optional<SoakSample> sample = soak_->due_sample(seconds());
+    const std::optional<results::SoakSample> sample = soak_->due_sample(seconds());
     return !sample || report_.add(*sample);
   }
 
-  RunnerOptions runner_options() const {
+  bench::RunnerOptions runner_options() const {
     const int steps = std::max<int>(1, static_cast<int>(plan_.matrix.size()));
     return {plan_.soak > 0ns ? -1 : options_.repeat * steps, options_.seed >= 0,
             std::max(0, options_.seed), options_.gtest_arguments};
@@ -161,24 +170,24 @@ class Run {
   /// The same on several ports at once. GoogleTest settles which cases, and in which order they are
   /// taken.
   RunReport::End share_out() {
-    std::deque<SharedRun::Task> tasks;
-    run_with_gtest(plan_.selected, runner_options(), [&](const Case& source, int repeat) {
+    std::deque<run::SharedRun::Task> tasks;
+    bench::run_with_gtest(plan_.selected, runner_options(), [&](const Case& source, int repeat) {
       tasks.push_back({&source, repeat});
       return true;
     });
     const std::size_t total = tasks.size();
-    std::vector<SharedRun::Port> ports;
+    std::vector<run::SharedRun::Port> ports;
     for (std::size_t i = 0; i < ports_.size(); ++i)
       ports.push_back({plan_.dut(i).identity.name, &ports_[i], unable_[i]});
-    SharedRun shared(std::move(ports), std::move(tasks),
-                     [&](const Case& source, CaseResult result) {
-                       report_.show_progress(total, source.id);
-                       waivers_.apply(result);
-                       return report_.add(result) &&
-                              !(options_.fail_fast && gates(result.verdict, report_.gate()));
-                     });
+    run::SharedRun shared(
+        std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
+          report_.show_progress(total, source.id);
+          waivers_.apply(result);
+          return report_.add(result) &&
+                 !(options_.fail_fast && results::gates(result.verdict, report_.gate()));
+        });
     shared.execute();
-    for (const CaseResult& result : waivers_.superfluous(case_ids(plan_.vectors)))
+    for (const CaseResult& result : waivers_.superfluous(run::case_ids(plan_.vectors)))
       report_.add(result);
     end_.interrupted = shared.interrupted();
     end_.trouble = fmt::format("{}", fmt::join(shared.troubles(), "; "));
@@ -188,7 +197,7 @@ class Run {
 
   /// False: stop here.
   bool run_case(const Case& source, int round) {
-    if (interrupted()) {
+    if (os::interrupted()) {
       end_.interrupted = true;
       return false;
     }
@@ -210,18 +219,19 @@ class Run {
     result.repeat = soak ? round : round % options_.repeat;
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-    const bool stop_here = hung || (options_.fail_fast && gates(result.verdict, report_.gate()));
+    const bool stop_here =
+        hung || (options_.fail_fast && results::gates(result.verdict, report_.gate()));
     return (soak ? add_to_soak(result) : report_.add(result)) && !stop_here;
   }
 
   /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.
   void put_back() {
-    if (end_.interrupted) clear_interrupt();
+    if (end_.interrupted) os::clear_interrupt();
     for (std::size_t i = 0; i < ports_.size(); ++i)
       if (const std::string open = ports_[i].put_back(); !open.empty())
         end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}",
                                          end_.not_restored.empty() ? "" : "\n", open,
-                                         shell_word(plan_.dut(i).journal));
+                                         run::shell_word(plan_.dut(i).journal));
   }
 
   const RunOptions& options_;
@@ -229,10 +239,10 @@ class Run {
   std::vector<Benches>& ports_;
   Benches& benches_;  // the first
   RunReport& report_;
-  Watchdog watchdog_;
-  Waivers waivers_{plan_.waivers, timestamp().substr(0, 10), plan_.identity.firmware};
-  LineSteps lines_;
-  std::optional<SoakLog> soak_;
+  bench::Watchdog watchdog_;
+  bench::Waivers waivers_{plan_.waivers, run::timestamp().substr(0, 10), plan_.identity.firmware};
+  run::LineSteps lines_;
+  std::optional<run::SoakLog> soak_;
   std::vector<std::string> floors_;  // of each port: what its link can show, in words
   std::vector<std::string> unable_;  // of each port: why it cannot run; empty: it can
   std::chrono::steady_clock::time_point started_;
@@ -243,19 +253,19 @@ int dry_run(const RunPlan& plan) {
   for (const Case* one : plan.selected) fmt::print("{:<58} {}\n", one->id, one->title);
   fmt::print("{} cases would run on {}:{}\n", plan.selected.size(), plan.endpoint.kind,
              plan.endpoint.target);
-  return exit_code::ok;
+  return run::exit_code::ok;
 }
 
 /// The results of this run against those of an earlier one, as far as it has the selected cases;
 /// was anything better then?
 bool worse_than(const RunSummary& baseline, const RunOptions& options, RunReport& report) {
-  const Result<ResultFile> now = read_result_file(report.paths().front().second);
-  if (!now) return complain(now.error().message, 0), false;
-  const ComparisonSet set({baseline, summarize(*now)});
+  const Result<compare::ResultFile> now = compare::read_result_file(report.paths().front().second);
+  if (!now) return run::complain(now.error().message, 0), false;
+  const compare::ComparisonSet set({baseline, compare::summarize(*now)});
   const std::filesystem::path out = options.out;
   const std::string html = (out / "compare.html").string(), junit = (out / "compare.xml").string();
   if (const Status reported = report_comparison(set, html, junit); !reported)
-    complain(reported.error().message, 0);
+    run::complain(reported.error().message, 0);
   report.add_path("compare", html);
   report.add_path("compare", junit);
   return set.worse();
@@ -264,29 +274,29 @@ bool worse_than(const RunSummary& baseline, const RunOptions& options, RunReport
 /// The baseline's results of the selected cases.
 Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const RunPlan& plan) {
   if (options.baseline.empty()) return std::optional<RunSummary>();
-  Result<ResultFile> file = read_result_file(options.baseline);
+  Result<compare::ResultFile> file = compare::read_result_file(options.baseline);
   if (!file) return file.error();
   std::set<std::string> selected;
   for (const Case* one : plan.selected) selected.insert(one->id);
   std::erase_if(file->results, [&](const CaseResult& one) { return !selected.contains(one.id); });
-  return std::optional(summarize(*file));
+  return std::optional(compare::summarize(*file));
 }
 
 int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports,
             const std::optional<RunSummary>& baseline) {
-  Result<ReportPaths> paths =
-      make_report_paths(options.out, options.json, options.junit, options.html);
-  if (!paths) return complain(paths.error().message, exit_code::trouble);
+  Result<run::ReportPaths> paths =
+      run::make_report_paths(options.out, options.json, options.junit, options.html);
+  if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
   if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
-  Result<RunReport> report =
-      RunReport::create(std::move(*paths), console_options(gate_of(options), options.verbose));
-  if (!report) return complain(report.error().message, exit_code::trouble);
+  Result<RunReport> report = RunReport::create(
+      std::move(*paths), run::console_options(run::gate_of(options), options.verbose));
+  if (!report) return run::complain(report.error().message, run::exit_code::trouble);
   const Status same_devices =
-      plan.matrix.empty() ? take_fingerprints(plan, ports, options.qualify) : ok();
+      plan.matrix.empty() ? run::take_fingerprints(plan, ports, options.qualify) : ok();
   Run run(options, plan, ports, *report);
   const Status started = same_devices ? run.start() : same_devices;
   if (const Status begun = report->begin(run.info()); !begun)
-    return complain(begun.error().message, exit_code::trouble);
+    return run::complain(begun.error().message, run::exit_code::trouble);
   RunReport::End end = run.execute(started);
   if (baseline) end.worse = worse_than(*baseline, options, *report);
   return report->finish(end);
@@ -294,46 +304,49 @@ int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& port
 
 }  // namespace
 
-int run_command(const RunOptions& options, const Protocols& protocols) {
-  Result<RunPlan> plan = make_run_plan(options, protocols);
-  if (!plan) return complain(plan.error().message, exit_code::usage);
+int run_command(const RunOptions& options, const harness::Protocols& protocols) {
+  Result<RunPlan> plan = run::make_run_plan(options, protocols);
+  if (!plan) return run::complain(plan.error().message, run::exit_code::usage);
   if (plan->selected.empty())
-    return complain(
+    return run::complain(
         fmt::format("no case{} matches --filter '{}'; `fieldproof list` shows them all",
                     options.role.empty() ? "" : " of --role " + options.role, options.filter),
-        exit_code::nothing);
+        run::exit_code::nothing);
   if (options.dry_run) return dry_run(*plan);
   const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
-  if (!baseline) return complain(baseline.error().message, exit_code::usage);
-  catch_interrupts();
+  if (!baseline) return run::complain(baseline.error().message, run::exit_code::usage);
+  os::catch_interrupts();
   const auto trouble = [&](const Error& error) {
-    return complain(error.message,
-                    options.skip_absent && error.absent ? exit_code::absent : exit_code::trouble);
+    return run::complain(error.message, options.skip_absent && error.absent
+                                            ? run::exit_code::absent
+                                            : run::exit_code::trouble);
   };
-  if (const Status opened = open_journals(options, *plan); !opened)
-    return complain(opened.error().message, exit_code::usage);
-  const Result<std::vector<Fixtures>> fixtures = open_fixtures(*plan);
+  if (const Status opened = run::open_journals(options, *plan); !opened)
+    return run::complain(opened.error().message, run::exit_code::usage);
+  const Result<std::vector<run::Fixtures>> fixtures = run::open_fixtures(*plan);
   if (!fixtures) return trouble(fixtures.error());
-  Result<std::vector<Benches>> ports = open_ports(*plan);
+  Result<std::vector<Benches>> ports = run::open_ports(*plan);
   if (!ports) return trouble(ports.error());
   return execute(options, *plan, *ports, *baseline);
 }
 
 int report_command(const ReportOptions& options) {
-  ReportPaths reports{{"junit", options.junit},
-                      {"json", options.json},
-                      {"html", options.html},
-                      {"capture", options.capture}};
+  run::ReportPaths reports{{"junit", options.junit},
+                           {"json", options.json},
+                           {"html", options.html},
+                           {"capture", options.capture}};
   std::erase_if(reports, [](const auto& one) { return one.second.empty(); });
   if (reports.empty())
-    return complain(
+    return run::complain(
         "nothing to write; give --junit FILE, --json FILE, --html FILE, --capture FILE or several",
-        exit_code::usage);
-  const Result<RunLog> log = read_ndjson(options.ndjson, [](const CaseResult&) {});
-  if (!log) return complain(log.error().message, exit_code::usage);
+        run::exit_code::usage);
+  const Result<results::RunLog> log =
+      results::read_ndjson(options.ndjson, [](const CaseResult&) {});
+  if (!log) return run::complain(log.error().message, run::exit_code::usage);
   const auto gate = log->run.properties.find("gate");
-  return derive_reports(options.ndjson, reports,
-                        gate == log->run.properties.end() ? Gate{} : parse_gate(gate->second));
+  return run::derive_reports(
+      options.ndjson, reports,
+      gate == log->run.properties.end() ? results::Gate{} : text::parse_gate(gate->second));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::cli

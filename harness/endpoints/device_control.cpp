@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 namespace {
 
@@ -18,7 +18,7 @@ json done(const Status& status) {
   return {{"error", status.error().message}};
 }
 
-json ask(EmulatedDevice& device, const std::string& verb, const json& what) {
+json ask(plc::EmulatedDevice& device, const std::string& verb, const json& what) {
   if (verb == "act" && what.is_string()) return done(device.act(what.get<std::string>()));
   if (verb == "set" && what.is_object())
     return done(device.set(text_of(what, "address"), text_of(what, "hex")));
@@ -35,7 +35,7 @@ json ask(EmulatedDevice& device, const std::string& verb, const json& what) {
 }
 
 json answer(std::string_view line, const std::function<Status(const json&)>& begin,
-            const std::function<EmulatedDevice*()>& device) {
+            const std::function<plc::EmulatedDevice*()>& device) {
   const json request = json::parse(line, nullptr, false);
   if (!request.is_object() || request.size() != 1) {
     return {{"error", "cannot read the control line: write one JSON object with one key"}};
@@ -43,7 +43,7 @@ json answer(std::string_view line, const std::function<Status(const json&)>& beg
   const std::string verb = request.begin().key();
   const json& what = request.begin().value();
   if (verb == "begin" && what.is_object()) return done(begin(what));
-  EmulatedDevice* const present = device();
+  plc::EmulatedDevice* const present = device();
   if (!present) return {{"error", "cannot do '" + verb + "': there is no device yet; begin first"}};
   return ask(*present, verb, what);
 }
@@ -56,7 +56,7 @@ std::string control_line(const json& request) {
 
 std::string answer_control(std::string_view line,
                            const std::function<Status(const json& config)>& begin,
-                           const std::function<EmulatedDevice*()>& device) {
+                           const std::function<plc::EmulatedDevice*()>& device) {
   return control_line(answer(line, begin, device));
 }
 
@@ -70,4 +70,4 @@ Result<std::string> read_control_answer(std::string_view line) {
   return text_of(object, "value");
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

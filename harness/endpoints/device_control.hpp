@@ -15,13 +15,13 @@
 #include "src/base/result.hpp"
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// The answer line (with its newline) to one request line; `begin` makes the fresh device, `device`
 /// gives the present one (nullptr: none yet).
 std::string answer_control(std::string_view line,
                            const std::function<Status(const nlohmann::json& config)>& begin,
-                           const std::function<EmulatedDevice*()>& device);
+                           const std::function<plc::EmulatedDevice*()>& device);
 
 /// A request as a line.
 std::string control_line(const nlohmann::json& request);
@@ -29,4 +29,4 @@ std::string control_line(const nlohmann::json& request);
 /// "value" of an answer line (empty where there is none), or its error.
 Result<std::string> read_control_answer(std::string_view line);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -6,10 +6,10 @@
 
 #include "harness/hosting/tiny_device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 namespace {
 
-using endpoint_tests::TinyDevice;
+using hosting::test::TinyDevice;
 using nlohmann::json;
 using testing::HasSubstr;
 
@@ -27,7 +27,7 @@ class DeviceControl : public testing::Test {
         [this] { return device.get(); });
   }
   json begun;
-  std::unique_ptr<EmulatedDevice> device;
+  std::unique_ptr<plc::EmulatedDevice> device;
 };
 
 TEST_F(DeviceControl, BeginSetGetAct) {
@@ -64,4 +64,4 @@ TEST_F(DeviceControl, ALineHasNoNewlineInside) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -8,7 +8,9 @@
 #include "harness/protocols.hpp"
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
+
+using line::LineSettings;
 
 using nlohmann::json;
 
@@ -49,7 +51,7 @@ Result<LineSettings> settings_of(const json& value, const char* key) {
   if (!value.is_string())
     return fail(fmt::format("cannot set up the line: '{}' is {}; write text such as \"9600-8N1\"",
                             key, value.dump()));
-  return parse_line_settings(value.get_ref<const std::string&>());
+  return line::parse_line_settings(value.get_ref<const std::string&>());
 }
 
 Result<LineSettings> line_of(const json& config) {
@@ -103,7 +105,8 @@ Status EmulatorEndpoint::begin(const json& given) {
   const Result<LineSettings> bench =
       bench_line.is_null() ? line_of(config) : settings_of(bench_line, "bench_line");
   if (!bench) return bench.error();
-  line_ = SimulatedLine(*bench, is_on(config, "rs485") ? Duplex::half : Duplex::full, line_.now());
+  line_ = line::SimulatedLine(
+      *bench, is_on(config, "rs485") ? line::Duplex::half : line::Duplex::full, line_.now());
   if (Status attached = attach(model, config); !attached) return attached;
   if (Status attached = attach_neighbours(model, neighbours, config); !attached) {
     devices_.clear();
@@ -115,10 +118,10 @@ Status EmulatorEndpoint::begin(const json& given) {
 Status EmulatorEndpoint::attach(std::string_view model, const json& config) {
   const Result<LineSettings> settings = line_of(config);
   if (!settings) return settings.error();
-  Result<std::unique_ptr<EmulatedDevice>> device = factory_(model, config);
+  Result<std::unique_ptr<plc::EmulatedDevice>> device = factory_(model, config);
   if (!device) return device.error();
   const bool under_test = devices_.empty();
-  Device& plain = *devices_.emplace_back(std::move(*device));
+  line::Device& plain = *devices_.emplace_back(std::move(*device));
   if (under_test && decorate_) decorated_ = decorate_(plain, *settings);
   line_.attach(under_test && decorated_ ? *decorated_ : plain, *settings);
   return ok();
@@ -141,13 +144,13 @@ Status EmulatorEndpoint::attach_neighbours(std::string_view model, const json& n
   return ok();
 }
 
-Result<Sent> EmulatorEndpoint::send(ByteView bytes) {
+Result<line::Sent> EmulatorEndpoint::send(ByteView bytes) {
   if (devices_.empty()) return before_begin("send");
   const auto [start, end] = line_.transmit(bytes);
-  return Sent{start, end};
+  return line::Sent{start, end};
 }
 
-Result<Burst> EmulatorEndpoint::receive(Time deadline) {
+Result<line::Burst> EmulatorEndpoint::receive(Time deadline) {
   if (devices_.empty()) return before_begin("receive");
   return line_.receive(deadline);
 }
@@ -168,7 +171,7 @@ Status EmulatorEndpoint::act(std::string_view action) {
 }
 
 std::string EmulatorEndpoint::line_errors() {
-  const LineErrors errors = line_.take_errors();
+  const line::LineErrors errors = line_.take_errors();
   std::string text;
   if (errors.parity) text = counted(errors.parity, "parity");
   if (errors.framing) text += (text.empty() ? "" : ", ") + counted(errors.framing, "framing");
@@ -176,11 +179,11 @@ std::string EmulatorEndpoint::line_errors() {
 }
 
 Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name,
-                                                const Protocol& protocol) {
+                                                const harness::Protocol& protocol) {
   auto endpoint = std::make_unique<EmulatorEndpoint>(
       name, [&protocol](std::string_view model, const json& config) {
-        return make_monitored_device(protocol, model.empty() ? protocol.models().front() : model,
-                                     config);
+        return harness::make_monitored_device(
+            protocol, model.empty() ? protocol.models().front() : model, config);
       });
   if (const Status begun = endpoint->begin(json::object()); !begun) {
     return fail(fmt::format("cannot open emulator:{}: {}", name.target, begun.error().message));
@@ -188,4 +191,4 @@ Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name,
   return Result<std::unique_ptr<Endpoint>>(std::move(endpoint));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -12,15 +12,16 @@
 #include "src/line/line.hpp"
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// Makes a device in its power-on state; `config` is `given.config` without what belongs to the
 /// line and the endpoint (model, protocol, bench_line, neighbours).
-using DeviceFactory = std::function<Result<std::unique_ptr<EmulatedDevice>>(
+using DeviceFactory = std::function<Result<std::unique_ptr<plc::EmulatedDevice>>(
     std::string_view model, const nlohmann::json& config)>;
 /// Puts something between the line and the device, as FaultyDevice (src/line/faults.hpp). `device`
 /// outlives it.
-using Decorator = std::function<std::unique_ptr<Device>(Device& device, const LineSettings& line)>;
+using Decorator = std::function<std::unique_ptr<line::Device>(line::Device& device,
+                                                              const line::LineSettings& line)>;
 
 class EmulatorEndpoint : public Endpoint {
  public:
@@ -39,8 +40,8 @@ class EmulatorEndpoint : public Endpoint {
   /// `neighbours`: stations, or objects of config keys, of further devices of the same model on the
   /// same line. Errors name the key.
   Status begin(const nlohmann::json& config) override;
-  Result<Sent> send(ByteView bytes) override;
-  Result<Burst> receive(Time deadline) override;
+  Result<line::Sent> send(ByteView bytes) override;
+  Result<line::Burst> receive(Time deadline) override;
 
   Status set(std::string_view address, std::string_view hex) override;
   Result<std::string> get(std::string_view address, std::size_t digits) override;
@@ -58,14 +59,15 @@ class EmulatorEndpoint : public Endpoint {
   DeviceFactory factory_;
   Decorator decorate_;
   Capabilities capabilities_;
-  SimulatedLine line_;
-  std::vector<std::unique_ptr<EmulatedDevice>>
+  line::SimulatedLine line_;
+  std::vector<std::unique_ptr<plc::EmulatedDevice>>
       devices_;  // the device under test, then its neighbours
-  std::unique_ptr<Device> decorated_;
+  std::unique_ptr<line::Device> decorated_;
 };
 
 /// The protocol of option `protocol`, else the first that has the model, makes the devices. Opens
 /// with a device of the options alone, so that a wrong model or option is reported at once.
-Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name, const Protocol& protocol);
+Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name,
+                                                const harness::Protocol& protocol);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -8,7 +8,7 @@
 #include "harness/protocol.hpp"
 #include "src/line/faults.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 namespace {
 
 using nlohmann::json;
@@ -16,11 +16,11 @@ using ::testing::HasSubstr;
 
 /// Answers frames that begin with its station with ACK, station and its one byte of memory; "%FLAG"
 /// makes it ask.
-class TinyDevice : public EmulatedDevice {
+class TinyDevice : public plc::EmulatedDevice {
  public:
   explicit TinyDevice(int station) : station_(static_cast<Byte>(station)) {}
 
-  void receive(const Burst& burst) override {
+  void receive(const line::Burst& burst) override {
     if (burst.bytes.front() == station_) due_ = burst.end();
   }
   std::optional<Time> wake_at() const override { return due_; }
@@ -62,7 +62,7 @@ struct Asked {
 };
 std::vector<Asked> asked;
 
-Result<std::unique_ptr<EmulatedDevice>> make_tiny(std::string_view model, const json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_tiny(std::string_view model, const json& config) {
   asked.push_back({std::string(model), config});
   if (model != "tiny" && !model.empty()) return fail("unknown model '" + std::string(model) + "'");
   for (const auto& [key, value] : config.items()) {
@@ -70,21 +70,21 @@ Result<std::unique_ptr<EmulatedDevice>> make_tiny(std::string_view model, const 
       return fail("unknown key '" + key + "'");
   }
   const json& station = config.at("station");
-  return Result<std::unique_ptr<EmulatedDevice>>(std::make_unique<TinyDevice>(
+  return Result<std::unique_ptr<plc::EmulatedDevice>>(std::make_unique<TinyDevice>(
       station.is_string() ? std::stoi(station.get<std::string>()) : station.get<int>()));
 }
 
-class TinyProtocol : public Protocol {
+class TinyProtocol : public harness::Protocol {
  public:
   std::string_view name() const override { return "tiny"; }
   std::vector<std::string> models() const override { return {"tiny"}; }
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
-                                                      const json& config) const override {
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_device(std::string_view model,
+                                                           const json& config) const override {
     return make_tiny(model, config);
   }
   Bytes station_bytes(int station) const override { return {static_cast<Byte>(station)}; }
   std::optional<std::size_t> frame_length(ByteView bytes) const override { return bytes.size(); }
-  std::vector<Field> explain(ByteView) const override { return {}; }
+  std::vector<harness::Field> explain(ByteView) const override { return {}; }
   Bytes probe(int station, ByteView) const override { return station_bytes(station); }
   bool is_reply_to_probe(ByteView, ByteView) const override { return true; }
   Result<std::vector<Bytes>> write_requests(int, std::string_view,
@@ -103,7 +103,7 @@ class TinyProtocol : public Protocol {
 
 const TinyProtocol tiny_protocol;
 
-const LineSettings n81{9600, 8, 'N', 1};
+const line::LineSettings n81{9600, 8, 'N', 1};
 const Duration ct = n81.character_time();
 
 EndpointName named(std::string_view text) {
@@ -249,11 +249,11 @@ TEST_F(Emulator, Rs485IsHalfDuplex) {
 }
 
 TEST_F(Emulator, ADecoratorStandsBetweenLineAndDevice) {
-  auto endpoint =
-      open("emulator:tiny", {{"neighbours", {2}}}, [](Device& device, const LineSettings& line) {
-        return std::make_unique<FaultyDevice>(device, LineFaults{.reply = {.flip = 0}},
-                                              line.character_time());
-      });
+  auto endpoint = open("emulator:tiny", {{"neighbours", {2}}},
+                       [](line::Device& device, const line::LineSettings& line) {
+                         return std::make_unique<line::FaultyDevice>(
+                             device, line::LineFaults{.reply = {.flip = 0}}, line.character_time());
+                       });
   EXPECT_EQ(ask(*endpoint, {1}), (Bytes{0x07, 1, 0}));
   EXPECT_EQ(ask(*endpoint, {2}), (Bytes{0x06, 2, 0}));  // the device under test alone
 }
@@ -298,4 +298,4 @@ TEST_F(Emulator, OpeningReportsAWrongModelOrOption) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

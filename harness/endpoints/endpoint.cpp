@@ -15,7 +15,7 @@
 #include "harness/endpoints/tcp.hpp"
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 namespace {
 
@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 6> serial_keys{"protocol", "station", "fl
 
 /// Real ways to a device make no device.
 template <Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&)>
-Result<std::unique_ptr<Endpoint>> real(const EndpointName& name, const Protocol&) {
+Result<std::unique_ptr<Endpoint>> real(const EndpointName& name, const harness::Protocol&) {
   return open(name);
 }
 
@@ -37,7 +37,7 @@ struct Kind {
   Options options;          // empty: the emulated device checks them (keys of `given.config`)
   bool free_target;  // the target may hold '?' and '&' of its own: only known options count as
                      // options
-  Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&, const Protocol&);
+  Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&, const harness::Protocol&);
 };
 
 // One more endpoint is one line here and one file.
@@ -149,10 +149,10 @@ Result<EndpointName> parse_endpoint(std::string_view text) {
 }
 
 Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name,
-                                                const Protocol& protocol) {
+                                                const harness::Protocol& protocol) {
   const Kind* kind = find_kind(name.kind);
   if (!kind) return fail("cannot open an endpoint: " + unknown_kind(name.kind));
   return kind->open(name, protocol);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

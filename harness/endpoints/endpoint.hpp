@@ -12,9 +12,11 @@
 #include "src/base/time.hpp"
 #include "src/line/device.hpp"
 
-namespace fieldproof {
-
+namespace fieldproof::harness {
 class Protocol;
+}
+
+namespace fieldproof::endpoints {
 
 /// What an endpoint can and cannot show, so that no case is judged on what the link does not carry.
 struct Capabilities {
@@ -45,10 +47,10 @@ class Endpoint {
   virtual Status begin(const nlohmann::json& config) = 0;
 
   /// Transmits now. Errors are trouble of the port, never of the device.
-  virtual Result<Sent> send(ByteView bytes) = 0;
+  virtual Result<line::Sent> send(ByteView bytes) = 0;
   /// Waits for bytes until `deadline` (a moment in the past: takes what is there). An empty burst:
   /// none came. Ctrl-C ends the wait with an interrupted error.
-  virtual Result<Burst> receive(Time deadline) = 0;
+  virtual Result<line::Burst> receive(Time deadline) = 0;
 
   /// Back door (capabilities().back_door); errors name the address or action.
   virtual Status set(std::string_view address, std::string_view hex);
@@ -78,6 +80,7 @@ Result<EndpointName> parse_endpoint(std::string_view text);
 
 /// Opens an endpoint by the table in endpoint.cpp: one line a kind. It is to carry `protocol`,
 /// which makes the devices that are emulated in process.
-Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name, const Protocol& protocol);
+Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name,
+                                                const harness::Protocol& protocol);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

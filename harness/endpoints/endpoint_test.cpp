@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 namespace {
 
 using ::testing::HasSubstr;
@@ -107,8 +107,8 @@ TEST(EndpointName, AMissingTargetIsRefused) {
 }
 
 TEST(Endpoint, OpeningAnUnknownKindNamesTheKinds) {
-  const auto endpoint =
-      open_endpoint({.kind = "serail", .target = "/dev/ttyUSB0", .options = {}}, TestProtocol());
+  const auto endpoint = open_endpoint({.kind = "serail", .target = "/dev/ttyUSB0", .options = {}},
+                                      harness::TestProtocol());
   ASSERT_FALSE(endpoint);
   EXPECT_THAT(
       endpoint.error().message,
@@ -124,8 +124,8 @@ class Plain : public Endpoint {
   Time now() const override { return {}; }
   Duration character_time() const override { return {}; }
   Status begin(const nlohmann::json&) override { return ok(); }
-  Result<Sent> send(ByteView) override { return Sent{}; }
-  Result<Burst> receive(Time) override { return Burst{}; }
+  Result<line::Sent> send(ByteView) override { return line::Sent{}; }
+  Result<line::Burst> receive(Time) override { return line::Burst{}; }
 
  private:
   Capabilities capabilities_;
@@ -142,4 +142,4 @@ TEST(Endpoint, WithoutABackDoorMemoryIsOutOfReach) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

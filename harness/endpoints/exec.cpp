@@ -11,7 +11,7 @@
 #include "harness/system/pty_pair.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 namespace {
 
@@ -27,7 +27,7 @@ std::string with_tty(std::string command, const std::string& path) {
 
 class ExecEndpoint final : public Endpoint {
  public:
-  ExecEndpoint(const EndpointName& name, PtyPair pty, Duration floor)
+  ExecEndpoint(const EndpointName& name, os::PtyPair pty, Duration floor)
       : command_(name.target),
         slave_(std::move(pty.slave)),
         path_(pty.path),
@@ -40,19 +40,19 @@ class ExecEndpoint final : public Endpoint {
   Status start() {
     link_.set_far_end(nullptr);
     child_.reset();
-    drop_waiting_bytes(link_.fd());
-    drop_waiting_bytes(slave_.get());
-    set_raw(slave_.get());
-    ChildOptions options;
+    os::drop_waiting_bytes(link_.fd());
+    os::drop_waiting_bytes(slave_.get());
+    os::set_raw(slave_.get());
+    os::ChildOptions options;
     const std::string command = with_tty(command_, path_);
-    options.arguments = shell(command);
+    options.arguments = os::shell(command);
     options.terminal = slave_.get();
     options.terminal_is_stdio = command == command_;
-    Result<LinePipe> pipe = open_line_pipe();
+    Result<os::LinePipe> pipe = os::open_line_pipe();
     if (!pipe) return pipe.error();
     options.standard_input = pipe->child.get();
     input_ = std::move(pipe->bench);
-    Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
+    Result<std::unique_ptr<os::ChildProcess>> child = os::ChildProcess::start(options);
     if (!child) return child.error();
     child_ = std::move(*child);
     link_.set_far_end(child_.get());
@@ -63,10 +63,10 @@ class ExecEndpoint final : public Endpoint {
   std::string describe() const override { return "exec:" + command_; }
   Time now() const override { return link_.now(); }
   /// A pty has no wire; pauses in characters are meant at the default speed.
-  Duration character_time() const override { return LineSettings{}.character_time(); }
+  Duration character_time() const override { return line::LineSettings{}.character_time(); }
   Status begin(const nlohmann::json&) override { return ok(); }
-  Result<Sent> send(ByteView bytes) override { return link_.send(bytes); }
-  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
+  Result<line::Sent> send(ByteView bytes) override { return link_.send(bytes); }
+  Result<line::Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
   Status tell(std::string_view line) override {
     if (command_.find(tty_mark) == std::string::npos)
@@ -74,7 +74,7 @@ class ExecEndpoint final : public Endpoint {
           fmt::format("cannot tell {} what to request: its standard input is the port; write "
                       "{{tty}} where the command takes its path",
                       describe()));
-    if (write_line(input_.get(), std::string(line))) return ok();
+    if (os::write_line(input_.get(), std::string(line))) return ok();
     return fail(fmt::format("cannot tell {} what to request: {}", describe(), child_->how()));
   }
 
@@ -87,11 +87,11 @@ class ExecEndpoint final : public Endpoint {
  private:
   Capabilities capabilities_;
   std::string command_;
-  UniqueFd slave_;  // kept open: no close of the device under test ends the line
+  os::UniqueFd slave_;  // kept open: no close of the device under test ends the line
   std::string path_;
-  FdLink link_;
-  UniqueFd input_;  // the child's standard input
-  std::unique_ptr<ChildProcess> child_;
+  os::FdLink link_;
+  os::UniqueFd input_;  // the child's standard input
+  std::unique_ptr<os::ChildProcess> child_;
 };
 
 }  // namespace
@@ -104,11 +104,11 @@ Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name) {
   }
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();
-  Result<PtyPair> pty = open_pty_pair();
+  Result<os::PtyPair> pty = os::open_pty_pair();
   if (!pty) return pty.error();
   auto endpoint = std::make_unique<ExecEndpoint>(name, std::move(*pty), *floor);
   if (const Status started = endpoint->start(); !started) return started.error();
   return std::unique_ptr<Endpoint>(std::move(endpoint));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

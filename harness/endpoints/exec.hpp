@@ -3,7 +3,7 @@
 
 #include "harness/endpoints/endpoint.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// Runs COMMAND by /bin/sh. `{tty}` in it becomes the path of the pty; without it, stdin and stdout
 /// are the pty. `act("power_cycle")` ends it with all its children and starts it anew. Options:
@@ -11,4 +11,4 @@ namespace fieldproof {
 /// last lines of its stderr.
 Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -6,12 +6,12 @@
 
 #include "harness/endpoints/test_endpoint_name.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 namespace {
 
-using endpoint_tests::endpoint_name;
-using endpoint_tests::receive_error;
-using endpoint_tests::receive_text;
+using os::test::receive_error;
+using os::test::receive_text;
+using test::endpoint_name;
 using testing::HasSubstr;
 
 std::unique_ptr<Endpoint> open(const std::string& command) {
@@ -49,7 +49,7 @@ TEST(Exec, ADeadChildIsAnErrorThatSaysWhy) {
   EXPECT_EQ(receive_error(*endpoint).message,
             "cannot receive from exec:echo cannot find the config >&2; exit 7: "
             "the process ended with exit status 7; it said: cannot find the config");
-  const Result<Sent> sent = endpoint->send(to_bytes("x"));
+  const Result<line::Sent> sent = endpoint->send(to_bytes("x"));
   ASSERT_FALSE(sent);
   EXPECT_THAT(sent.error().message, HasSubstr("exit status 7"));
 }
@@ -65,7 +65,7 @@ TEST(Exec, TheLastBytesOfADyingChildStillArrive) {
 TEST(Exec, AChildThatHangsIsSilent) {
   const auto endpoint = open("sleep 1000 <{tty}");
   ASSERT_TRUE(endpoint->send(to_bytes("anybody?")));
-  const Result<Burst> burst = endpoint->receive(endpoint->now() + 30ms);
+  const Result<line::Burst> burst = endpoint->receive(endpoint->now() + 30ms);
   ASSERT_TRUE(burst);
   EXPECT_TRUE(burst->bytes.empty());
 }
@@ -74,7 +74,7 @@ TEST(Exec, AChildThatFloodsDoesNotHoldTheBench) {
   const auto endpoint = open("yes");
   std::size_t got = 0;
   while (got < 100'000) {
-    const Result<Burst> burst = endpoint->receive(endpoint->now() + 5s);
+    const Result<line::Burst> burst = endpoint->receive(endpoint->now() + 5s);
     ASSERT_TRUE(burst) << burst.error().message;
     ASSERT_FALSE(burst->bytes.empty());
     got += burst->bytes.size();
@@ -122,4 +122,4 @@ TEST(Exec, RefusesNoCommandAndNoFloor) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

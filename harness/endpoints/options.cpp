@@ -3,7 +3,7 @@
 #include <charconv>
 #include <string>
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 Result<Duration> timing_floor(const EndpointName& name) {
   const std::string text = name.option("floor_ms", "20");
@@ -22,12 +22,12 @@ Result<SerialOptions> serial_options(const EndpointName& name) {
   };
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();
-  const Result<LineSettings> settings =
-      parse_line_settings(name.option("baud", "9600") + '-' + name.option("frame", "8N1"));
+  const Result<line::LineSettings> settings =
+      line::parse_line_settings(name.option("baud", "9600") + '-' + name.option("frame", "8N1"));
   if (!settings) return wrong(settings.error());
   const Result<Direction> direction = parse_direction(name.option("rs485", ""));
   if (!direction) return wrong(direction.error());
   return SerialOptions{*settings, *direction, *floor};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -6,17 +6,17 @@
 #include "harness/endpoints/serial_settings.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// Differences in time below this cannot be judged: option floor_ms (0-10000), or 20 ms.
 Result<Duration> timing_floor(const EndpointName& name);
 
 /// What a serial port is opened with: options baud (9600), frame (8N1), rs485 (none), floor_ms.
 struct SerialOptions {
-  LineSettings settings;
+  line::LineSettings settings;
   Direction direction = Direction::none;
   Duration floor{};
 };
 Result<SerialOptions> serial_options(const EndpointName& name);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

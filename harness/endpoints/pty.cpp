@@ -14,7 +14,7 @@
 #include "harness/system/system_calls.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 namespace {
 
@@ -41,8 +41,8 @@ std::string device_name(const EndpointName& name) {
 
 class PtyEndpoint final : public Endpoint {
  public:
-  PtyEndpoint(const EndpointName& name, PtyPair pty, UniqueFd control,
-              std::unique_ptr<ChildProcess> child, Duration floor)
+  PtyEndpoint(const EndpointName& name, os::PtyPair pty, os::UniqueFd control,
+              std::unique_ptr<os::ChildProcess> child, Duration floor)
       : name_(name),
         child_(std::move(child)),
         slave_(std::move(pty.slave)),
@@ -63,19 +63,19 @@ class PtyEndpoint final : public Endpoint {
   Duration character_time() const override { return line_.character_time(); }
 
   Status begin(const json& config) override {
-    const Result<LineSettings> line = parse_line_settings(line_of(config));
+    const Result<line::LineSettings> line = line::parse_line_settings(line_of(config));
     if (!line) return line.error();
     line_ = *line;
     // Bytes on their way to the old device, and after the answer those that it had sent: neither
     // concerns this case.
-    drop_waiting_bytes(link_.fd());
+    os::drop_waiting_bytes(link_.fd());
     const Result<std::string> begun = ask({{"begin", config}});
-    drop_waiting_bytes(link_.fd());
+    os::drop_waiting_bytes(link_.fd());
     return status_of(begun);
   }
 
-  Result<Sent> send(ByteView bytes) override { return link_.send(bytes); }
-  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
+  Result<line::Sent> send(ByteView bytes) override { return link_.send(bytes); }
+  Result<line::Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
   Status set(std::string_view address, std::string_view hex) override {
     return status_of(ask({{"set", {{"address", address}, {"hex", hex}}}}));
@@ -94,16 +94,17 @@ class PtyEndpoint final : public Endpoint {
   std::string line_of(const json& config) const {
     const auto found = config.find("line");
     if (found != config.end() && found->is_string()) return found->get<std::string>();
-    return name_.option("line", to_string(LineSettings{}));
+    return name_.option("line", line::to_string(line::LineSettings{}));
   }
 
   Result<std::string> ask(const json& request) {
     const std::string question = control_line(request);
-    if (const Result<Sent> sent = control_.send(to_bytes(question)); !sent) return sent.error();
+    if (const Result<line::Sent> sent = control_.send(to_bytes(question)); !sent)
+      return sent.error();
     const Time deadline = control_.now() + answer_limit;
     std::string answer;
     while (answer.empty() || answer.back() != '\n') {
-      const Result<Burst> burst = control_.receive(deadline);
+      const Result<line::Burst> burst = control_.receive(deadline);
       if (!burst) return burst.error();
       if (burst->bytes.empty())
         return fail("cannot talk to " + describe() + ": no answer within 5 s; " + child_->how());
@@ -114,11 +115,11 @@ class PtyEndpoint final : public Endpoint {
 
   Capabilities capabilities_;
   EndpointName name_;
-  LineSettings line_;
-  std::unique_ptr<ChildProcess> child_;
-  UniqueFd slave_;  // kept open: the line does not end while the emulator starts
-  FdLink link_;
-  FdLink control_;
+  line::LineSettings line_;
+  std::unique_ptr<os::ChildProcess> child_;
+  os::UniqueFd slave_;  // kept open: the line does not end while the emulator starts
+  os::FdLink link_;
+  os::FdLink control_;
 };
 
 }  // namespace
@@ -126,19 +127,19 @@ class PtyEndpoint final : public Endpoint {
 Result<std::unique_ptr<Endpoint>> open_pty(const EndpointName& name) {
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();
-  Result<PtyPair> pty = open_pty_pair();
+  Result<os::PtyPair> pty = os::open_pty_pair();
   if (!pty) return pty.error();
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    return fail("cannot open pty: " + errno_text(errno));
-  UniqueFd ours(ends[0]);
-  const UniqueFd theirs(ends[1]);
-  ChildOptions options;
+    return fail("cannot open pty: " + os::errno_text(errno));
+  os::UniqueFd ours(ends[0]);
+  const os::UniqueFd theirs(ends[1]);
+  os::ChildOptions options;
   options.arguments = {
       executable(), "emulate", device_name(name), "--control", std::to_string(theirs.get()),
       "--tty",      pty->path};
   options.keep = {theirs.get()};
-  Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
+  Result<std::unique_ptr<os::ChildProcess>> child = os::ChildProcess::start(options);
   if (!child) return child.error();
   auto endpoint = std::make_unique<PtyEndpoint>(name, std::move(*pty), std::move(ours),
                                                 std::move(*child), *floor);
@@ -150,4 +151,4 @@ Result<std::unique_ptr<Endpoint>> open_pty(const EndpointName& name) {
   return std::unique_ptr<Endpoint>(std::move(endpoint));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -3,7 +3,7 @@
 
 #include "harness/endpoints/endpoint.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// Starts this program (or the one that the environment variable FIELDPROOF_EXECUTABLE names) as
 /// `emulate MODEL?options --control FD --tty PATH`. Each case begins with a fresh device; set, get
@@ -12,4 +12,4 @@ namespace fieldproof {
 /// decides.
 Result<std::unique_ptr<Endpoint>> open_pty(const EndpointName& name);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

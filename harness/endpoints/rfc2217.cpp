@@ -7,7 +7,7 @@
 #include "harness/endpoints/options.hpp"
 #include "harness/endpoints/rfc2217_session.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 namespace {
 
@@ -26,11 +26,13 @@ class Rfc2217Endpoint final : public Endpoint {
   Status open() { return session_.open(); }
 
   const Capabilities& capabilities() const override { return capabilities_; }
-  std::string describe() const override { return "rfc2217:" + where_ + ' ' + to_string(settings_); }
+  std::string describe() const override {
+    return "rfc2217:" + where_ + ' ' + line::to_string(settings_);
+  }
   Time now() const override { return session_.now(); }
   Duration character_time() const override { return settings_.character_time(); }
-  Result<Sent> send(ByteView bytes) override { return session_.send(bytes); }
-  Result<Burst> receive(Time deadline) override { return session_.receive(deadline); }
+  Result<line::Sent> send(ByteView bytes) override { return session_.send(bytes); }
+  Result<line::Burst> receive(Time deadline) override { return session_.receive(deadline); }
 
   Status begin(const nlohmann::json&) override {
     if (!session_.ended()) return ok();
@@ -50,7 +52,7 @@ class Rfc2217Endpoint final : public Endpoint {
  private:
   Capabilities capabilities_;
   std::string where_;
-  LineSettings settings_;
+  line::LineSettings settings_;
   Rfc2217Session session_;
   int reconnections_ = 0;
 };
@@ -77,4 +79,4 @@ Result<std::unique_ptr<Endpoint>> open_rfc2217(const EndpointName& name, Duratio
   return std::unique_ptr<Endpoint>(std::move(endpoint));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -4,7 +4,7 @@
 
 #include "harness/endpoints/endpoint.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// Options: baud (default 9600), frame (8N1), rs485 (rts: the bench switches RTS over the network),
 /// floor_ms, station, protocol. The server's buffers are purged when the connection is opened, and
@@ -16,4 +16,4 @@ Result<std::unique_ptr<Endpoint>> open_rfc2217(const EndpointName& name);
 /// `patience`: how long the server may take to confirm anything.
 Result<std::unique_ptr<Endpoint>> open_rfc2217(const EndpointName& name, Duration patience);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -9,7 +9,10 @@
 
 #include "harness/system/socket_connect.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
+
+using line::Burst;
+using line::Sent;
 
 namespace {
 
@@ -39,7 +42,7 @@ std::string words(const std::deque<Burst>& received) {
 
 }  // namespace
 
-Rfc2217Session::Rfc2217Session(std::string where, LineSettings settings, Direction direction,
+Rfc2217Session::Rfc2217Session(std::string where, line::LineSettings settings, Direction direction,
                                Duration patience)
     : where_(std::move(where)), settings_(settings), direction_(direction), patience_(patience) {}
 
@@ -48,7 +51,7 @@ Error Rfc2217Session::cannot_open(const std::string& why) const {
 }
 
 Status Rfc2217Session::open() {
-  Result<UniqueFd> fd = connect_socket(where_, SOCK_STREAM);
+  Result<os::UniqueFd> fd = os::connect_socket(where_, SOCK_STREAM);
   if (!fd) return fd.error();
   link_.emplace(std::move(*fd), name(), clock_);
   decoder_ = {};
@@ -90,7 +93,7 @@ Status Rfc2217Session::negotiate() {
 
 Status Rfc2217Session::set_up() {
   // In the order that RFC 2217, 2 recommends: not every parity goes with every number of data bits.
-  const std::string to = to_string(settings_);
+  const std::string to = line::to_string(settings_);
   Status done = set(telnet::set_baud_rate, big_endian(settings_.baud), to + " (speed)");
   if (done)
     done =
@@ -241,4 +244,4 @@ Result<Burst> Rfc2217Session::receive(Time deadline) {
   return Burst{{}, now(), {}};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -11,12 +11,12 @@
 #include "harness/system/fd_link.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 class Rfc2217Session {
  public:
   /// `patience`: how long the server may take to confirm anything.
-  Rfc2217Session(std::string where, LineSettings settings, Direction direction,
+  Rfc2217Session(std::string where, line::LineSettings settings, Direction direction,
                  Duration patience = 3s);
 
   /// Connects, negotiates, sets speed and format, and purges the server's buffers; each is
@@ -28,10 +28,10 @@ class Rfc2217Session {
 
   Time now() const { return clock_.now(); }
   /// The end is that of the last stop bit at the set speed, as far as a network lets one tell.
-  Result<Sent> send(ByteView bytes);
+  Result<line::Sent> send(ByteView bytes);
   /// As Endpoint::receive. A silence counts only if the server still answers us at its end: a dead
   /// server or network is an error, never a silence of the device.
-  Result<Burst> receive(Time deadline);
+  Result<line::Burst> receive(Time deadline);
 
   /// Errors that the server has notified, since the last call.
   LineErrorCounts take_line_errors() { return std::exchange(line_errors_, {}); }
@@ -48,19 +48,19 @@ class Rfc2217Session {
   Error cannot_open(const std::string& why) const;
 
   std::string where_;
-  LineSettings settings_;
+  line::LineSettings settings_;
   Direction direction_;
   Duration patience_;
-  RunClock clock_;
-  std::optional<FdLink> link_;
+  os::RunClock clock_;
+  std::optional<os::FdLink> link_;
   telnet::Decoder decoder_;
   telnet::Negotiator negotiator_;
   std::map<Byte, Bytes>
       confirmed_;  // by command of the client: the value that the server has answered
-  std::deque<Burst> received_;
+  std::deque<line::Burst> received_;
   LineErrorCounts line_errors_;
   Time sent_until_{};
   bool unproven_ = false;  // something was sent, and nothing has come from the server since
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -1,6 +1,6 @@
 #include "harness/endpoints/rfc2217_telnet.hpp"
 
-namespace fieldproof::telnet {
+namespace fieldproof::endpoints::telnet {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::string Negotiator::missing() const {
   return "";
 }
 
-}  // namespace fieldproof::telnet
+}  // namespace fieldproof::endpoints::telnet

@@ -9,7 +9,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof::telnet {
+namespace fieldproof::endpoints::telnet {
 
 enum Verb : Byte { will = 251, wont = 252, do_it = 253, dont = 254 };
 
@@ -87,4 +87,4 @@ class Negotiator {
   std::string refused_;
 };
 
-}  // namespace fieldproof::telnet
+}  // namespace fieldproof::endpoints::telnet

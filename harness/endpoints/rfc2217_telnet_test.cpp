@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof::telnet {
+namespace fieldproof::endpoints::telnet {
 namespace {
 
 using testing::ElementsAre;
@@ -123,4 +123,4 @@ TEST(Negotiation, ARefusalOfWhatIsNeededIsOne) {
 }
 
 }  // namespace
-}  // namespace fieldproof::telnet
+}  // namespace fieldproof::endpoints::telnet

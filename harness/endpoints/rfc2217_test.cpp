@@ -13,15 +13,15 @@
 #include "harness/system/pty_pair.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 namespace {
 
-using endpoint_tests::endpoint_name;
-using endpoint_tests::FakeServer;
-using endpoint_tests::FakeServerOptions;
-using endpoint_tests::receive_error;
-using endpoint_tests::receive_text;
-using endpoint_tests::Ser2net;
+using os::test::receive_error;
+using os::test::receive_text;
+using test::endpoint_name;
+using test::FakeServer;
+using test::FakeServerOptions;
+using test::Ser2net;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
@@ -50,7 +50,7 @@ std::string every_byte() {
 class Rfc2217 : public testing::Test {
  protected:
   void SetUp() override {
-    Result<PtyPair> pty = open_pty_pair();
+    Result<os::PtyPair> pty = os::open_pty_pair();
     ASSERT_TRUE(pty) << pty.error().message;
     path = pty->path;
     slave = std::move(pty->slave);
@@ -58,8 +58,8 @@ class Rfc2217 : public testing::Test {
     server.emplace(path);
   }
   std::string path;
-  UniqueFd slave;
-  std::optional<FdLink> far;
+  os::UniqueFd slave;
+  std::optional<os::FdLink> far;
   std::optional<Ser2net> server;
 };
 
@@ -80,7 +80,7 @@ TEST_F(Rfc2217, CarriesEveryByteBothWays) {
 TEST_F(Rfc2217, SetsSpeedAndFormatOfTheFarPort) {
   const auto port = open(server->where(), {{"baud", "57600"}, {"frame", "7O2"}});
   ASSERT_TRUE(port) << port.error().message;
-  EXPECT_EQ((*port)->character_time(), (LineSettings{57600, 7, 'O', 2}.character_time()));
+  EXPECT_EQ((*port)->character_time(), (line::LineSettings{57600, 7, 'O', 2}.character_time()));
   termios settings{};
   ASSERT_EQ(::tcgetattr(slave.get(), &settings), 0);
   EXPECT_EQ(::cfgetospeed(&settings), static_cast<speed_t>(B57600));
@@ -254,12 +254,12 @@ TEST(Rfc2217Server, SilenceOfADeadServerIsNotTheDevices) {
   ASSERT_TRUE(port) << port.error().message;
   ASSERT_TRUE((*port)->send(to_bytes("x")));
   EXPECT_EQ(receive_text(**port, "x"), "x");
-  const Result<Burst> quiet = (*port)->receive((*port)->now() + 1ms);
+  const Result<line::Burst> quiet = (*port)->receive((*port)->now() + 1ms);
   ASSERT_TRUE(quiet) << "silence is believed while the server lives";
   EXPECT_TRUE(quiet->bytes.empty());
   server.play_dead();
   ASSERT_TRUE((*port)->send(to_bytes("y")));
-  const Result<Burst> burst = (*port)->receive((*port)->now() + 1ms);
+  const Result<line::Burst> burst = (*port)->receive((*port)->now() + 1ms);
   ASSERT_FALSE(burst);
   EXPECT_EQ(burst.error().message,
             "cannot receive from rfc2217:" + server.where() +
@@ -270,14 +270,14 @@ TEST(Rfc2217Server, ATransmissionLastsAsLongAsOnTheWire) {
   FakeServer server;
   auto port = open(server.where(), {{"baud", "9600"}});
   ASSERT_TRUE(port) << port.error().message;
-  const Result<Sent> sent = (*port)->send(to_bytes("0123456789"));
+  const Result<line::Sent> sent = (*port)->send(to_bytes("0123456789"));
   ASSERT_TRUE(sent);
   EXPECT_EQ(sent->end - sent->start, 10 * (*port)->character_time());
   EXPECT_GE((*port)->now(), sent->end);
-  const Result<Burst> echo = (*port)->receive((*port)->now() + 5s);
+  const Result<line::Burst> echo = (*port)->receive((*port)->now() + 5s);
   ASSERT_TRUE(echo);
   EXPECT_GE(echo->start, sent->end) << "an answer counts from the end of the request";
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

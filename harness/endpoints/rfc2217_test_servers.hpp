@@ -20,11 +20,11 @@
 #include "harness/endpoints/rfc2217_telnet.hpp"
 #include "harness/system/child_process.hpp"
 
-namespace fieldproof::endpoint_tests {
+namespace fieldproof::endpoints::test {
 
 /// A listening socket of loopback; its port in `port`.
-inline UniqueFd listen_anywhere(int& port) {
-  UniqueFd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+inline os::UniqueFd listen_anywhere(int& port) {
+  os::UniqueFd fd(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -54,14 +54,14 @@ class Ser2net {
     // It writes its pid file when it listens: into this pipe.
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);
-    const UniqueFd ready(ends[0]);
-    UniqueFd pid_file(ends[1]);
-    ChildOptions options;
+    const os::UniqueFd ready(ends[0]);
+    os::UniqueFd pid_file(ends[1]);
+    os::ChildOptions options;
     options.arguments = {
         "/usr/sbin/ser2net",      "-n", "-c",
         folder_ / "ser2net.yaml", "-P", "/dev/fd/" + std::to_string(pid_file.get())};
     options.keep = {pid_file.get()};
-    Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
+    Result<std::unique_ptr<os::ChildProcess>> child = os::ChildProcess::start(options);
     EXPECT_TRUE(child) << child.error().message;
     if (!child) return;
     child_ = std::move(*child);
@@ -84,7 +84,7 @@ class Ser2net {
  private:
   int port_;
   std::filesystem::path folder_;
-  std::unique_ptr<ChildProcess> child_;
+  std::unique_ptr<os::ChildProcess> child_;
 };
 
 /// How a FakeServer differs from a good one.
@@ -123,7 +123,7 @@ class FakeServer {
 
  private:
   void serve() {
-    UniqueFd client;
+    os::UniqueFd client;
     telnet::Decoder decoder;
     for (;;) {
       pollfd fds[3]{
@@ -149,7 +149,7 @@ class FakeServer {
     }
   }
 
-  static void send(const UniqueFd& client, const Bytes& bytes) {
+  static void send(const os::UniqueFd& client, const Bytes& bytes) {
     // The client may have left already.
     if (!bytes.empty())
       static_cast<void>(::send(client.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL));
@@ -193,8 +193,8 @@ class FakeServer {
 
   FakeServerOptions options_;
   int port_ = 0;
-  UniqueFd listener_;
-  UniqueFd stop_;
+  os::UniqueFd listener_;
+  os::UniqueFd stop_;
   std::atomic<bool> dead_{false};
   std::atomic<Byte> line_state_{0};
   std::mutex mutex_;
@@ -202,4 +202,4 @@ class FakeServer {
   std::thread thread_;
 };
 
-}  // namespace fieldproof::endpoint_tests
+}  // namespace fieldproof::endpoints::test

@@ -18,7 +18,7 @@
 #include "harness/system/port_lock.hpp"
 #include "harness/system/port_user.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 namespace {
 
@@ -56,19 +56,19 @@ Error open_error(const std::string& path, int error) {
     case ENOENT: return absent(start + "there is no such port; " + ports_there());
     case EBUSY:
     case EWOULDBLOCK:
-      return fail(start + "the port is in use" + port_user(path) +
+      return fail(start + "the port is in use" + os::port_user(path) +
                   "; end that process or choose another port");
     case ENODEV:
     case ENXIO:
       return absent(start + "no adapter behind this name; plug it in or choose another port");
     default:
-      return fail(start + errno_text(error) + "; name a terminal device such as /dev/ttyUSB0");
+      return fail(start + os::errno_text(error) + "; name a terminal device such as /dev/ttyUSB0");
   }
 }
 
 class SerialEndpoint final : public Endpoint {
  public:
-  SerialEndpoint(const SystemCalls& calls, UniqueFd fd, PortLock lock, std::string path,
+  SerialEndpoint(const os::SystemCalls& calls, os::UniqueFd fd, os::PortLock lock, std::string path,
                  const SerialOptions& options)
       : calls_(calls),
         lock_(std::move(lock)),
@@ -88,16 +88,18 @@ class SerialEndpoint final : public Endpoint {
   }
 
   const Capabilities& capabilities() const override { return capabilities_; }
-  std::string describe() const override { return "serial:" + path_ + ' ' + to_string(settings_); }
+  std::string describe() const override {
+    return "serial:" + path_ + ' ' + line::to_string(settings_);
+  }
   Time now() const override { return link_.now(); }
   Duration character_time() const override { return settings_.character_time(); }
   Status begin(const nlohmann::json&) override { return ok(); }
-  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
+  Result<line::Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
-  Result<Sent> send(ByteView bytes) override {
+  Result<line::Sent> send(ByteView bytes) override {
     if (direction_ != Direction::rts) return link_.send(bytes);
     if (const Status on = set_rts(calls_, link_.fd(), path_, true); !on) return on.error();
-    Result<Sent> sent = link_.send(bytes);
+    Result<line::Sent> sent = link_.send(bytes);
     // The time is over by now; TCSBRK with 1 (tcdrain) covers what the driver still holds.
     calls_.ioctl(link_.fd(), TCSBRK, number(1));
     if (const Status off = set_rts(calls_, link_.fd(), path_, false); !off) return off.error();
@@ -113,18 +115,18 @@ class SerialEndpoint final : public Endpoint {
   }
 
  private:
-  SystemCalls calls_;
-  PortLock lock_;  // outlives link_: the port is free when its lock is
+  os::SystemCalls calls_;
+  os::PortLock lock_;  // outlives link_: the port is free when its lock is
   Capabilities capabilities_;
   std::string path_;
-  LineSettings settings_;
+  line::LineSettings settings_;
   Direction direction_;
-  FdLink link_;
+  os::FdLink link_;
   LineErrorCounts counted_;
   bool counting_ = false;
 };
 
-Status make_exclusive(const SystemCalls& calls, UniqueFd& fd, const std::string& path) {
+Status make_exclusive(const os::SystemCalls& calls, os::UniqueFd& fd, const std::string& path) {
   if (calls.flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;
     fd.reset();  // so that it is not found as the port's user
@@ -137,10 +139,11 @@ Status make_exclusive(const SystemCalls& calls, UniqueFd& fd, const std::string&
 }  // namespace
 
 Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name) {
-  return open_serial(name, real_system_calls());
+  return open_serial(name, os::real_system_calls());
 }
 
-Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const SystemCalls& calls) {
+Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name,
+                                              const os::SystemCalls& calls) {
   const std::string& path = name.target;
   const Result<SerialOptions> options = serial_options(name);
   if (!options) return options.error();
@@ -148,11 +151,11 @@ Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const Sy
     return fail("cannot open serial: there is no port; write serial:/dev/ttyUSB0; " +
                 ports_there());
 
-  Result<PortLock> lock = PortLock::acquire(path);
+  Result<os::PortLock> lock = os::PortLock::acquire(path);
   if (!lock) return lock.error();
   if (!lock->notice().empty()) std::fprintf(stderr, "fieldproof: %s\n", lock->notice().c_str());
   // O_NONBLOCK: a port without carrier must not block.
-  UniqueFd fd(calls.open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  os::UniqueFd fd(calls.open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd) return open_error(path, errno);
   if (const Status done = make_exclusive(calls, fd, path); !done) return done.error();
   if (const Status done = apply_settings(calls, fd.get(), path, options->settings); !done)
@@ -164,4 +167,4 @@ Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const Sy
       std::make_unique<SerialEndpoint>(calls, std::move(fd), std::move(*lock), path, *options));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

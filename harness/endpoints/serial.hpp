@@ -4,7 +4,7 @@
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/system/system_calls.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// Options: baud (default 9600), frame (8N1), rs485 (1: the driver switches the direction, rts: the
 /// bench does by RTS), floor_ms (default 20), station, protocol. The port is opened for this
@@ -13,6 +13,7 @@ namespace fieldproof {
 Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name);
 
 /// The same with a driver that a test stands in for.
-Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name, const SystemCalls& calls);
+Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name,
+                                              const os::SystemCalls& calls);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -10,13 +10,15 @@
 
 #include "harness/system/kernel_termios.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
+
+using os::SystemCalls;
 
 namespace {
 
 constexpr std::uint32_t format_mask = CSIZE | PARENB | PARODD | CSTOPB;
 
-std::uint32_t format_flags(const LineSettings& settings) {
+std::uint32_t format_flags(const line::LineSettings& settings) {
   std::uint32_t flags = settings.data_bits == 7 ? CS7 : CS8;
   if (settings.parity != 'N') flags |= PARENB;
   if (settings.parity == 'O') flags |= PARODD;
@@ -36,7 +38,7 @@ std::uint32_t speed_flags(int baud) {
     case 38400: return B38400;
     case 57600: return B57600;
     case 115200: return B115200;
-    default: return any_speed;
+    default: return os::any_speed;
   }
 }
 
@@ -52,42 +54,43 @@ bool is_pty(const SystemCalls& calls, int fd) {
 }
 
 Status apply_settings(const SystemCalls& calls, int fd, const std::string& port,
-                      const LineSettings& settings) {
-  KernelTermios wanted{};
-  if (calls.ioctl(fd, get_kernel_termios, &wanted) != 0) {
-    return fail("cannot use " + port + " as a serial port: " + errno_text(errno) +
+                      const line::LineSettings& settings) {
+  os::KernelTermios wanted{};
+  if (calls.ioctl(fd, os::get_kernel_termios, &wanted) != 0) {
+    return fail("cannot use " + port + " as a serial port: " + os::errno_text(errno) +
                 "; name a terminal device such as /dev/ttyUSB0");
   }
   const bool pty = is_pty(calls, fd);
   // A byte with a parity or framing error and a break are dropped, as a serial module does it; the
   // driver counts them.
   wanted.input_flags = IGNBRK | IGNPAR | (settings.parity == 'N' ? 0 : INPCK);
-  LineSettings on_line = settings;
+  line::LineSettings on_line = settings;
   if (pty) on_line.data_bits = 8, on_line.parity = 'N';  // asked for, they may be refused
   wanted.output_flags = 0;
   wanted.local_flags = 0;
-  wanted.control_flags &= ~(speed_mask | speed_mask << input_speed_shift | format_mask | CRTSCTS);
+  wanted.control_flags &=
+      ~(os::speed_mask | os::speed_mask << os::input_speed_shift | format_mask | CRTSCTS);
   wanted.control_flags &= ~static_cast<std::uint32_t>(CMSPAR);
   wanted.control_flags |= speed_flags(settings.baud) | CREAD | CLOCAL | format_flags(on_line);
   wanted.control_characters.fill(0);
   wanted.control_characters[VMIN] = 1;
   wanted.input_speed = wanted.output_speed = static_cast<std::uint32_t>(settings.baud);
-  if (calls.ioctl(fd, set_kernel_termios, &wanted) != 0)
-    return cannot_set(port, to_string(settings), errno_text(errno));
+  if (calls.ioctl(fd, os::set_kernel_termios, &wanted) != 0)
+    return cannot_set(port, line::to_string(settings), os::errno_text(errno));
   if (pty) return ok();
 
-  KernelTermios taken{};
-  if (calls.ioctl(fd, get_kernel_termios, &taken) != 0)
-    return cannot_set(port, to_string(settings), errno_text(errno));
+  os::KernelTermios taken{};
+  if (calls.ioctl(fd, os::get_kernel_termios, &taken) != 0)
+    return cannot_set(port, line::to_string(settings), os::errno_text(errno));
   if ((taken.control_flags & format_mask) != format_flags(settings)) {
     return cannot_set(
-        port, to_string(settings),
+        port, line::to_string(settings),
         "the adapter does not offer this character format; use another adapter or format");
   }
   // A UART is within 2 % of the other side's speed or it misreads the last bits.
   if (std::abs(static_cast<long>(taken.output_speed) - settings.baud) * 50 > settings.baud) {
     return cannot_set(
-        port, to_string(settings),
+        port, line::to_string(settings),
         fmt::format("the adapter offers {} bit/s instead; use another adapter or speed",
                     taken.output_speed));
   }
@@ -110,7 +113,7 @@ Status apply_direction(const SystemCalls& calls, int fd, const std::string& port
   mode.flags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
   if (calls.ioctl(fd, TIOCSRS485, &mode) == 0) return ok();
   const std::string why =
-      errno == ENOTTY || errno == EINVAL ? "its driver has no RS-485 mode" : errno_text(errno);
+      errno == ENOTTY || errno == EINVAL ? "its driver has no RS-485 mode" : os::errno_text(errno);
   return fail("cannot switch " + port + " to RS-485: " + why +
               "; use rs485=rts, or leave rs485 out where the adapter switches by itself");
 }
@@ -119,7 +122,7 @@ Status set_rts(const SystemCalls& calls, int fd, const std::string& port, bool o
   int line = TIOCM_RTS;
   if (calls.ioctl(fd, on ? TIOCMBIS : TIOCMBIC, &line) == 0) return ok();
   const std::string why =
-      errno == ENOTTY || errno == EINVAL ? "it has no such line" : errno_text(errno);
+      errno == ENOTTY || errno == EINVAL ? "it has no such line" : os::errno_text(errno);
   return fail("cannot switch RTS of " + port + ": " + why +
               "; use rs485=1, or leave rs485 out where the adapter switches by itself");
 }
@@ -144,4 +147,4 @@ std::string line_errors_between(const LineErrorCounts& before, const LineErrorCo
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

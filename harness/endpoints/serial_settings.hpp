@@ -7,16 +7,16 @@
 #include "src/base/result.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// Is it the slave of a pty? It carries no parity, no 7-bit characters and no character times.
-bool is_pty(const SystemCalls& calls, int fd);
+bool is_pty(const os::SystemCalls& calls, int fd);
 
 /// Sets speed and character format, raw, without flow control. What the driver of a real port did
 /// not take over is an error; a pty drops parity and 7 bits without a word, and here that is no
 /// error. `port` is for messages.
-Status apply_settings(const SystemCalls& calls, int fd, const std::string& port,
-                      const LineSettings& settings);
+Status apply_settings(const os::SystemCalls& calls, int fd, const std::string& port,
+                      const line::LineSettings& settings);
 
 /// Who drives the transmitter of a two-wire line.
 enum class Direction {
@@ -29,10 +29,10 @@ enum class Direction {
 Result<Direction> parse_direction(const std::string& text);
 
 /// Prepares the port for the direction control: RS-485 mode on, or RTS off (receive).
-Status apply_direction(const SystemCalls& calls, int fd, const std::string& port,
+Status apply_direction(const os::SystemCalls& calls, int fd, const std::string& port,
                        Direction direction);
 /// RTS on or off.
-Status set_rts(const SystemCalls& calls, int fd, const std::string& port, bool on);
+Status set_rts(const os::SystemCalls& calls, int fd, const std::string& port, bool on);
 
 /// Counters of a driver since it was loaded.
 struct LineErrorCounts {
@@ -43,9 +43,9 @@ struct LineErrorCounts {
 };
 
 /// False when the driver has no counters (a pty, some adapters).
-bool read_line_errors(const SystemCalls& calls, int fd, LineErrorCounts& counts);
+bool read_line_errors(const os::SystemCalls& calls, int fd, LineErrorCounts& counts);
 
 /// "3 parity errors, 1 break" between two readings, or empty.
 std::string line_errors_between(const LineErrorCounts& before, const LineErrorCounts& after);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

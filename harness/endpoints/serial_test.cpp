@@ -19,17 +19,17 @@
 #include "harness/system/pty_pair.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 namespace {
 
-using endpoint_tests::endpoint_name;
-using endpoint_tests::receive_text;
+using os::test::receive_text;
+using test::endpoint_name;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// A driver of a real adapter, whose bytes go through a pty.
 struct FakeDriver {
-  KernelTermios termios{};
+  os::KernelTermios termios{};
   serial_rs485 rs485{};
   serial_icounter_struct counters{};
   std::uint32_t refused_flags = 0;  // format flags that the chip does not have
@@ -41,9 +41,9 @@ struct FakeDriver {
 
   int answer(int fd, unsigned long request, void* argument) {
     switch (request) {
-      case get_kernel_termios: *static_cast<KernelTermios*>(argument) = termios; return 0;
-      case set_kernel_termios:
-        termios = *static_cast<const KernelTermios*>(argument);
+      case os::get_kernel_termios: *static_cast<os::KernelTermios*>(argument) = termios; return 0;
+      case os::set_kernel_termios:
+        termios = *static_cast<const os::KernelTermios*>(argument);
         termios.control_flags &= ~refused_flags;
         if (only_speed) termios.output_speed = only_speed;
         return 0;
@@ -57,7 +57,7 @@ struct FakeDriver {
         return has_counters ? (*static_cast<serial_icounter_struct*>(argument) = counters, 0)
                             : refuse();
       case TCSBRK: calls.push_back("drain"); return 0;
-      default: return real_system_calls().ioctl(fd, request, argument);
+      default: return os::real_system_calls().ioctl(fd, request, argument);
     }
   }
   int switch_line(unsigned long request, int line) {
@@ -69,8 +69,8 @@ struct FakeDriver {
     errno = ENOTTY;
     return -1;
   }
-  SystemCalls system_calls() {
-    SystemCalls fake = real_system_calls();
+  os::SystemCalls system_calls() {
+    os::SystemCalls fake = os::real_system_calls();
     fake.device_major = [](int) { return 188; };  // ttyUSB
     fake.ioctl = [this](int fd, unsigned long request, void* argument) {
       return answer(fd, request, argument);
@@ -82,7 +82,7 @@ struct FakeDriver {
 class Serial : public testing::Test {
  protected:
   void SetUp() override {
-    Result<PtyPair> pty = open_pty_pair();
+    Result<os::PtyPair> pty = os::open_pty_pair();
     ASSERT_TRUE(pty) << pty.error().message;
     path = pty->path;
     slave = std::move(pty->slave);
@@ -95,8 +95,8 @@ class Serial : public testing::Test {
     return open_serial(endpoint_name("serial", path, options), driver.system_calls());
   }
   std::string path;
-  UniqueFd slave;
-  std::optional<FdLink> far;
+  os::UniqueFd slave;
+  std::optional<os::FdLink> far;
   FakeDriver driver;
 };
 
@@ -168,7 +168,7 @@ TEST_F(Serial, AFileIsNoPort) {
 }
 
 TEST_F(Serial, APortWithoutPermissionSaysWhichGroup) {
-  SystemCalls calls = real_system_calls();
+  os::SystemCalls calls = os::real_system_calls();
   calls.open = [](const char*, int) {
     errno = EACCES;
     return -1;
@@ -183,7 +183,7 @@ TEST_F(Serial, APortThatDisappearsIsSaid) {
   auto port = open();
   ASSERT_TRUE(port);
   far.reset();
-  EXPECT_THAT(endpoint_tests::receive_error(**port).message,
+  EXPECT_THAT(os::test::receive_error(**port).message,
               HasSubstr("the far end is gone; see that the adapter is still plugged in"));
 }
 
@@ -201,7 +201,7 @@ TEST_F(Serial, ARealPortGetsSpeedAndFormatRaw) {
   ASSERT_TRUE(port) << port.error().message;
   EXPECT_EQ(driver.termios.input_speed, 115200u);
   EXPECT_EQ(driver.termios.output_speed, 115200u);
-  EXPECT_EQ(driver.termios.control_flags & speed_mask, static_cast<unsigned>(B115200));
+  EXPECT_EQ(driver.termios.control_flags & os::speed_mask, static_cast<unsigned>(B115200));
   EXPECT_EQ(driver.termios.control_flags & (CSIZE | PARENB | PARODD | CSTOPB),
             static_cast<unsigned>(CS7 | PARENB | PARODD | CSTOPB));
   EXPECT_EQ(driver.termios.control_flags & (CRTSCTS | CLOCAL | CREAD),
@@ -218,8 +218,8 @@ TEST_F(Serial, ARealPortHasCharacterTimes) {
   ASSERT_TRUE(port);
   EXPECT_TRUE((*port)->capabilities().wire);
   EXPECT_EQ((*port)->capabilities().timing_floor, 2ms);
-  EXPECT_EQ((*port)->character_time(), (LineSettings{9600, 8, 'E', 1}.character_time()));
-  const Result<Sent> sent = (*port)->send(to_bytes("0123456789"));
+  EXPECT_EQ((*port)->character_time(), (line::LineSettings{9600, 8, 'E', 1}.character_time()));
+  const Result<line::Sent> sent = (*port)->send(to_bytes("0123456789"));
   ASSERT_TRUE(sent);
   EXPECT_EQ(sent->end - sent->start, 10 * (*port)->character_time());
 }
@@ -264,7 +264,7 @@ TEST_F(Serial, TheBenchSwitchesTheDirectionByRts) {
   EXPECT_THAT(driver.calls, ElementsAre("RTS off", "RTS on", "drain", "RTS off"));
   EXPECT_EQ(receive_text(*far, "x"), "x");
   driver.has_modem_lines = false;
-  const Result<Sent> sent = (*port)->send(to_bytes("y"));
+  const Result<line::Sent> sent = (*port)->send(to_bytes("y"));
   ASSERT_FALSE(sent);
   EXPECT_THAT(sent.error().message,
               HasSubstr("cannot switch RTS of " + path + ": it has no such line"));
@@ -298,4 +298,4 @@ TEST_F(Serial, ADriverWithoutCountersReportsNone) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -10,7 +10,7 @@
 #include "harness/system/socket_connect.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 namespace {
 
@@ -25,7 +25,7 @@ class SocketEndpoint final : public Endpoint {
   }
 
   Status open() {
-    Result<UniqueFd> fd = connect_socket(where_, type_);
+    Result<os::UniqueFd> fd = os::connect_socket(where_, type_);
     if (!fd) return fd.error();
     link_.emplace(std::move(*fd), name_, clock_);
     return ok();
@@ -35,18 +35,18 @@ class SocketEndpoint final : public Endpoint {
   std::string describe() const override { return name_; }
   Time now() const override { return clock_.now(); }
   /// A socket has no wire; pauses in characters are meant at the default speed.
-  Duration character_time() const override { return LineSettings{}.character_time(); }
+  Duration character_time() const override { return line::LineSettings{}.character_time(); }
   Status begin(const nlohmann::json&) override { return link_->dead() ? open() : ok(); }
-  Result<Sent> send(ByteView bytes) override { return link_->send(bytes); }
-  Result<Burst> receive(Time deadline) override { return link_->receive(deadline); }
+  Result<line::Sent> send(ByteView bytes) override { return link_->send(bytes); }
+  Result<line::Burst> receive(Time deadline) override { return link_->receive(deadline); }
 
  private:
   Capabilities capabilities_;
   std::string name_;
   std::string where_;
   int type_;
-  RunClock clock_;
-  std::optional<FdLink> link_;
+  os::RunClock clock_;
+  std::optional<os::FdLink> link_;
 };
 
 Result<std::unique_ptr<Endpoint>> open_socket(const EndpointName& name, int type) {
@@ -66,4 +66,4 @@ Result<std::unique_ptr<Endpoint>> open_udp(const EndpointName& name) {
   return open_socket(name, SOCK_DGRAM);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -4,7 +4,7 @@
 
 #include "harness/endpoints/endpoint.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
 
 /// HOST is a name, an IPv4 address or an IPv6 address in brackets. Options: floor_ms, station,
 /// protocol. A connection that the far end closed is opened again at the begin of the next case.
@@ -15,4 +15,4 @@ Result<std::unique_ptr<Endpoint>> open_tcp(const EndpointName& name);
 /// error, where the host says so).
 Result<std::unique_ptr<Endpoint>> open_udp(const EndpointName& name);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

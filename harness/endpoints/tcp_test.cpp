@@ -11,11 +11,14 @@
 #include "harness/system/interrupt.hpp"
 #include "harness/system/socket_address.hpp"
 
-namespace fieldproof {
+namespace fieldproof::endpoints {
+
+using os::FdLink;
+
 namespace {
 
-using endpoint_tests::endpoint_name;
-using endpoint_tests::receive_text;
+using os::test::receive_text;
+using test::endpoint_name;
 using testing::HasSubstr;
 
 class Tcp : public testing::Test {
@@ -32,9 +35,10 @@ class Tcp : public testing::Test {
     where = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
   }
   FdLink accept() {
-    return FdLink(UniqueFd(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC)), "device");
+    return FdLink(os::UniqueFd(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC)),
+                  "device");
   }
-  UniqueFd listener;
+  os::UniqueFd listener;
   std::string where;
 };
 
@@ -55,15 +59,15 @@ TEST_F(Tcp, AClosedConnectionIsAnErrorUntilTheNextCase) {
   auto endpoint = open_tcp(endpoint_name("tcp", where));
   ASSERT_TRUE(endpoint);
   { FdLink device = accept(); }
-  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message,
+  EXPECT_THAT(os::test::receive_error(**endpoint).message,
               HasSubstr("the far end closed the connection"));
   ASSERT_TRUE((*endpoint)->begin(nlohmann::json::object()));
   FdLink device = accept();
   ASSERT_TRUE((*endpoint)->send(to_bytes("again")));
   EXPECT_EQ(receive_text(device, "again"), "again");
-  device = FdLink(UniqueFd(), "none");
+  device = FdLink(os::UniqueFd(), "none");
   listener.reset();
-  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message, HasSubstr("the far end closed"));
+  EXPECT_THAT(os::test::receive_error(**endpoint).message, HasSubstr("the far end closed"));
   const Status begun = (*endpoint)->begin(nlohmann::json::object());
   ASSERT_FALSE(begun);
   EXPECT_THAT(begun.error().message, HasSubstr("nothing listens there"));
@@ -90,9 +94,9 @@ TEST_F(Tcp, RefusesWhatIsNoAddress) {
 }
 
 TEST_F(Tcp, AnInterruptEndsConnecting) {
-  interrupt();
+  os::interrupt();
   const auto endpoint = open_tcp(endpoint_name("tcp", where));
-  clear_interrupt();
+  os::clear_interrupt();
   ASSERT_FALSE(endpoint);
   EXPECT_TRUE(endpoint.error().interrupted);
 }
@@ -122,7 +126,7 @@ class Udp : public testing::Test {
                        reinterpret_cast<sockaddr*>(&client), sizeof client),
               static_cast<ssize_t>(text.size()));
   }
-  UniqueFd device;
+  os::UniqueFd device;
   sockaddr_in client{};
   std::string where;
 };
@@ -139,7 +143,7 @@ TEST_F(Udp, OneSendIsOneDatagramAndOneBurstIsOne) {
   say("first");
   say("second");
   for (const char* expected : {"first", "second"}) {
-    const Result<Burst> burst = (*endpoint)->receive((*endpoint)->now() + 5s);
+    const Result<line::Burst> burst = (*endpoint)->receive((*endpoint)->now() + 5s);
     ASSERT_TRUE(burst) << burst.error().message;
     EXPECT_EQ(to_text(burst->bytes), expected);
   }
@@ -153,7 +157,7 @@ TEST_F(Udp, ADeviceThatIsGoneIsSaidAndMayComeBack) {
   ASSERT_EQ(::getsockname(device.get(), reinterpret_cast<sockaddr*>(&address), &size), 0);
   device.reset();
   ASSERT_TRUE((*endpoint)->send(to_bytes("anybody?")));
-  EXPECT_THAT(endpoint_tests::receive_error(**endpoint).message,
+  EXPECT_THAT(os::test::receive_error(**endpoint).message,
               HasSubstr("cannot receive from udp:" + where +
                         ": the connection broke (connection refused)"));
   device.reset(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
@@ -164,10 +168,10 @@ TEST_F(Udp, ADeviceThatIsGoneIsSaidAndMayComeBack) {
 }
 
 TEST_F(Tcp, BracketsHoldAnAddressOfIpv6) {
-  const Result<AddressInfo> list = resolve("[::1]:502", false);
+  const Result<os::AddressInfo> list = os::resolve("[::1]:502", false);
   ASSERT_TRUE(list) << list.error().message;
   EXPECT_EQ((*list)->ai_family, AF_INET6);
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::endpoints

@@ -4,11 +4,11 @@
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/system/test_link.hpp"
 
-namespace fieldproof::endpoint_tests {
+namespace fieldproof::endpoints::test {
 
 inline EndpointName endpoint_name(std::string kind, std::string target,
                                   std::map<std::string, std::string> options = {}) {
   return {std::move(kind), std::move(target), std::move(options)};
 }
 
-}  // namespace fieldproof::endpoint_tests
+}  // namespace fieldproof::endpoints::test

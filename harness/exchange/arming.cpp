@@ -5,7 +5,7 @@
 
 #include "harness/exchange/p2p_blocks.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 namespace {
 
@@ -20,13 +20,13 @@ bool same_place(const json& a, const json& b) {
 
 }  // namespace
 
-Status Arming::load(const Case& source, const json& config) {
+Status Arming::load(const vectors::Case& source, const json& config) {
   case_ = source.id;
   blocks_ = p2p_blocks(source.config);
   json own = config;
   const std::string model = own.value("model", "");
   for (const char* key : {"model", "protocol", "bench_line", "neighbours"}) own.erase(key);
-  Result<std::unique_ptr<EmulatedDevice>> made = protocol_.make_device(model, own);
+  Result<std::unique_ptr<plc::EmulatedDevice>> made = protocol_.make_device(model, own);
   if (!made) return fail("cannot follow the memory of the case: " + made.error().message);
   shadow_ = std::move(*made);
   return ok();
@@ -76,7 +76,7 @@ std::string Arming::foreign_clock() const {
 }
 
 /// The first memory without which the line shows something else, when nobody can set it.
-Result<std::string> Arming::needs_memory(const Case& source) {
+Result<std::string> Arming::needs_memory(const vectors::Case& source) {
   Result<Image> before = image();
   if (!before) return before.error();
   const auto matters =
@@ -90,12 +90,13 @@ Result<std::string> Arming::needs_memory(const Case& source) {
     return std::string();
   };
   Result<std::string> needed = matters(source.memory);
-  for (const Step& step : source.steps)
-    if (needed && needed->empty() && step.kind == Step::Kind::set) needed = matters(step.memory);
+  for (const vectors::Step& step : source.steps)
+    if (needed && needed->empty() && step.kind == vectors::Step::Kind::set)
+      needed = matters(step.memory);
   return needed;
 }
 
-std::string Arming::objection(const Case& source, const json& config) const {
+std::string Arming::objection(const vectors::Case& source, const json& config) const {
   Arming trial(protocol_, ways_);
   if (ways_.stimulus) {
     const Status loaded = trial.load(source, config);
@@ -130,7 +131,7 @@ Status Arming::ask_for(const json& block) const {
   return ways_.stimulus(json{{"case", case_}, {"block", block}, {"values", values}}.dump());
 }
 
-Status Arming::begin(const Case& source, const json& config) {
+Status Arming::begin(const vectors::Case& source, const json& config) {
   case_ = source.id;
   blocks_ = p2p_blocks(source.config);
   if (!ways_.stimulus) return ok();
@@ -164,4 +165,4 @@ Result<bool> Arming::end() {
   return told ? Result<bool>(true) : told.error();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

@@ -11,7 +11,7 @@
 #include "harness/exchange/prepared_case.hpp"
 #include "harness/exchange/stimulus.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 class Arming {
  public:
@@ -21,14 +21,15 @@ class Arming {
     bool aux = false;                      // memory can be set and read over a second channel
   };
   /// Refers to `protocol`.
-  Arming(const Protocol& protocol, Ways ways) : protocol_(protocol), ways_(std::move(ways)) {}
+  Arming(const harness::Protocol& protocol, Ways ways)
+      : protocol_(protocol), ways_(std::move(ways)) {}
 
   /// Why the device cannot be made to ask as the case needs it, for the engineer; empty where it
   /// can. `config` is that of the case with "model".
-  std::string objection(const Case& source, const nlohmann::json& config) const;
+  std::string objection(const vectors::Case& source, const nlohmann::json& config) const;
 
   /// Starts a case: blocks that run by a clock are asked for at once.
-  Status begin(const Case& source, const nlohmann::json& config);
+  Status begin(const vectors::Case& source, const nlohmann::json& config);
   /// The case sets memory. The rising edge of a condition flag asks for its block, once.
   Status set(const std::string& address, const std::string& hex);
   /// Ends a case whose blocks run by a clock: true where they stop, since a stimulus was told.
@@ -42,18 +43,19 @@ class Arming {
   /// What of the device's own memory shows on the line: flags, and what writes send. By address.
   using Image = std::map<std::string, std::string>;
 
-  Status load(const Case& source, const nlohmann::json& config);
+  Status load(const vectors::Case& source, const nlohmann::json& config);
   Result<Image> image() const;
   std::string missing_block() const;
   std::string foreign_clock() const;
-  Result<std::string> needs_memory(const Case& source);
+  Result<std::string> needs_memory(const vectors::Case& source);
   Status ask_for(const nlohmann::json& block) const;
 
-  const Protocol& protocol_;
+  const harness::Protocol& protocol_;
   Ways ways_;
   std::string case_;
   std::vector<nlohmann::json> blocks_;
-  std::unique_ptr<EmulatedDevice> shadow_;  // keeps the memory that the case gives; it never runs
+  std::unique_ptr<plc::EmulatedDevice>
+      shadow_;  // keeps the memory that the case gives; it never runs
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

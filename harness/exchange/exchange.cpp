@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::exchange {
+
+using vectors::Step;
 
 namespace {
 
@@ -90,14 +92,14 @@ void Exchange::send(const PreparedStep& step, StepRecord& record, Transcript& tr
   }
   if (transcript.trouble || transcript.flooded) return;
   request_ = {};
-  const FrameTemplate& frame = step.frames.front().frame;
-  const Result<Bytes> bytes = render(frame, captures_);
+  const notation::FrameTemplate& frame = step.frames.front().frame;
+  const Result<Bytes> bytes = notation::render(frame, captures_);
   if (!bytes) {
     record.refused = bytes.error().message;
     return;
   }
   std::size_t from = 0;
-  for (const FrameTemplate::Gap& gap : frame.gaps) {
+  for (const notation::FrameTemplate::Gap& gap : frame.gaps) {
     if (gap.before > from &&
         !transmit(ByteView(*bytes).subspan(from, gap.before - from), transcript))
       return;
@@ -146,9 +148,9 @@ void Exchange::partner(const PreparedCase& prepared, const PreparedStep& step, S
   record.refused_by_device = true;
 }
 
-void Exchange::answer(const PreparedCase& prepared, const PartnerSpec& spec, StepRecord& record,
-                      Transcript& transcript) {
-  const Burst request = std::exchange(request_, {});
+void Exchange::answer(const PreparedCase& prepared, const vectors::PartnerSpec& spec,
+                      StepRecord& record, Transcript& transcript) {
+  const line::Burst request = std::exchange(request_, {});
   // Past the client's time-out, and past what the link can tell apart.
   const Duration more = endpoint_.character_time() + endpoint_.capabilities().timing_floor;
   const Result<Partner::Answer> reply =
@@ -177,8 +179,8 @@ std::size_t Exchange::complete_length(const PreparedStep& step) {
   for (const PreparedFrame& one : step.frames) {
     const std::size_t size = one.frame.bytes.size();
     const ByteView head = ByteView(pending_.bytes).first(std::min(size, pending_.bytes.size()));
-    Captures captures = captures_;
-    const std::optional<std::size_t> mismatch = first_mismatch(one.frame, head, captures);
+    notation::Captures captures = captures_;
+    const std::optional<std::size_t> mismatch = notation::first_mismatch(one.frame, head, captures);
     if (!mismatch) {
       captures_ = std::move(captures);
       return size;
@@ -278,7 +280,7 @@ Result<bool> Exchange::anything_answers(int station, Duration patience, Duration
   std::size_t probes = 0, answers = 0;
   if (protocol_.probe(station, {}).empty()) return true;
   while (endpoint_.now() < give_up) {
-    const Result<Sent> sent = endpoint_.send(protocol_.probe(station, {}));
+    const Result<line::Sent> sent = endpoint_.send(protocol_.probe(station, {}));
     if (!sent) return sent.error();
     ++probes;
     // A child that has just been started flushes what came before it opened the port: the first
@@ -287,7 +289,7 @@ Result<bool> Exchange::anything_answers(int station, Duration patience, Duration
     Time until = std::min(
         give_up, sent->end + (maybe_lost ? timing_.quiet : timing_.response_max) + reply_delay);
     while (answers < probes) {
-      const Result<Burst> burst = endpoint_.receive(until);
+      const Result<line::Burst> burst = endpoint_.receive(until);
       if (!burst) return burst.error();
       if (burst->bytes.empty()) break;
       heard.insert(heard.end(), burst->bytes.begin(), burst->bytes.end());
@@ -334,8 +336,8 @@ Status Exchange::settle(Duration silence) {
   return transcript.trouble ? Status(*transcript.trouble) : ok();
 }
 
-Result<ResponseTimes> Exchange::time_probes(int station, int count, Duration budget) {
-  ResponseTimes times;
+Result<results::ResponseTimes> Exchange::time_probes(int station, int count, Duration budget) {
+  results::ResponseTimes times;
   const Bytes request = protocol_.probe(station, {});
   const Time give_up = endpoint_.now() + budget;
   bool late = false;  // then what comes next would be taken for the answer to another probe
@@ -371,12 +373,12 @@ std::size_t Exchange::take_frames(Bytes& bytes) const {
 bool Exchange::probe(const PreparedCase& prepared, Received& before, Transcript& transcript) {
   await_frame_gap(transcript);
   const Bytes request = protocol_.probe(prepared.station, last_bytes_);
-  const Result<Sent> sent = endpoint_.send(request);
+  const Result<line::Sent> sent = endpoint_.send(request);
   if (!sent) {
     transcript.trouble = sent.error();
     return false;
   }
-  transcript.events.push_back({Event::Kind::sent, sent->start, sent->end, request, {}});
+  transcript.events.push_back({results::Event::Kind::sent, sent->start, sent->end, request, {}});
   std::vector<Received> frames;
   bool answered = false;
   while (!answered) {
@@ -415,7 +417,7 @@ void Exchange::await_frame_gap(Transcript& transcript) {
 }
 
 bool Exchange::transmit(ByteView bytes, Transcript& transcript) {
-  const Result<Sent> sent = endpoint_.send(bytes);
+  const Result<line::Sent> sent = endpoint_.send(bytes);
   if (!sent) {
     transcript.trouble = sent.error();
     return false;
@@ -423,14 +425,18 @@ bool Exchange::transmit(ByteView bytes, Transcript& transcript) {
   last_sent_ = *sent;
   stimulus_ = sent->end;
   const int step = static_cast<int>(transcript.steps.size()) - 1;
-  transcript.events.push_back(
-      {Event::Kind::sent, sent->start, sent->end, Bytes(bytes.begin(), bytes.end()), {}, step});
+  transcript.events.push_back({results::Event::Kind::sent,
+                               sent->start,
+                               sent->end,
+                               Bytes(bytes.begin(), bytes.end()),
+                               {},
+                               step});
   return true;
 }
 
 bool Exchange::listen(Time deadline, Transcript& transcript) {
   if (transcript.trouble || transcript.flooded) return false;
-  Result<Burst> burst = endpoint_.receive(deadline);
+  Result<line::Burst> burst = endpoint_.receive(deadline);
   if (!burst) {
     transcript.trouble = burst.error();
     return false;
@@ -440,13 +446,13 @@ bool Exchange::listen(Time deadline, Transcript& transcript) {
   last_heard_ = burst->end();
   transcript.flooded = pending_.bytes.size() > flood_limit;
   transcript.events.push_back(
-      {Event::Kind::received, burst->start, burst->end(), std::move(burst->bytes), {}});
+      {results::Event::Kind::received, burst->start, burst->end(), std::move(burst->bytes), {}});
   return !transcript.flooded;
 }
 
 void Exchange::note(std::string text, Transcript& transcript) {
   const Time now = endpoint_.now();
-  transcript.events.push_back({Event::Kind::note, now, now, {}, std::move(text)});
+  transcript.events.push_back({results::Event::Kind::note, now, now, {}, std::move(text)});
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

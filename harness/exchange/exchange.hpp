@@ -8,7 +8,7 @@
 #include "harness/exchange/transcript.hpp"
 #include "reports/results/response_times.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 struct ExchangeTiming {
   Duration response_max = 500ms;  // the profile's limit: request's last byte to reply's first
@@ -20,8 +20,8 @@ struct ExchangeTiming {
 
 class Exchange {
  public:
-  Exchange(Endpoint& endpoint, const Protocol& protocol, ExchangeTiming timing, AuxLink aux = {},
-           Arming* arming = nullptr)
+  Exchange(endpoints::Endpoint& endpoint, const harness::Protocol& protocol, ExchangeTiming timing,
+           AuxLink aux = {}, Arming* arming = nullptr)
       : endpoint_(endpoint),
         protocol_(protocol),
         timing_(timing),
@@ -48,7 +48,7 @@ class Exchange {
   /// is judged.
   Status settle(Duration silence);
   /// How long answers to the probe take: so many, or fewer when `budget` is over first.
-  Result<ResponseTimes> time_probes(int station, int count, Duration budget);
+  Result<results::ResponseTimes> time_probes(int station, int count, Duration budget);
 
  private:
   void step(const PreparedCase& prepared, const PreparedStep& step, Transcript& transcript);
@@ -58,11 +58,11 @@ class Exchange {
   /// Answers the request that an `expect` has just taken, else the next one, whatever it asks.
   void partner(const PreparedCase& prepared, const PreparedStep& step, StepRecord& record,
                Transcript& transcript);
-  void answer(const PreparedCase& prepared, const PartnerSpec& spec, StepRecord& record,
+  void answer(const PreparedCase& prepared, const vectors::PartnerSpec& spec, StepRecord& record,
               Transcript& transcript);
   void silence(const PreparedCase& prepared, StepRecord& record, Transcript& transcript);
   void wait_until(Time moment, StepRecord& record, Transcript& transcript);
-  void access_memory(const PreparedCase& prepared, const Step& step, StepRecord& record,
+  void access_memory(const PreparedCase& prepared, const vectors::Step& step, StepRecord& record,
                      Transcript& transcript);
 
   bool transmit(ByteView bytes, Transcript& transcript);
@@ -77,20 +77,20 @@ class Exchange {
   bool probe(const PreparedCase& prepared, Received& before, Transcript& transcript);
   void note(std::string text, Transcript& transcript);
 
-  Endpoint& endpoint_;
-  const Protocol& protocol_;
+  endpoints::Endpoint& endpoint_;
+  const harness::Protocol& protocol_;
   ExchangeTiming timing_;
   MemoryAccess memory_;
   Received pending_;  // came, but no step has taken it
-  Sent last_sent_;
+  line::Sent last_sent_;
   Time last_heard_{};
   bool neighbours_ = false;  // further stations hear all that is said
   Time
       stimulus_{};  // what the next reply answers: a transmission, the reply before it, a set or do
   Bytes last_bytes_;
-  Captures captures_;
+  notation::Captures captures_;
   std::optional<Partner> partner_;  // of this case
-  Burst request_;                   // of the client, taken by `expect` and not answered yet
+  line::Burst request_;             // of the client, taken by `expect` and not answered yet
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

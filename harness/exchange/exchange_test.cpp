@@ -6,7 +6,9 @@
 #include "harness/test_protocol.hpp"
 #include "harness/vectors/loader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
+
+using harness::TestProtocol;
 
 namespace {
 
@@ -29,13 +31,13 @@ class ExchangeTest : public testing::Test {
   }
 
   /// What was sent, with the silence before it in ms: "<ask>", "4 <ask>".
-  std::vector<std::string> exchange(const Protocol& protocol, const std::string& steps,
+  std::vector<std::string> exchange(const harness::Protocol& protocol, const std::string& steps,
                                     const std::string& config = "{}") {
     const std::string text =
         R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed",
       "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "given": {"config": )j" +
         config + R"j(}, "steps": [)j" + steps + "]}";
-    load_vector_text(text, "f.json", set_);
+    vectors::load_vector_text(text, "f.json", set_);
     const Result<PreparedCase> prepared = prepare(set_.cases.at(0), 1, protocol);
     EXPECT_TRUE(prepared);
     Exchange exchange(endpoint, protocol, {});
@@ -43,10 +45,10 @@ class ExchangeTest : public testing::Test {
     exchange.close(*prepared, transcript);
     std::vector<std::string> sent;
     Time quiet_since{};
-    for (const Event& event : transcript.events) {
-      if (event.kind == Event::Kind::note) continue;
+    for (const results::Event& event : transcript.events) {
+      if (event.kind == results::Event::Kind::note) continue;
       const auto gap = static_cast<int>(to_ms(event.start - quiet_since));
-      if (event.kind == Event::Kind::sent)
+      if (event.kind == results::Event::Kind::sent)
         sent.push_back((gap ? std::to_string(gap) + ' ' : "") + to_text(event.bytes));
       quiet_since = event.end;
     }
@@ -56,7 +58,7 @@ class ExchangeTest : public testing::Test {
   ScriptedEndpoint endpoint;
 
  private:
-  VectorSet set_;
+  vectors::VectorSet set_;
 };
 
 constexpr const char* two_requests =
@@ -66,7 +68,7 @@ TEST_F(ExchangeTest, ProbesAreTimed) {
   endpoint.answers["<probe>"] = Pieces{{3ms, "<alive>"}};
   const TestProtocol protocol;
   Exchange exchange(endpoint, protocol, {});
-  const Result<ResponseTimes> times = exchange.time_probes(1, 20, 2s);
+  const Result<results::ResponseTimes> times = exchange.time_probes(1, 20, 2s);
   ASSERT_TRUE(times) << times.error().message;
   EXPECT_EQ(times->count(), 20u);
   EXPECT_DOUBLE_EQ(times->least(), 3);
@@ -77,7 +79,7 @@ TEST_F(ExchangeTest, TimingProbesIsBounded) {
   endpoint.answers.clear();
   const TestProtocol protocol;
   Exchange exchange(endpoint, protocol, {});
-  const Result<ResponseTimes> times = exchange.time_probes(1, 20, 2s);
+  const Result<results::ResponseTimes> times = exchange.time_probes(1, 20, 2s);
   ASSERT_TRUE(times) << times.error().message;
   EXPECT_EQ(times->count(), 0u);
   EXPECT_LE(endpoint.sent.size(), 5u) << "nothing answers: half a second each, two seconds in all";
@@ -130,4 +132,4 @@ TEST_F(ExchangeTest, WithoutAProbeASilenceIsWaitedOut) {
 
 }  // namespace
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

@@ -9,20 +9,20 @@
 #include "harness/exchange/prepared_case.hpp"
 #include "harness/protocol.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 /// --aux: a second channel of the PLC under test, as server. Nothing is owned.
 struct AuxLink {
-  Endpoint* endpoint = nullptr;  // none
-  const Protocol* protocol = nullptr;
+  endpoints::Endpoint* endpoint = nullptr;  // none
+  const harness::Protocol* protocol = nullptr;
   int station = 1;
 };
 
 class MemoryAccess {
  public:
   /// `arming` may be nullptr: then sets ask for nothing.
-  MemoryAccess(Endpoint& endpoint, const Protocol& protocol, Duration patience, AuxLink aux = {},
-               Arming* arming = nullptr)
+  MemoryAccess(endpoints::Endpoint& endpoint, const harness::Protocol& protocol, Duration patience,
+               AuxLink aux = {}, Arming* arming = nullptr)
       : endpoint_(endpoint), protocol_(protocol), patience_(patience), aux_(aux), arming_(arming) {}
 
   /// Errors name the address and the reason; `refused()` then tells whether the device itself
@@ -49,8 +49,8 @@ class MemoryAccess {
  private:
   /// A server that holds the memory.
   struct Server {
-    Endpoint& endpoint;
-    const Protocol& protocol;
+    endpoints::Endpoint& endpoint;
+    const harness::Protocol& protocol;
     int station;
   };
   Server own(const PreparedCase& prepared) const {
@@ -61,12 +61,12 @@ class MemoryAccess {
   Result<std::string> read(const Server& server, const std::string& address, std::size_t digits);
   Result<Bytes> ask(const Server& server, ByteView request);
 
-  Endpoint& endpoint_;
-  const Protocol& protocol_;
+  endpoints::Endpoint& endpoint_;
+  const harness::Protocol& protocol_;
   Duration patience_;
   AuxLink aux_;
   Arming* arming_;
   bool refused_ = false, silent_ = false;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

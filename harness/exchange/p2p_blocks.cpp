@@ -5,7 +5,7 @@
 
 #include "src/base/letters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::string in_words(const json& block, std::string_view protocol) {
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

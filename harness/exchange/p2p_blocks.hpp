@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 /// The blocks of `given.config.p2p`, with every default written out (vectors/README.md). Empty
 /// where there are none.
@@ -28,4 +28,4 @@ std::vector<std::string> sent_addresses(const nlohmann::json& block);
 /// 2, into %MW200".
 std::string in_words(const nlohmann::json& block, std::string_view protocol);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

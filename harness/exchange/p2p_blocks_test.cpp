@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 namespace {
 
 using nlohmann::json;
@@ -45,4 +45,4 @@ TEST(P2pBlocks, AnEngineerCanSetThemUpFromTheWords) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

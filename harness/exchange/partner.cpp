@@ -6,7 +6,12 @@
 
 #include "harness/notation/checks.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
+
+using harness::Field;
+using harness::Protocol;
+using notation::CheckKind;
+using plc::EmulatedDevice;
 
 namespace {
 
@@ -15,7 +20,7 @@ constexpr Duration longest_think = 10s;  // no device answers later
 
 std::optional<CheckKind> check_kind(std::string_view field) {
   for (const CheckKind kind : {CheckKind::bcc, CheckKind::sum, CheckKind::crc, CheckKind::lrc})
-    if (field == to_string(kind)) return kind;
+    if (field == notation::to_string(kind)) return kind;
   return std::nullopt;
 }
 
@@ -68,7 +73,7 @@ class Editor {
   Bytes finish() {
     if (const Field* found = check()) {
       const Bytes right =
-          compute_check(*check_kind(found->name), ByteView(bytes_).first(found->offset));
+          notation::compute_check(*check_kind(found->name), ByteView(bytes_).first(found->offset));
       std::ranges::copy(right, bytes_.begin() + static_cast<std::ptrdiff_t>(found->offset));
     }
     return std::move(bytes_);
@@ -124,7 +129,7 @@ Result<Bytes> unanswerable(ByteView request, const Protocol& protocol) {
 }
 
 /// What the device says to the request, and when.
-Partner::Answer ask(EmulatedDevice& device, const Burst& request) {
+Partner::Answer ask(EmulatedDevice& device, const line::Burst& request) {
   device.advance(request.start);
   device.receive(request);
   const Time give_up = request.end() + longest_think;
@@ -147,7 +152,8 @@ Result<Bytes> damaged(std::string_view fault, ByteView answer, int station,
     const Field* check = frame.check();
     if (!check) return lacks(fault, "the answer has none");
     Bytes bytes(answer.begin(), answer.end());
-    const Bytes wrong = compute_wrong_check(*check_kind(check->name), answer.first(check->offset));
+    const Bytes wrong =
+        notation::compute_wrong_check(*check_kind(check->name), answer.first(check->offset));
     std::ranges::copy(wrong, bytes.begin() + static_cast<std::ptrdiff_t>(check->offset));
     return bytes;
   }
@@ -162,7 +168,7 @@ Result<Bytes> damaged(std::string_view fault, ByteView answer, int station,
   return frame.finish();
 }
 
-Result<EmulatedDevice*> Partner::device_for(const PartnerSpec& spec) {
+Result<EmulatedDevice*> Partner::device_for(const vectors::PartnerSpec& spec) {
   const std::string model = spec.model.empty() ? protocol_.models().front() : spec.model;
   std::unique_ptr<EmulatedDevice>& device = devices_[model + ' ' + spec.config.dump()];
   if (!device) {
@@ -176,8 +182,8 @@ Result<EmulatedDevice*> Partner::device_for(const PartnerSpec& spec) {
   return device.get();
 }
 
-Result<Bytes> Partner::faulty(const PartnerSpec& spec, EmulatedDevice& device, const Burst& request,
-                              const Bytes& answer) const {
+Result<Bytes> Partner::faulty(const vectors::PartnerSpec& spec, EmulatedDevice& device,
+                              const line::Burst& request, const Bytes& answer) const {
   if (spec.fault == "never") return Bytes{};
   if (spec.fault == "echo") return request.bytes;
   if (spec.fault == "garbage") return Bytes(std::max<std::size_t>(answer.size(), 1), foreign);
@@ -199,11 +205,12 @@ Result<Bytes> Partner::faulty(const PartnerSpec& spec, EmulatedDevice& device, c
     return ask(device, {*refused, request.end(), request.character_time}).bytes;
   }
   if (answer.empty()) return lacks(spec.fault, "the partner does not answer this request");
-  return damaged(spec.fault, answer, config_station(spec.config, 1).value_or(1), protocol_);
+  return damaged(spec.fault, answer, vectors::config_station(spec.config, 1).value_or(1),
+                 protocol_);
 }
 
-Result<Partner::Answer> Partner::answer(const PartnerSpec& spec, const Burst& request,
-                                        Time too_late) {
+Result<Partner::Answer> Partner::answer(const vectors::PartnerSpec& spec,
+                                        const line::Burst& request, Time too_late) {
   const Result<EmulatedDevice*> device = device_for(spec);
   if (!device) return device.error();
   Answer answer = ask(**device, request);
@@ -218,4 +225,4 @@ Result<Partner::Answer> Partner::answer(const PartnerSpec& spec, const Burst& re
   return answer;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

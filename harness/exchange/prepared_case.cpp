@@ -6,7 +6,9 @@
 
 #include "harness/exchange/p2p_blocks.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
+
+using vectors::Step;
 
 namespace {
 
@@ -19,10 +21,11 @@ int number_of(const nlohmann::json& config, const char* key, int fallback) {
 
 }  // namespace
 
-bool PreparedCase::is_client() const { return is_client_case(*source); }
+bool PreparedCase::is_client() const { return vectors::is_client_case(*source); }
 
 bool PreparedCase::runs_by_clock() const {
-  return is_client() && std::ranges::any_of(p2p_blocks(source->config), fieldproof::runs_by_clock);
+  return is_client() &&
+         std::ranges::any_of(p2p_blocks(source->config), fieldproof::exchange::runs_by_clock);
 }
 
 bool PreparedCase::answers_probes() const {
@@ -64,7 +67,7 @@ Duration PreparedCase::shortest_pause(Duration character_time) const {
   for (const PreparedStep& step : steps) {
     if (step.step->kind == Step::Kind::wait) consider(step.step->duration);
     if (step.step->kind != Step::Kind::send) continue;
-    for (const FrameTemplate::Gap& gap : step.frames.front().frame.gaps)
+    for (const notation::FrameTemplate::Gap& gap : step.frames.front().frame.gaps)
       consider(gap.pause.at(character_time));
   }
   return shortest;
@@ -74,17 +77,19 @@ Duration reply_limit(const Step& step, Duration response_max) {
   return step.within.value_or(response_max + step.every.value_or(Duration{}));
 }
 
-Result<PreparedCase> prepare(const Case& source, int station, const Protocol& protocol) {
+Result<PreparedCase> prepare(const vectors::Case& source, int station,
+                             const harness::Protocol& protocol) {
   PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), {}};
-  const Stations stations{protocol.station_bytes(station),
-                          protocol.station_bytes((station + 1) % 256)};
+  const notation::Stations stations{protocol.station_bytes(station),
+                                    protocol.station_bytes((station + 1) % 256)};
   for (std::size_t i = 0; i < source.steps.size(); ++i) {
     PreparedStep step{&source.steps[i], {}};
-    for (const Frame& frame : source.steps[i].frames) {
-      Result<std::vector<FrameTemplate>> templates = make_templates(frame.notation, stations);
+    for (const vectors::Frame& frame : source.steps[i].frames) {
+      Result<std::vector<notation::FrameTemplate>> templates =
+          notation::make_templates(frame.notation, stations);
       if (!templates)
         return fail(fmt::format("{}: steps[{}]: {}", source.id, i, templates.error().message));
-      for (FrameTemplate& one : *templates)
+      for (notation::FrameTemplate& one : *templates)
         step.frames.push_back({frame.reading, &frame, std::move(one)});
     }
     prepared.steps.push_back(std::move(step));
@@ -92,4 +97,4 @@ Result<PreparedCase> prepare(const Case& source, int station, const Protocol& pr
   return prepared;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

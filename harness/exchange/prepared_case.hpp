@@ -8,22 +8,22 @@
 #include "harness/protocol.hpp"
 #include "harness/vectors/case.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 struct PreparedFrame {
   std::string reading;  // named alternative of the step, empty where there is one alone
-  const Frame* source = nullptr;
-  FrameTemplate frame;
+  const vectors::Frame* source = nullptr;
+  notation::FrameTemplate frame;
 };
 
 struct PreparedStep {
-  const Step* step = nullptr;
+  const vectors::Step* step = nullptr;
   std::vector<PreparedFrame> frames;  // send: one; expect: every alternative, the preferred first
 };
 
 /// Points into the Case, which must outlive it.
 struct PreparedCase {
-  const Case* source = nullptr;
+  const vectors::Case* source = nullptr;
   int station = 1;
   bool has_probe = true;  // the protocol has a request that anything healthy answers
   std::vector<PreparedStep> steps;
@@ -45,9 +45,10 @@ struct PreparedCase {
 };
 
 /// How long after its stimulus the first byte of an expected frame may come.
-Duration reply_limit(const Step& step, Duration response_max);
+Duration reply_limit(const vectors::Step& step, Duration response_max);
 
 /// Errors name the step.
-Result<PreparedCase> prepare(const Case& source, int station, const Protocol& protocol);
+Result<PreparedCase> prepare(const vectors::Case& source, int station,
+                             const harness::Protocol& protocol);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

@@ -10,16 +10,16 @@
 
 #include "harness/endpoints/endpoint.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
-class ScriptedEndpoint : public Endpoint {
+class ScriptedEndpoint : public endpoints::Endpoint {
  public:
   struct Piece {
     Duration after;  // the end of the transmission
     std::string text;
   };
 
-  Capabilities can{.simulated = true, .wire = true};
+  endpoints::Capabilities can{.simulated = true, .wire = true};
   std::map<std::string, std::vector<Piece>> answers;  // by what was sent
   std::map<std::string, std::string> memory;          // back door
   std::vector<std::string> sent;
@@ -28,7 +28,7 @@ class ScriptedEndpoint : public Endpoint {
   int power_cycles = 0;
   std::string forgets;  // answered once, then never again
 
-  const Capabilities& capabilities() const override { return can; }
+  const endpoints::Capabilities& capabilities() const override { return can; }
   std::string describe() const override { return "scripted"; }
   Time now() const override { return now_; }
   Duration character_time() const override { return 1ms; }
@@ -37,11 +37,11 @@ class ScriptedEndpoint : public Endpoint {
     return ok();
   }
 
-  Result<Sent> send(ByteView bytes) override {
+  Result<line::Sent> send(ByteView bytes) override {
     if (fails_after >= 0 && static_cast<int>(sent.size()) >= fails_after)
       return fail("the port is gone");
     sent.push_back(to_text(bytes));
-    const Sent when{now_, now_ + character_time() * static_cast<Duration::rep>(bytes.size())};
+    const line::Sent when{now_, now_ + character_time() * static_cast<Duration::rep>(bytes.size())};
     now_ = when.end;
     for (const Piece& piece : answers[sent.back()])
       coming_.push_back({to_bytes(piece.text), now_ + piece.after, character_time()});
@@ -49,12 +49,12 @@ class ScriptedEndpoint : public Endpoint {
     return when;
   }
 
-  Result<Burst> receive(Time deadline) override {
+  Result<line::Burst> receive(Time deadline) override {
     if (coming_.empty() || coming_.front().end() > deadline) {
       now_ = std::max(now_, deadline);
-      return Burst{};
+      return line::Burst{};
     }
-    Burst burst = coming_.front();
+    line::Burst burst = coming_.front();
     coming_.pop_front();
     now_ = std::max(now_, burst.end());
     return burst;
@@ -75,7 +75,7 @@ class ScriptedEndpoint : public Endpoint {
 
  private:
   Time now_{};
-  std::deque<Burst> coming_;
+  std::deque<line::Burst> coming_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

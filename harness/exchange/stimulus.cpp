@@ -4,15 +4,15 @@
 
 #include "harness/system/line_pipe.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 Result<std::unique_ptr<Stimulus>> Stimulus::start(const std::string& command) {
-  Result<LinePipe> pipe = open_line_pipe();
+  Result<os::LinePipe> pipe = os::open_line_pipe();
   if (!pipe) return pipe.error();
-  ChildOptions options;
-  options.arguments = shell(command);
+  os::ChildOptions options;
+  options.arguments = os::shell(command);
   options.standard_input = pipe->child.get();
-  Result<std::unique_ptr<ChildProcess>> child = ChildProcess::start(options);
+  Result<std::unique_ptr<os::ChildProcess>> child = os::ChildProcess::start(options);
   if (!child) return fail("cannot start --stimulus '" + command + "': " + child.error().message);
   auto stimulus = std::make_unique<Stimulus>();
   stimulus->command_ = command;
@@ -22,8 +22,8 @@ Result<std::unique_ptr<Stimulus>> Stimulus::start(const std::string& command) {
 }
 
 Status Stimulus::tell(const std::string& line) {
-  if (write_line(input_.get(), line)) return ok();
+  if (os::write_line(input_.get(), line)) return ok();
   return fail("cannot tell --stimulus '" + command_ + "' what to request: " + child_->how());
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

@@ -9,7 +9,7 @@
 #include "harness/system/child_process.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 /// Takes one line, without its newline.
 using TellStimulus = std::function<Status(const std::string& line)>;
@@ -23,8 +23,8 @@ class Stimulus {
 
  private:
   std::string command_;
-  std::unique_ptr<ChildProcess> child_;
-  UniqueFd input_;  // closed first: its end tells a program that reads to the end to stop
+  std::unique_ptr<os::ChildProcess> child_;
+  os::UniqueFd input_;  // closed first: its end tells a program that reads to the end to stop
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

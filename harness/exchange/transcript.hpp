@@ -9,7 +9,7 @@
 #include "harness/endpoints/endpoint.hpp"
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::exchange {
 
 /// Bytes with the moments at which they came.
 struct Received {
@@ -24,14 +24,14 @@ struct Received {
   Bytes bytes;
   std::vector<Arrival> arrivals;
 
-  void add(const Burst& burst, std::size_t event = 0);
+  void add(const line::Burst& burst, std::size_t event = 0);
   void append(Received other);
   /// Takes the first `count` bytes out.
   Received take(std::size_t count);
 };
 
 struct StepRecord {
-  Sent sent;          // send: when
+  line::Sent sent;    // send: when
   Time stimulus{};    // expect: the end of what it answers (a transmission, the reply before it, a
                       // set or do)
   Bytes sent_bytes;   // send
@@ -48,9 +48,9 @@ struct Transcript {
   Received surplus;               // bytes that no step was waiting for
   std::size_t surplus_after = 0;  // the step they followed
   bool flooded = false;
-  std::string dead;              // set when the link was silent after the case
-  std::optional<Error> trouble;  // the port failed, or Ctrl-C
-  std::vector<Event> events;     // frame monitor
+  std::string dead;                    // set when the link was silent after the case
+  std::optional<Error> trouble;        // the port failed, or Ctrl-C
+  std::vector<results::Event> events;  // frame monitor
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::exchange

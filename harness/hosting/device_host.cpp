@@ -17,7 +17,7 @@
 #include "harness/system/interrupt.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::hosting {
 
 namespace {
 
@@ -33,7 +33,7 @@ void complain(const std::string& message) { fmt::print(stderr, "fieldproof: {}\n
 class DeviceHost {
  public:
   DeviceHost(const HostOptions& options, HostPort& port)
-      : options_(options), port_(port), control_(options.control), hangup_(catch_hangup()) {}
+      : options_(options), port_(port), control_(options.control), hangup_(os::catch_hangup()) {}
 
   Status begin(const json& config);
   int run();
@@ -53,10 +53,10 @@ class DeviceHost {
 
   const HostOptions& options_;
   HostPort& port_;
-  UniqueFd control_;
+  os::UniqueFd control_;
   int hangup_;
-  RunClock clock_;
-  std::unique_ptr<EmulatedDevice> device_;
+  os::RunClock clock_;
+  std::unique_ptr<plc::EmulatedDevice> device_;
   Time device_time_{};
   std::string control_text_;
   bool control_closed_ = false;
@@ -70,7 +70,7 @@ Status DeviceHost::begin(const json& config) {
   if (!options_.model.empty()) merged["model"] = options_.model;
   merged.emplace("station", 1);  // as the in-process emulator, and as a bench asks by default
   merged.emplace("inter_character_floor_ms", options_.inter_character_floor_ms);
-  Result<std::unique_ptr<EmulatedDevice>> device = options_.make_device(merged);
+  Result<std::unique_ptr<plc::EmulatedDevice>> device = options_.make_device(merged);
   if (!device) return device.error();
   device_ = std::move(*device);
   port_.flush();
@@ -78,7 +78,7 @@ Status DeviceHost::begin(const json& config) {
 }
 
 int DeviceHost::run() {
-  while (!interrupted() && !control_closed_) {
+  while (!os::interrupted() && !control_closed_) {
     wait();
     // The line first: what was sent before a question over the control socket counts before its
     // answer.
@@ -95,7 +95,7 @@ int DeviceHost::run() {
 }
 
 void DeviceHost::wait() {
-  fds_.assign({{interrupt_fd(), POLLIN, 0}, {hangup_, POLLIN, 0}, {control_.get(), POLLIN, 0}});
+  fds_.assign({{os::interrupt_fd(), POLLIN, 0}, {hangup_, POLLIN, 0}, {control_.get(), POLLIN, 0}});
   port_.add_to(fds_);
   timespec timeout{};
   const std::optional<Time> wake = device_->wake_at();
@@ -122,7 +122,7 @@ Status DeviceHost::hear() {
     if (const std::optional<Time> wake = device_->wake_at()) moment = std::min(moment, *wake);
     device_time_ = std::max(device_time_, moment);
     show(true, *bytes);
-    device_->receive(Burst{std::move(*bytes), device_time_, {}});
+    device_->receive(line::Burst{std::move(*bytes), device_time_, {}});
     run_due(device_time_);  // not until now: more may be waiting to be read
   }
 }
@@ -164,12 +164,12 @@ void DeviceHost::serve_control() {
 void DeviceHost::answer_lines() {
   for (std::size_t end; (end = control_text_.find('\n')) != std::string::npos;
        control_text_.erase(0, end + 1)) {
-    std::string answer = answer_control(
+    std::string answer = endpoints::answer_control(
         std::string_view(control_text_).substr(0, end),
         [this](const json& config) { return begin(config); }, [this] { return device_.get(); });
     for (std::string_view left = answer; !left.empty();) {
       const ssize_t n = ::send(control_.get(), left.data(), left.size(), MSG_NOSIGNAL);
-      if (n < 0 && errno == EINTR && !interrupted()) continue;
+      if (n < 0 && errno == EINTR && !os::interrupted()) continue;
       if (n < 0) {
         control_closed_ = true;
         return;
@@ -201,7 +201,7 @@ int host(const HostOptions& options, Result<std::unique_ptr<HostPort>> port) {
     complain(port.error().message);
     return exit_trouble;
   }
-  catch_interrupts();
+  os::catch_interrupts();
   DeviceHost host(options, **port);
   if (const Status made = host.begin(json::object()); !made) {
     complain(made.error().message);
@@ -225,8 +225,8 @@ std::string monitor_line(const Traffic& traffic) {
 int host_on_tty(const HostOptions& options) {
   const auto line = options.config.find("line");
   const bool given = line != options.config.end() && line->is_string();
-  return host(options, open_tty_port(options.tty,
-                                     given ? line->get<std::string>() : to_string(LineSettings{})));
+  return host(options, open_tty_port(options.tty, given ? line->get<std::string>()
+                                                        : line::to_string(line::LineSettings{})));
 }
 
 int host_on_tcp(const HostOptions& options) { return host(options, open_tcp_port(options.tcp)); }
@@ -235,4 +235,4 @@ int host_device(const HostOptions& options) {
   return options.tcp.empty() ? host_on_tty(options) : host_on_tcp(options);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::hosting

@@ -13,13 +13,13 @@
 #include "src/base/time.hpp"
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::hosting {
 
 /// Makes a device from a merged configuration (vectors/README.md, `given.config`). It always has
 /// "model" (a string), "station" (1 unless given) and "inter_character_floor_ms" (a number): behind
 /// a pty or a socket, parts of one write arrive milliseconds apart.
 using HostedFactory =
-    std::function<Result<std::unique_ptr<EmulatedDevice>>(const nlohmann::json& config)>;
+    std::function<Result<std::unique_ptr<plc::EmulatedDevice>>(const nlohmann::json& config)>;
 
 /// Bytes that crossed the line at once, as a frame monitor shows them.
 struct Traffic {
@@ -60,4 +60,4 @@ int host_on_tcp(const HostOptions& options);
 /// By `options.tcp` or `options.tty`.
 int host_device(const HostOptions& options);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::hosting

@@ -18,11 +18,14 @@
 #include "harness/system/interrupt.hpp"
 #include "harness/system/pty_pair.hpp"
 
-namespace fieldproof {
+namespace fieldproof::hosting {
+
+using os::FdLink;
+
 namespace {
 
-using endpoint_tests::endpoint_name;
-using endpoint_tests::receive_text;
+using endpoints::test::endpoint_name;
+using os::test::receive_text;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
@@ -33,9 +36,9 @@ class Hosted {
   explicit Hosted(HostOptions options) {
     int ends[2];
     EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
-    control_.emplace(UniqueFd(ends[0]), "control");
+    control_.emplace(os::UniqueFd(ends[0]), "control");
     options.control = ends[1];
-    if (!options.make_device) options.make_device = endpoint_tests::make_tiny_device;
+    if (!options.make_device) options.make_device = test::make_tiny_device;
     if (options.model.empty()) options.model = "tiny";
     options.say = [this](std::string_view line) { said_.set_value(std::string(line)); };
     thread_ = std::thread([this, options] { code_ = host_device(options); });
@@ -65,7 +68,7 @@ class Hosted {
 };
 
 FdLink open_client(const std::string& path) {
-  UniqueFd fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+  os::UniqueFd fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
   EXPECT_TRUE(fd) << path;
   return FdLink(std::move(fd), path);
 }
@@ -106,7 +109,7 @@ TEST(DeviceHost, ANewPathBecomesALinkUntilTheEnd) {
 
 TEST(DeviceHost, AFileIsRefusedAndKept) {
   HostOptions options;
-  options.make_device = endpoint_tests::make_tiny_device;
+  options.make_device = test::make_tiny_device;
   options.tty = new_path("file");
   std::ofstream(options.tty) << "precious";
   EXPECT_EQ(host_on_tty(options), 3);
@@ -115,7 +118,7 @@ TEST(DeviceHost, AFileIsRefusedAndKept) {
 }
 
 TEST(DeviceHost, ATerminalIsOpenedRaw) {
-  Result<PtyPair> pty = open_pty_pair();
+  Result<os::PtyPair> pty = os::open_pty_pair();
   ASSERT_TRUE(pty);
   termios cooked{};
   ASSERT_EQ(::tcgetattr(pty->slave.get(), &cooked), 0);
@@ -131,7 +134,7 @@ TEST(DeviceHost, ATerminalIsOpenedRaw) {
 }
 
 TEST(DeviceHost, AVanishedTerminalIsTrouble) {
-  Result<PtyPair> pty = open_pty_pair();
+  Result<os::PtyPair> pty = os::open_pty_pair();
   ASSERT_TRUE(pty);
   HostOptions options;
   options.tty = pty->path;
@@ -143,7 +146,7 @@ TEST(DeviceHost, AVanishedTerminalIsTrouble) {
 
 TEST(DeviceHost, ADeviceThatCannotBeMadeIsAUsageError) {
   HostOptions options;
-  options.make_device = endpoint_tests::make_tiny_device;
+  options.make_device = test::make_tiny_device;
   options.model = "xgk";
   EXPECT_EQ(host_on_tty(options), 2);
 }
@@ -175,7 +178,7 @@ TEST(DeviceHost, RepliesWhenTheDeviceIsDue) {
   options.config = {{"delay_ms", 30}};
   Hosted host(options);
   FdLink client = open_client(host.where.substr(4));
-  const Result<Sent> sent = client.send(to_bytes("later."));
+  const Result<line::Sent> sent = client.send(to_bytes("later."));
   ASSERT_TRUE(sent);
   EXPECT_EQ(receive_text(client, ">"), "<later>");
   EXPECT_GE(client.now() - sent->start, 30ms);
@@ -200,9 +203,9 @@ TEST(DeviceHost, HangupIsAPowerCycle) {
 
 TEST(DeviceHost, AnInterruptEndsItWell) {
   Hosted host({});
-  interrupt();
+  os::interrupt();
   EXPECT_EQ(host.wait(), 0);
-  clear_interrupt();
+  os::clear_interrupt();
 }
 
 TEST(DeviceHost, ServesSocketsOneAfterAnotherAndTogether) {
@@ -210,21 +213,21 @@ TEST(DeviceHost, ServesSocketsOneAfterAnotherAndTogether) {
   options.tcp = "127.0.0.1:0";
   Hosted host(options);
   ASSERT_THAT(host.where, testing::StartsWith("tcp 127.0.0.1:"));
-  const EndpointName name = endpoint_name("tcp", host.where.substr(4));
+  const endpoints::EndpointName name = endpoint_name("tcp", host.where.substr(4));
   {
-    auto first = open_tcp(name);
+    auto first = endpoints::open_tcp(name);
     ASSERT_TRUE(first) << first.error().message;
     ASSERT_TRUE((*first)->send(to_bytes("first.")));
     EXPECT_EQ(receive_text(**first, ">"), "<first>");
   }
-  auto one = open_tcp(name);
-  auto two = open_tcp(name);
+  auto one = endpoints::open_tcp(name);
+  auto two = endpoints::open_tcp(name);
   ASSERT_TRUE(one && two);
   for (const auto& client : {one->get(), two->get(), one->get()}) {
     ASSERT_TRUE(client->send(to_bytes("in turn.")));
     EXPECT_EQ(receive_text(*client, ">"), "<in turn>");
   }
-  const Result<Burst> nothing = (*two)->receive(Time{0});
+  const Result<line::Burst> nothing = (*two)->receive(Time{0});
   ASSERT_TRUE(nothing);
   EXPECT_TRUE(nothing->bytes.empty()) << "a reply went to another client";
 }
@@ -253,4 +256,4 @@ TEST(DeviceHost, AMonitorLineHasTimeDirectionSizeHexAndText) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::hosting

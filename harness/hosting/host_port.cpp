@@ -16,7 +16,9 @@
 #include "harness/system/system_calls.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::hosting {
+
+using os::UniqueFd;
 
 namespace {
 
@@ -50,7 +52,7 @@ class TtyPort final : public HostPort {
   void write(ByteView bytes) override {
     [[maybe_unused]] const ssize_t n = ::write(fd_.get(), bytes.data(), bytes.size());
   }
-  void flush() override { drop_waiting_bytes(fd_.get()); }
+  void flush() override { os::drop_waiting_bytes(fd_.get()); }
 
  private:
   UniqueFd fd_;
@@ -61,12 +63,14 @@ class TtyPort final : public HostPort {
 
 Result<std::unique_ptr<HostPort>> use_terminal(UniqueFd fd, const std::string& path,
                                                const std::string& line) {
-  if (is_pty(real_system_calls(), fd.get())) {
-    if (!set_raw(fd.get())) return fail("cannot use " + path + ": " + errno_text(errno));
+  if (endpoints::is_pty(os::real_system_calls(), fd.get())) {
+    if (!os::set_raw(fd.get())) return fail("cannot use " + path + ": " + os::errno_text(errno));
   } else {
-    const Result<LineSettings> settings = parse_line_settings(line);
+    const Result<line::LineSettings> settings = line::parse_line_settings(line);
     if (!settings) return settings.error();
-    if (const Status done = apply_settings(real_system_calls(), fd.get(), path, *settings); !done)
+    if (const Status done =
+            endpoints::apply_settings(os::real_system_calls(), fd.get(), path, *settings);
+        !done)
       return done.error();
   }
   return std::unique_ptr<HostPort>(
@@ -74,7 +78,7 @@ Result<std::unique_ptr<HostPort>> use_terminal(UniqueFd fd, const std::string& p
 }
 
 Result<std::unique_ptr<HostPort>> make_pty(const std::string& path) {
-  Result<PtyPair> pty = open_pty_pair();
+  Result<os::PtyPair> pty = os::open_pty_pair();
   if (!pty) return pty.error();
   std::string description = "pty " + pty->path;
   if (!path.empty()) {
@@ -82,7 +86,7 @@ Result<std::unique_ptr<HostPort>> make_pty(const std::string& path) {
     fs::remove(path, error);  // a link to nothing, left by one that was killed
     fs::create_symlink(pty->path, path, error);
     if (error) {
-      return fail("cannot make the link " + path + ": " + errno_text(error.value()) +
+      return fail("cannot make the link " + path + ": " + os::errno_text(error.value()) +
                   "; choose a path in a folder that you may write");
     }
     description += ", linked from " + path;
@@ -184,7 +188,7 @@ Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const s
   UniqueFd fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd && errno == ENOENT) return make_pty(path);
   constexpr std::string_view advice = "; choose a terminal, or a path where there is nothing yet";
-  if (!fd) return fail("cannot open " + path + ": " + errno_text(errno).append(advice));
+  if (!fd) return fail("cannot open " + path + ": " + os::errno_text(errno).append(advice));
   if (!::isatty(fd.get()))
     return fail("cannot use " + path + ": it is no terminal" + std::string(advice));
   return use_terminal(std::move(fd), path, line);
@@ -192,16 +196,16 @@ Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const s
 
 Result<std::unique_ptr<HostPort>> open_tcp_port(const std::string& host_and_port) {
   const std::string start = "cannot listen on " + host_and_port + ": ";
-  const Result<AddressInfo> list = resolve(host_and_port, true);
+  const Result<os::AddressInfo> list = os::resolve(host_and_port, true);
   if (!list) return fail(start + list.error().message);
   UniqueFd fd;
   int error = EADDRNOTAVAIL;
   for (const addrinfo* one = list->get(); one && error != 0; one = one->ai_next)
     error = listen_on(*one, fd);
-  if (error != 0) return fail(start + errno_text(error) + "; choose another port or address");
+  if (error != 0) return fail(start + os::errno_text(error) + "; choose another port or address");
   const std::string host = host_and_port.substr(0, host_and_port.rfind(':'));
   const std::string description = "tcp " + host + ':' + bound_port(fd.get());
   return std::unique_ptr<HostPort>(std::make_unique<TcpPort>(std::move(fd), description));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::hosting

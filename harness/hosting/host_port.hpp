@@ -12,7 +12,7 @@
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::hosting {
 
 class HostPort {
  public:
@@ -34,4 +34,4 @@ class HostPort {
 Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const std::string& line);
 Result<std::unique_ptr<HostPort>> open_tcp_port(const std::string& host_and_port);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::hosting

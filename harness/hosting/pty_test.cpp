@@ -11,19 +11,19 @@
 #include "harness/system/fd_link.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::hosting {
 namespace {
 
-using endpoint_tests::endpoint_name;
-using endpoint_tests::receive_error;
-using endpoint_tests::receive_text;
+using endpoints::test::endpoint_name;
 using nlohmann::json;
+using os::test::receive_error;
+using os::test::receive_text;
 using testing::HasSubstr;
 
 /// This test program started as the emulator: `emulate MODEL?options --control FD --tty PATH`.
 int emulate(const std::vector<std::string>& arguments) {
   HostOptions options;
-  options.make_device = endpoint_tests::make_tiny_device;
+  options.make_device = test::make_tiny_device;
   const std::string& device = arguments.at(2);
   options.model = device.substr(0, device.find('?'));
   if (device.find("station=5") != std::string::npos) options.config["station"] = 5;
@@ -39,10 +39,10 @@ int emulate(const std::vector<std::string>& arguments) {
   if (arguments.size() == 7 && arguments[1] == "emulate") std::_Exit(emulate(arguments));
 }
 
-std::unique_ptr<Endpoint> open(const std::string& model,
-                               std::map<std::string, std::string> options = {}) {
-  Result<std::unique_ptr<Endpoint>> endpoint =
-      open_pty(endpoint_name("pty", model, std::move(options)));
+std::unique_ptr<endpoints::Endpoint> open(const std::string& model,
+                                          std::map<std::string, std::string> options = {}) {
+  Result<std::unique_ptr<endpoints::Endpoint>> endpoint =
+      endpoints::open_pty(endpoint_name("pty", model, std::move(options)));
   EXPECT_TRUE(endpoint) << endpoint.error().message;
   return endpoint ? std::move(*endpoint) : nullptr;
 }
@@ -105,7 +105,7 @@ TEST(Pty, AReplyThatTheOldDeviceOwesNeverComes) {
   ASSERT_TRUE(endpoint->begin({{"delay_ms", 30}}));
   ASSERT_TRUE(endpoint->send(to_bytes("old.")));
   ASSERT_TRUE(endpoint->begin(json::object()));
-  const Result<Burst> burst = endpoint->receive(endpoint->now() + 60ms);
+  const Result<line::Burst> burst = endpoint->receive(endpoint->now() + 60ms);
   ASSERT_TRUE(burst);
   EXPECT_TRUE(burst->bytes.empty());
 }
@@ -113,18 +113,18 @@ TEST(Pty, AReplyThatTheOldDeviceOwesNeverComes) {
 TEST(Pty, SaysWhatItIs) {
   const auto endpoint = open("tiny");
   EXPECT_EQ(endpoint->describe(), "pty: emulator tiny");
-  const Capabilities& can = endpoint->capabilities();
+  const endpoints::Capabilities& can = endpoint->capabilities();
   EXPECT_TRUE(can.back_door);
   EXPECT_FALSE(can.real_device || can.wire || can.simulated);
   EXPECT_EQ(can.timing_floor, 20ms);
   ASSERT_TRUE(endpoint->begin({{"line", "1200-8N1"}}));
-  EXPECT_EQ(endpoint->character_time(), (LineSettings{1200, 8, 'N', 1}.character_time()));
+  EXPECT_EQ(endpoint->character_time(), (line::LineSettings{1200, 8, 'N', 1}.character_time()));
   EXPECT_THAT(endpoint->begin({{"line", "1200-9N1"}}).error().message,
               HasSubstr("cannot read line settings '1200-9N1'"));
 }
 
 TEST(Pty, AnEmulatorThatDoesNotStartSaysWhy) {
-  const auto endpoint = open_pty(endpoint_name("pty", "xgk"));
+  const auto endpoint = endpoints::open_pty(endpoint_name("pty", "xgk"));
   ASSERT_FALSE(endpoint);
   EXPECT_THAT(endpoint.error().message,
               testing::AllOf(HasSubstr("cannot open pty:xgk: "),
@@ -142,7 +142,7 @@ TEST(Pty, AnEmulatorThatDiesIsAnError) {
 
 TEST(Pty, AnotherProgramCanBeTheEmulator) {
   ::setenv("FIELDPROOF_EXECUTABLE", "/nowhere/fieldproof", 1);
-  const auto endpoint = open_pty(endpoint_name("pty", "tiny"));
+  const auto endpoint = endpoints::open_pty(endpoint_name("pty", "tiny"));
   ::unsetenv("FIELDPROOF_EXECUTABLE");
   ASSERT_FALSE(endpoint);
   EXPECT_THAT(endpoint.error().message,
@@ -150,4 +150,4 @@ TEST(Pty, AnotherProgramCanBeTheEmulator) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::hosting

@@ -10,19 +10,19 @@
 #include "harness/hosting/device_host.hpp"
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof::endpoint_tests {
+namespace fieldproof::hosting::test {
 
 /// Keys of the configuration: model (tiny, xbc-h), station, delay_ms (of the reply),
 /// inter_character_floor_ms: a longer gap drops an unfinished frame. Addresses: any; @config is the
 /// configuration, @dropped counts dropped frames.
-class TinyDevice final : public EmulatedDevice {
+class TinyDevice final : public plc::EmulatedDevice {
  public:
   explicit TinyDevice(const nlohmann::json& config)
       : config_(config),
         delay_(std::chrono::milliseconds(config.value("delay_ms", 0))),
         gap_(std::chrono::milliseconds(config.value("inter_character_floor_ms", 0))) {}
 
-  void receive(const Burst& burst) override {
+  void receive(const line::Burst& burst) override {
     for (const Byte byte : burst.bytes) {
       if (byte != '.') {
         frame_ += static_cast<char>(byte);
@@ -82,11 +82,11 @@ class TinyDevice final : public EmulatedDevice {
   int dropped_ = 0;
 };
 
-inline Result<std::unique_ptr<EmulatedDevice>> make_tiny_device(const nlohmann::json& config) {
+inline Result<std::unique_ptr<plc::EmulatedDevice>> make_tiny_device(const nlohmann::json& config) {
   const std::string model = config.value("model", "xbc-h");
   if (model != "tiny" && model != "xbc-h")
     return fail("cannot make a device '" + model + "': the models are tiny and xbc-h");
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<TinyDevice>(config));
+  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<TinyDevice>(config));
 }
 
-}  // namespace fieldproof::endpoint_tests
+}  // namespace fieldproof::hosting::test

@@ -5,19 +5,26 @@
 #include <algorithm>
 #include <set>
 
-namespace fieldproof {
+namespace fieldproof::judging {
+
+using exchange::PreparedFrame;
+using exchange::PreparedStep;
+using exchange::StepRecord;
+using results::Difference;
+using results::Verdict;
+using vectors::Step;
 
 namespace {
 
 /// The beginning of what came, for a message of one line.
 std::string shortened(ByteView bytes) {
-  return print_bytes(bytes.first(std::min<std::size_t>(bytes.size(), 64)));
+  return notation::print_bytes(bytes.first(std::min<std::size_t>(bytes.size(), 64)));
 }
 
 class Judge {
  public:
-  Judge(const PreparedCase& prepared, const Transcript& transcript, const JudgeRules& rules,
-        const Protocol& protocol)
+  Judge(const exchange::PreparedCase& prepared, const exchange::Transcript& transcript,
+        const JudgeRules& rules, const harness::Protocol& protocol)
       : prepared_(prepared), transcript_(transcript), rules_(rules), protocol_(protocol) {}
 
   Judgement judge() {
@@ -66,7 +73,7 @@ class Judge {
   }
 
   void by_level() {
-    const Case& source = *prepared_.source;
+    const vectors::Case& source = *prepared_.source;
     if (result_.verdict == Verdict::blocked) return;
     if (missed_ && source.basis == "decision" && !rules_.binding_decisions) {
       result_.verdict = Verdict::non_strict;
@@ -103,7 +110,7 @@ class Judge {
   }
 
   void judge_reply(const PreparedStep& step, const StepRecord& record, const StepRecord* previous) {
-    const Received& received = record.received;
+    const exchange::Received& received = record.received;
     if (received.bytes.empty()) {
       expected(step, received);
       return miss(fmt::format("no {} within {:.0f} ms",
@@ -121,15 +128,15 @@ class Judge {
 
   const PreparedFrame* matching(const PreparedStep& step, ByteView bytes) {
     for (const PreparedFrame& one : step.frames) {
-      Captures captures = captures_;
-      if (first_mismatch(one.frame, bytes, captures)) continue;
+      notation::Captures captures = captures_;
+      if (notation::first_mismatch(one.frame, bytes, captures)) continue;
       captures_ = std::move(captures);
       return &one;
     }
     return nullptr;
   }
 
-  void judge_mismatch(const PreparedStep& step, const Received& received) {
+  void judge_mismatch(const PreparedStep& step, const exchange::Received& received) {
     if (missed_) return;
     expected(step, received);
     const PreparedFrame& nearest = *result_.expected;
@@ -159,14 +166,15 @@ class Judge {
   }
 
   /// Notes which alternative comes nearest, and what came.
-  void expected(const PreparedStep& step, const Received& received) {
+  void expected(const PreparedStep& step, const exchange::Received& received) {
     if (missed_) return;
     result_.received = received;
     std::size_t best = 0;
     for (const PreparedFrame& one : step.frames) {
-      Captures captures = captures_;
-      const std::size_t agreeing =
-          first_mismatch(one.frame, received.bytes, captures).value_or(received.bytes.size()) + 1;
+      notation::Captures captures = captures_;
+      const std::size_t agreeing = notation::first_mismatch(one.frame, received.bytes, captures)
+                                       .value_or(received.bytes.size()) +
+                                   1;
       if (agreeing <= best) continue;
       best = agreeing;
       result_.expected = &one;
@@ -174,13 +182,14 @@ class Judge {
   }
 
   /// The template with the received bytes in its open places, so that only real differences show.
-  static Bytes fill_holes(const FrameTemplate& frame, ByteView received) {
+  static Bytes fill_holes(const notation::FrameTemplate& frame, ByteView received) {
     Bytes bytes = frame.bytes;
     for (std::size_t i = 0; i < bytes.size() && i < received.size(); ++i)
-      if (frame.cells[i].kind != FrameTemplate::Cell::Kind::literal) bytes[i] = received[i];
-    for (const FrameTemplate::Check& check : frame.checks) {
-      const Bytes right =
-          compute_check(check.kind, ByteView(bytes).subspan(check.begin, check.at - check.begin));
+      if (frame.cells[i].kind != notation::FrameTemplate::Cell::Kind::literal)
+        bytes[i] = received[i];
+    for (const notation::FrameTemplate::Check& check : frame.checks) {
+      const Bytes right = notation::compute_check(
+          check.kind, ByteView(bytes).subspan(check.begin, check.at - check.begin));
       std::ranges::copy(right, bytes.begin() + static_cast<std::ptrdiff_t>(check.at));
     }
     return bytes;
@@ -246,7 +255,7 @@ class Judge {
                    to_ms(took), to_ms(least)));
   }
 
-  void judge_gaps(const PreparedStep& step, const Received& received) {
+  void judge_gaps(const PreparedStep& step, const exchange::Received& received) {
     const Duration limit = step.step->max_gap.value_or(rules_.max_gap);
     for (std::size_t i = 1; i < received.arrivals.size(); ++i) {
       const Duration gap = received.arrivals[i].start - received.arrivals[i - 1].end;
@@ -321,12 +330,12 @@ class Judge {
                      shortened(bytes)));
   }
 
-  const PreparedCase& prepared_;
-  const Transcript& transcript_;
+  const exchange::PreparedCase& prepared_;
+  const exchange::Transcript& transcript_;
   const JudgeRules& rules_;
-  const Protocol& protocol_;
+  const harness::Protocol& protocol_;
   Judgement result_;
-  Captures captures_;
+  notation::Captures captures_;
   std::set<std::string> unread_;   // memory that was to be checked
   std::vector<Duration> periods_;  // of the present step
   std::size_t record_ = 0;
@@ -335,13 +344,13 @@ class Judge {
 
 }  // namespace
 
-Judgement judge(const PreparedCase& prepared, const Transcript& transcript, const JudgeRules& rules,
-                const Protocol& protocol) {
+Judgement judge(const exchange::PreparedCase& prepared, const exchange::Transcript& transcript,
+                const JudgeRules& rules, const harness::Protocol& protocol) {
   return Judge(prepared, transcript, rules, protocol).judge();
 }
 
-CaseResult result_of(const Case& source) {
-  CaseResult result;
+results::CaseResult result_of(const vectors::Case& source) {
+  results::CaseResult result;
   result.id = source.id;
   result.rev = source.rev;
   result.protocol = source.protocol;
@@ -354,15 +363,15 @@ CaseResult result_of(const Case& source) {
   return result;
 }
 
-void note_transposition(const PreparedCase& prepared, CaseResult& result) {
+void note_transposition(const exchange::PreparedCase& prepared, results::CaseResult& result) {
   if (prepared.is_client()) return;  // a client's own station is nowhere on the line
   const int named =
-      config_station(prepared.source->config, prepared.station).value_or(prepared.station);
+      vectors::config_station(prepared.source->config, prepared.station).value_or(prepared.station);
   if (named != prepared.station)
     result.notes.push_back(fmt::format("transposed: station {} to {}", named, prepared.station));
 }
 
-void take_judgement(Judgement judgement, CaseResult& result) {
+void take_judgement(Judgement judgement, results::CaseResult& result) {
   result.verdict = judgement.verdict;
   result.message = std::move(judgement.message);
   std::ranges::move(judgement.notes, std::back_inserter(result.notes));
@@ -372,19 +381,19 @@ void take_judgement(Judgement judgement, CaseResult& result) {
   if (judgement.expected) {
     result.expected = judgement.expected->source->text;
     result.expected_bytes = judgement.expected->frame.bytes;
-    result.expected_hex = to_hex_with_holes(judgement.expected->frame);
+    result.expected_hex = notation::to_hex_with_holes(judgement.expected->frame);
   }
-  result.received = print_bytes(judgement.received.bytes);
+  result.received = notation::print_bytes(judgement.received.bytes);
   result.received_bytes = std::move(judgement.received.bytes);
 }
 
 std::vector<Difference> compare_frames(ByteView expected, ByteView received,
-                                       const Protocol& protocol) {
-  std::vector<Field> due = protocol.explain(expected);
+                                       const harness::Protocol& protocol) {
+  std::vector<harness::Field> due = protocol.explain(expected);
   std::vector<std::pair<std::size_t, Difference>>
       found;  // with the place in the frame: what comes first, a check follows from
-  for (const Field& field : protocol.explain(received)) {
-    const auto same = std::ranges::find(due, field.name, &Field::name);
+  for (const harness::Field& field : protocol.explain(received)) {
+    const auto same = std::ranges::find(due, field.name, &harness::Field::name);
     if (same == due.end()) {
       found.push_back({field.offset, {field.name, "nothing", field.text, field.problem}});
       continue;
@@ -394,7 +403,7 @@ std::vector<Difference> compare_frames(ByteView expected, ByteView received,
                        {field.name, same->text, field.text, field.problem}});
     due.erase(same);
   }
-  for (const Field& field : due)
+  for (const harness::Field& field : due)
     found.push_back({field.offset, {field.name, field.text, "nothing", ""}});
   std::ranges::stable_sort(found, {}, &std::pair<std::size_t, Difference>::first);
   std::vector<Difference> differences;
@@ -402,4 +411,4 @@ std::vector<Difference> compare_frames(ByteView expected, ByteView received,
   return differences;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::judging

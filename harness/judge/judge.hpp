@@ -8,7 +8,7 @@
 #include "harness/exchange/prepared_case.hpp"
 #include "harness/exchange/transcript.hpp"
 
-namespace fieldproof {
+namespace fieldproof::judging {
 
 struct JudgeRules {
   double guard_band = 0.1;    // the last part of a limit that is MARGINAL
@@ -26,29 +26,29 @@ struct JudgeRules {
 };
 
 struct Judgement {
-  Verdict verdict = Verdict::error;
+  results::Verdict verdict = results::Verdict::error;
   std::string message;
   std::vector<std::string> notes;
-  const PreparedFrame* expected =
-      nullptr;        // of the failing step, the alternative that comes nearest
-  Received received;  // what came instead
-  std::vector<Difference> differences;
+  const exchange::PreparedFrame* expected =
+      nullptr;                  // of the failing step, the alternative that comes nearest
+  exchange::Received received;  // what came instead
+  std::vector<results::Difference> differences;
   std::map<std::string, std::string> readings;
   std::vector<double> response_ms;
 };
 
-Judgement judge(const PreparedCase& prepared, const Transcript& transcript, const JudgeRules& rules,
-                const Protocol& protocol);
+Judgement judge(const exchange::PreparedCase& prepared, const exchange::Transcript& transcript,
+                const JudgeRules& rules, const harness::Protocol& protocol);
 
 /// A result that knows its case, and no verdict yet.
-CaseResult result_of(const Case& source);
+results::CaseResult result_of(const vectors::Case& source);
 /// Notes where a case runs at another station than the manual's example names.
-void note_transposition(const PreparedCase& prepared, CaseResult& result);
+void note_transposition(const exchange::PreparedCase& prepared, results::CaseResult& result);
 /// Writes a judgement into the result of its case.
-void take_judgement(Judgement judgement, CaseResult& result);
+void take_judgement(Judgement judgement, results::CaseResult& result);
 
 /// The fields in which two frames differ, named by the protocol.
-std::vector<Difference> compare_frames(ByteView expected, ByteView received,
-                                       const Protocol& protocol);
+std::vector<results::Difference> compare_frames(ByteView expected, ByteView received,
+                                                const harness::Protocol& protocol);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::judging

@@ -10,11 +10,14 @@
 #include "harness/test_protocol.hpp"
 #include "harness/vectors/loader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::judging {
+
+using results::Verdict;
+
 namespace {
 
 using testing::HasSubstr;
-using Pieces = std::vector<ScriptedEndpoint::Piece>;
+using Pieces = std::vector<exchange::ScriptedEndpoint::Piece>;
 
 class JudgeTest : public testing::Test {
  protected:
@@ -23,16 +26,17 @@ class JudgeTest : public testing::Test {
   Judgement judged(const std::string& steps, const std::string& level = "must",
                    const std::string& basis = "printed") {
     set_ = {};
-    load_vector_text(R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": ")j" + level +
-                         R"j(", "basis": ")j" + basis + R"j(", "why": "because we say so",
+    vectors::load_vector_text(R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": ")j" +
+                                  level + R"j(", "basis": ")j" + basis +
+                                  R"j(", "why": "because we say so",
       "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "steps": [)j" +
-                         steps + "]}]",
-                     "f.json", set_);
+                                  steps + "]}]",
+                              "f.json", set_);
     EXPECT_THAT(set_.problems, testing::IsEmpty());
-    Result<PreparedCase> prepared = prepare(set_.cases.at(0), 1, protocol_);
+    Result<exchange::PreparedCase> prepared = exchange::prepare(set_.cases.at(0), 1, protocol_);
     EXPECT_TRUE(prepared);
     prepared_ = *prepared;
-    Exchange exchange(endpoint, protocol_, {});
+    exchange::Exchange exchange(endpoint, protocol_, {});
     transcript = exchange.run(prepared_);
     exchange.close(prepared_, transcript);
     const Judgement judgement = judge(prepared_, transcript, rules, protocol_);
@@ -42,15 +46,16 @@ class JudgeTest : public testing::Test {
 
   /// Whatever is judged live is judged alike from a result file.
   void expect_recording_judged_alike(const Judgement& live) {
-    CaseResult recorded;
+    results::CaseResult recorded;
     recorded.id = "xgt_cnet/a/b";
     recorded.exchange = recorded_events(transcript);
     recorded.recording = make_recording(prepared_, transcript, rules);
     EXPECT_EQ(recorded.recording.stimulus.empty(), transcript.trouble.has_value())
         << "trouble of the bench cannot be judged";
     if (transcript.trouble) return;
-    const auto loaded = nlohmann::json::parse(nlohmann::json(recorded).dump()).get<CaseResult>();
-    const Result<Transcript> again = replay(loaded, prepared_, 500ms);
+    const auto loaded =
+        nlohmann::json::parse(nlohmann::json(recorded).dump()).get<results::CaseResult>();
+    const Result<exchange::Transcript> again = replay(loaded, prepared_, 500ms);
     ASSERT_TRUE(again) << again.error().message;
     const Judgement offline = judge(prepared_, *again, rules, protocol_);
     EXPECT_EQ(offline.verdict, live.verdict) << offline.message;
@@ -62,14 +67,14 @@ class JudgeTest : public testing::Test {
 
   static std::string ask() { return R"({"send": "'<ask>'"}, {"expect": "'<answer>'"})"; }
 
-  ScriptedEndpoint endpoint;
+  exchange::ScriptedEndpoint endpoint;
   JudgeRules rules;
-  Transcript transcript;
+  exchange::Transcript transcript;
 
  private:
-  TestProtocol protocol_;
-  VectorSet set_;
-  PreparedCase prepared_;
+  harness::TestProtocol protocol_;
+  vectors::VectorSet set_;
+  exchange::PreparedCase prepared_;
 };
 
 TEST_F(JudgeTest, TheExpectedReplyPasses) {
@@ -313,10 +318,10 @@ TEST_F(JudgeTest, AFailingPortIsAnErrorNotAFailure) {
 }
 
 TEST_F(JudgeTest, NothingPassesByDefault) {
-  PreparedCase nothing;
-  Case source;
+  exchange::PreparedCase nothing;
+  vectors::Case source;
   nothing.source = &source;
-  EXPECT_EQ(judge(nothing, {}, {}, TestProtocol{}).verdict, Verdict::error);
+  EXPECT_EQ(judge(nothing, {}, {}, harness::TestProtocol{}).verdict, Verdict::error);
 }
 
 TEST_F(JudgeTest, ACadenceIsMeasured) {
@@ -336,4 +341,4 @@ TEST_F(JudgeTest, PausesStandWhereTheNotationHasThem) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::judging

@@ -8,16 +8,16 @@
 
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::judging {
 
 class Readings {
  public:
   /// Notes the alternatives that a result took. A device that mixes them is NON-STRICT.
-  void note(CaseResult& result);
+  void note(results::CaseResult& result);
 
  private:
   std::map<std::string, std::pair<std::string, std::string>>
       first_;  // name: first choice and the case that made it
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::judging

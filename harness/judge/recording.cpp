@@ -5,7 +5,12 @@
 
 #include "harness/vectors/fingerprint.hpp"
 
-namespace fieldproof {
+namespace fieldproof::judging {
+
+using exchange::PreparedCase;
+using exchange::Transcript;
+using results::Event;
+using vectors::Step;
 
 namespace {
 
@@ -20,9 +25,9 @@ struct Claim {
   bool surplus = false;
 };
 
-void claim(const Received& received, int step, bool surplus, std::vector<Claim>& claims) {
+void claim(const exchange::Received& received, int step, bool surplus, std::vector<Claim>& claims) {
   for (std::size_t i = 0; i < received.arrivals.size(); ++i) {
-    const Received::Arrival& one = received.arrivals[i];
+    const exchange::Received::Arrival& one = received.arrivals[i];
     const std::size_t end =
         i + 1 < received.arrivals.size() ? received.arrivals[i + 1].offset : received.bytes.size();
     claims.push_back(
@@ -50,29 +55,29 @@ Event part_of(const Event& event, std::size_t from, std::size_t to) {
 /// All that is done to the device, in a text of no other use. What is expected of it is left out:
 /// that may change.
 std::string stimulus_text(const PreparedCase& prepared) {
-  const Case& source = *prepared.source;
+  const vectors::Case& source = *prepared.source;
   std::string text =
       fmt::format("{} {} {}\n", prepared.station, source.fresh, source.config.dump());
   const auto add_memory = [&](const std::vector<std::pair<std::string, std::string>>& memory) {
     for (const auto& [address, hex] : memory) text += fmt::format("{}={} ", address, hex);
   };
   add_memory(source.memory);
-  for (const PreparedStep& step : prepared.steps) {
+  for (const exchange::PreparedStep& step : prepared.steps) {
     text += fmt::format("\n{} x{} {} {} ", static_cast<int>(step.step->kind), step.step->times,
                         step.step->action, step.step->duration.count());
     if (step.step->kind == Step::Kind::set) add_memory(step.step->memory);
     if (step.step->kind == Step::Kind::check)
       for (const auto& [address, hex] : step.step->memory)
         text += fmt::format("{}:{} ", address, hex.size());
-    if (const std::optional<PartnerSpec>& partner = step.step->partner) {
+    if (const std::optional<vectors::PartnerSpec>& partner = step.step->partner) {
       text += fmt::format("{} {} {} ", partner->model, partner->config.dump(), partner->fault);
       add_memory(partner->memory);
     }
     if (step.step->kind != Step::Kind::send) continue;
-    const FrameTemplate& frame = step.frames.front().frame;
-    text += to_hex_with_holes(frame);
+    const notation::FrameTemplate& frame = step.frames.front().frame;
+    text += notation::to_hex_with_holes(frame);
     for (const std::string& name : frame.names) text += " {" + name + "}";
-    for (const FrameTemplate::Gap& gap : frame.gaps)
+    for (const notation::FrameTemplate::Gap& gap : frame.gaps)
       text +=
           fmt::format(" ~{}:{}{}", gap.before, gap.pause.amount, gap.pause.characters ? "c" : "");
   }
@@ -80,7 +85,8 @@ std::string stimulus_text(const PreparedCase& prepared) {
 }
 
 std::string stimulus_of(const PreparedCase& prepared) {
-  return fmt::format("{:016x}", extend_fingerprint(empty_fingerprint, stimulus_text(prepared)));
+  return fmt::format(
+      "{:016x}", vectors::extend_fingerprint(vectors::empty_fingerprint, stimulus_text(prepared)));
 }
 
 // ---- reading
@@ -91,16 +97,16 @@ void take_event(const Event& event, Transcript& transcript) {
   const bool of_step =
       event.step >= 0 && static_cast<std::size_t>(event.step) < transcript.steps.size();
   if (event.kind == Event::Kind::sent && of_step) {
-    StepRecord& record = transcript.steps[static_cast<std::size_t>(event.step)];
+    exchange::StepRecord& record = transcript.steps[static_cast<std::size_t>(event.step)];
     if (record.sent_bytes.empty()) record.sent.start = event.start;
     record.sent.end = event.end;
     record.sent_bytes.insert(record.sent_bytes.end(), event.bytes.begin(), event.bytes.end());
   }
   if (event.kind != Event::Kind::received || event.bytes.empty() || !(of_step || event.surplus))
     return;
-  Received& received = event.surplus
-                           ? transcript.surplus
-                           : transcript.steps[static_cast<std::size_t>(event.step)].received;
+  exchange::Received& received =
+      event.surplus ? transcript.surplus
+                    : transcript.steps[static_cast<std::size_t>(event.step)].received;
   received.arrivals.push_back({received.bytes.size(), event.start, event.end});
   received.bytes.insert(received.bytes.end(), event.bytes.begin(), event.bytes.end());
 }
@@ -108,7 +114,7 @@ void take_event(const Event& event, Transcript& transcript) {
 /// The step of the vector that each executed step was: `times` repeats them.
 std::vector<const Step*> executed_steps(const PreparedCase& prepared, std::size_t count) {
   std::vector<const Step*> steps;
-  for (const PreparedStep& step : prepared.steps)
+  for (const exchange::PreparedStep& step : prepared.steps)
     for (int i = 0; i < step.step->times && steps.size() < count; ++i) steps.push_back(step.step);
   return steps;
 }
@@ -138,13 +144,13 @@ std::vector<Event> recorded_events(const Transcript& transcript) {
   return events;
 }
 
-Recording make_recording(const PreparedCase& prepared, const Transcript& transcript,
-                         const JudgeRules& rules) {
-  Recording recording;
+results::Recording make_recording(const PreparedCase& prepared, const Transcript& transcript,
+                                  const JudgeRules& rules) {
+  results::Recording recording;
   if (transcript.trouble) return recording;  // the bench's own: there is nothing to judge
   recording.stimulus = stimulus_of(prepared);
   recording.station = prepared.station;
-  for (const StepRecord& step : transcript.steps)
+  for (const exchange::StepRecord& step : transcript.steps)
     recording.steps.push_back({step.stimulus, step.memory, step.refused, step.refused_by_device});
   recording.flooded = transcript.flooded;
   recording.dead = transcript.dead;
@@ -155,9 +161,9 @@ Recording make_recording(const PreparedCase& prepared, const Transcript& transcr
   return recording;
 }
 
-Result<Transcript> replay(const CaseResult& recorded, const PreparedCase& prepared,
+Result<Transcript> replay(const results::CaseResult& recorded, const PreparedCase& prepared,
                           Duration response_max) {
-  const Recording& recording = recorded.recording;
+  const results::Recording& recording = recorded.recording;
   if (recording.stimulus.empty()) {
     return fail(recorded.exchange.empty() ? "nothing was exchanged"
                                           : "the exchange was recorded without its steps, by an "
@@ -172,10 +178,10 @@ Result<Transcript> replay(const CaseResult& recorded, const PreparedCase& prepar
   if (steps.size() != recording.steps.size())
     return fail("the recording has more steps than the case; the file is damaged");
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const StepOutcome& outcome = recording.steps[i];
-    StepRecord& record = transcript.steps.emplace_back();
+    const results::StepOutcome& outcome = recording.steps[i];
+    exchange::StepRecord& record = transcript.steps.emplace_back();
     record.stimulus = outcome.stimulus;
-    record.deadline = outcome.stimulus + reply_limit(*steps[i], response_max);
+    record.deadline = outcome.stimulus + exchange::reply_limit(*steps[i], response_max);
     record.memory = outcome.memory;
     record.refused = outcome.refused;
     record.refused_by_device = outcome.refused_by_device;
@@ -186,4 +192,4 @@ Result<Transcript> replay(const CaseResult& recorded, const PreparedCase& prepar
   return transcript;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::judging

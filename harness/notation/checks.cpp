@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-namespace fieldproof {
+namespace fieldproof::notation {
 
 namespace {
 
@@ -62,4 +62,4 @@ Bytes compute_wrong_check(CheckKind kind, ByteView frame) {
   return encode(kind, value_of(kind, frame) + 1);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

@@ -6,7 +6,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::notation {
 
 enum class CheckKind {
   bcc,  // XGT (000 7.1.5): low byte of the sum from header to tail, two hex digits
@@ -28,4 +28,4 @@ Bytes compute_check(CheckKind kind, ByteView frame);
 /// The same, deliberately wrong: the value plus one.
 Bytes compute_wrong_check(CheckKind kind, ByteView frame);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::notation {
 namespace {
 
 // 000 7.1.5 (1)(b): H05+H32+...+H04 = H03A4, therefore the BCC is A4.
@@ -46,4 +46,4 @@ TEST(Checks, AWrongCheckDiffersFromTheRightOne) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::notation {
 
 namespace {
 
@@ -220,4 +220,4 @@ std::string to_hex_with_holes(const FrameTemplate& frame) {
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

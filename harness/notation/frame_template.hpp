@@ -9,7 +9,7 @@
 
 #include "harness/notation/notation.hpp"
 
-namespace fieldproof {
+namespace fieldproof::notation {
 
 /// What the moving fields of a notation become.
 struct Stations {
@@ -65,4 +65,4 @@ std::optional<std::size_t> first_mismatch(const FrameTemplate& frame, ByteView r
 /// "05 30 ?? ??": open places as ??, checks behind open places too.
 std::string to_hex_with_holes(const FrameTemplate& frame);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof {
+namespace fieldproof::notation {
 namespace {
 
 const Stations station_1{to_bytes("01"), to_bytes("02")};
@@ -101,4 +101,4 @@ TEST(FrameTemplate, PausesKnowTheirPlace) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

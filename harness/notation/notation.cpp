@@ -6,7 +6,7 @@
 #include <charconv>
 #include <optional>
 
-namespace fieldproof {
+namespace fieldproof::notation {
 
 namespace {
 
@@ -369,4 +369,4 @@ std::string print_bytes(ByteView bytes) {
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

@@ -10,7 +10,7 @@
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::notation {
 
 /// A pause in milliseconds (~20ms, ~1s) or in character times of the line (~1.6c).
 struct Pause {
@@ -67,4 +67,4 @@ std::string print(const Notation& notation);
 /// 03 00 63.
 std::string print_bytes(ByteView bytes);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof {
+namespace fieldproof::notation {
 namespace {
 
 using testing::HasSubstr;
@@ -75,4 +75,4 @@ TEST(Pause, CharactersScaleWithTheLine) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::notation

@@ -6,7 +6,11 @@
 
 #include "harness/probe/test_line.hpp"
 
-namespace fieldproof::probe_tests {
+namespace fieldproof::probe::test {
+
+using endpoints::Endpoint;
+using line::LineSettings;
+
 namespace {
 
 struct Setting {
@@ -24,7 +28,7 @@ T one_of(std::mt19937& random, const std::vector<T>& all) {
 Setting random_setting(unsigned seed) {
   std::mt19937 random(seed);
   Setting setting;
-  const Protocol& protocol = *one_of(random, filled({}, protocols()).protocols);
+  const harness::Protocol& protocol = *one_of(random, filled({}, suites::protocols()).protocols);
   setting.hidden.protocol = protocol.name();
   setting.hidden.model = one_of(random, protocol.models());
   setting.station = static_cast<int>(random() % 31) + 1;
@@ -32,7 +36,7 @@ Setting random_setting(unsigned seed) {
   setting.line.data_bits = protocol.name() == "modbus-rtu" ? 8 : one_of<int>(random, {7, 8});
   setting.line.parity = one_of<char>(random, {'N', 'E', 'O'});
   setting.line.stop_bits = one_of<int>(random, {1, 2});
-  setting.hidden.config = {{"station", setting.station}, {"line", to_string(setting.line)}};
+  setting.hidden.config = {{"station", setting.station}, {"line", line::to_string(setting.line)}};
   if (random() % 2)
     setting.hidden.config.update({{"rs485", true}, {"delay_ms", 10 * (random() % 40)}});
   return setting;
@@ -76,7 +80,7 @@ TEST(Search, SendsProbesAlone) {
   struct Recorder final : Wire {
     Recorder(std::unique_ptr<Endpoint> inner, const LineSettings&, std::set<Bytes>* all)
         : Wire(std::move(inner)), sent(all) {}
-    Result<Sent> send(ByteView bytes) override {
+    Result<line::Sent> send(ByteView bytes) override {
       sent->emplace(bytes.begin(), bytes.end());
       return inner_->send(bytes);
     }
@@ -84,7 +88,7 @@ TEST(Search, SendsProbesAlone) {
   };
   std::set<Bytes> sent, probes;
   run_search(behind<Recorder>(opener({.config = {{"station", 200}}}), &sent), small_space());
-  for (const Trial& trial : make_plan(small_space(), protocols()))
+  for (const Trial& trial : make_plan(small_space(), suites::protocols()))
     probes.insert(trial.protocol->probe(trial.station, {}));
   EXPECT_EQ(sent, probes);
 }
@@ -122,8 +126,9 @@ TEST(Search, SettingsThatThePortRefusesAreLeftOut) {
 
 TEST(Search, TroubleOfThePortEndsIt) {
   const auto run = [](const LineOpener& open) {
-    Prober prober(open, protocols(), {}, [](std::size_t, std::size_t, const Observation&) {});
-    return prober.run(make_plan(small_space(), protocols()), false);
+    Prober prober(open, suites::protocols(), {},
+                  [](std::size_t, std::size_t, const Observation&) {});
+    return prober.run(make_plan(small_space(), suites::protocols()), false);
   };
   const Result<Search> never =
       run([](const LineSettings&) -> Result<std::unique_ptr<Endpoint>> { return fail("in use"); });
@@ -132,7 +137,7 @@ TEST(Search, TroubleOfThePortEndsIt) {
 
   struct Unplugged final : Wire {
     Unplugged(std::unique_ptr<Endpoint> inner, const LineSettings&) : Wire(std::move(inner)) {}
-    Result<Sent> send(ByteView) override { return fail("the far end is gone"); }
+    Result<line::Sent> send(ByteView) override { return fail("the far end is gone"); }
   };
   const Result<Search> gone = run(behind<Unplugged>(opener({})));
   ASSERT_FALSE(gone);
@@ -142,18 +147,18 @@ TEST(Search, TroubleOfThePortEndsIt) {
 TEST(Search, AnInterruptKeepsWhatWasHeard) {
   struct Stopped final : Wire {
     Stopped(std::unique_ptr<Endpoint> inner, const LineSettings&) : Wire(std::move(inner)) {}
-    Result<Sent> send(ByteView bytes) override {
-      return ++sent > 2 ? Result<Sent>(Error{"interrupted", true}) : inner_->send(bytes);
+    Result<line::Sent> send(ByteView bytes) override {
+      return ++sent > 2 ? Result<line::Sent>(Error{"interrupted", true}) : inner_->send(bytes);
     }
     int sent = 0;
   };
-  Prober prober(behind<Stopped>(opener({.config = {{"station", 9}}})), protocols(), {},
+  Prober prober(behind<Stopped>(opener({.config = {{"station", 9}}})), suites::protocols(), {},
                 [](std::size_t, std::size_t, const Observation&) {});
-  const Result<Search> search = prober.run(make_plan(small_space(), protocols()), false);
+  const Result<Search> search = prober.run(make_plan(small_space(), suites::protocols()), false);
   ASSERT_TRUE(search);
   EXPECT_TRUE(search->interrupted);
   EXPECT_EQ(search->trials, 3u);
 }
 
 }  // namespace
-}  // namespace fieldproof::probe_tests
+}  // namespace fieldproof::probe::test

@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-namespace fieldproof {
+namespace fieldproof::probe {
 
 namespace {
 
@@ -99,7 +99,7 @@ std::string amount(const Observations& observations) {
   std::size_t bytes = 0;
   ByteView sample;
   for (const Observation* one : observations) {
-    settings.insert(to_string(one->trial.line));
+    settings.insert(line::to_string(one->trial.line));
     if (!one->heard.errors.empty()) errors.insert(one->heard.errors);
     bytes += one->diagnosis.frame.size();
     if (sample.empty()) sample = one->diagnosis.frame;
@@ -168,8 +168,8 @@ void add_troubles(const Search& search, std::vector<Finding>& findings) {
   if (const auto seen = those(search, untried); !seen.empty())
     add(Kind::format, seen,
         fmt::format("the device answers with another character format: {} is read, {} is right: {}",
-                    to_string(seen.front()->trial.line),
-                    to_string(*seen.front()->diagnosis.right_format), frame_of(seen)),
+                    line::to_string(seen.front()->trial.line),
+                    line::to_string(*seen.front()->diagnosis.right_format), frame_of(seen)),
         "give both sides the same data bits and parity (000 11.2.5)");
   const bool named = !findings.empty();
   if (const auto seen = those(search, [](const Observation& one) { return one.diagnosis.echo; });
@@ -225,4 +225,4 @@ std::vector<Finding> conclude(const Search& search, const ProbeTiming& timing) {
   return findings;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

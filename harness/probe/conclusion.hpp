@@ -7,7 +7,7 @@
 
 #include "harness/probe/prober.hpp"
 
-namespace fieldproof {
+namespace fieldproof::probe {
 
 struct Finding {
   enum class Kind {
@@ -36,4 +36,4 @@ std::string_view to_string(Finding::Kind kind);
 /// the surest first. Never empty.
 std::vector<Finding> conclude(const Search& search, const ProbeTiming& timing);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

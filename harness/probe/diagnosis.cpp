@@ -7,12 +7,16 @@
 
 #include "harness/notation/notation.hpp"
 
-namespace fieldproof {
+namespace fieldproof::probe {
+
+using harness::Field;
+using line::Burst;
+using line::LineSettings;
 
 namespace {
 
 struct Found {
-  const Protocol* protocol = nullptr;
+  const harness::Protocol* protocol = nullptr;
   std::size_t at = 0, size = 0;
   int station = -1;
 
@@ -35,7 +39,7 @@ bool same_parts(const std::vector<Field>& a, const std::vector<Field>& b) {
 /// Does a faultless frame answer this question? A refusal may have a form of its own, but it begins
 /// otherwise than the question; what is made of the same parts is a question itself, of another
 /// master.
-bool answers(const Protocol& protocol, ByteView question, ByteView frame,
+bool answers(const harness::Protocol& protocol, ByteView question, ByteView frame,
              const std::vector<Field>& fields) {
   if (same_parts(fields, protocol.explain(question))) return false;
   return protocol.is_reply_to_probe(question, frame) || frame.front() != question.front();
@@ -43,7 +47,7 @@ bool answers(const Protocol& protocol, ByteView question, ByteView frame,
 
 /// The first whole frame without a fault at or behind `from`; where there is a `question`, one that
 /// answers it.
-std::optional<Found> find_frame(const Protocol& protocol, ByteView bytes, std::size_t from,
+std::optional<Found> find_frame(const harness::Protocol& protocol, ByteView bytes, std::size_t from,
                                 ByteView question) {
   for (std::size_t at = from; at < bytes.size(); ++at) {
     const ByteView rest = bytes.subspan(at);
@@ -61,8 +65,8 @@ std::optional<Found> find_frame(const Protocol& protocol, ByteView bytes, std::s
   return std::nullopt;
 }
 
-std::optional<Found> find_any(const Protocols& known, ByteView bytes) {
-  for (const Protocol* protocol : known)
+std::optional<Found> find_any(const harness::Protocols& known, ByteView bytes) {
+  for (const harness::Protocol* protocol : known)
     if (const auto found = find_frame(*protocol, bytes, 0, {})) return found;
   return std::nullopt;
 }
@@ -165,7 +169,7 @@ class Reading {
     diagnosis_.frame.assign(bytes_.begin() + static_cast<std::ptrdiff_t>(from_), bytes_.end());
   }
 
-  Diagnosis read(const Protocols& known) {
+  Diagnosis read(const harness::Protocols& known) {
     const bool answered = diagnosis_.frame.size() > 0;
     if (!answered) diagnosis_.frame = all_bytes(heard_.before);  // it was not for us, or comes late
     const Bytes rest = diagnosis_.frame;
@@ -247,14 +251,14 @@ std::string_view to_string(Symptom symptom) {
   return "";
 }
 
-Diagnosis diagnose(const Trial& trial, const Heard& heard, const Protocols& known) {
+Diagnosis diagnose(const Trial& trial, const Heard& heard, const harness::Protocols& known) {
   return Reading(trial, heard).read(known);
 }
 
 std::string shown(ByteView bytes) {
   constexpr std::size_t enough = 24;
-  if (bytes.size() <= enough) return print_bytes(bytes);
-  return fmt::format("{} ... ({} bytes)", print_bytes(bytes.first(enough)), bytes.size());
+  if (bytes.size() <= enough) return notation::print_bytes(bytes);
+  return fmt::format("{} ... ({} bytes)", notation::print_bytes(bytes.first(enough)), bytes.size());
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

@@ -9,18 +9,18 @@
 #include "harness/probe/plan.hpp"
 #include "src/line/device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::probe {
 
 /// What came around one question.
 struct Heard {
-  std::vector<Burst> before;  // nobody had asked: the line was to be silent
-  Time asked_until{};         // the end of the question's last stop bit
-  std::vector<Burst> after;   // since the question began; the echo of our own transmitter too
-  std::string errors;         // as Endpoint::line_errors gives them
+  std::vector<line::Burst> before;  // nobody had asked: the line was to be silent
+  Time asked_until{};               // the end of the question's last stop bit
+  std::vector<line::Burst> after;   // since the question began; the echo of our own transmitter too
+  std::string errors;               // as Endpoint::line_errors gives them
 
   bool silent() const { return before.empty() && after.empty() && errors.empty(); }
 };
-Bytes all_bytes(const std::vector<Burst>& bursts);
+Bytes all_bytes(const std::vector<line::Burst>& bursts);
 
 enum class Symptom {
   silence,
@@ -38,21 +38,21 @@ std::string_view to_string(Symptom symptom);
 
 struct Diagnosis {
   Symptom symptom = Symptom::silence;
-  bool echo = false;                   // our own question came back first
-  std::size_t stray = 0;               // bytes around the reply that belong to no frame
-  const Protocol* protocol = nullptr;  // of the frame
-  int station = -1;                    // that the frame names
-  Bytes frame{};                       // the reply, or what came instead
+  bool echo = false;                            // our own question came back first
+  std::size_t stray = 0;                        // bytes around the reply that belong to no frame
+  const harness::Protocol* protocol = nullptr;  // of the frame
+  int station = -1;                             // that the frame names
+  Bytes frame{};                                // the reply, or what came instead
   std::optional<Duration>
       response_time{};  // the question's last stop bit to the reply's first start bit
-  std::optional<LineSettings> right_format{};
+  std::optional<line::LineSettings> right_format{};
 };
 
 /// `known`: the protocols whose frames are recognised besides the one that was asked. A trial
 /// without a protocol asks nothing: what was heard before is looked at.
-Diagnosis diagnose(const Trial& trial, const Heard& heard, const Protocols& known);
+Diagnosis diagnose(const Trial& trial, const Heard& heard, const harness::Protocols& known);
 
 /// Bytes in notation, cut where there are many: "ACK '01rSS' 'A4' FF ... (312 bytes)".
 std::string shown(ByteView bytes);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

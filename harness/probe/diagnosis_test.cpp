@@ -7,11 +7,11 @@
 #include "src/line/uart.hpp"
 #include "suites/protocols.hpp"
 
-namespace fieldproof {
+namespace fieldproof::probe {
 namespace {
 
 Trial trial(const char* protocol = "xgt-cnet", int station = 1, const char* line = "9600-8N1") {
-  return {*parse_line_settings(line), protocols().find(protocol), station};
+  return {*line::parse_line_settings(line), suites::protocols().find(protocol), station};
 }
 Bytes question(const Trial& t) { return t.protocol->probe(t.station, {}); }
 
@@ -41,15 +41,16 @@ Heard heard(Bytes after, std::string errors = "") {
 
 /// The reply as a receiver with the bench's settings reads it when the device sends with others.
 Heard read_with_other_settings(const Trial& t, const char* device) {
-  const LineSettings sender = *parse_line_settings(device);
-  const Reading reading = read_burst({answer(t), 42ms, sender.character_time()}, sender, t.line);
+  const line::LineSettings sender = *line::parse_line_settings(device);
+  const line::Reading reading =
+      line::read_burst({answer(t), 42ms, sender.character_time()}, sender, t.line);
   Heard result{.before = {}, .asked_until = 30ms, .after = reading.bursts, .errors = ""};
   if (reading.errors.parity) result.errors += "3 parity errors";
   if (reading.errors.framing) result.errors += "3 framing errors";
   return result;
 }
 
-Diagnosis of(const Trial& t, const Heard& h) { return diagnose(t, h, protocols()); }
+Diagnosis of(const Trial& t, const Heard& h) { return diagnose(t, h, suites::protocols()); }
 
 class EachProtocol : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(All, EachProtocol,
@@ -185,9 +186,9 @@ TEST_P(Format, IsNamed) {
   const Trial t = trial("xgt-cnet", 1, GetParam().bench);
   const Diagnosis d = of(t, read_with_other_settings(t, GetParam().device));
   ASSERT_EQ(d.symptom, Symptom::format) << to_hex(d.frame);
-  LineSettings right = *parse_line_settings(GetParam().device);
+  line::LineSettings right = *line::parse_line_settings(GetParam().device);
   right.stop_bits = 1;  // a second one reads the same
-  EXPECT_EQ(to_string(*d.right_format), to_string(right));
+  EXPECT_EQ(line::to_string(*d.right_format), line::to_string(right));
 }
 
 TEST(Diagnosis, AWrongSpeedIsNoWrongFormat) {
@@ -200,4 +201,4 @@ TEST(Diagnosis, AWrongSpeedIsNoWrongFormat) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

@@ -3,14 +3,14 @@
 
 #include "harness/probe/test_wires.hpp"
 
-namespace fieldproof::probe_tests {
+namespace fieldproof::probe::test {
 namespace {
 
 using Kind = Finding::Kind;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Hidden hidden(Decorator decorate) { return {.decorate = std::move(decorate)}; }
+Hidden hidden(endpoints::Decorator decorate) { return {.decorate = std::move(decorate)}; }
 
 TEST(LineFault, NothingOnTheLine) {
   const auto findings = find(opener(hidden(switched_off)), small_space());
@@ -40,7 +40,8 @@ TEST(LineFault, SwappedPair) {
 
 TEST(LineFault, LineAtBreak) {
   struct Break final : Wire {
-    Break(std::unique_ptr<Endpoint> inner, const LineSettings&) : Wire(std::move(inner)) {}
+    Break(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings&)
+        : Wire(std::move(inner)) {}
     std::string line_errors() override { return std::exchange(broken_, false) ? "1 break" : ""; }
     bool broken_ = true;
   };
@@ -87,20 +88,21 @@ TEST(LineFault, AnotherStationAnswers) {
 }
 
 TEST(LineFault, AnotherMasterTalks) {
-  Hidden other = hidden([](Device&, const LineSettings&) { return std::make_unique<Master>(); });
+  Hidden other =
+      hidden([](line::Device&, const line::LineSettings&) { return std::make_unique<Master>(); });
   other.config["line"] = "19200-8E1";
   const Search search = run_search(opener(other), {});
   const auto findings = conclude(search, {});
   ASSERT_THAT(kinds(findings), ElementsAre(Kind::other_talker)) << findings[0].text;
   EXPECT_THAT(findings[0].text, HasSubstr("modbus-rtu frame of station 9"));
-  EXPECT_EQ(to_string(findings[0].trial.line), "19200-8E1");
+  EXPECT_EQ(line::to_string(findings[0].trial.line), "19200-8E1");
   for (const Observation& one : search.observations)
     EXPECT_EQ(one.trial.protocol, nullptr) << "asked into the talk of others";
 }
 
 LineOpener any_format_in(const char* out) {
-  const LineOpener open = [](const LineSettings& line) {
-    return opener({.config = {{"station", 1}, {"line", to_string(line)}}})(line);
+  const LineOpener open = [](const line::LineSettings& line) {
+    return opener({.config = {{"station", 1}, {"line", line::to_string(line)}}})(line);
   };
   return behind<OwnFormat>(open, out);
 }
@@ -118,11 +120,11 @@ TEST(Search, TheFormatThatAReplyShowsIsTriedNext) {
   EXPECT_EQ(search.trials, 1u + 1u + 3u);  // listening, 8N1, 7O1 three times
   const auto findings = conclude(search, {});
   ASSERT_THAT(kinds(findings), ElementsAre(Kind::device)) << findings[0].text;
-  EXPECT_EQ(to_string(findings[0].trial.line), "9600-7O1");
+  EXPECT_EQ(line::to_string(findings[0].trial.line), "9600-7O1");
 }
 
 TEST(LineFault, UnstableReplies) {
-  const Trial trial{LineSettings{}, &protocol_named("xgt-cnet"), 1};
+  const Trial trial{line::LineSettings{}, &protocol_named("xgt-cnet"), 1};
   Search search;
   search.trials = 4;
   for (const Symptom symptom : {Symptom::reply, Symptom::damaged, Symptom::reply}) {
@@ -135,4 +137,4 @@ TEST(LineFault, UnstableReplies) {
 }
 
 }  // namespace
-}  // namespace fieldproof::probe_tests
+}  // namespace fieldproof::probe::test

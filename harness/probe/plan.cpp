@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace fieldproof {
+namespace fieldproof::probe {
 
 namespace {
 
@@ -37,7 +37,7 @@ Rank rank_of_speed(int speed) {
   return found == usual_speeds.end() ? 8 : found->rank;
 }
 
-Rank rank_of_frame(const LineSettings& line) {
+Rank rank_of_frame(const line::LineSettings& line) {
   for (const auto& [frame, rank] : usual_frames)
     if (frame.data_bits == line.data_bits && frame.parity == line.parity) return rank;
   return 9;
@@ -50,7 +50,7 @@ Rank rank_of_station(int station) {
 }
 
 /// A protocol whose station is a byte, not two digits, needs all eight bits.
-bool needs_eight_bits(const Protocol& protocol) {
+bool needs_eight_bits(const harness::Protocol& protocol) {
   return protocol.station_bytes(255) == Bytes{255};
 }
 
@@ -68,10 +68,10 @@ std::string question_of(const Trial& trial) {
 }
 
 std::string to_string(const Trial& trial) {
-  return to_string(trial.line) + ' ' + question_of(trial);
+  return line::to_string(trial.line) + ' ' + question_of(trial);
 }
 
-SearchSpace filled(SearchSpace space, const Protocols& known) {
+SearchSpace filled(SearchSpace space, const harness::Protocols& known) {
   if (space.speeds.empty())
     for (const auto& one : usual_speeds) space.speeds.push_back(one.value);
   if (space.frames.empty())
@@ -82,20 +82,20 @@ SearchSpace filled(SearchSpace space, const Protocols& known) {
       space.stations.push_back(station);
   if (space.protocols.empty())
     std::ranges::copy_if(known, std::back_inserter(space.protocols),
-                         [](const Protocol* one) { return !one->probe(1, {}).empty(); });
+                         [](const harness::Protocol* one) { return !one->probe(1, {}).empty(); });
   if (!space.settable) space.speeds.resize(1), space.frames.resize(1);
   return space;
 }
 
-std::vector<Trial> make_plan(const SearchSpace& given, const Protocols& known) {
+std::vector<Trial> make_plan(const SearchSpace& given, const harness::Protocols& known) {
   const SearchSpace space = filled(given, known);
   std::vector<Ranked<Trial>> ranked;
   for (const int speed : space.speeds) {
-    for (LineSettings line : space.frames) {
+    for (line::LineSettings line : space.frames) {
       line.baud = speed;
       for (const int station : space.stations) {
         for (std::size_t i = 0; i < space.protocols.size(); ++i) {
-          const Protocol& protocol = *space.protocols[i];
+          const harness::Protocol& protocol = *space.protocols[i];
           if (space.settable && line.data_bits == 7 && needs_eight_bits(protocol)) continue;
           const Rank rank = rank_of_speed(speed) + rank_of_frame(line) + rank_of_station(station) +
                             static_cast<Rank>(i);
@@ -122,8 +122,8 @@ Duration longest_time(const std::vector<Trial>& plan, Duration wait) {
   return total;
 }
 
-Duration listening_time(const LineSettings& line) {
+Duration listening_time(const line::LineSettings& line) {
   return std::max<Duration>(20ms, line.character_time() * 4);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-namespace fieldproof {
+namespace fieldproof::probe {
 namespace {
 
 std::vector<std::string> texts(const std::vector<Trial>& plan) {
@@ -23,7 +23,7 @@ std::ptrdiff_t place(const std::vector<Trial>& plan, const std::string& text) {
 }
 
 TEST(SearchPlan, AsksEachQuestionOnce) {
-  const std::vector<Trial> plan = make_plan({}, protocols());
+  const std::vector<Trial> plan = make_plan({}, suites::protocols());
   const auto all = texts(plan);
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), plan.size());
   // 8 speeds; 32 stations; 6 frames, but RTU with the three 8-bit ones alone.
@@ -31,7 +31,7 @@ TEST(SearchPlan, AsksEachQuestionOnce) {
 }
 
 TEST(SearchPlan, BeginsWithTheMostLikely) {
-  const std::vector<Trial> plan = make_plan({}, protocols());
+  const std::vector<Trial> plan = make_plan({}, suites::protocols());
   EXPECT_EQ(to_string(plan.front()), "9600-8N1 xgt-cnet station 1");
   EXPECT_LT(place(plan, "9600-8N1 modbus-rtu station 1"), 10);
   EXPECT_LT(place(plan, "19200-8E1 modbus-rtu station 1"), 100);
@@ -47,13 +47,13 @@ TEST(SearchPlan, AsksStation0LikeAnyOther) {
   EXPECT_THAT(texts(make_plan({.speeds = {9600},
                                .frames = {{}},
                                .stations = {0},
-                               .protocols = {protocols().find("modbus-rtu")}},
-                              protocols())),
+                               .protocols = {suites::protocols().find("modbus-rtu")}},
+                              suites::protocols())),
               testing::ElementsAre("9600-8N1 modbus-rtu station 0"));
 }
 
 TEST(SearchPlan, SendsNoBinaryBytesOverSevenBits) {
-  const auto seven = std::ranges::count_if(make_plan({}, protocols()), [](const Trial& t) {
+  const auto seven = std::ranges::count_if(make_plan({}, suites::protocols()), [](const Trial& t) {
     return t.line.data_bits == 7 && t.protocol->name() == "modbus-rtu";
   });
   EXPECT_EQ(seven, 0);
@@ -61,7 +61,8 @@ TEST(SearchPlan, SendsNoBinaryBytesOverSevenBits) {
 
 TEST(SearchPlan, WritesNothing) {
   for (const Trial& trial :
-       make_plan({.speeds = {9600}, .frames = {{}}, .stations = {}, .protocols = {}}, protocols()))
+       make_plan({.speeds = {9600}, .frames = {{}}, .stations = {}, .protocols = {}},
+                 suites::protocols()))
     EXPECT_TRUE(trial.protocol->written_by(trial.protocol->probe(trial.station, {})).empty())
         << to_string(trial);
 }
@@ -69,15 +70,16 @@ TEST(SearchPlan, WritesNothing) {
 TEST(SearchPlan, ALinkWithoutSettingsHasOne) {
   const SearchSpace space{
       .speeds = {}, .frames = {}, .stations = {}, .protocols = {}, .settable = false};
-  for (const Trial& trial : make_plan(space, protocols())) EXPECT_EQ(trial.line, LineSettings{});
+  for (const Trial& trial : make_plan(space, suites::protocols()))
+    EXPECT_EQ(trial.line, line::LineSettings{});
 }
 
 TEST(SearchPlan, SaysTheWorstCaseBeforehand) {
   const std::vector<Trial> plan = make_plan({.speeds = {9600, 1200},
                                              .frames = {{}},
                                              .stations = {1},
-                                             .protocols = {protocols().find("xgt-cnet")}},
-                                            protocols());
+                                             .protocols = {suites::protocols().find("xgt-cnet")}},
+                                            suites::protocols());
   ASSERT_EQ(plan.size(), 2u);
   const auto characters = static_cast<int>(plan[0].protocol->probe(1, {}).size());
   const Duration wire =
@@ -89,4 +91,4 @@ TEST(SearchPlan, SaysTheWorstCaseBeforehand) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
-namespace fieldproof {
+namespace fieldproof::probe {
 
 namespace {
 
@@ -53,7 +53,7 @@ Result<Search> Prober::run(std::vector<Trial> rest, bool all) {
   return std::move(search_);
 }
 
-bool Prober::known_line(const LineSettings& line) const { return contains(lines_, line); }
+bool Prober::known_line(const line::LineSettings& line) const { return contains(lines_, line); }
 
 /// True when the search has its answer.
 Result<bool> Prober::try_next(const Trial& trial, std::vector<Trial>& rest) {
@@ -72,7 +72,7 @@ Result<bool> Prober::try_next(const Trial& trial, std::vector<Trial>& rest) {
     // Someone talks: at which settings can it be read?
     std::vector<Trial> others;
     if (symptom != Symptom::silence && symptom != Symptom::foreign_frame)
-      for (const LineSettings& line : lines_) others.push_back({line});
+      for (const line::LineSettings& line : lines_) others.push_back({line});
     insert_next(rest, others);
     return symptom == Symptom::foreign_frame;
   }
@@ -106,11 +106,11 @@ void Prober::insert_next(std::vector<Trial>& rest, const std::vector<Trial>& tri
 }
 
 /// Opens the line with other settings; false when the port does not offer them.
-Result<bool> Prober::settle(const LineSettings& line) {
+Result<bool> Prober::settle(const line::LineSettings& line) {
   if (contains(refused_, line)) return false;
   if (endpoint_ && line == line_) return true;
   endpoint_.reset();
-  Result<std::unique_ptr<Endpoint>> opened = open_(line);
+  Result<std::unique_ptr<endpoints::Endpoint>> opened = open_(line);
   if (!opened) {
     if (opened.error().interrupted || opened.error().absent) return opened.error();
     if (first_refusal_.empty()) first_refusal_ = opened.error().message;
@@ -134,7 +134,7 @@ Result<Observation> Prober::observe(const Trial& trial) {
       !done)
     return done.error();
   if (trial.protocol) {
-    const Result<Sent> sent = endpoint_->send(trial.protocol->probe(trial.station, {}));
+    const Result<line::Sent> sent = endpoint_->send(trial.protocol->probe(trial.station, {}));
     if (!sent) return sent.error();
     heard.asked_until = sent->end;
     const Time until =
@@ -149,10 +149,10 @@ Result<Observation> Prober::observe(const Trial& trial) {
 
 /// Collects what comes until `until`, and behind the last byte a silence: a second device may be
 /// slower than the first.
-Status Prober::listen(Time until, std::vector<Burst>& heard) {
+Status Prober::listen(Time until, std::vector<line::Burst>& heard) {
   std::size_t size = 0;
   while (size < flood) {
-    Result<Burst> burst = endpoint_->receive(until);
+    Result<line::Burst> burst = endpoint_->receive(until);
     if (!burst) return burst.error();
     if (burst->bytes.empty()) return ok();
     until = std::max(until, burst->end() + timing_.quiet);
@@ -179,4 +179,4 @@ void Prober::keep(const Observation& observation) {
   progress_(search_.trials, std::max(total_, search_.trials), observation);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

@@ -9,10 +9,11 @@
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/probe/diagnosis.hpp"
 
-namespace fieldproof {
+namespace fieldproof::probe {
 
 /// Opens the line with these settings; the one opened before is closed by then.
-using LineOpener = std::function<Result<std::unique_ptr<Endpoint>>(const LineSettings& settings)>;
+using LineOpener =
+    std::function<Result<std::unique_ptr<endpoints::Endpoint>>(const line::LineSettings& settings)>;
 
 struct ProbeTiming {
   Duration wait = 500ms;   // for the first byte of an answer (the profiles' response_max)
@@ -33,7 +34,7 @@ struct Observation {
 struct Search {
   std::vector<Observation> observations;  // all but the silent ones, in order
   std::size_t trials = 0;                 // done, the silent ones too
-  std::vector<LineSettings> lines;        // that were tried
+  std::vector<line::LineSettings> lines;  // that were tried
   std::vector<std::string> not_offered;   // settings that the port refused, and why
   bool interrupted = false;               // Ctrl-C: not all was tried
 };
@@ -48,7 +49,7 @@ class Prober {
   using Progress =
       std::function<void(std::size_t done, std::size_t total, const Observation& last)>;
 
-  Prober(LineOpener open, const Protocols& known, ProbeTiming timing, Progress progress)
+  Prober(LineOpener open, const harness::Protocols& known, ProbeTiming timing, Progress progress)
       : open_(std::move(open)), known_(known), timing_(timing), progress_(std::move(progress)) {}
 
   /// Until the first sure find, which is asked twice more; with `all` to the end of the plan.
@@ -56,23 +57,23 @@ class Prober {
   Result<Search> run(std::vector<Trial> plan, bool all);
 
  private:
-  bool known_line(const LineSettings& line) const;
+  bool known_line(const line::LineSettings& line) const;
   void insert_next(std::vector<Trial>& rest, const std::vector<Trial>& trials);
   Result<bool> try_next(const Trial& trial, std::vector<Trial>& rest);
   Result<Observation> observe(const Trial& trial);
   Result<bool> confirm(const Trial& trial);
-  Result<bool> settle(const LineSettings& line);
-  Status listen(Time until, std::vector<Burst>& heard);
+  Result<bool> settle(const line::LineSettings& line);
+  Status listen(Time until, std::vector<line::Burst>& heard);
   void keep(const Observation& observation);
 
   LineOpener open_;
-  Protocols known_;
+  harness::Protocols known_;
   ProbeTiming timing_;
   Progress progress_;
-  std::unique_ptr<Endpoint> endpoint_;
-  LineSettings line_;
-  std::vector<LineSettings> lines_;  // of the plan
-  std::vector<LineSettings> refused_;
+  std::unique_ptr<endpoints::Endpoint> endpoint_;
+  line::LineSettings line_;
+  std::vector<line::LineSettings> lines_;  // of the plan
+  std::vector<line::LineSettings> refused_;
   std::vector<Trial> done_;
   std::string first_refusal_;
   std::size_t total_ = 0;
@@ -80,4 +81,4 @@ class Prober {
   Search search_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

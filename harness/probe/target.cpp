@@ -1,6 +1,8 @@
 #include "harness/probe/target.hpp"
 
-namespace fieldproof {
+namespace fieldproof::probe {
+
+using endpoints::EndpointName;
 
 bool is_emulator(const EndpointName& name) { return name.kind == "emulator" || name.kind == "pty"; }
 
@@ -8,9 +10,9 @@ bool has_line_settings(const EndpointName& name) {
   return name.kind == "emulator" || name.kind == "serial" || name.kind == "rfc2217";
 }
 
-EndpointName with_settings(EndpointName name, const LineSettings& line) {
+EndpointName with_settings(EndpointName name, const line::LineSettings& line) {
   if (!has_line_settings(name)) return name;
-  const std::string text = to_string(line);
+  const std::string text = line::to_string(line);
   if (is_emulator(name)) {
     name.options["bench_line"] = text;
     return name;
@@ -21,9 +23,9 @@ EndpointName with_settings(EndpointName name, const LineSettings& line) {
   return name;
 }
 
-LineOpener line_opener(const EndpointName& name, const Protocol& protocol) {
-  return [name, &protocol](const LineSettings& line) {
-    return open_endpoint(with_settings(name, line), protocol);
+LineOpener line_opener(const EndpointName& name, const harness::Protocol& protocol) {
+  return [name, &protocol](const line::LineSettings& line) {
+    return endpoints::open_endpoint(with_settings(name, line), protocol);
   };
 }
 
@@ -45,4 +47,4 @@ std::string to_string(const EndpointName& name) {
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

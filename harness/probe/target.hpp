@@ -7,23 +7,24 @@
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/probe/prober.hpp"
 
-namespace fieldproof {
+namespace fieldproof::probe {
 
 /// Does this kind of endpoint take a speed and a frame? Sockets and programs have none. (A serial
 /// port may still turn out to be a pty when it is opened.)
-bool has_line_settings(const EndpointName& name);
+bool has_line_settings(const endpoints::EndpointName& name);
 
 /// Is it our own emulator? Its options describe the device, and so they do not narrow the search.
-bool is_emulator(const EndpointName& name);
+bool is_emulator(const endpoints::EndpointName& name);
 
 /// `name` with the bench's side of the line set.
-EndpointName with_settings(EndpointName name, const LineSettings& line);
-LineOpener line_opener(const EndpointName& name, const Protocol& protocol);
+endpoints::EndpointName with_settings(endpoints::EndpointName name, const line::LineSettings& line);
+LineOpener line_opener(const endpoints::EndpointName& name, const harness::Protocol& protocol);
 
 /// `name` as it is to be used for what was found: settings, station and protocol added; an emulator
 /// has them already.
-EndpointName name_of_found(const EndpointName& name, const Trial& found, bool settable);
+endpoints::EndpointName name_of_found(const endpoints::EndpointName& name, const Trial& found,
+                                      bool settable);
 /// "serial:/dev/ttyUSB0?baud=9600&frame=8N1", as parse_endpoint reads it.
-std::string to_string(const EndpointName& name);
+std::string to_string(const endpoints::EndpointName& name);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

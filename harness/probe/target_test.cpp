@@ -3,12 +3,13 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::probe {
 namespace {
 
 std::string found(const char* endpoint, bool settable = true) {
-  const Trial trial{*parse_line_settings("38400-7E1"), protocols().find("ls-bus"), 12};
-  return to_string(name_of_found(*parse_endpoint(endpoint), trial, settable));
+  const Trial trial{*line::parse_line_settings("38400-7E1"), suites::protocols().find("ls-bus"),
+                    12};
+  return to_string(name_of_found(*endpoints::parse_endpoint(endpoint), trial, settable));
 }
 
 TEST(Target, TheFoundIsAddedToTheEndpoint) {
@@ -20,14 +21,15 @@ TEST(Target, TheFoundIsAddedToTheEndpoint) {
 }
 
 TEST(Target, AnEmulatorIsSetOnTheBenchsSide) {
-  EXPECT_EQ(to_string(with_settings(*parse_endpoint("emulator:xbc-h?line=9600-8E1"), {})),
-            "emulator:xbc-h?bench_line=9600-8N1&line=9600-8E1");
+  EXPECT_EQ(
+      to_string(with_settings(*endpoints::parse_endpoint("emulator:xbc-h?line=9600-8E1"), {})),
+      "emulator:xbc-h?bench_line=9600-8N1&line=9600-8E1");
 }
 
 TEST(Target, TheNameCanBeReadAgain) {
   const std::string text = found("serial:/dev/ttyUSB0?rs485=1");
-  EXPECT_EQ(to_string(*parse_endpoint(text)), text);
+  EXPECT_EQ(to_string(*endpoints::parse_endpoint(text)), text);
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::probe

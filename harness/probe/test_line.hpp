@@ -13,71 +13,73 @@
 #include "src/line/faults.hpp"
 #include "suites/protocols.hpp"
 
-namespace fieldproof::probe_tests {
+namespace fieldproof::probe::test {
 
-inline const Protocol& protocol_named(std::string_view name) { return *protocols().find(name); }
+inline const harness::Protocol& protocol_named(std::string_view name) {
+  return *suites::protocols().find(name);
+}
 
 /// The device that is searched.
 struct Hidden {
   std::string protocol = "xgt-cnet", model = "xbc-h";
   nlohmann::json config{{"station", 1}, {"line", "9600-8N1"}};
-  Decorator decorate{};
+  endpoints::Decorator decorate{};
 };
 
 inline LineOpener opener(const Hidden& hidden) {
-  return [hidden](const LineSettings& bench) -> Result<std::unique_ptr<Endpoint>> {
-    const Protocol* protocol = protocols().find(hidden.protocol);
-    auto endpoint = std::make_unique<EmulatorEndpoint>(
-        EndpointName{"emulator", hidden.model, {}},
+  return [hidden](const line::LineSettings& bench) -> Result<std::unique_ptr<endpoints::Endpoint>> {
+    const harness::Protocol* protocol = suites::protocols().find(hidden.protocol);
+    auto endpoint = std::make_unique<endpoints::EmulatorEndpoint>(
+        endpoints::EndpointName{"emulator", hidden.model, {}},
         [protocol](std::string_view model, const nlohmann::json& config) {
           return protocol->make_device(model, config);
         },
         hidden.decorate);
     nlohmann::json config = hidden.config;
-    config["bench_line"] = to_string(bench);
+    config["bench_line"] = line::to_string(bench);
     if (const Status begun = endpoint->begin(config); !begun) return begun.error();
-    return std::unique_ptr<Endpoint>(std::move(endpoint));
+    return std::unique_ptr<endpoints::Endpoint>(std::move(endpoint));
   };
 }
 
 /// Puts line faults between the line and the device.
-inline Decorator with_faults(const LineFaults& faults) {
-  return [faults](Device& device, const LineSettings& line) {
-    return std::make_unique<FaultyDevice>(device, faults, line.character_time());
+inline endpoints::Decorator with_faults(const line::LineFaults& faults) {
+  return [faults](line::Device& device, const line::LineSettings& line) {
+    return std::make_unique<line::FaultyDevice>(device, faults, line.character_time());
   };
 }
 
 /// Between the bench and its endpoint: what happens on the way.
-class Wire : public Endpoint {
+class Wire : public endpoints::Endpoint {
  public:
-  explicit Wire(std::unique_ptr<Endpoint> inner) : inner_(std::move(inner)) {}
+  explicit Wire(std::unique_ptr<endpoints::Endpoint> inner) : inner_(std::move(inner)) {}
 
-  const Capabilities& capabilities() const override { return inner_->capabilities(); }
+  const endpoints::Capabilities& capabilities() const override { return inner_->capabilities(); }
   std::string describe() const override { return inner_->describe(); }
   Time now() const override { return inner_->now(); }
   Duration character_time() const override { return inner_->character_time(); }
   Status begin(const nlohmann::json& config) override { return inner_->begin(config); }
-  Result<Sent> send(ByteView bytes) override { return inner_->send(bytes); }
-  Result<Burst> receive(Time deadline) override { return inner_->receive(deadline); }
+  Result<line::Sent> send(ByteView bytes) override { return inner_->send(bytes); }
+  Result<line::Burst> receive(Time deadline) override { return inner_->receive(deadline); }
   std::string line_errors() override { return inner_->line_errors(); }
 
  protected:
-  std::unique_ptr<Endpoint> inner_;
+  std::unique_ptr<endpoints::Endpoint> inner_;
 };
 
 template <typename OneWire, typename... Arguments>
 LineOpener behind(LineOpener inner, Arguments... arguments) {
-  return [=](const LineSettings& line) -> Result<std::unique_ptr<Endpoint>> {
-    Result<std::unique_ptr<Endpoint>> opened = inner(line);
+  return [=](const line::LineSettings& line) -> Result<std::unique_ptr<endpoints::Endpoint>> {
+    Result<std::unique_ptr<endpoints::Endpoint>> opened = inner(line);
     if (!opened) return opened;
-    return std::unique_ptr<Endpoint>(
+    return std::unique_ptr<endpoints::Endpoint>(
         std::make_unique<OneWire>(std::move(*opened), line, arguments...));
   };
 }
 
 inline Search run_search(const LineOpener& open, const SearchSpace& space = {}, bool all = false) {
-  Prober prober(open, protocols(), {}, [](std::size_t, std::size_t, const Observation&) {});
-  Result<Search> search = prober.run(make_plan(space, protocols()), all);
+  Prober prober(open, suites::protocols(), {}, [](std::size_t, std::size_t, const Observation&) {});
+  Result<Search> search = prober.run(make_plan(space, suites::protocols()), all);
   return search ? *search : Search{};
 }
 
@@ -93,7 +95,8 @@ inline std::vector<Finding::Kind> kinds(const std::vector<Finding>& findings) {
 
 /// One speed, one frame, stations 0 to 3: enough where the search is not what is tested.
 inline SearchSpace small_space() {
-  return {.speeds = {9600}, .frames = {LineSettings{}}, .stations = {1, 2, 3}, .protocols = {}};
+  return {
+      .speeds = {9600}, .frames = {line::LineSettings{}}, .stations = {1, 2, 3}, .protocols = {}};
 }
 
-}  // namespace fieldproof::probe_tests
+}  // namespace fieldproof::probe::test

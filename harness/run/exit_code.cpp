@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string_view>
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 std::string shell_word(const std::string& word) {
   constexpr std::string_view plain =
@@ -21,4 +21,4 @@ int complain(const std::string& message, int code) {
   return code;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

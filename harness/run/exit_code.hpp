@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 /// Exit codes, in order of precedence where several apply: usage, interrupted, trouble, failed,
 /// nothing, absent, ok.
@@ -18,4 +18,4 @@ std::string shell_word(const std::string& word);
 /// Prints "fieldproof: MESSAGE" to stderr and returns `code`.
 int complain(const std::string& message, int code);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::run {
+
+using line::LineSettings;
 
 namespace {
 
@@ -42,10 +44,11 @@ Result<std::vector<LineSettings>> parse_line_matrix(std::string_view text) {
   std::vector<LineSettings> steps;
   for (const std::string_view speed : parts_of(whole.substr(0, cross), all_speeds)) {
     for (const std::string_view frame : parts_of(whole.substr(cross + 1), all_frames)) {
-      const Result<LineSettings> step = parse_line_settings(fmt::format("{}-{}", speed, frame));
+      const Result<LineSettings> step =
+          line::parse_line_settings(fmt::format("{}-{}", speed, frame));
       if (!step) return wrong(step.error().message);
       if (std::ranges::find(steps, *step) != steps.end())
-        return wrong(to_string(*step) + " stands there twice");
+        return wrong(line::to_string(*step) + " stands there twice");
       steps.push_back(*step);
     }
   }
@@ -53,12 +56,12 @@ Result<std::vector<LineSettings>> parse_line_matrix(std::string_view text) {
 }
 
 std::string matrix_text(const LineSettings& step) {
-  std::string text = to_string(step);
+  std::string text = line::to_string(step);
   return text.replace(text.find('-'), 1, " x ");
 }
 
-EndpointName at_line(EndpointName endpoint, const LineSettings& step) {
-  const std::string text = to_string(step);
+endpoints::EndpointName at_line(endpoints::EndpointName endpoint, const LineSettings& step) {
+  const std::string text = line::to_string(step);
   const std::size_t dash = text.find('-');
   if (sets_device(endpoint)) endpoint.options["line"] = text;
   if (endpoint.kind != "serial" && endpoint.kind != "rfc2217") return endpoint;
@@ -67,8 +70,8 @@ EndpointName at_line(EndpointName endpoint, const LineSettings& step) {
   return endpoint;
 }
 
-bool sets_device(const EndpointName& endpoint) {
+bool sets_device(const endpoints::EndpointName& endpoint) {
   return endpoint.kind == "emulator" || endpoint.kind == "pty";
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

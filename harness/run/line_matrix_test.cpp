@@ -2,14 +2,14 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof {
+namespace fieldproof::run {
 namespace {
 
 std::string steps(std::string_view text) {
-  const Result<std::vector<LineSettings>> read = parse_line_matrix(text);
+  const Result<std::vector<line::LineSettings>> read = parse_line_matrix(text);
   if (!read) return read.error().message;
   std::string result;
-  for (const LineSettings& one : *read) result += to_string(one) + ' ';
+  for (const line::LineSettings& one : *read) result += line::to_string(one) + ' ';
   return result;
 }
 
@@ -34,10 +34,11 @@ TEST(LineMatrix, ErrorsNameThePart) {
 }
 
 TEST(LineMatrix, EachKindTakesWhatItCanSet) {
-  const LineSettings step{38400, 7, 'E', 2};
+  const line::LineSettings step{38400, 7, 'E', 2};
   EXPECT_EQ("38400-7E2", at_line({"emulator", "xbc-h", {}}, step).option("line", ""));
   EXPECT_EQ("38400-7E2", at_line({"pty", "xbc-h", {}}, step).option("line", ""));
-  const EndpointName serial = at_line({"serial", "/dev/ttyUSB0", {{"baud", "9600"}}}, step);
+  const endpoints::EndpointName serial =
+      at_line({"serial", "/dev/ttyUSB0", {{"baud", "9600"}}}, step);
   EXPECT_EQ("38400", serial.option("baud", ""));
   EXPECT_EQ("7E2", serial.option("frame", ""));
   EXPECT_TRUE(at_line({"tcp", "h:1", {}}, step).options.empty());
@@ -45,4 +46,4 @@ TEST(LineMatrix, EachKindTakesWhatItCanSet) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -7,7 +7,10 @@
 #include "harness/run/line_matrix.hpp"
 #include "harness/system/hook.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
+
+using line::LineSettings;
+using results::Verdict;
 
 namespace {
 
@@ -22,7 +25,7 @@ std::string replay_of_step(std::string replay, const LineSettings& step) {
 }  // namespace
 
 Status LineSteps::enter(std::size_t step,
-                        const std::function<Result<std::string>(Benches&)>& measure_floor) {
+                        const std::function<Result<std::string>(bench::Benches&)>& measure_floor) {
   current_ = step;
   const LineSettings& line = plan_.matrix[step];
   const Result<std::string> why = reconfigure(line, step + 1);
@@ -47,15 +50,15 @@ Status LineSteps::enter(std::size_t step,
 Result<std::string> LineSteps::reconfigure(const LineSettings& step, std::size_t number) {
   if (!quit_.empty()) return quit_;
   if (sets_device(plan_.endpoint)) return std::string();
-  const std::string text = to_string(step);
+  const std::string text = line::to_string(step);
   const std::string speed = text.substr(0, text.find('-')), frame = text.substr(text.find('-') + 1);
   if (!command_.empty()) {
-    const Status done = run_hook(command_, {speed, frame},
-                                 {{"FIELDPROOF_SPEED", speed}, {"FIELDPROOF_FRAME", frame}});
+    const Status done = os::run_hook(command_, {speed, frame},
+                                     {{"FIELDPROOF_SPEED", speed}, {"FIELDPROOF_FRAME", frame}});
     if (!done && done.error().interrupted) return done.error();
     return done ? std::string() : "not reachable: " + done.error().message;
   }
-  const Result<std::string> answer = ask(fmt::format(
+  const Result<std::string> answer = os::ask(fmt::format(
       "\nstep {} of {}: set the device to {} bit/s, {}, and let it take the setting over.\n"
       "Enter = done, s = skip this step, q = quit the matrix: ",
       number, plan_.matrix.size(), speed, frame));
@@ -68,37 +71,38 @@ Result<std::string> LineSteps::reconfigure(const LineSettings& step, std::size_t
 
 /// The port is closed before it is opened with other settings.
 Status LineSteps::open(const LineSettings& step) {
-  BenchOptions options = plan_.bench;
-  options.profile.config["line"] = to_string(step);
+  bench::BenchOptions options = plan_.bench;
+  options.profile.config["line"] = line::to_string(step);
   options.replay = replay_of_step(options.replay, step);
   benches_.close();
-  Result<Benches> opened = Benches::open(at_line(plan_.endpoint, step), plan_.protocols, options);
+  Result<bench::Benches> opened =
+      bench::Benches::open(at_line(plan_.endpoint, step), plan_.protocols, options);
   if (!opened) return opened.error();
   benches_ = std::move(*opened);
   return ok();
 }
 
 /// A case that names its own line is of one step alone, or of none.
-std::string LineSteps::names_other_line(const Case& source) const {
+std::string LineSteps::names_other_line(const vectors::Case& source) const {
   const auto line = source.config.find("line");
   if (line == source.config.end() || !line->is_string() || *line == name()) return {};
   const bool has_step = std::ranges::any_of(
-      plan_.matrix, [&](const LineSettings& one) { return to_string(one) == *line; });
+      plan_.matrix, [&](const LineSettings& one) { return line::to_string(one) == *line; });
   if (has_step || sets_device(plan_.endpoint))
     return fmt::format("names its own line, {}; this step is {}", line->get<std::string>(), name());
   return {};
 }
 
-CaseResult LineSteps::run(const Case& source) {
+results::CaseResult LineSteps::run(const vectors::Case& source) {
   if (const std::string why = names_other_line(source); !why.empty())
     return decline(source, Verdict::skip, why);
   if (!blocked_.empty()) return decline(source, Verdict::blocked, blocked_);
-  CaseResult result = benches_.run(source);
+  results::CaseResult result = benches_.run(source);
   result.line = name();
   const bool judged_well = result.verdict == Verdict::pass || result.verdict == Verdict::marginal ||
                            result.verdict == Verdict::non_strict;
   if (benches_.wire() || !judged_well) return result;
-  result.notes.push_back(fmt::format("{} but for the line: {}", to_string(result.verdict),
+  result.notes.push_back(fmt::format("{} but for the line: {}", results::to_string(result.verdict),
                                      result.message.empty() ? "as written" : result.message));
   result.verdict = Verdict::inconclusive;
   result.message = fmt::format(
@@ -108,8 +112,9 @@ CaseResult LineSteps::run(const Case& source) {
   return result;
 }
 
-CaseResult LineSteps::decline(const Case& source, Verdict verdict, const std::string& why) const {
-  CaseResult result = result_of(source);
+results::CaseResult LineSteps::decline(const vectors::Case& source, Verdict verdict,
+                                       const std::string& why) const {
+  results::CaseResult result = judging::result_of(source);
   result.line = name();
   result.verdict = verdict;
   result.message = why;
@@ -121,4 +126,4 @@ std::string LineSteps::replay(const std::string& id) const {
   return replay_of_step(plan_.bench.replay, plan_.matrix[*current_]) + shell_word(id);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -6,20 +6,22 @@
 #include "harness/run/exit_code.hpp"
 #include "harness/run/line_matrix.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
+
+using bench::Benches;
 
 namespace {
 
 Status open_journal(const RunOptions& options, DutPlan& plan) {
   if (plan.journal.empty()) return ok();
-  Result<Journal> journal = Journal::open(plan.journal);
+  Result<safety::Journal> journal = safety::Journal::open(plan.journal);
   if (!journal) return journal.error();
-  for (const JournalDevice& device : {plan.bench.device, plan.bench.aux_device}) {
+  for (const safety::JournalDevice& device : {plan.bench.device, plan.bench.aux_device}) {
     if (options.discard_journal)
       if (Status discarded = journal->discard(device); !discarded) return discarded;
-    const auto open = std::ranges::count_if(journal->open_entries(), [&](const OpenEntry& one) {
-      return is_same_device(one.device, device);
-    });
+    const auto open = std::ranges::count_if(
+        journal->open_entries(),
+        [&](const safety::OpenEntry& one) { return safety::is_same_device(one.device, device); });
     if (open > 0)
       return fail(
           fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of "
@@ -27,7 +29,7 @@ Status open_journal(const RunOptions& options, DutPlan& plan) {
                       "(or forget them: --discard-journal)",
                       device.endpoint, open, shell_word(plan.journal)));
   }
-  plan.bench.journal = std::make_shared<Journal>(std::move(*journal));
+  plan.bench.journal = std::make_shared<safety::Journal>(std::move(*journal));
   return ok();
 }
 
@@ -47,13 +49,13 @@ Result<Fixtures> Fixtures::open(const DutPlan& plan) {
         !opened)
       return opened.error();
   if (plan.stimulus.empty() || plan.stimulus == "-") return fixtures;
-  Result<std::unique_ptr<Stimulus>> stimulus = Stimulus::start(plan.stimulus);
+  Result<std::unique_ptr<exchange::Stimulus>> stimulus = exchange::Stimulus::start(plan.stimulus);
   if (!stimulus) return stimulus.error();
   fixtures.stimulus_ = std::move(*stimulus);
   return fixtures;
 }
 
-void Fixtures::give(BenchOptions& bench, const std::string& stimulus) const {
+void Fixtures::give(bench::BenchOptions& bench, const std::string& stimulus) const {
   if (aux_) bench.aux = {aux_.get(), aux_protocol_, aux_station_};
   bench.endpoint_is_stimulus = stimulus == "-";
   if (stimulus_)
@@ -62,21 +64,22 @@ void Fixtures::give(BenchOptions& bench, const std::string& stimulus) const {
     };
 }
 
-Status Fixtures::open_aux(const EndpointName& name, const JournalDevice& device,
-                          const Protocols& known) {
-  const Result<const Protocol*> protocol = known.choose(device.protocol, "");
+Status Fixtures::open_aux(const endpoints::EndpointName& name, const safety::JournalDevice& device,
+                          const harness::Protocols& known) {
+  const Result<const harness::Protocol*> protocol = known.choose(device.protocol, "");
   if (!protocol) return fail("--aux: " + protocol.error().message);
-  Result<std::unique_ptr<Protocol>> configured =
+  Result<std::unique_ptr<harness::Protocol>> configured =
       (*protocol)->configured(device.model, device.config);
   if (!configured) return fail("--aux: " + configured.error().message);
   aux_configured_ = std::move(*configured);
-  Result<std::unique_ptr<Endpoint>> endpoint = open_endpoint(name, **protocol);
+  Result<std::unique_ptr<endpoints::Endpoint>> endpoint =
+      endpoints::open_endpoint(name, **protocol);
   if (!endpoint) return fail("--aux: " + endpoint.error().message);
   aux_ = std::move(*endpoint);
   aux_protocol_ = aux_configured_ ? aux_configured_.get() : *protocol;
   aux_station_ = device.station;
   const Result<bool> alive =
-      Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
+      exchange::Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
   if (!alive) return alive.error();
   return *alive ? ok()
                 : Status(fail(fmt::format("nothing answers on --aux {} at station {}",
@@ -117,13 +120,14 @@ Result<std::vector<Benches>> open_ports(const RunPlan& plan) {
 namespace {
 
 Status take_fingerprint(DutPlan& dut, Benches& port, bool wanted) {
-  const Fingerprint& declared = dut.identity.fingerprint;
+  const bench::Fingerprint& declared = dut.identity.fingerprint;
   if (declared.empty() && !wanted) return ok();
-  Result<Fingerprint> found = port.fingerprint();
+  Result<bench::Fingerprint> found = port.fingerprint();
   if (!found && declared.empty()) return ok();
   if (!found) return found.error();
   dut.identity.fingerprint_found = std::move(*found);
-  const std::string difference = fingerprint_difference(declared, dut.identity.fingerprint_found);
+  const std::string difference =
+      bench::fingerprint_difference(declared, dut.identity.fingerprint_found);
   if (difference.empty()) return ok();
   return fail(
       fmt::format("this is not the device '{}' of the bench file: {}; connect that device, or take "
@@ -141,4 +145,4 @@ Status take_fingerprints(RunPlan& plan, std::vector<Benches>& ports, bool wanted
   return taken;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

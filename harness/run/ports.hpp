@@ -10,23 +10,24 @@
 #include "harness/exchange/stimulus.hpp"
 #include "harness/run/run_plan.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 /// What a device has besides its endpoint. Outlives its benches.
 class Fixtures {
  public:
   static Result<Fixtures> open(const DutPlan& plan);
-  void give(BenchOptions& bench, const std::string& stimulus) const;
+  void give(bench::BenchOptions& bench, const std::string& stimulus) const;
 
  private:
-  Status open_aux(const EndpointName& name, const JournalDevice& device, const Protocols& known);
+  Status open_aux(const endpoints::EndpointName& name, const safety::JournalDevice& device,
+                  const harness::Protocols& known);
 
-  std::unique_ptr<Endpoint> aux_;
-  std::unique_ptr<Protocol>
+  std::unique_ptr<endpoints::Endpoint> aux_;
+  std::unique_ptr<harness::Protocol>
       aux_configured_;  // as the profile declares it; nullptr: nothing to declare
-  const Protocol* aux_protocol_ = nullptr;
+  const harness::Protocol* aux_protocol_ = nullptr;
   int aux_station_ = 1;
-  std::unique_ptr<Stimulus> stimulus_;
+  std::unique_ptr<exchange::Stimulus> stimulus_;
 };
 
 /// Opens the journal of each device that may be written. The error says what an earlier run left,
@@ -37,10 +38,10 @@ Status open_journals(const RunOptions& options, RunPlan& plan);
 Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan);
 
 /// One port a device; the error is that of the first that cannot be opened.
-Result<std::vector<Benches>> open_ports(const RunPlan& plan);
+Result<std::vector<bench::Benches>> open_ports(const RunPlan& plan);
 
 /// Another device on the desk than the bench file has? Also looked at for a sheet to sign
 /// (`wanted`), which then shows it.
-Status take_fingerprints(RunPlan& plan, std::vector<Benches>& ports, bool wanted);
+Status take_fingerprints(RunPlan& plan, std::vector<bench::Benches>& ports, bool wanted);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -9,23 +9,23 @@
 #include "harness/vectors/fingerprint.hpp"
 #include "reports/results/shard.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 namespace {
 
 /// What the devices have in common stays in `info`, each has an entry of its own.
-void name_devices(const RunPlan& plan, const std::vector<Benches>& ports,
-                  const std::vector<std::string>& floors, RunInfo& info) {
+void name_devices(const RunPlan& plan, const std::vector<bench::Benches>& ports,
+                  const std::vector<std::string>& floors, results::RunInfo& info) {
   for (std::size_t i = 0; i < ports.size(); ++i) {
     const DutPlan& own = plan.dut(i);
-    DutInfo one{
+    results::DutInfo one{
         ports[i].describe(), {{"station", std::to_string(own.bench.station)}}, own.identity};
     if (!own.line.empty()) one.properties["line"] = own.line;
     if (i < floors.size() && !floors[i].empty()) one.properties["floor"] = floors[i];
     info.duts.push_back(std::move(one));
   }
   for (std::size_t i = 1; i < info.duts.size(); ++i) {
-    info.identity = in_common(info.identity, info.duts[i].identity);
+    info.identity = results::in_common(info.identity, info.duts[i].identity);
     info.endpoint += ", " + info.duts[i].endpoint;
   }
   info.properties.erase("station");
@@ -35,37 +35,39 @@ void name_devices(const RunPlan& plan, const std::vector<Benches>& ports,
 
 /// Tells shards of one selection from those of another.
 std::string selection(const RunPlan& plan) {
-  std::uint64_t print = empty_fingerprint;
-  for (const Case* one : plan.selected) print = extend_fingerprint(print, one->id + '\n');
+  std::uint64_t print = vectors::empty_fingerprint;
+  for (const vectors::Case* one : plan.selected)
+    print = vectors::extend_fingerprint(print, one->id + '\n');
   return fmt::format("{} cases, {:016x}", plan.selected.size(), print);
 }
 
 /// The mistakes of the manuals that the selected cases met.
-std::vector<ErratumInfo> errata(const RunPlan& plan) {
+std::vector<results::ErratumInfo> errata(const RunPlan& plan) {
   std::set<std::string> selected;
-  for (const Case* one : plan.selected) selected.insert(one->vector_id);
-  std::vector<ErratumInfo> met;
-  for (const Erratum& one : plan.vectors.errata)
+  for (const vectors::Case* one : plan.selected) selected.insert(one->vector_id);
+  std::vector<results::ErratumInfo> met;
+  for (const vectors::Erratum& one : plan.vectors.errata)
     if (selected.contains(one.vector_id)) met.push_back(erratum_info(one));
   return met;
 }
 
 }  // namespace
 
-Gate gate_of(const RunOptions& options) {
+results::Gate gate_of(const RunOptions& options) {
   return {options.strict, options.fail_on_marginal, options.qualify};
 }
 
-RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vector<Benches>& ports,
-                 const std::vector<std::string>& floors) {
-  RunInfo info;
+results::RunInfo run_info(const RunOptions& options, const RunPlan& plan,
+                          const std::vector<bench::Benches>& ports,
+                          const std::vector<std::string>& floors) {
+  results::RunInfo info;
   info.tool_version = FIELDPROOF_VERSION;
   info.started = timestamp();
   info.endpoint = ports.front().describe();
   info.profile = plan.bench.profile.name;
   info.command = options.command;
   info.vectors_hash = plan.vectors.hash;
-  info.properties["gate"] = to_string(gate_of(options));
+  info.properties["gate"] = text::to_string(gate_of(options));
   info.properties["station"] = std::to_string(plan.bench.station);
   info.properties["protocol"] = ports.front().protocol_names();
   if (!plan.bench.profile.notes.empty())
@@ -80,8 +82,8 @@ RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vect
   info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan.bench.profile.response_max));
   info.identity = plan.identity;
   info.hashes = plan.hashes;
-  if (const std::optional<Shard> shard = shard_of_environment()) {
-    info.properties["shard"] = to_string(*shard);
+  if (const std::optional<results::Shard> shard = results::shard_of_environment()) {
+    info.properties["shard"] = results::to_string(*shard);
     info.properties["selection"] = selection(plan);
   }
   info.errata = errata(plan);
@@ -89,4 +91,4 @@ RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vect
   return info;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

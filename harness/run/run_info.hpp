@@ -9,12 +9,13 @@
 #include "reports/results/case_result.hpp"
 #include "reports/text/tally.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
-Gate gate_of(const RunOptions& options);
+results::Gate gate_of(const RunOptions& options);
 
 /// `floors`: what the link of each port can show, in words; empty before it is measured.
-RunInfo run_info(const RunOptions& options, const RunPlan& plan, const std::vector<Benches>& ports,
-                 const std::vector<std::string>& floors);
+results::RunInfo run_info(const RunOptions& options, const RunPlan& plan,
+                          const std::vector<bench::Benches>& ports,
+                          const std::vector<std::string>& floors);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 struct RunOptions {
   std::string endpoint;  // empty: of the bench file's device, else "emulator:"
@@ -39,4 +39,4 @@ struct RunOptions {
   std::string command;  // as typed, for reports
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

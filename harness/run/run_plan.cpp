@@ -16,7 +16,12 @@
 #include "reports/results/sha256.hpp"
 #include "src/base/duration.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
+
+using endpoints::EndpointName;
+using harness::DataPaths;
+using harness::Protocol;
+using vectors::Case;
 
 namespace {
 
@@ -27,7 +32,8 @@ bool is_emulated(const EndpointName& endpoint) {
 }
 
 /// A model without a profile of its own: what a user-defined frame file describes.
-bool is_bare_model(const EndpointName& endpoint, const DataPaths& data, const Protocols& known) {
+bool is_bare_model(const EndpointName& endpoint, const DataPaths& data,
+                   const harness::Protocols& known) {
   if (endpoint.target.empty() || fs::exists(data.profiles / (endpoint.target + ".json")))
     return false;
   const Result<const Protocol*> protocol =
@@ -37,7 +43,7 @@ bool is_bare_model(const EndpointName& endpoint, const DataPaths& data, const Pr
 
 /// The model that an endpoint emulates is its profile; a real device has one of its own.
 std::string profile_for(const RunOptions& options, const EndpointName& endpoint,
-                        const DataPaths& data, const Protocols& known) {
+                        const DataPaths& data, const harness::Protocols& known) {
   if (!options.profile.empty()) return options.profile;
   if (is_emulated(endpoint))
     return endpoint.target.empty() || is_bare_model(endpoint, data, known) ? "emulator"
@@ -67,10 +73,10 @@ std::string replay_command(const RunOptions& options) {
   return command + " --filter ";
 }
 
-Result<BenchOptions> bench_options(const RunOptions& options, const EndpointName& endpoint,
-                                   const std::string& profile_name, const DataPaths& data) {
-  BenchOptions bench;
-  Result<Profile> profile = load_profile(profile_name, data.profiles);
+Result<bench::BenchOptions> bench_options(const RunOptions& options, const EndpointName& endpoint,
+                                          const std::string& profile_name, const DataPaths& data) {
+  bench::BenchOptions bench;
+  Result<bench::Profile> profile = bench::load_profile(profile_name, data.profiles);
   if (!profile) return profile.error();
   bench.profile = std::move(*profile);
   if (is_emulated(endpoint) && bench.profile.model.empty())
@@ -78,7 +84,7 @@ Result<BenchOptions> bench_options(const RunOptions& options, const EndpointName
   for (const std::string& range : options.allow_write)
     if (Status allowed = bench.fence.allow(range); !allowed) return allowed.error();
   nlohmann::json station{{"station", endpoint.option("station", "1")}};
-  const std::optional<int> number = config_station(station, 1);
+  const std::optional<int> number = vectors::config_station(station, 1);
   if (!number)
     return fail(
         fmt::format("station '{}' is not a number from 0 to 255", endpoint.option("station", "1")));
@@ -92,12 +98,12 @@ Result<BenchOptions> bench_options(const RunOptions& options, const EndpointName
 /// says otherwise. Endpoint, station and line go together.
 Result<RunOptions> with_bench_device(RunOptions options, const std::string& dut, DutPlan& plan) {
   if (!dut.empty()) {
-    const Result<BenchFile> file = load_bench_file(options.bench);
+    const Result<bench::BenchFile> file = bench::load_bench_file(options.bench);
     if (!file) return file.error();
-    const Result<BenchDevice> device = find_device(*file, dut);
+    const Result<bench::BenchDevice> device = bench::find_device(*file, dut);
     if (!device) return device.error();
     if (options.endpoint.empty()) {
-      options.endpoint = endpoint_of(*device);
+      options.endpoint = bench::endpoint_of(*device);
       plan.line = device->line;
     }
     if (options.profile.empty()) options.profile = device->profile;
@@ -121,17 +127,17 @@ Status read_timing_options(const RunOptions& options, RunPlan& plan) {
     const bool plain = options.floor.find_first_not_of("0123456789.") == std::string::npos;
     const Result<Duration> floor = parse_duration(plain ? options.floor + "ms" : options.floor);
     if (!floor) return fail("--floor: " + floor.error().message);
-    plan.floor = AdapterFloor{AdapterFloor::Source::by_hand, *floor};
+    plan.floor = bench::AdapterFloor{bench::AdapterFloor::Source::by_hand, *floor};
   }
   if (!options.loop.empty()) {
     if (plan.floor)
       return fail("--floor and --loop exclude each other: the floor is given, or it is measured");
-    const Result<EndpointName> loop = parse_endpoint(options.loop);
+    const Result<EndpointName> loop = endpoints::parse_endpoint(options.loop);
     if (!loop) return fail("--loop: " + loop.error().message);
     plan.loop = *loop;
   }
   if (!options.matrix.empty()) {
-    Result<std::vector<LineSettings>> steps = parse_line_matrix(options.matrix);
+    Result<std::vector<line::LineSettings>> steps = parse_line_matrix(options.matrix);
     if (!steps) return steps.error();
     plan.matrix = std::move(*steps);
     if (!sets_device(plan.endpoint) && options.reconfigure.empty() && !isatty(STDIN_FILENO))
@@ -156,12 +162,12 @@ Status read_timing_options(const RunOptions& options, RunPlan& plan) {
 Status hash_files(const fs::path& vectors, const std::string& profile, const DataPaths& data,
                   std::map<std::string, std::string>& hashes) {
   const std::pair<std::string, fs::path> files[] = {
-      {"tool", own_executable()},
+      {"tool", harness::own_executable()},
       {"vectors", vectors},
-      {"profile " + profile, profile_path(profile, data.profiles)},
+      {"profile " + profile, bench::profile_path(profile, data.profiles)},
       {"profiles folder", data.profiles}};  // what a profile extends
   for (const auto& [name, path] : files) {
-    Result<std::string> hash = sha256_of_tree(path);
+    Result<std::string> hash = results::sha256_of_tree(path);
     if (!hash) return hash.error();
     hashes[name] = std::move(*hash);
   }
@@ -205,25 +211,25 @@ std::string journal_path(const RunOptions& options, const std::string& dut) {
 }
 
 /// `profile` becomes the name of the device's profile.
-Result<DutPlan> make_dut_plan(const RunOptions& given, const Protocols& known,
+Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols& known,
                               const std::string& dut, const std::vector<const Case*>& selected,
                               std::string& profile) {
   DutPlan plan;
   plan.known = known;
-  const DataPaths data = find_data();
+  const DataPaths data = harness::find_data();
   const Result<RunOptions> options = with_bench_device(given, dut, plan);
   if (!options) return options.error();
-  Result<EndpointName> endpoint = parse_endpoint(options->endpoint);
+  Result<EndpointName> endpoint = endpoints::parse_endpoint(options->endpoint);
   if (!endpoint) return endpoint.error();
   plan.endpoint = std::move(*endpoint);
   if (const std::string stable =
-          plan.endpoint.kind == "serial" ? stable_name(plan.endpoint.target) : "";
+          plan.endpoint.kind == "serial" ? os::stable_name(plan.endpoint.target) : "";
       !stable.empty())
     complain(fmt::format("{} may be another adapter next time; its stable name is {}",
                          plan.endpoint.target, stable),
              0);
   profile = profile_for(*options, plan.endpoint, data, known);
-  Result<BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data);
+  Result<bench::BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data);
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
   plan.bench.device = {options->endpoint, plan.bench.station, "", plan.bench.profile.model,
@@ -233,14 +239,14 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const Protocols& known,
   Result<std::vector<const Protocol*>> spoken = protocols_of(plan, selected);
   if (!spoken) return spoken.error();
   plan.protocols = std::move(*spoken);
-  if (std::ranges::all_of(selected, [](const Case* one) { return is_client_case(*one); }))
+  if (std::ranges::all_of(selected, [](const Case* one) { return vectors::is_client_case(*one); }))
     plan.bench.client_cases = selected;
   plan.stimulus = options->stimulus;
   if (!options->aux.empty()) {
-    Result<EndpointName> aux = parse_endpoint(options->aux);
+    Result<EndpointName> aux = endpoints::parse_endpoint(options->aux);
     if (!aux) return fail("--aux: " + aux.error().message);
     const std::optional<int> station =
-        config_station({{"station", aux->option("station", "1")}}, 1);
+        vectors::config_station({{"station", aux->option("station", "1")}}, 1);
     if (!station)
       return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255",
                               aux->option("station", "1")));
@@ -248,7 +254,8 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const Protocols& known,
                              plan.bench.profile.model, plan.bench.profile.config};
     plan.aux = std::move(*aux);
   }
-  if (const Status checked = check_fingerprint(plan.identity.fingerprint, *plan.protocols.front());
+  if (const Status checked =
+          bench::check_fingerprint(plan.identity.fingerprint, *plan.protocols.front());
       !checked)
     return fail(fmt::format("cannot use bench file {}: devices.{}: {}", given.bench, dut,
                             checked.error().message));
@@ -256,7 +263,8 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const Protocols& known,
 }
 
 /// Devices that share the cases must be alike for them: which one takes a case is chance.
-Status check_alike(const DutPlan& first, const DutPlan& other, const std::vector<Waiver>& waivers) {
+Status check_alike(const DutPlan& first, const DutPlan& other,
+                   const std::vector<bench::Waiver>& waivers) {
   const auto differ = [&](const std::string& what, const std::string& a, const std::string& b) {
     return fail(
         fmt::format("cannot share the cases between {} and {}: {} {} and {}; run them apart",
@@ -268,7 +276,7 @@ Status check_alike(const DutPlan& first, const DutPlan& other, const std::vector
   if (first.protocols != other.protocols)
     return differ("they speak", std::string(first.protocols.front()->name()),
                   std::string(other.protocols.front()->name()));
-  const bool by_firmware = std::ranges::any_of(waivers, [](const Waiver& one) {
+  const bool by_firmware = std::ranges::any_of(waivers, [](const bench::Waiver& one) {
     return !one.firmware_from.empty() || !one.firmware_to.empty();
   });
   if (by_firmware && first.identity.firmware != other.identity.firmware)
@@ -292,17 +300,17 @@ Status check_duts(const RunOptions& options) {
 
 }  // namespace
 
-Result<RunPlan> make_run_plan(const RunOptions& options, const Protocols& known) {
+Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocols& known) {
   RunPlan plan;
   if (const Status duts = check_duts(options); !duts) return duts.error();
-  Result<std::vector<Waiver>> waivers = load_waivers(options.waivers);
+  Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);
-  Result<VectorSet> loaded = load_sound_vectors(options.vectors);
+  Result<vectors::VectorSet> loaded = load_sound_vectors(options.vectors);
   if (!loaded) return loaded.error();
   plan.vectors = std::move(*loaded);
   for (const Case& one : plan.vectors.cases)
-    if (matches_filter(one.id, options.filter) && has_role(one, options.role))
+    if (vectors::matches_filter(one.id, options.filter) && vectors::has_role(one, options.role))
       plan.selected.push_back(&one);
   std::string profile;
   Result<DutPlan> first = make_dut_plan(
@@ -316,16 +324,17 @@ Result<RunPlan> make_run_plan(const RunOptions& options, const Protocols& known)
     plan.others.push_back(std::move(*other));
   }
   if (const Status read = read_timing_options(options, plan); !read) return read.error();
-  if (const std::vector<std::string> lost = unknown_targets(plan.waivers, case_ids(plan.vectors));
+  if (const std::vector<std::string> lost =
+          bench::unknown_targets(plan.waivers, case_ids(plan.vectors));
       !lost.empty())
     return fail(fmt::format("cannot use waivers {}: {}; remove or correct them", options.waivers,
                             fmt::join(lost, ", ")));
   if (options.qualify)
     if (const Status hashed =
-            hash_files(vectors_path(options.vectors), profile, find_data(), plan.hashes);
+            hash_files(vectors_path(options.vectors), profile, harness::find_data(), plan.hashes);
         !hashed)
       return hashed.error();
   return plan;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -13,31 +13,32 @@
 #include "harness/vectors/loader.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 /// One device and how it is reached.
 struct DutPlan {
-  EndpointName endpoint;
-  Protocols known{{}};                     // that there are
-  std::vector<const Protocol*> protocols;  // what the endpoint speaks, at least one
-  BenchOptions bench;
+  endpoints::EndpointName endpoint;
+  harness::Protocols known{{}};                     // that there are
+  std::vector<const harness::Protocol*> protocols;  // what the endpoint speaks, at least one
+  bench::BenchOptions bench;
   std::string stimulus;  // as --stimulus takes it
-  std::optional<EndpointName> aux;
-  Identity identity;    // of the bench file's device
-  std::string line;     // as the bench file declares it
-  std::string journal;  // of a real device that may be written; empty: none
+  std::optional<endpoints::EndpointName> aux;
+  results::Identity identity;  // of the bench file's device
+  std::string line;            // as the bench file declares it
+  std::string journal;         // of a real device that may be written; empty: none
 };
 
 struct RunPlan : DutPlan {
   std::vector<DutPlan>
       others;  // further devices, of the same profile and protocols: all share the cases
-  std::vector<Waiver> waivers;
-  VectorSet vectors;
-  std::vector<const Case*> selected;  // into `vectors`
-  std::vector<LineSettings> matrix;   // --matrix: steps of the line; empty: there is none
-  std::optional<AdapterFloor> floor;  // --floor
-  std::optional<EndpointName> loop;  // --loop: where an emulator answers over the same kind of link
-  Duration soak{};                   // --duration; 0: no soak
+  std::vector<bench::Waiver> waivers;
+  vectors::VectorSet vectors;
+  std::vector<const vectors::Case*> selected;  // into `vectors`
+  std::vector<line::LineSettings> matrix;      // --matrix: steps of the line; empty: there is none
+  std::optional<bench::AdapterFloor> floor;    // --floor
+  std::optional<endpoints::EndpointName>
+      loop;         // --loop: where an emulator answers over the same kind of link
+  Duration soak{};  // --duration; 0: no soak
   std::map<std::string, std::string> hashes;  // with --qualify: SHA-256 of tool, vectors, profile
 
   /// By the number of its port: this one, then `others`.
@@ -45,6 +46,6 @@ struct RunPlan : DutPlan {
 };
 
 /// Errors are the user's: they name the option, file, line or key.
-Result<RunPlan> make_run_plan(const RunOptions& options, const Protocols& known);
+Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocols& known);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -16,7 +16,7 @@
 #include "reports/junit.hpp"
 #include "reports/text/case_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 namespace {
 
@@ -47,21 +47,22 @@ Result<ReportPaths> make_report_paths(const std::string& out, const std::string&
                      {"html", path(html, "report.html")}};
 }
 
-int derive_reports(const std::string& ndjson, const ReportPaths& reports, const Gate& gate) {
+int derive_reports(const std::string& ndjson, const ReportPaths& reports,
+                   const results::Gate& gate) {
   int code = exit_code::ok;
   for (const auto& [kind, path] : reports) {
     if (kind == "results") continue;
-    const Result<Tally> written = kind == "junit"     ? write_junit(ndjson, path, gate)
-                                  : kind == "html"    ? write_html(ndjson, path, gate)
-                                  : kind == "capture" ? write_capture(ndjson, path)
-                                                      : write_json(ndjson, path);
+    const Result<text::Tally> written = kind == "junit"  ? reports::write_junit(ndjson, path, gate)
+                                        : kind == "html" ? html::write_html(ndjson, path, gate)
+                                        : kind == "capture" ? reports::write_capture(ndjson, path)
+                                                            : reports::write_json(ndjson, path);
     if (!written) code = complain(written.error().message, exit_code::trouble);
   }
   return code;
 }
 
-ConsoleOptions console_options(const Gate& gate, bool verbose) {
-  ConsoleOptions console;
+reports::ConsoleOptions console_options(const results::Gate& gate, bool verbose) {
+  reports::ConsoleOptions console;
   console.gate = gate;
   console.verbose = verbose;
   console.terminal = isatty(STDOUT_FILENO) != 0;
@@ -72,32 +73,32 @@ ConsoleOptions console_options(const Gate& gate, bool verbose) {
   return console;
 }
 
-Result<RunReport> RunReport::create(ReportPaths paths, const ConsoleOptions& console) {
-  Result<NdjsonWriter> writer = NdjsonWriter::create(paths.front().second);
+Result<RunReport> RunReport::create(ReportPaths paths, const reports::ConsoleOptions& console) {
+  Result<results::NdjsonWriter> writer = results::NdjsonWriter::create(paths.front().second);
   if (!writer) return writer.error();
   return RunReport(std::move(paths), console, std::move(*writer));
 }
 
-Status RunReport::begin(const RunInfo& info) {
+Status RunReport::begin(const results::RunInfo& info) {
   if (Status written = writer_.write(info); !written) return written;
-  print(run_head(info));
+  print(reports::run_head(info));
   return ok();
 }
 
-bool RunReport::add(const CaseResult& result, bool written) {
+bool RunReport::add(const results::CaseResult& result, bool written) {
   tally_.add(result.verdict);
   timing_.add(result);
-  if (gates(result.verdict, console_.gate) && red_.size() < most_red)
-    red_.push_back(case_label(result));
+  if (results::gates(result.verdict, console_.gate) && red_.size() < most_red)
+    red_.push_back(text::case_label(result));
   if (!written) return true;
-  if (const std::string text = case_report(result, console_); !text.empty())
+  if (const std::string text = reports::case_report(result, console_); !text.empty())
     print(progress_.erase() + text);
   return keep(writer_.write(result));
 }
 
-bool RunReport::add(const SoakSample& sample) { return keep(writer_.write(sample)); }
+bool RunReport::add(const results::SoakSample& sample) { return keep(writer_.write(sample)); }
 
-bool RunReport::add(const SoakSummary& soak) {
+bool RunReport::add(const results::SoakSummary& soak) {
   soak_ = soak;
   return keep(writer_.write(soak));
 }
@@ -112,13 +113,13 @@ int RunReport::code(const End& end) const {
   if (!end.trouble.empty() || !write_trouble_.empty()) return exit_code::trouble;
   // GoogleTest deals the cases out to shards; one of them may get none.
   const bool empty_shard = tally_.total() == 0 && std::getenv("GTEST_TOTAL_SHARDS");
-  const int code = empty_shard ? exit_code::ok : gate_exit_code(tally_, console_.gate, false);
+  const int code = empty_shard ? exit_code::ok : text::gate_exit_code(tally_, console_.gate, false);
   if (end.worse && code != exit_code::trouble) return exit_code::failed;
   return code == exit_code::ok && !end.not_restored.empty() ? exit_code::trouble : code;
 }
 
 int RunReport::finish(const End& end) {
-  Summary summary;
+  reports::Summary summary;
   summary.tally = tally_;
   summary.end.finished = timestamp();
   summary.end.seconds =
@@ -138,7 +139,7 @@ int RunReport::finish(const End& end) {
     complain(written.error().message, 0);
   const int report_code = derive_reports(paths_.front().second, paths_, console_.gate);
   if (!end.trouble.empty()) complain(end.trouble, 0);
-  print(run_summary(summary, console_));
+  print(reports::run_summary(summary, console_));
   if (!end.not_restored.empty()) complain(end.not_restored, 0);
   const int run_code = summary.end.exit_code;
   return run_code == exit_code::ok || run_code == exit_code::nothing
@@ -146,4 +147,4 @@ int RunReport::finish(const End& end) {
              : run_code;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

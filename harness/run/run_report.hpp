@@ -9,7 +9,7 @@
 #include "reports/console.hpp"
 #include "reports/results/ndjson.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 /// Kind and path: {"results", "out/results.ndjson"}, {"json", ...}, {"junit", ...}. The first is
 /// what the others derive from.
@@ -21,27 +21,28 @@ Result<ReportPaths> make_report_paths(const std::string& out, const std::string&
                                       const std::string& junit, const std::string& html);
 
 /// Derives the reports from the results; 0, or the exit code of what went wrong (and was said).
-int derive_reports(const std::string& ndjson, const ReportPaths& reports, const Gate& gate);
+int derive_reports(const std::string& ndjson, const ReportPaths& reports,
+                   const results::Gate& gate);
 
 /// As the terminal is.
-ConsoleOptions console_options(const Gate& gate, bool verbose);
+reports::ConsoleOptions console_options(const results::Gate& gate, bool verbose);
 
 void print(const std::string& text);
 
 class RunReport {
  public:
   /// Begins the file of results. Errors name it.
-  static Result<RunReport> create(ReportPaths paths, const ConsoleOptions& console);
+  static Result<RunReport> create(ReportPaths paths, const reports::ConsoleOptions& console);
 
   /// Writes and prints what the run is about.
-  Status begin(const RunInfo& info);
+  Status begin(const results::RunInfo& info);
   void show_progress(std::size_t total, const std::string& next_id) {
     print(progress_.line(tally_, total, next_id, std::chrono::steady_clock::now() - started_));
   }
   /// False: it could not be written, stop here. A soak counts most of its results and writes few.
-  bool add(const CaseResult& result, bool written = true);
-  bool add(const SoakSample& sample);
-  bool add(const SoakSummary& soak);
+  bool add(const results::CaseResult& result, bool written = true);
+  bool add(const results::SoakSample& sample);
+  bool add(const results::SoakSummary& soak);
   /// A line for the engineer between the cases.
   void say(const std::string& line) { print(progress_.erase() + line + '\n'); }
 
@@ -56,15 +57,15 @@ class RunReport {
   /// Writes the end and the reports, prints the summary; the exit code of the run.
   int finish(const End& end);
 
-  const Tally& tally() const { return tally_; }
-  const Gate& gate() const { return console_.gate; }
+  const text::Tally& tally() const { return tally_; }
+  const results::Gate& gate() const { return console_.gate; }
   const ReportPaths& paths() const { return paths_; }
   void add_path(const std::string& kind, const std::string& path) {
     other_paths_.emplace_back(kind, path);
   }
 
  private:
-  RunReport(ReportPaths paths, const ConsoleOptions& console, NdjsonWriter writer)
+  RunReport(ReportPaths paths, const reports::ConsoleOptions& console, results::NdjsonWriter writer)
       : paths_(std::move(paths)),
         console_(console),
         progress_(console),
@@ -72,16 +73,16 @@ class RunReport {
   int code(const End& end) const;
 
   ReportPaths paths_, other_paths_;
-  ConsoleOptions console_;
-  Progress progress_;
-  NdjsonWriter writer_;
+  reports::ConsoleOptions console_;
+  reports::Progress progress_;
+  results::NdjsonWriter writer_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  Tally tally_;
-  TimingTable timing_;
-  std::optional<SoakSummary> soak_;
+  text::Tally tally_;
+  text::TimingTable timing_;
+  std::optional<results::SoakSummary> soak_;
   std::vector<std::string> red_;
   bool keep(const Status& written);
   std::string write_trouble_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -8,7 +8,7 @@
 #include "harness/judge/judge.hpp"
 #include "harness/system/interrupt.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 SharedRun::SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult on_result)
     : ports_(std::move(ports)), on_result_(std::move(on_result)), tasks_(std::move(tasks)) {}
@@ -25,8 +25,8 @@ void SharedRun::execute() {
       report({task.source, task.repeat}, *task.earlier);
       continue;
     }
-    CaseResult result = result_of(*task.source);
-    result.verdict = Verdict::blocked;
+    results::CaseResult result = judging::result_of(*task.source);
+    result.verdict = results::Verdict::blocked;
     result.message = fmt::format("no port is left: {}", fmt::join(stops_, "; "));
     report(task, std::move(result));
   }
@@ -40,10 +40,10 @@ void SharedRun::serve(const Port& port) {
     if (!error.interrupted) troubles_.push_back(stops_.back());
   };
   if (!port.unable.empty()) return cannot("", Error{port.unable});
-  Watchdog watchdog;
+  bench::Watchdog watchdog;
   for (Task task; take(task);)
     if (!run(port, task, watchdog)) return;
-  if (fieldproof::interrupted()) return;
+  if (fieldproof::os::interrupted()) return;
   if (const Status still = port.benches->start(); !still)
     cannot("after the last case: ", still.error());
 }
@@ -59,15 +59,15 @@ bool SharedRun::take(Task& task) {
   return true;
 }
 
-bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
+bool SharedRun::run(const Port& port, const Task& task, bench::Watchdog& watchdog) {
   watchdog.watch(task.source->id);
   const auto started = std::chrono::steady_clock::now();
-  CaseResult result = port.benches->run(*task.source);
+  results::CaseResult result = port.benches->run(*task.source);
   result.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   result.dut = port.name;
   const bool hung = watchdog.done();
-  const bool ended = fieldproof::interrupted() && !hung;
+  const bool ended = fieldproof::os::interrupted() && !hung;
   const bool failed = !ended && (hung || port.benches->port_failed());
   const bool lost = failed && !hung && !task.earlier;
   const bool done = ended || hung || !port.benches->stopped().empty();
@@ -91,7 +91,7 @@ bool SharedRun::run(const Port& port, const Task& task, Watchdog& watchdog) {
   return !done;
 }
 
-void SharedRun::report(const Task& task, CaseResult result) {
+void SharedRun::report(const Task& task, results::CaseResult result) {
   result.repeat = task.repeat;
   if (task.earlier)
     result.notes.push_back(fmt::format("begun on {}, whose port failed", task.earlier->dut));
@@ -103,4 +103,4 @@ void SharedRun::report(const Task& task, CaseResult result) {
   changed_.notify_all();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -13,22 +13,22 @@
 #include "harness/bench/benches.hpp"
 #include "harness/bench/watchdog.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 class SharedRun {
  public:
   struct Port {
     std::string name;  // of the device
-    Benches* benches = nullptr;
+    bench::Benches* benches = nullptr;
     std::string unable = {};  // why it did not start; empty: it answers
   };
   struct Task {
-    const Case* source = nullptr;
+    const vectors::Case* source = nullptr;
     int repeat = 0;
-    std::optional<CaseResult> earlier = {};  // of a port that failed in it
+    std::optional<results::CaseResult> earlier = {};  // of a port that failed in it
   };
   /// Takes a result, one at a time; false: stop here.
-  using OnResult = std::function<bool(const Case& source, CaseResult result)>;
+  using OnResult = std::function<bool(const vectors::Case& source, results::CaseResult result)>;
 
   SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult on_result);
 
@@ -46,8 +46,8 @@ class SharedRun {
   void serve(const Port& port);
   bool take(Task& task);
   /// False: the port is done.
-  bool run(const Port& port, const Task& task, Watchdog& watchdog);
-  void report(const Task& task, CaseResult result);
+  bool run(const Port& port, const Task& task, bench::Watchdog& watchdog);
+  void report(const Task& task, results::CaseResult result);
 
   std::vector<Port> ports_;
   OnResult on_result_;
@@ -61,4 +61,4 @@ class SharedRun {
   bool over_ = false;  // on_result_ said so
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 namespace {
 
@@ -20,14 +20,15 @@ void SoakLog::Stretch::add(const Stretch& other) {
   times.add(other.times);
 }
 
-bool SoakLog::take(const CaseResult& result, double now) {
+bool SoakLog::take(const results::CaseResult& result, double now) {
   rounds_ = std::max(rounds_, result.repeat + 1);
-  const bool judged = is_judged(result.verdict) || result.verdict == Verdict::error,
-             failed = judged && gates(result.verdict, gate_);
+  const bool judged =
+                 results::is_judged(result.verdict) || result.verdict == results::Verdict::error,
+             failed = judged && results::gates(result.verdict, gate_);
   note(result, now, judged, failed);
   OneCase& one = cases_[result.id];
   const bool first = one.counts.empty();
-  ++one.counts[std::string(to_string(result.verdict))];
+  ++one.counts[std::string(results::to_string(result.verdict))];
   for (const double ms : result.response_ms) one.times.add(ms);
   if (first) return true;
   if (!failed) return false;
@@ -39,7 +40,7 @@ bool SoakLog::take(const CaseResult& result, double now) {
   return room;
 }
 
-void SoakLog::note(const CaseResult& result, double now, bool judged, bool failed) {
+void SoakLog::note(const results::CaseResult& result, double now, bool judged, bool failed) {
   judged_ += judged;
   failed_ += failed;
   for (Stretch* stretch : {&stretch_at(now), &since_sample_}) {
@@ -65,35 +66,37 @@ SoakLog::Stretch& SoakLog::stretch_at(double now) {
   return stretches_[index];
 }
 
-std::optional<SoakSample> SoakLog::due_sample(double now) {
+std::optional<results::SoakSample> SoakLog::due_sample(double now) {
   if (now - since_sample_.from < std::max(1.0, planned_s_ / most_samples)) return std::nullopt;
   const Stretch done = std::exchange(since_sample_, {.from = now});
-  return SoakSample{done.from, now, done.judged, done.failed, figures_of(done.times)};
+  return results::SoakSample{done.from, now, done.judged, done.failed,
+                             results::figures_of(done.times)};
 }
 
 /// The stretches that begin in [from, to).
-SoakSample SoakLog::tenth(double from, double to) const {
+results::SoakSample SoakLog::tenth(double from, double to) const {
   Stretch sum;
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     const double begin = static_cast<double>(i) * length_;
     if (begin >= from && begin < to) sum.add(stretches_[i]);
   }
-  return {from, to, sum.judged, sum.failed, figures_of(sum.times)};
+  return {from, to, sum.judged, sum.failed, results::figures_of(sum.times)};
 }
 
-SoakSummary SoakLog::summary(double now) const {
-  SoakSummary summary;
+results::SoakSummary SoakLog::summary(double now) const {
+  results::SoakSummary summary;
   summary.seconds = now;
   summary.planned_s = planned_s_;
   summary.rounds = static_cast<std::uint64_t>(rounds_);
   summary.judged = judged_;
   summary.failed = failed_;
   summary.unwritten = unwritten_;
-  summary.response = figures_of(times_);
+  summary.response = results::figures_of(times_);
   summary.first = tenth(0, now / 10);
   summary.last = tenth(now * 0.9, now);
-  for (const auto& [id, one] : cases_) summary.cases[id] = {one.counts, figures_of(one.times)};
+  for (const auto& [id, one] : cases_)
+    summary.cases[id] = {one.counts, results::figures_of(one.times)};
   return summary;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

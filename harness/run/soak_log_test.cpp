@@ -4,14 +4,17 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::run {
+
+using results::Verdict;
+
 namespace {
 
 using testing::HasSubstr;
 
-CaseResult repetition(const std::string& id, int repeat, Verdict verdict = Verdict::pass,
-                      std::vector<double> ms = {1}) {
-  CaseResult result;
+results::CaseResult repetition(const std::string& id, int repeat, Verdict verdict = Verdict::pass,
+                               std::vector<double> ms = {1}) {
+  results::CaseResult result;
   result.id = id;
   result.repeat = repeat;
   result.verdict = verdict;
@@ -26,7 +29,7 @@ TEST(SoakLog, TheFirstOfEachCaseAndFailuresAreWritten) {
   EXPECT_FALSE(log.take(repetition("a", 1), 1));
   EXPECT_TRUE(log.take(repetition("a", 2, Verdict::fail), 2));
   EXPECT_FALSE(log.take(repetition("a", 3, Verdict::non_strict), 3));
-  const SoakSummary summary = log.summary(4);
+  const results::SoakSummary summary = log.summary(4);
   EXPECT_EQ(4u, summary.rounds);
   EXPECT_EQ(4u, summary.judged) << "a skipped case is no repetition";
   EXPECT_EQ(1u, summary.failed);
@@ -44,7 +47,7 @@ TEST(SoakLog, FailuresBeyondTheRoomAreCounted) {
   EXPECT_TRUE(log.take(repetition("rare", 0), 100));
   EXPECT_TRUE(log.take(repetition("rare", 101, Verdict::fail), 101))
       << "a rare failure still has room";
-  EXPECT_THAT(soak_text(log.summary(102)), HasSubstr("79 more are counted"));
+  EXPECT_THAT(results::soak_text(log.summary(102)), HasSubstr("79 more are counted"));
 }
 
 /// From 1 ms to 2 ms over the time: the last tenth is slower than the first by about 90 %.
@@ -53,14 +56,14 @@ TEST(SoakLog, DriftIsTheLastTenthAgainstTheFirst) {
   for (int i = 0; i < 100'000; ++i)
     log.take(repetition("a", i, i < 99'000 ? Verdict::pass : Verdict::fail, {1 + i * 1e-5}),
              i * 0.01);
-  const SoakSummary summary = log.summary(1000);
+  const results::SoakSummary summary = log.summary(1000);
   EXPECT_NEAR(1.05, summary.first.response.median, 0.02);
   EXPECT_NEAR(1.95, summary.last.response.median, 0.02);
   EXPECT_NEAR(10'000, static_cast<double>(summary.first.judged), 1000)
       << "a stretch is about one percent of the time";
   EXPECT_EQ(0u, summary.first.failed);
   EXPECT_EQ(1000u, summary.last.failed);
-  EXPECT_THAT(soak_text(summary), HasSubstr("median +8"));
+  EXPECT_THAT(results::soak_text(summary), HasSubstr("median +8"));
 }
 
 /// Whenever it is interrupted, there are tenths.
@@ -68,7 +71,7 @@ TEST(SoakLog, AnInterruptedSoakHasTenthsOfItsOwn) {
   SoakLog log(28'800, {});
   for (int i = 0; i < 1000; ++i)
     log.take(repetition("a", i, Verdict::pass, {i < 500 ? 1.0 : 3.0}), i * 0.002);
-  const SoakSummary summary = log.summary(2);
+  const results::SoakSummary summary = log.summary(2);
   EXPECT_DOUBLE_EQ(1, summary.first.response.median);
   EXPECT_DOUBLE_EQ(3, summary.last.response.median);
 }
@@ -98,8 +101,8 @@ TEST(SoakLog, TheSummaryComesBackFromJson) {
   log.take(repetition("a", 0), 0);
   log.take(repetition("a", 1, Verdict::fail), 50);
   const nlohmann::json written = log.summary(60);
-  EXPECT_EQ(written, nlohmann::json(written.get<SoakSummary>()));
+  EXPECT_EQ(written, nlohmann::json(written.get<results::SoakSummary>()));
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::run

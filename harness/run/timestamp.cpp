@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 std::string timestamp() {
   const std::time_t now = std::time(nullptr);
@@ -12,4 +12,4 @@ std::string timestamp() {
   return stamp.insert(stamp.size() - 2, ":");  // ISO 8601 writes +01:00
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

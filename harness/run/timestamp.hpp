@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 /// Local time with its zone, as ISO 8601 writes it: "2026-01-31T12:00:00+01:00".
 std::string timestamp();
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

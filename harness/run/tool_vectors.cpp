@@ -5,14 +5,15 @@
 
 #include "harness/paths.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 std::filesystem::path vectors_path(const std::string& option) {
-  return option.empty() ? find_data().vectors : std::filesystem::path(option);
+  return option.empty() ? harness::find_data().vectors : std::filesystem::path(option);
 }
 
-Result<VectorSet> load_sound_vectors(const std::string& option) {
-  VectorSet vectors = load_vectors(vectors_path(option), find_data().vectors / "schema.json");
+Result<vectors::VectorSet> load_sound_vectors(const std::string& option) {
+  vectors::VectorSet vectors =
+      vectors::load_vectors(vectors_path(option), harness::find_data().vectors / "schema.json");
   if (vectors.problems.empty()) return vectors;
   return fail(fmt::format(
       "{}\n{} in the vectors; nothing was sent. `fieldproof lint` shows them all",
@@ -21,15 +22,15 @@ Result<VectorSet> load_sound_vectors(const std::string& option) {
                                    : fmt::format("{} problems", vectors.problems.size())));
 }
 
-std::vector<std::string> case_ids(const VectorSet& set) {
+std::vector<std::string> case_ids(const vectors::VectorSet& set) {
   std::vector<std::string> ids;
-  for (const Case& one : set.cases) ids.push_back(one.id);
+  for (const vectors::Case& one : set.cases) ids.push_back(one.id);
   return ids;
 }
 
-ErratumInfo erratum_info(const Erratum& erratum) {
+results::ErratumInfo erratum_info(const vectors::Erratum& erratum) {
   return {erratum.vector_id, erratum.manual,  erratum.section,
           erratum.printed,   erratum.correct, erratum.why};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

@@ -8,16 +8,16 @@
 #include "harness/vectors/loader.hpp"
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::run {
 
 /// The folder or file that --vectors names; empty: the tool's own.
 std::filesystem::path vectors_path(const std::string& option);
 
 /// The vectors that --vectors names; the error tells each problem that they have.
-Result<VectorSet> load_sound_vectors(const std::string& option);
+Result<vectors::VectorSet> load_sound_vectors(const std::string& option);
 
-std::vector<std::string> case_ids(const VectorSet& set);
+std::vector<std::string> case_ids(const vectors::VectorSet& set);
 
-ErratumInfo erratum_info(const Erratum& erratum);
+results::ErratumInfo erratum_info(const vectors::Erratum& erratum);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::run

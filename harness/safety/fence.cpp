@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-namespace fieldproof {
+namespace fieldproof::safety {
 
 namespace {
 
@@ -65,7 +65,8 @@ Status WriteFence::allow(const std::string& ranges) {
   return ok();
 }
 
-bool WriteFence::allows(const Protocol::Written& written, std::string_view output_areas) const {
+bool WriteFence::allows(const harness::Protocol::Written& written,
+                        std::string_view output_areas) const {
   if (written.area == "?")
     return std::ranges::any_of(ranges_, [](const Range& range) { return range.area == "all"; });
   return std::ranges::any_of(allowed(written.area, output_areas), [&](const Words& words) {
@@ -93,9 +94,9 @@ std::vector<WriteFence::Words> WriteFence::allowed(std::string_view area,
   return joined;
 }
 
-std::string WriteFence::objection(const std::vector<Protocol::Written>& written,
-                                  const Protocol& protocol) const {
-  for (const Protocol::Written& one : written) {
+std::string WriteFence::objection(const std::vector<harness::Protocol::Written>& written,
+                                  const harness::Protocol& protocol) const {
+  for (const harness::Protocol::Written& one : written) {
     if (allows(one, protocol.output_areas())) continue;
     if (one.area == "?")
       return "sends a damaged write request, whose target cannot be told; allow it with "
@@ -108,4 +109,4 @@ std::string WriteFence::objection(const std::vector<Protocol::Written>& written,
   return {};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

@@ -9,7 +9,7 @@
 #include "harness/protocol.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::safety {
 
 class WriteFence {
  public:
@@ -22,8 +22,8 @@ class WriteFence {
 
   /// Empty when all of it is allowed; else what must be allowed: "writes %MW100; allow it with
   /// --allow-write M100".
-  std::string objection(const std::vector<Protocol::Written>& written,
-                        const Protocol& protocol) const;
+  std::string objection(const std::vector<harness::Protocol::Written>& written,
+                        const harness::Protocol& protocol) const;
 
   struct Words {
     std::uint32_t first = 0, last = 0;
@@ -36,9 +36,9 @@ class WriteFence {
     std::string area;  // "all" for every area
     std::uint32_t first = 0, last = 0;
   };
-  bool allows(const Protocol::Written& written, std::string_view output_areas) const;
+  bool allows(const harness::Protocol::Written& written, std::string_view output_areas) const;
 
   std::vector<Range> ranges_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

@@ -12,7 +12,7 @@
 #include "harness/endpoints/endpoint.hpp"
 #include "reports/results/file_error.hpp"
 
-namespace fieldproof {
+namespace fieldproof::safety {
 
 namespace {
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 /// Kind and target, links followed.
 std::string port_of(const std::string& endpoint) {
-  const Result<EndpointName> name = parse_endpoint(endpoint);
+  const Result<endpoints::EndpointName> name = endpoints::parse_endpoint(endpoint);
   if (!name) return endpoint;
   std::error_code failed;
   const fs::path real = fs::canonical(name->target, failed);
@@ -65,7 +65,7 @@ Result<Contents> read(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) {
     if (!fs::exists(path)) return contents;
-    return file_error("read", path, EACCES);
+    return results::file_error("read", path, EACCES);
   }
   std::string text;
   for (std::size_t number = 1; std::getline(in, text) && !in.eof(); ++number) {
@@ -98,15 +98,15 @@ Result<Journal> Journal::open(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   std::error_code failed;
   if (!folder.empty()) fs::create_directories(folder, failed);
-  UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-  if (!fd) return file_error("write", path, errno);
-  if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) return file_error("write", path, errno);
+  os::UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  if (!fd) return results::file_error("write", path, errno);
+  if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) return results::file_error("write", path, errno);
   Result<Contents> contents = read(path);
   if (!contents) return contents.error();
   const auto keep = static_cast<off_t>(contents->open.empty() ? 0 : contents->size);
-  if (::ftruncate(fd.get(), keep) != 0) return file_error("write", path, errno);
+  if (::ftruncate(fd.get(), keep) != 0) return results::file_error("write", path, errno);
   // The name of a new file must be on the disk, too.
-  const UniqueFd directory(
+  const os::UniqueFd directory(
       ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory) ::fsync(directory.get());
   Journal journal(path, std::move(fd));
@@ -119,11 +119,11 @@ Status Journal::append(const std::string& lines) {
   for (std::size_t done = 0; done < lines.size();) {
     const ssize_t count = ::write(fd_.get(), lines.data() + done, lines.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return file_error("write", path_, errno);
+    if (count < 0) return results::file_error("write", path_, errno);
     done += static_cast<std::size_t>(count);
   }
   if (::fdatasync(fd_.get()) != 0 && errno != EINVAL && errno != EROFS)
-    return file_error("write", path_, errno);
+    return results::file_error("write", path_, errno);
   return ok();
 }
 
@@ -153,4 +153,4 @@ Status Journal::discard(const JournalDevice& device) {
   return ok();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

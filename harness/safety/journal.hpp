@@ -16,7 +16,7 @@
 #include "harness/system/unique_fd.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::safety {
 
 /// How a device is reached: what `restore` needs to open it again.
 struct JournalDevice {
@@ -57,13 +57,13 @@ class Journal {
   const std::string& path() const { return path_; }
 
  private:
-  Journal(std::string path, UniqueFd fd) : path_(std::move(path)), fd_(std::move(fd)) {}
+  Journal(std::string path, os::UniqueFd fd) : path_(std::move(path)), fd_(std::move(fd)) {}
   Status append(const std::string& lines);
 
   std::string path_;
-  UniqueFd fd_;
+  os::UniqueFd fd_;
   std::vector<OpenEntry> open_;
   std::uint64_t last_number_ = 0;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace fieldproof {
+namespace fieldproof::safety {
 namespace {
 
 using testing::HasSubstr;
@@ -89,4 +89,4 @@ TEST_F(JournalTest, TwoRunsDoNotShareIt) {
 TEST_F(JournalTest, NoFileIsNothingOpen) { EXPECT_THAT(*read_journal(path_), IsEmpty()); }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

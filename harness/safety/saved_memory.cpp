@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <tuple>
 
-namespace fieldproof {
+namespace fieldproof::safety {
+
+using harness::Protocol;
 
 namespace {
 constexpr std::size_t word_digits = 4;
@@ -146,4 +148,4 @@ std::string SavedMemory::restore() {
   return problem;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

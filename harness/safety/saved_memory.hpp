@@ -10,13 +10,13 @@
 #include "harness/exchange/memory_access.hpp"
 #include "harness/safety/journal.hpp"
 
-namespace fieldproof {
+namespace fieldproof::safety {
 
 class SavedMemory {
  public:
   /// `device` is what the journal says of it. Without a journal nothing may be written.
-  SavedMemory(Endpoint& endpoint, const Protocol& protocol, Duration patience, JournalDevice device,
-              std::shared_ptr<Journal> journal)
+  SavedMemory(endpoints::Endpoint& endpoint, const harness::Protocol& protocol, Duration patience,
+              JournalDevice device, std::shared_ptr<Journal> journal)
       : protocol_(protocol),
         memory_(endpoint, protocol, patience),
         device_(std::move(device)),
@@ -25,7 +25,7 @@ class SavedMemory {
   /// Before a case: each place that is not known from an earlier case is read, and all are on the
   /// disk when this returns. Errors say why the case must not write; what could be read is in the
   /// journal then, too.
-  Status save(const std::vector<Protocol::Written>& written);
+  Status save(const std::vector<harness::Protocol::Written>& written);
   /// The last error of `save` was of the port, not of the device.
   bool port_failed() const { return port_failed_; }
   /// The device left the last read or write unanswered.
@@ -41,14 +41,15 @@ class SavedMemory {
 
  private:
   using Key = std::pair<std::string, std::size_t>;  // address and digits
-  Result<std::string> read(const Protocol::Place& place);
-  std::vector<Protocol::Place> words_of(const std::string& address, std::size_t digits) const;
-  Result<std::string> word_by_word(const Protocol::Place& place);
+  Result<std::string> read(const harness::Protocol::Place& place);
+  std::vector<harness::Protocol::Place> words_of(const std::string& address,
+                                                 std::size_t digits) const;
+  Result<std::string> word_by_word(const harness::Protocol::Place& place);
   Status write(const OpenEntry& entry, const std::string& holds);
   bool is_open(const Key& key) const;
 
-  const Protocol& protocol_;
-  MemoryAccess memory_;
+  const harness::Protocol& protocol_;
+  exchange::MemoryAccess memory_;
   JournalDevice device_;
   std::shared_ptr<Journal> journal_;
   bool port_failed_ = false, endpoint_failed_ = false;
@@ -58,6 +59,6 @@ class SavedMemory {
 
 /// `written` without overlaps, and joined where words are adjacent; what nobody can tell is left
 /// out.
-std::vector<Protocol::Written> joined(std::vector<Protocol::Written> written);
+std::vector<harness::Protocol::Written> joined(std::vector<harness::Protocol::Written> written);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

@@ -7,7 +7,16 @@
 
 #include "harness/exchange/prepared_case.hpp"
 
-namespace fieldproof {
+namespace fieldproof::safety {
+
+using harness::Protocol;
+using notation::Item;
+using notation::Notation;
+using notation::Stations;
+using results::Move;
+using vectors::Case;
+using vectors::Frame;
+using vectors::Step;
 
 namespace {
 
@@ -24,7 +33,8 @@ Stations stations_of(int station, const Protocol& protocol) {
 
 /// The first of its alternatives; open places are 0.
 Result<Bytes> bytes_of(const Notation& notation, const Stations& stations) {
-  const Result<std::vector<FrameTemplate>> templates = make_templates(notation, stations);
+  const Result<std::vector<notation::FrameTemplate>> templates =
+      notation::make_templates(notation, stations);
   if (!templates) return templates.error();
   return templates->front().bytes;
 }
@@ -80,7 +90,7 @@ bool patch(Notation& notation, const Bracket& bracket, std::size_t offset, ByteV
       else
         item.bytes[b - start] = bytes[b - offset];
     }
-    if (literal && from < to) item.text = print_bytes(item.bytes);
+    if (literal && from < to) item.text = notation::print_bytes(item.bytes);
   }
   return patched == bytes.size();
 }
@@ -293,7 +303,7 @@ Status move_frame(Frame& frame, bool reply, const std::vector<Move>& moves,
       changed = true;
     }
   }
-  if (changed) frame.text = print(frame.notation);
+  if (changed) frame.text = notation::print(frame.notation);
   if (changed) frame.wire.reset();
   return ok();
 }
@@ -368,4 +378,4 @@ std::string note_of(const Move& move, const Protocol& protocol) {
                      range(move.first + by, move.last + by));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

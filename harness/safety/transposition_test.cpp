@@ -7,7 +7,7 @@
 #include "suites/modbus/protocol.hpp"
 #include "suites/xgt_cnet/protocol.hpp"
 
-namespace fieldproof {
+namespace fieldproof::safety {
 namespace {
 
 using testing::HasSubstr;
@@ -16,12 +16,12 @@ using testing::IsEmpty;
 /// Moves one vector of the protocol into the fence, and prints what became of it.
 class Transposed {
  public:
-  Transposed(const Protocol& protocol, const std::string& allowed, const std::string& memory,
-             const std::string& steps, const std::string& more = "") {
+  Transposed(const harness::Protocol& protocol, const std::string& allowed,
+             const std::string& memory, const std::string& steps, const std::string& more = "") {
     const std::string folder = protocol.name() == "xgt-cnet" ? "xgt_cnet"
                                : protocol.name() == "ls-bus" ? "ls_bus"
                                                              : "modbus_rtu";
-    load_vector_text(
+    vectors::load_vector_text(
         R"j({"id": ")j" + folder +
             R"j(/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed", )j" + more +
             R"j("given": {"memory": {)j" + memory +
@@ -35,31 +35,32 @@ class Transposed {
                                         ? nlohmann::json{{"write_order", "address_first"}}
                                         : nlohmann::json::object();
     const auto configured = protocol.configured(protocol.models().front(), declared);
-    const Result<std::vector<Move>> moves = plan_moves(set_.cases.at(0), 1, fence, **configured);
+    const Result<std::vector<results::Move>> moves =
+        plan_moves(set_.cases.at(0), 1, fence, **configured);
     if (!moves) {
       text = moves.error().message;
       return;
     }
-    const Result<Case> moved = moved_case(set_.cases.at(0), 1, *moves, **configured);
+    const Result<vectors::Case> moved = moved_case(set_.cases.at(0), 1, *moves, **configured);
     EXPECT_TRUE(moved) << moved.error().message;
     if (!moved) return;
-    for (const Move& move : *moves) notes += note_of(move, **configured) + ";";
+    for (const results::Move& move : *moves) notes += note_of(move, **configured) + ";";
     for (const auto& [address, hex] : moved->memory) text += address + " ";
-    for (const Step& step : moved->steps) {
+    for (const vectors::Step& step : moved->steps) {
       for (const auto& [address, hex] : step.memory) text += address + " ";
-      for (const Frame& frame : step.frames) text += print(frame.notation) + " ";
+      for (const vectors::Frame& frame : step.frames) text += notation::print(frame.notation) + " ";
     }
   }
 
   std::string text, notes;
 
  private:
-  VectorSet set_;
+  vectors::VectorSet set_;
 };
 
 std::string moved(const std::string& allowed, const std::string& memory, const std::string& steps,
                   const std::string& more = "") {
-  return Transposed(xgt_cnet::protocol(), allowed, memory, steps, more).text;
+  return Transposed(xgt_cnet_suite::protocol(), allowed, memory, steps, more).text;
 }
 
 const std::string write_100 =
@@ -67,13 +68,13 @@ const std::string write_100 =
 const std::string around_100 = R"("%MW99": "1B2D", "%MW101": "4C5E")";
 
 TEST(Transposition, WhatMayBeWrittenWhereItIsStays) {
-  const Transposed stays(xgt_cnet::protocol(), "M99-M101", around_100, write_100);
+  const Transposed stays(xgt_cnet_suite::protocol(), "M99-M101", around_100, write_100);
   EXPECT_EQ(stays.notes, "");
   EXPECT_THAT(stays.text, HasSubstr("name(%MW100)"));
 }
 
 TEST(Transposition, AddressesAreReplacedThroughout) {
-  const Transposed one(xgt_cnet::protocol(), "M120-M139", R"("%MW101": "4C5E")", write_100);
+  const Transposed one(xgt_cnet_suite::protocol(), "M120-M139", R"("%MW101": "4C5E")", write_100);
   EXPECT_EQ(one.text, "%MW121 [ENQ st 'wSS' '01' name(%MW120) '5E6F' EOT BCC] %MW120 %MW121 ");
   EXPECT_EQ(one.notes, "transposed: %MW100-%MW101 to %MW120-%MW121;");
 }
@@ -134,21 +135,21 @@ TEST(Transposition, TheFlagOfAVectorStays) {
 
 TEST(Transposition, ModbusFramesMoveByTheirDataAddress) {
   const Transposed words(
-      modbus::rtu(), "M120-M139", R"("%MW100": "1111")",
+      modbus_suite::rtu(), "M120-M139", R"("%MW100": "1111")",
       R"({"send": "[st 10 00 64 00 01 02 12 34 CRC]"}, {"expect": "[st 10 00 64 00 01 CRC]"})");
   EXPECT_EQ(words.text, "%MW120 [st 10 00 'x' 00 01 02 12 34 CRC] [st 10 00 'x' 00 01 CRC] ");
   const Transposed bits(
-      modbus::rtu(), "M120-M139", R"("%MX00640": "01")",
+      modbus_suite::rtu(), "M120-M139", R"("%MX00640": "01")",
       R"({"send": "[st 05 04 00 FF 00 CRC]"}, {"expect": "[st 05 04 00 FF 00 CRC]"})");
   EXPECT_EQ(bits.text, "%MX01200 [st 05 07 80 FF 00 CRC] [st 05 07 80 FF 00 CRC] ");
 }
 
 TEST(Transposition, ParametersMoveByTheirAddress) {
-  const Transposed one(ls_bus::protocol(), "h1240-h124F", R"("1230": "1A2B")",
+  const Transposed one(ls_bus_suite::protocol(), "h1240-h124F", R"("1230": "1A2B")",
                        R"({"send": "[ENQ st 'R' '1230' '1' SUM EOT]"})");
   EXPECT_EQ(one.text, "1240 [ENQ st 'R' '1240' '1' SUM EOT] ");
   EXPECT_EQ(one.notes, "transposed: 1230 to 1240;");
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::safety

@@ -20,7 +20,7 @@
 
 #include "harness/system/system_calls.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 namespace {
 
@@ -166,4 +166,4 @@ std::string ChildProcess::how() {
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

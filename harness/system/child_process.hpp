@@ -14,7 +14,7 @@
 #include "harness/system/unique_fd.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 struct ChildOptions {
   std::vector<std::string> arguments;  // the program and its arguments
@@ -63,4 +63,4 @@ class ChildProcess final : public FarEnd {
   std::thread watcher_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

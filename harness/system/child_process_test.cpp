@@ -8,7 +8,7 @@
 #include <array>
 #include <csignal>
 
-namespace fieldproof {
+namespace fieldproof::os {
 namespace {
 
 using testing::HasSubstr;
@@ -101,4 +101,4 @@ TEST(ChildProcess, OneThatIgnoresTermIsKilled) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::os

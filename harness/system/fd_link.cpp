@@ -13,7 +13,9 @@
 #include "harness/system/interrupt.hpp"
 #include "harness/system/system_calls.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
+
+using line::Burst;
 
 namespace {
 
@@ -79,10 +81,10 @@ Error FdLink::ended(const char* verb) {
   return fail("cannot " + std::string(verb) + ' ' + name_ + ": " + far_end_->how());
 }
 
-Result<Sent> FdLink::send(ByteView bytes) {
+Result<line::Sent> FdLink::send(ByteView bytes) {
   if (interrupted()) return interrupted_error("send to", name_);
   if (far_end_ && far_end_->ended()) return ended("send to");
-  Sent sent;
+  line::Sent sent;
   sent.start = std::max(now(), sent_until_);
   sent.end = sent.start + character_time_ * static_cast<Duration::rep>(bytes.size());
   const Time give_up = sent.end + send_limit_;
@@ -179,4 +181,4 @@ Burst FdLink::arrived(ByteView bytes) {
                moment - each * static_cast<Duration::rep>(bytes.size()), each};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

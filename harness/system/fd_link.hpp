@@ -9,7 +9,7 @@
 #include "src/base/time.hpp"
 #include "src/line/device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 /// Real time of a run: nanoseconds of CLOCK_MONOTONIC since it was made.
 class RunClock {
@@ -54,17 +54,17 @@ class FdLink {
 
   /// Sends all. On a real line it returns when the last stop bit is over. Errors: interrupted, the
   /// far end is gone, or it takes no bytes (3 s).
-  Result<Sent> send(ByteView bytes);
+  Result<line::Sent> send(ByteView bytes);
 
   /// The next bytes up to `deadline` (in the past: what is there), or an empty burst. Bytes that a
   /// dead far end left behind are still handed out. Errors: interrupted, the far end is gone.
-  Result<Burst> receive(Time deadline);
+  Result<line::Burst> receive(Time deadline);
 
  private:
   Status wait_writable(Time give_up);
   Status wait_for_end(Time end);
   long read_some(Byte* buffer, std::size_t size) const;
-  Burst arrived(ByteView bytes);
+  line::Burst arrived(ByteView bytes);
   Error gone(const char* verb, int error);
   Error ended(const char* verb);
 
@@ -83,4 +83,4 @@ class FdLink {
 /// "cannot VERB NAME: interrupted", with the flag.
 Error interrupted_error(const char* verb, const std::string& name);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

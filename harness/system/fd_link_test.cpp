@@ -10,10 +10,14 @@
 #include "harness/system/pty_pair.hpp"
 #include "harness/system/test_link.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
+
+using line::Burst;
+using line::Sent;
+
 namespace {
 
-using endpoint_tests::receive_text;
+using test::receive_text;
 using testing::HasSubstr;
 
 struct Sockets {
@@ -73,7 +77,7 @@ TEST(FdLink, SaysThatASocketWasClosed) {
   sockets.far.reset();
   EXPECT_EQ(receive_text(link, "last"), "last");
   EXPECT_FALSE(link.dead());
-  EXPECT_THAT(endpoint_tests::receive_error(link).message,
+  EXPECT_THAT(test::receive_error(link).message,
               HasSubstr("cannot receive from tcp:h:1: the far end closed the connection"));
   EXPECT_TRUE(link.dead());
   const Result<Sent> sent = link.send(to_bytes("x"));
@@ -87,7 +91,7 @@ TEST(FdLink, SaysThatTheOtherEndOfAPtyIsGone) {
   ASSERT_TRUE(pty);
   FdLink link(std::move(pty->slave), "serial:/dev/x");
   pty->master.reset();
-  EXPECT_THAT(endpoint_tests::receive_error(link).message,
+  EXPECT_THAT(test::receive_error(link).message,
               HasSubstr("cannot receive from serial:/dev/x: the far end is gone"));
   const Result<Sent> sent = link.send(to_bytes("x"));
   ASSERT_FALSE(sent);
@@ -178,4 +182,4 @@ TEST(FdLink, AnInterruptEndsReceive) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -15,7 +15,7 @@
 #include "harness/system/system_calls.hpp"
 #include "harness/system/unique_fd.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 namespace {
 
@@ -92,4 +92,4 @@ Result<std::string> ask(const std::string& question) {
   }
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -8,7 +8,7 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 /// Runs `command` by the shell with `arguments` behind it, and waits for its end. Its output is the
 /// tool's stderr, its input nothing. Errors: it could not start, or its exit status is not 0;
@@ -20,4 +20,4 @@ Status run_hook(const std::string& command, const std::vector<std::string>& argu
 /// ended.
 Result<std::string> ask(const std::string& question);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -7,7 +7,7 @@
 
 #include "harness/system/interrupt.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 namespace {
 
 using testing::HasSubstr;
@@ -81,4 +81,4 @@ TEST(Hook, IsEndedByAnInterrupt) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::os

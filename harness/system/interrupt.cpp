@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 namespace {
 
@@ -83,4 +83,4 @@ int catch_hangup() {
   return fd;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -1,7 +1,7 @@
 // Ctrl-C and SIGTERM as something that a wait can wait for. One for the whole process.
 #pragma once
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 /// From now on SIGINT and SIGTERM end waits instead of the process; a second one of the same kind
 /// ends the process, so that a hanging bench can still be left.
@@ -23,4 +23,4 @@ void clear_interrupt();
 /// empties it.
 int catch_hangup();
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

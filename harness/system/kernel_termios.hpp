@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 /// struct termios2 of the kernel.
 struct KernelTermios {
@@ -29,4 +29,4 @@ constexpr std::uint32_t speed_mask = 0x0000100F;  // CBAUD
 constexpr std::uint32_t any_speed = 0x00001000;   // BOTHER: the speed stands in the speed fields
 constexpr int input_speed_shift = 16;             // IBSHIFT
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -8,7 +8,7 @@
 
 #include "harness/system/system_calls.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 Result<LinePipe> open_line_pipe() {
   // A socket pair: writing to one that was closed raises no signal.
@@ -31,4 +31,4 @@ bool write_line(int fd, const std::string& line) {
   return true;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

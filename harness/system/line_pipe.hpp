@@ -6,7 +6,7 @@
 #include "harness/system/unique_fd.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 struct LinePipe {
   UniqueFd bench;  // written
@@ -19,4 +19,4 @@ Result<LinePipe> open_line_pipe();
 /// long.
 bool write_line(int fd, const std::string& line);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -19,7 +19,7 @@
 #include "harness/system/port_user.hpp"
 #include "harness/system/system_calls.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 namespace {
 
@@ -184,4 +184,4 @@ PortLock::~PortLock() {
   }
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

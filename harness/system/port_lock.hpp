@@ -8,7 +8,7 @@
 #include "harness/system/unique_fd.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 /// Where lock files go, the first that can be written: /var/lock, else the user's own run folder
 /// (XDG_RUNTIME_DIR).
@@ -46,4 +46,4 @@ class PortLock {
   std::string notice_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

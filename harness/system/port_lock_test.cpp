@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace fieldproof {
+namespace fieldproof::os {
 namespace {
 
 namespace fs = std::filesystem;
@@ -207,4 +207,4 @@ TEST_F(PortLocks, TheUsersOwnFolderComesSecond) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::os

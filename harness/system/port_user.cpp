@@ -8,7 +8,7 @@
 #include <system_error>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::string process_name(const std::string& process) {
   return "process " + process + (name.empty() ? "" : " (" + name + ')');
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

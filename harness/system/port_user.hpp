@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 /// " by process 1234 (minicom)" for a process that holds the lock (flock) of `path`, or else has it
 /// open; empty when /proc does not tell (another user's process).
@@ -12,4 +12,4 @@ std::string port_user(const std::string& path);
 /// "process 1234 (minicom)"
 std::string process_name(const std::string& process);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

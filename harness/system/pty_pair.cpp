@@ -10,7 +10,7 @@
 
 #include "harness/system/system_calls.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 bool set_raw(int fd) {
   termios settings{};
@@ -43,4 +43,4 @@ Result<PtyPair> open_pty_pair() {
   return pair;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -6,7 +6,7 @@
 #include "harness/system/unique_fd.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 struct PtyPair {
   UniqueFd master;   // non-blocking
@@ -26,4 +26,4 @@ bool set_raw(int fd);
 /// Drops what waits in either direction, unread or on its way; for either end of a pty.
 void drop_waiting_bytes(int fd);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -8,13 +8,13 @@
 #include "harness/system/fd_link.hpp"
 #include "harness/system/test_link.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 namespace {
 
 Bytes receive_all(FdLink& link, std::size_t size) {
   Bytes all;
   while (all.size() < size) {
-    const Result<Burst> burst = link.receive(link.now() + 5s);
+    const Result<line::Burst> burst = link.receive(link.now() + 5s);
     if (!burst || burst->bytes.empty()) break;
     all.insert(all.end(), burst->bytes.begin(), burst->bytes.end());
   }
@@ -59,10 +59,10 @@ TEST(PtyPair, DropsWhatWaitsAndWhatIsOnItsWay) {
     drop_waiting_bytes(master.fd());
     ASSERT_TRUE(master.send(to_bytes("new")));
     ASSERT_TRUE(slave.send(to_bytes("new")));
-    ASSERT_EQ(endpoint_tests::receive_text(slave, "new"), "new");
-    ASSERT_EQ(endpoint_tests::receive_text(master, "new"), "new");
+    ASSERT_EQ(test::receive_text(slave, "new"), "new");
+    ASSERT_EQ(test::receive_text(master, "new"), "new");
   }
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::os

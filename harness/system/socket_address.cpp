@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 Result<AddressInfo> resolve(const std::string& host_and_port, bool passive) {
   const std::size_t colon = host_and_port.rfind(':');
@@ -31,4 +31,4 @@ Result<AddressInfo> resolve(const std::string& host_and_port, bool passive) {
   return AddressInfo(list);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -8,7 +8,7 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 struct AddressInfoDeleter {
   void operator()(addrinfo* list) const { ::freeaddrinfo(list); }
@@ -19,4 +19,4 @@ using AddressInfo = std::unique_ptr<addrinfo, AddressInfoDeleter>;
 /// empty (all). The error is the cause alone: "there is no port; write HOST:PORT".
 Result<AddressInfo> resolve(const std::string& host_and_port, bool passive);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

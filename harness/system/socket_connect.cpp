@@ -13,7 +13,7 @@
 #include "harness/system/socket_address.hpp"
 #include "harness/system/system_calls.hpp"
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 namespace {
 
@@ -68,4 +68,4 @@ Result<UniqueFd> connect_socket(const std::string& where, int type) {
   return fd;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 std::string stable_name(const std::string& path, const std::string& folder) {
   namespace fs = std::filesystem;
@@ -16,4 +16,4 @@ std::string stable_name(const std::string& path, const std::string& folder) {
   return names.empty() ? std::string() : *std::ranges::min_element(names);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace fieldproof {
+namespace fieldproof::os {
 namespace {
 
 TEST(StableName, IsTheLinkThatLeadsToThePort) {
@@ -30,4 +30,4 @@ TEST(StableName, IsTheLinkThatLeadsToThePort) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::os

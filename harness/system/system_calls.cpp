@@ -9,7 +9,7 @@
 #include <cctype>
 #include <system_error>
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 const SystemCalls& real_system_calls() {
   static const SystemCalls calls{
@@ -35,4 +35,4 @@ std::string errno_text(int error) {
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

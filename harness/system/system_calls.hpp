@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace fieldproof {
+namespace fieldproof::os {
 
 /// Each as the system call of its name: -1 and errno on failure.
 struct SystemCalls {
@@ -21,4 +21,4 @@ const SystemCalls& real_system_calls();
 /// "permission denied"
 std::string errno_text(int error);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::os

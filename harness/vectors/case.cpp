@@ -5,7 +5,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 using nlohmann::json;
 
@@ -51,4 +51,4 @@ std::optional<std::string> expand_hex(const std::string& text) {
   return result;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

@@ -12,7 +12,7 @@
 #include "harness/notation/notation.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 struct Source {
   std::string manual, section, quote;
@@ -24,7 +24,7 @@ struct Source {
 struct Frame {
   std::string reading;  // name of the alternative; empty where there is one frame alone
   std::string text;     // notation as written
-  Notation notation;
+  notation::Notation notation;
   std::optional<std::string> wire;  // "05 30 ??"
 };
 
@@ -96,4 +96,4 @@ bool has_role(const Case& one, const std::string& role);
 /// "1234*3" and "seq(3)" written out as hex digits; nothing when not hex.
 std::optional<std::string> expand_hex(const std::string& text);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

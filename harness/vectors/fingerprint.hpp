@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 inline constexpr std::uint64_t empty_fingerprint = 0xCBF29CE484222325ull;
 
@@ -15,4 +15,4 @@ constexpr std::uint64_t extend_fingerprint(std::uint64_t fingerprint, std::strin
   return fingerprint;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

@@ -11,7 +11,7 @@
 #include "harness/notation/frame_template.hpp"
 #include "harness/vectors/fingerprint.hpp"
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 namespace {
 
@@ -31,27 +31,28 @@ std::optional<std::vector<std::string>> wire_bytes(const std::string& wire) {
   return bytes;
 }
 
-std::string compare_wire(const std::string& wire, const FrameTemplate& frame) {
+std::string compare_wire(const std::string& wire, const notation::FrameTemplate& frame) {
   const std::optional<std::vector<std::string>> written = wire_bytes(wire);
   if (!written)
     return fmt::format("wire \"{}\" is not two-digit hex bytes separated by spaces", wire);
-  const std::vector<std::string> notation = *wire_bytes(to_hex_with_holes(frame));
+  const std::vector<std::string> notation = *wire_bytes(notation::to_hex_with_holes(frame));
   const auto [a, b] = std::ranges::mismatch(*written, notation);
   if (a == written->end() && b == notation.end()) return {};
   const auto at = a - written->begin();
   return fmt::format("wire and notation differ at byte {}: wire has {}, notation has {} ({})", at,
                      a == written->end() ? "nothing" : *a, b == notation.end() ? "nothing" : *b,
-                     to_hex_with_holes(frame));
+                     notation::to_hex_with_holes(frame));
 }
 
-void lint_step(const Case& one, std::size_t index, const Stations& stations,
+void lint_step(const Case& one, std::size_t index, const notation::Stations& stations,
                std::vector<std::string>& problems) {
   for (const Frame& frame : one.steps[index].frames) {
     const auto problem = [&](const std::string& what) {
       problems.push_back(fmt::format("{}: {}: steps[{}]{}{}: {}", one.file, one.id, index,
                                      frame.reading.empty() ? "" : " ", frame.reading, what));
     };
-    const Result<std::vector<FrameTemplate>> templates = make_templates(frame.notation, stations);
+    const Result<std::vector<notation::FrameTemplate>> templates =
+        notation::make_templates(frame.notation, stations);
     if (!templates) {
       problem(templates.error().message);
     } else if (!frame.wire) {
@@ -66,7 +67,7 @@ void lint_step(const Case& one, std::size_t index, const Stations& stations,
 }
 
 /// A partner that cannot be made would only be noticed in a run.
-void lint_partner(const Case& one, std::size_t index, const Protocol& protocol,
+void lint_partner(const Case& one, std::size_t index, const harness::Protocol& protocol,
                   std::vector<std::string>& problems) {
   const std::optional<PartnerSpec>& partner = one.steps[index].partner;
   if (!partner) return;
@@ -74,7 +75,7 @@ void lint_partner(const Case& one, std::size_t index, const Protocol& protocol,
     problems.push_back(
         fmt::format("{}: {}: steps[{}] partner: {}", one.file, one.id, index, error.message));
   };
-  const Result<std::unique_ptr<EmulatedDevice>> device = protocol.make_device(
+  const Result<std::unique_ptr<plc::EmulatedDevice>> device = protocol.make_device(
       partner->model.empty() ? protocol.models().front() : partner->model, partner->config);
   if (!device) return problem(device.error());
   for (const auto& [address, hex] : partner->memory)
@@ -132,10 +133,10 @@ std::string fold_space(std::string_view text) {
   return folded;
 }
 
-std::vector<std::string> lint_wires(const VectorSet& set, const Protocols& protocols) {
+std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protocols& protocols) {
   std::vector<std::string> problems;
   for (const Case& one : set.cases) {
-    const Protocol* protocol = protocols.find(one.protocol);
+    const harness::Protocol* protocol = protocols.find(one.protocol);
     if (!protocol) {
       problems.push_back(
           fmt::format("{}: {}: no protocol '{}'; an id begins with the folder of its protocol",
@@ -147,8 +148,8 @@ std::vector<std::string> lint_wires(const VectorSet& set, const Protocols& proto
         problems.push_back(
             fmt::format("{}: {}: {} has no model '{}'", one.file, one.id, one.protocol, model));
     const int station = config_station(one.config, 1).value_or(1);
-    const Stations stations{protocol->station_bytes(station),
-                            protocol->station_bytes((station + 1) % 256)};
+    const notation::Stations stations{protocol->station_bytes(station),
+                                      protocol->station_bytes((station + 1) % 256)};
     for (std::size_t i = 0; i < one.steps.size(); ++i) {
       lint_step(one, i, stations, problems);
       lint_partner(one, i, *protocol, problems);
@@ -214,10 +215,10 @@ std::vector<std::string> lint_readings(const VectorSet& set) {
   return problems;
 }
 
-std::vector<std::string> lint_tables(const VectorSet& set, const Protocols& protocols) {
+std::vector<std::string> lint_tables(const VectorSet& set, const harness::Protocols& protocols) {
   std::vector<std::string> problems;
   for (const Case& one : set.tables) {
-    const Protocol* protocol = protocols.find(one.protocol);
+    const harness::Protocol* protocol = protocols.find(one.protocol);
     const Status fact = protocol ? protocol->check_fact(one.facts)
                                  : Status(fail(fmt::format("no protocol '{}'", one.protocol)));
     if (!fact)
@@ -292,4 +293,4 @@ std::vector<SectionCoverage> coverage(const VectorSet& set) {
   return sections;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

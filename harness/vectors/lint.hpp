@@ -11,11 +11,11 @@
 #include "harness/protocols.hpp"
 #include "harness/vectors/loader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 /// `wire` against the notation, at the station that the vector gives. Every step that the vector
 /// sends or expects has literal bytes, so that no byte of a vector can change unnoticed.
-std::vector<std::string> lint_wires(const VectorSet& set, const Protocols& protocols);
+std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protocols& protocols);
 
 /// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are
 /// unique.
@@ -26,7 +26,7 @@ std::vector<std::string> lint_statements(const VectorSet& set);
 std::vector<std::string> lint_readings(const VectorSet& set);
 
 /// Facts of kind `table` against the tables in src/.
-std::vector<std::string> lint_tables(const VectorSet& set, const Protocols& protocols);
+std::vector<std::string> lint_tables(const VectorSet& set, const harness::Protocols& protocols);
 
 /// Each quote stands in its manual's text (white space folded) and has five words or is a table
 /// row.
@@ -48,4 +48,4 @@ std::vector<SectionCoverage> coverage(const VectorSet& set);
 /// White space folded to single spaces.
 std::string fold_space(std::string_view text);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

@@ -7,21 +7,21 @@
 
 #include "harness/test_protocol.hpp"
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-struct StationOnly : TestProtocol {
+struct StationOnly : harness::TestProtocol {
   Status check_fact(const nlohmann::json& facts) const override {
     return facts.at("words") == 1024 ? ok() : Status(fail("the table has 1024 words"));
   }
 };
 
 const StationOnly protocol;
-const std::array<const Protocol*, 1> table{&protocol};
+const std::array<const harness::Protocol*, 1> table{&protocol};
 
 VectorSet with_step(const std::string& step) {
   VectorSet set;
@@ -38,7 +38,7 @@ VectorSet with_step(const std::string& step) {
 }
 
 std::vector<std::string> wires(const std::string& step) {
-  return lint_wires(with_step(step), Protocols(table));
+  return lint_wires(with_step(step), harness::Protocols(table));
 }
 
 // 000 7.1.5 (1)(b): the worked example whose BCC is A4.
@@ -68,7 +68,7 @@ TEST(LintWires, OpenPlacesStayOpenInBoth) {
 TEST(LintWires, TheModelsAreTheProtocols) {
   VectorSet set = with_step(R"j({"send": "[ENQ EOT]", "wire": "05 04"})j");
   set.cases.front().models = {"test", "tast"};
-  EXPECT_THAT(lint_wires(set, Protocols(table)),
+  EXPECT_THAT(lint_wires(set, harness::Protocols(table)),
               ElementsAre(HasSubstr("xgt_cnet/a/b: xgt-cnet has no model 'tast'")));
 }
 
@@ -127,11 +127,11 @@ TEST(LintTables, AsksTheProtocol) {
   VectorSet set = with_step(R"j({"silence": true})j");
   set.tables = set.cases;
   set.tables[0].facts = {{"words", 1024}};
-  EXPECT_THAT(lint_tables(set, Protocols(table)), IsEmpty());
+  EXPECT_THAT(lint_tables(set, harness::Protocols(table)), IsEmpty());
   set.tables[0].facts = {{"words", 1000}};
-  EXPECT_THAT(lint_tables(set, Protocols(table)),
+  EXPECT_THAT(lint_tables(set, harness::Protocols(table)),
               ElementsAre(HasSubstr("the table has 1024 words")));
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

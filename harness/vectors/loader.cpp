@@ -13,7 +13,7 @@
 #include "src/base/duration.hpp"
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 namespace {
 
@@ -123,7 +123,7 @@ std::vector<std::pair<std::string, std::string>> read_memory(const json& value, 
 
 Frame read_frame(const std::string& reading, const json& text, const json* wire, const Row& row) {
   Frame frame{reading, text_of(text, row), {}, {}};
-  Result<Notation> notation = parse_notation(frame.text);
+  Result<notation::Notation> notation = notation::parse_notation(frame.text);
   if (!notation) throw Broken(fmt::format("\"{}\": {}", frame.text, notation.error().message));
   frame.notation = std::move(*notation);
   if (wire && wire->is_string()) frame.wire = text_of(*wire, row);
@@ -436,4 +436,4 @@ bool matches_filter(std::string_view id, std::string_view filter) {
   return selected;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

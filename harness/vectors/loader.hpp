@@ -9,7 +9,7 @@
 #include "harness/vectors/case.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 struct Erratum {
   std::string vector_id, manual, section;
@@ -56,4 +56,4 @@ void load_vector_text(std::string_view text, const std::string& file, VectorSet&
 /// excludes.
 bool matches_filter(std::string_view id, std::string_view filter);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

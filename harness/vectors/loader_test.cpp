@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 namespace {
 
 using testing::ElementsAre;
@@ -184,4 +184,4 @@ TEST(ConfigStation, IsANumberOrItsDigits) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

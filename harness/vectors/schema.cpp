@@ -7,7 +7,7 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::vector<std::string> schema_problems(const nlohmann::json& schema,
   return problems;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::vectors {
 
 /// What is wrong with `document` under `schema`, one line each: "[3][steps][0]: ...". Empty:
 /// nothing.
 std::vector<std::string> schema_problems(const nlohmann::json& schema,
                                          const nlohmann::json& document);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::vectors

@@ -10,7 +10,11 @@
 #include "reports/compare/compare_statistics.hpp"
 #include "reports/text/case_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
+
+using results::Gate;
+using results::Verdict;
+
 namespace {
 
 /// The gravest last.
@@ -26,7 +30,7 @@ std::size_t gravity_of(Verdict verdict) {
 enum class Standing { holds, waived, unjudged, red };
 
 Standing standing(Verdict verdict, const Gate& gate) {
-  if (gates(verdict, gate)) return Standing::red;
+  if (results::gates(verdict, gate)) return Standing::red;
   switch (verdict) {
     case Verdict::xfail: return Standing::waived;
     case Verdict::skip:
@@ -50,7 +54,7 @@ std::string reason(const std::string& message) {
   return text;
 }
 
-void add(const CaseResult& result, CaseSummary& summary) {
+void add(const results::CaseResult& result, CaseSummary& summary) {
   if (summary.repetitions == 0 || gravity_of(result.verdict) > gravity_of(summary.verdict)) {
     summary.verdict = result.verdict;
     summary.message = result.message;
@@ -137,10 +141,10 @@ RunSummary summarize(const ResultFile& file) {
   summary.run = file.run;
   summary.end = file.end;
   if (const auto gate = file.run.properties.find("gate"); gate != file.run.properties.end())
-    summary.gate = parse_gate(gate->second);
-  for (const CaseResult& result : file.results) {
+    summary.gate = text::parse_gate(gate->second);
+  for (const results::CaseResult& result : file.results) {
     summary.tally.add(result.verdict);
-    add(result, summary.cases[case_name(result)]);
+    add(result, summary.cases[text::case_name(result)]);
   }
   return summary;
 }
@@ -290,4 +294,4 @@ std::string outcome(const Comparison& comparison) {
   return text.empty() ? "nothing got worse" : text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

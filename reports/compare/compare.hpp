@@ -12,12 +12,12 @@
 #include "reports/results/verdict.hpp"
 #include "reports/text/tally.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
 
 /// What one run has of one case, its repetitions together.
 struct CaseSummary {
-  Verdict verdict = Verdict::error;  // the gravest
-  std::string message;               // of that
+  results::Verdict verdict = results::Verdict::error;  // the gravest
+  std::string message;                                 // of that
   std::string title;
   int rev = 0;  // 0: the file does not say
   std::size_t repetitions = 0;
@@ -28,10 +28,10 @@ struct CaseSummary {
 
 struct RunSummary {
   std::string path;
-  RunInfo run;
-  std::optional<RunEnd> end;
-  Gate gate;    // as the run was judged
-  Tally tally;  // results
+  results::RunInfo run;
+  std::optional<results::RunEnd> end;
+  results::Gate gate;  // as the run was judged
+  text::Tally tally;   // results
   std::map<std::string, CaseSummary> cases;
 };
 RunSummary summarize(const ResultFile& file);
@@ -128,4 +128,4 @@ std::string describe(const TimingTest& timing);
 /// "2 newly failing, 1 slower", or "nothing got worse".
 std::string outcome(const Comparison& comparison);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

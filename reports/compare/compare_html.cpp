@@ -9,13 +9,16 @@
 #include "reports/text/report_file.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
+
+using html::HtmlWriter;
+
 namespace {
 
 void write_cell(HtmlWriter& out, const CaseSummary* summary) {
   out.element("td", {}, [&] {
     if (!summary) return out.text("\u2013");
-    write_verdict(out, summary->verdict);
+    html::write_verdict(out, summary->verdict);
     if (summary->with_verdict < summary->repetitions)
       out.element("small", {},
                   fmt::format("{} of {}", summary->with_verdict, summary->repetitions));
@@ -72,7 +75,8 @@ void write_runs(HtmlWriter& out, const ComparisonSet& set) {
             out.element("code", {}, run.path);
             out.element("small", {}, run_facts(run));
           });
-          out.element("td", {}, fmt::format("{}: {}", run.tally.total(), to_string(run.tally)));
+          out.element("td", {},
+                      fmt::format("{}: {}", run.tally.total(), text::to_string(run.tally)));
         });
       }
     });
@@ -196,10 +200,10 @@ Status write_compare_html(const ComparisonSet& set, const std::string& path) {
     write_times(body, one);
   }
   write_matrix(body, set);
-  auto file = ReportFile::create(path);
+  auto file = text::ReportFile::create(path);
   if (!file) return file.error();
-  file->out() << html_page("fieldproof compare: " + outcome(set.comparisons.back()), body);
+  file->out() << html::html_page("fieldproof compare: " + outcome(set.comparisons.back()), body);
   return file->commit();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

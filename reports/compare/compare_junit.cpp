@@ -10,11 +10,11 @@
 #include "reports/text/report_file.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
 namespace {
 
 void set_text(pugi::xml_node node, const char* name, const std::string& value) {
-  node.append_attribute(name).set_value(xml_line(value).c_str());
+  node.append_attribute(name).set_value(text::xml_line(value).c_str());
 }
 void set_count(pugi::xml_node node, const char* name, std::size_t value) {
   node.append_attribute(name).set_value(static_cast<unsigned long long>(value));
@@ -29,7 +29,7 @@ std::string body_of(const CaseChange& change) {
   const auto side = [&](const char* name, const CaseSummary* summary) {
     if (!summary) return;
     body += fmt::format("{}  {}{}{}\n", name, verdict_text(summary),
-                        summary->message.empty() ? "" : "  ", xml_text(summary->message));
+                        summary->message.empty() ? "" : "  ", text::xml_text(summary->message));
   };
   side("before", change.before);
   side("after ", change.after);
@@ -40,9 +40,9 @@ std::string body_of(const CaseChange& change) {
 /// unique.
 pugi::xml_node add_case(pugi::xml_node suite, const std::string& id,
                         const std::string& suffix = "") {
-  CaseResult named;
+  results::CaseResult named;
   named.id = id;
-  const JunitName name = junit_name(named);
+  const reports::JunitName name = reports::junit_name(named);
   pugi::xml_node node = suite.append_child("testcase");
   set_text(
       node, "classname",
@@ -61,9 +61,9 @@ void add_change(pugi::xml_node suite, const CaseChange& change) {
     set_text(outcome, "message",
              fmt::format("{}: {} -> {}", to_string(change.change), verdict_text(change.before),
                          verdict_text(change.after)));
-    if (worse) outcome.text().set(xml_text(body_of(change)).c_str());
+    if (worse) outcome.text().set(text::xml_text(body_of(change)).c_str());
   }
-  if (!worse) node.append_child("system-out").text().set(xml_text(body_of(change)).c_str());
+  if (!worse) node.append_child("system-out").text().set(text::xml_text(body_of(change)).c_str());
 }
 
 void add_shift(pugi::xml_node suite, const TimeShift& shift, const TimingTest& timing) {
@@ -121,7 +121,7 @@ SuiteCounts add_suite(pugi::xml_node root, const Comparison& comparison, const s
 }  // namespace
 
 Status write_compare_junit(const ComparisonSet& set, const std::string& path) {
-  auto file = ReportFile::create(path);
+  auto file = text::ReportFile::create(path);
   if (!file) return file.error();
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("testsuites");
@@ -142,4 +142,4 @@ Status write_compare_junit(const ComparisonSet& set, const std::string& path) {
   return file->commit();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

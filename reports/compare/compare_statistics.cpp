@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace fieldproof {
+namespace fieldproof::compare {
 namespace {
 
 /// Up to here the exact distribution costs next to nothing; beyond, the normal one is as good.
@@ -129,4 +129,4 @@ std::size_t samples_needed(std::size_t tests, double alpha) {
   return n;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

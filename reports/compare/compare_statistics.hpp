@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::compare {
 
 struct RankTest {
   double p = 1;  // two-sided: how likely chance alone parts the samples so far
@@ -25,4 +25,4 @@ std::size_t samples_needed(std::size_t tests, double alpha);
 
 double median(std::vector<double> values);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

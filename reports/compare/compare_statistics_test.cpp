@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace fieldproof {
+namespace fieldproof::compare {
 namespace {
 
 using testing::DoubleNear;
@@ -104,4 +104,4 @@ TEST(Median, OfEvenOddAndNone) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

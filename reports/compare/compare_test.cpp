@@ -9,7 +9,11 @@
 #include "reports/compare/compare_text.hpp"
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
+
+using results::CaseResult;
+using results::Verdict;
+
 namespace {
 
 using testing::AllOf;
@@ -74,17 +78,18 @@ TEST_F(CompareTest, EachChangeOfVerdictHasItsName) {
   EXPECT_EQ(change(V::non_strict, V::pass), C::other_verdict);
   EXPECT_EQ(change(V::pass, V::info), C::other_verdict);
   EXPECT_EQ(change(V::fail, V::skip), C::other_verdict);
-  for (Verdict verdict : Tally::verdicts)
-    EXPECT_EQ(change(verdict, verdict), std::nullopt) << to_string(verdict);
+  for (Verdict verdict : text::Tally::verdicts)
+    EXPECT_EQ(change(verdict, verdict), std::nullopt) << results::to_string(verdict);
 }
 
 TEST_F(CompareTest, OnlyWhatGotWorseIsRed) {
-  for (Verdict before : Tally::verdicts) {
-    for (Verdict after : Tally::verdicts) {
+  for (Verdict before : text::Tally::verdicts) {
+    for (Verdict after : text::Tally::verdicts) {
       const auto found = change(before, after);
       const bool worse = found == Change::newly_failing || found == Change::weaker ||
                          found == Change::no_longer_judged;
-      EXPECT_EQ(set_->worse(), worse) << to_string(before) << " to " << to_string(after);
+      EXPECT_EQ(set_->worse(), worse)
+          << results::to_string(before) << " to " << results::to_string(after);
     }
   }
 }
@@ -326,4 +331,4 @@ TEST(ComparisonSetTest, LettersGoOnAfterZ) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

@@ -6,18 +6,18 @@
 
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
 namespace {
 
 std::string runs_table(const ComparisonSet& set) {
   std::string text;
   for (std::size_t i = 0; i < set.runs.size(); ++i) {
     const RunSummary& run = set.runs[i];
-    text += fmt::format("{}  {}\n   {}\n   {} results: {}{}\n", ComparisonSet::letter(i),
-                        xml_line(run.path), run_facts(run), run.tally.total(), to_string(run.tally),
-                        run.end && !run.end->interrupted
-                            ? ""
-                            : "; the file does not say that the run came to its end");
+    text += fmt::format(
+        "{}  {}\n   {}\n   {} results: {}{}\n", ComparisonSet::letter(i), text::xml_line(run.path),
+        run_facts(run), run.tally.total(), text::to_string(run.tally),
+        run.end && !run.end->interrupted ? ""
+                                         : "; the file does not say that the run came to its end");
   }
   return text;
 }
@@ -36,7 +36,7 @@ std::string list(const std::string& heading, std::size_t count, const CompareTex
 }
 
 std::string change_line(const CaseChange& change) {
-  const std::string id = xml_line(change.id);
+  const std::string id = text::xml_line(change.id);
   if (!change.before) return fmt::format("  {}  {}\n", id, verdict_text(change.after));
   if (!change.after) return fmt::format("  {}  was {}\n", id, verdict_text(change.before));
   std::string text =
@@ -46,10 +46,10 @@ std::string change_line(const CaseChange& change) {
   text += '\n';
   if (change.change == Change::newly_passing || change.change == Change::revised) return text;
   if (change.change == Change::other_reason)
-    text += fmt::format("      was: {}\n      now: {}\n", xml_line(change.before->message),
-                        xml_line(change.after->message));
+    text += fmt::format("      was: {}\n      now: {}\n", text::xml_line(change.before->message),
+                        text::xml_line(change.after->message));
   else if (!change.after->message.empty())
-    text += fmt::format("      {}\n", xml_line(change.after->message));
+    text += fmt::format("      {}\n", text::xml_line(change.after->message));
   return text;
 }
 
@@ -85,7 +85,7 @@ std::string times_text(const Comparison& comparison, const CompareTextOptions& o
       list("reply times shifted", comparison.shifts.size(), options, [&](std::size_t i) {
         const TimeShift& shift = comparison.shifts[i];
         return fmt::format("  {}  {}\n      {}\n", shift.shift_ms > 0 ? "slower" : "faster",
-                           xml_line(shift.id), shift_text(shift));
+                           text::xml_line(shift.id), shift_text(shift));
       });
   if (text.empty())
     text = timing.tested > 0 ? "\nreply times: no shift that is more than chance\n"
@@ -99,7 +99,7 @@ std::string matrix_text(const ComparisonSet& set, const CompareTextOptions& opti
   std::vector<std::size_t> widths(set.runs.size(), 1);
   std::size_t id_width = 4;
   for (std::size_t r = 0; r < shown; ++r) {
-    id_width = std::max(id_width, xml_line(set.rows[r].id).size());
+    id_width = std::max(id_width, text::xml_line(set.rows[r].id).size());
     for (std::size_t i = 0; i < widths.size(); ++i)
       widths[i] = std::max(widths[i], verdict_text(set.rows[r].cells[i]).size());
   }
@@ -111,7 +111,7 @@ std::string matrix_text(const ComparisonSet& set, const CompareTextOptions& opti
     return line + '\n';
   };
   const std::string text = list("cases that differ", count, options, [&](std::size_t r) {
-    return row(xml_line(set.rows[r].id),
+    return row(text::xml_line(set.rows[r].id),
                [&](std::size_t i) { return verdict_text(set.rows[r].cells[i]); });
   });
   const std::size_t heading = text.find('\n', 1) + 1;
@@ -126,9 +126,9 @@ std::string run_facts(const RunSummary& run) {
   std::string text;
   const auto add = [&](const std::string& name, const std::string& value) {
     if (!value.empty())
-      text += fmt::format("{}{}{}", text.empty() ? "" : ", ", name, xml_line(value));
+      text += fmt::format("{}{}{}", text.empty() ? "" : ", ", name, text::xml_line(value));
   };
-  const Identity& device = run.run.identity;
+  const results::Identity& device = run.run.identity;
   add("", run.run.started);
   add("", run.run.endpoint);
   add("profile ", run.run.profile);
@@ -136,13 +136,13 @@ std::string run_facts(const RunSummary& run) {
   add("serial number ", device.serial);
   add("firmware ", device.firmware);
   add("vectors ", run.run.vectors_hash);
-  add("gate ", to_string(run.gate));
+  add("gate ", text::to_string(run.gate));
   return text;
 }
 
 std::string verdict_text(const CaseSummary* summary) {
   if (!summary) return "-";
-  std::string text(to_string(summary->verdict));
+  std::string text(results::to_string(summary->verdict));
   if (summary->with_verdict < summary->repetitions)
     text += fmt::format(" in {} of {}", summary->with_verdict, summary->repetitions);
   return text;
@@ -173,4 +173,4 @@ std::string compare_text(const ComparisonSet& set, const CompareTextOptions& opt
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

@@ -6,7 +6,7 @@
 
 #include "reports/compare/compare.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
 
 struct CompareTextOptions {
   std::size_t limit = 50;  // lines a list; 0: all
@@ -24,4 +24,4 @@ std::string verdict_text(const CaseSummary* summary);
 /// "4.208 to 8.208 ms (+4.000 ms, +95 %), p 0.00041, corrected 0.012, 10 and 10 replies"
 std::string shift_text(const TimeShift& shift);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

@@ -8,12 +8,16 @@
 #include <pugixml.hpp>
 #include <tuple>
 
-namespace fieldproof {
+namespace fieldproof::compare {
+
+using results::CaseResult;
+using results::Verdict;
+
 namespace {
 
 constexpr std::string_view own_prefix = "fieldproof.";
 
-void read_property(const std::string& name, const std::string& value, RunInfo& run) {
+void read_property(const std::string& name, const std::string& value, results::RunInfo& run) {
   if (name == "fieldproof")
     run.tool_version = value;
   else if (name == "endpoint")
@@ -64,7 +68,7 @@ std::string first_line(const char* text) {
 bool read_headline(const std::string& line, CaseResult& result) {
   const std::size_t colon = line.find(": ");
   const auto verdict =
-      parse_verdict(std::string_view(line).substr(0, std::min(colon, line.size())));
+      results::parse_verdict(std::string_view(line).substr(0, std::min(colon, line.size())));
   if (!verdict) return false;
   result.verdict = *verdict;
   result.message = colon == std::string::npos ? "" : line.substr(colon + 2);
@@ -77,7 +81,7 @@ void read_outcome(pugi::xml_node node, CaseResult& result) {
   for (const auto& [element, verdict] : outcomes) {
     const pugi::xml_node outcome = node.child(element);
     if (!outcome) continue;
-    result.verdict = parse_verdict(outcome.attribute("type").value()).value_or(verdict);
+    result.verdict = results::parse_verdict(outcome.attribute("type").value()).value_or(verdict);
     result.message = outcome.attribute("message").value();
     if (result.message.empty()) result.message = first_line(outcome.text().get());
     // A skipped case of ours repeats the verdict before the message.
@@ -127,4 +131,4 @@ Result<ResultFile> read_junit_text(const std::string& text, const std::string& p
   return file;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

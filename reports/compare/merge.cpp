@@ -12,7 +12,12 @@
 
 #include "reports/results/shard.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
+
+using results::DutInfo;
+using results::RunInfo;
+using results::Shard;
+
 namespace {
 
 std::string property(const RunInfo& run, const std::string& name) {
@@ -21,7 +26,7 @@ std::string property(const RunInfo& run, const std::string& name) {
 }
 
 std::optional<Shard> shard_of(const ResultFile& file) {
-  return parse_shard(property(file.run, "shard"));
+  return results::parse_shard(property(file.run, "shard"));
 }
 
 std::string or_none(const std::string& text) { return text.empty() ? "none" : text; }
@@ -77,7 +82,7 @@ Status check_files(const std::vector<ResultFile>& files) {
     const auto [twin, is_new] = seen.emplace(*shard, file.path);
     if (!is_new)
       return fail(fmt::format("cannot merge {} with {}: both are shard {}; leave one", file.path,
-                              twin->second, to_string(*shard)));
+                              twin->second, results::to_string(*shard)));
   }
   return ok();
 }
@@ -128,9 +133,9 @@ RunInfo merge_heads(const std::vector<ResultFile>& files) {
     paths.push_back(file.path);
     run.started = std::min(run.started, file.run.started);
     join(run.endpoint, file.run.endpoint);
-    run.identity = in_common(run.identity, file.run.identity);
+    run.identity = results::in_common(run.identity, file.run.identity);
     for (const auto& [name, value] : file.run.properties) join(run.properties[name], value);
-    for (const ErratumInfo& one : file.run.errata)
+    for (const results::ErratumInfo& one : file.run.errata)
       if (errata.emplace(one.vector_id, one.printed).second) run.errata.push_back(one);
   }
   run.duts = devices_of(files);
@@ -141,18 +146,19 @@ RunInfo merge_heads(const std::vector<ResultFile>& files) {
 }
 
 /// The results of one file; an error where another file has judged the same case otherwise.
-Status add_results(const ResultFile& file, bool several_devices,
-                   std::map<std::pair<std::string, int>, std::pair<Verdict, std::string>>& known,
-                   std::vector<CaseResult>& results) {
-  for (CaseResult result : file.results) {
+Status add_results(
+    const ResultFile& file, bool several_devices,
+    std::map<std::pair<std::string, int>, std::pair<results::Verdict, std::string>>& known,
+    std::vector<results::CaseResult>& results) {
+  for (results::CaseResult result : file.results) {
     const auto [earlier, is_new] =
         known.emplace(std::pair(result.id, result.repeat), std::pair(result.verdict, file.path));
     if (!is_new && earlier->second.first != result.verdict)
-      return fail(
-          fmt::format("cannot merge {} with {}: {} is {} in the one and {} in the other; leave one "
-                      "of the two, or `fieldproof compare` them",
-                      file.path, earlier->second.second, result.id, to_string(result.verdict),
-                      to_string(earlier->second.first)));
+      return fail(fmt::format(
+          "cannot merge {} with {}: {} is {} in the one and {} in the other; leave one "
+          "of the two, or `fieldproof compare` them",
+          file.path, earlier->second.second, result.id, results::to_string(result.verdict),
+          results::to_string(earlier->second.first)));
     if (!is_new) continue;
     if (several_devices && result.dut.empty()) result.dut = file.run.identity.name;
     results.push_back(std::move(result));
@@ -183,7 +189,7 @@ void note_missing_shards(const std::vector<ResultFile>& files, MergedRun& merged
   const int total = there.begin()->total;
   std::vector<std::string> missing;
   for (int index = 0; index < total; ++index)
-    if (!there.contains({index, total})) missing.push_back(to_string(Shard{index, total}));
+    if (!there.contains({index, total})) missing.push_back(results::to_string(Shard{index, total}));
   if (!missing.empty())
     merged.troubles.push_back(fmt::format("shard{} {} {} missing", missing.size() == 1 ? "" : "s",
                                           fmt::join(missing, ", "),
@@ -197,7 +203,7 @@ Result<MergedRun> merge_results(const std::vector<ResultFile>& files) {
   if (const Status fit = check_files(files); !fit) return fit.error();
   MergedRun merged;
   merged.run = merge_heads(files);
-  std::map<std::pair<std::string, int>, std::pair<Verdict, std::string>> known;
+  std::map<std::pair<std::string, int>, std::pair<results::Verdict, std::string>> known;
   for (const ResultFile& file : files)
     if (const Status added = add_results(file, !merged.run.duts.empty(), known, merged.results);
         !added)
@@ -207,4 +213,4 @@ Result<MergedRun> merge_results(const std::vector<ResultFile>& files) {
   return merged;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

@@ -6,12 +6,12 @@
 
 #include "reports/compare/result_file.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
 
 /// The run that the files add up to, and what is amiss with it.
 struct MergedRun {
-  RunInfo run;
-  std::vector<CaseResult> results;    // each once, in the order of the files
+  results::RunInfo run;
+  std::vector<results::CaseResult> results;  // each once, in the order of the files
   std::vector<std::string> troubles;  // a shard is missing, was killed, or had trouble of its own:
                                       // the merged run is not whole
   bool interrupted = false;           // one of them was
@@ -24,4 +24,4 @@ struct MergedRun {
 /// case count once.
 Result<MergedRun> merge_results(const std::vector<ResultFile>& files);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

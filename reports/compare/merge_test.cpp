@@ -5,7 +5,11 @@
 
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
+
+using results::RunInfo;
+using results::Verdict;
+
 namespace {
 
 using samples::with;
@@ -13,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 ResultFile file(const std::string& path, const std::string& shard,
-                const std::vector<CaseResult>& results) {
+                const std::vector<results::CaseResult>& results) {
   ResultFile one{path, samples::run_info(), samples::run_end(0), results};
   if (!shard.empty()) one.run.properties["shard"] = shard;
   return one;
@@ -25,14 +29,14 @@ std::string refusal(const ResultFile& a, const ResultFile& b) {
 }
 
 const ResultFile first_shard =
-    file("a", "1/2", {with(Verdict::pass, "x/1"), with(Verdict::fail, "x/3")});
-const ResultFile second_shard = file("b", "2/2", {with(Verdict::pass, "x/2")});
+    file("a", "1/2", {samples::with(Verdict::pass, "x/1"), samples::with(Verdict::fail, "x/3")});
+const ResultFile second_shard = file("b", "2/2", {samples::with(Verdict::pass, "x/2")});
 
 TEST(Merge, TakesEachResultOnce) {
   const Result<MergedRun> merged = merge_results({first_shard, second_shard});
   ASSERT_TRUE(merged) << merged.error().message;
   std::vector<std::string> ids;
-  for (const CaseResult& one : merged->results) ids.push_back(one.id);
+  for (const results::CaseResult& one : merged->results) ids.push_back(one.id);
   EXPECT_THAT(ids, ElementsAre("x/1", "x/3", "x/2"));
   EXPECT_EQ(merged->run.properties.at("shards"), "1/2, 2/2");
   EXPECT_EQ(merged->run.properties.at("merged"), "a, b");
@@ -71,10 +75,12 @@ TEST(Merge, RefusesWhatIsNotOfOneRun) {
 }
 
 TEST(Merge, OneCaseHasOneVerdict) {
-  const ResultFile a = file("a", "", {with(Verdict::pass, "x/1")}),
-                   same = file("b", "", {with(Verdict::pass, "x/1"), with(Verdict::pass, "x/2")});
+  const ResultFile a = file("a", "", {samples::with(Verdict::pass, "x/1")}),
+                   same = file(
+                       "b", "",
+                       {samples::with(Verdict::pass, "x/1"), samples::with(Verdict::pass, "x/2")});
   EXPECT_EQ(merge_results({a, same})->results.size(), 2u);
-  EXPECT_THAT(refusal(a, file("b", "", {with(Verdict::fail, "x/1")})),
+  EXPECT_THAT(refusal(a, file("b", "", {samples::with(Verdict::fail, "x/1")})),
               HasSubstr("cannot merge b with a: x/1 is FAIL in the one and PASS in the other"));
 }
 
@@ -114,4 +120,4 @@ TEST(Merge, DevicesAreKeptApart) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

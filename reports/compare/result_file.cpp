@@ -11,7 +11,7 @@
 #include "reports/results/file_error.hpp"
 #include "reports/results/ndjson.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
 namespace {
 
 using nlohmann::json;
@@ -21,14 +21,14 @@ constexpr int newest_schema = 1;
 Result<std::string> read_text(const std::string& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) return file_error("read", path, errno);
+  if (!file) return results::file_error("read", path, errno);
   std::string text;
   try {
     text.assign(std::istreambuf_iterator<char>(file), {});
   } catch (const std::ios_base::failure&) {  // a folder opens, but does not read
-    return file_error("read", path, errno != 0 ? errno : EIO);
+    return results::file_error("read", path, errno != 0 ? errno : EIO);
   }
-  if (file.bad()) return file_error("read", path, errno != 0 ? errno : EIO);
+  if (file.bad()) return results::file_error("read", path, errno != 0 ? errno : EIO);
   return text;
 }
 
@@ -43,7 +43,8 @@ bool is_ndjson(const std::string& text) {
 
 Result<ResultFile> from_ndjson(const std::string& path) {
   ResultFile file;
-  auto log = read_ndjson(path, [&](const CaseResult& result) { file.results.push_back(result); });
+  auto log = results::read_ndjson(
+      path, [&](const results::CaseResult& result) { file.results.push_back(result); });
   if (!log) return log.error();
   file.run = std::move(log->run);
   file.end = std::move(log->end);
@@ -72,11 +73,11 @@ Result<ResultFile> from_json_text(const std::string& path, const std::string& te
     document.at("run").get_to(file.run);
     for (const json& one : document.at("cases")) {
       place = fmt::format(", case {}", file.results.size() + 1);
-      file.results.push_back(one.get<CaseResult>());
+      file.results.push_back(one.get<results::CaseResult>());
     }
     place = ", end";
     if (const json& end = document.value("end", json()); !end.is_null())
-      file.end = end.get<RunEnd>();
+      file.end = end.get<results::RunEnd>();
   } catch (const json::exception& error) {
     return broken(place, error.what());
   }
@@ -100,4 +101,4 @@ Result<ResultFile> read_result_file(const std::string& path) {
   return file;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

@@ -8,16 +8,16 @@
 #include "reports/results/case_result.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
 
 struct ResultFile {
   std::string path;
-  RunInfo run;
-  std::optional<RunEnd> end;        // nothing: the run was killed, or the file does not say
-  std::vector<CaseResult> results;  // in the order of the file
+  results::RunInfo run;
+  std::optional<results::RunEnd> end;  // nothing: the run was killed, or the file does not say
+  std::vector<results::CaseResult> results;  // in the order of the file
 };
 
 /// Tells the kinds apart by their content. Errors name the file and the place (line, or case).
 Result<ResultFile> read_result_file(const std::string& path);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

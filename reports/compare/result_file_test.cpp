@@ -8,7 +8,10 @@
 #include "reports/junit.hpp"
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::compare {
+
+using results::Verdict;
+
 namespace {
 
 using testing::AllOf;
@@ -36,7 +39,7 @@ TEST_F(ResultFileTest, StoredResultsStillLoad) {
     ASSERT_TRUE(file) << file.error().message;
     ASSERT_EQ(file->results.size(), 6u) << kind;
     std::map<std::string, Verdict> verdicts;
-    for (const CaseResult& result : file->results) verdicts[result.id] = result.verdict;
+    for (const results::CaseResult& result : file->results) verdicts[result.id] = result.verdict;
     EXPECT_EQ(verdicts,
               (std::map<std::string, Verdict>{{"xgt_cnet/old/alternative", Verdict::non_strict},
                                               {"xgt_cnet/old/fail", Verdict::fail},
@@ -47,7 +50,7 @@ TEST_F(ResultFileTest, StoredResultsStillLoad) {
         << kind;
     EXPECT_EQ(file->run.endpoint, "emulator xbc-h") << kind;
     EXPECT_EQ(file->run.vectors_hash, "f46dafb82b94fcde") << kind;
-    for (const CaseResult& result : file->results) {
+    for (const results::CaseResult& result : file->results) {
       const std::string said =
           result.verdict == Verdict::fail         ? "data: expected 0001, got 0000"
           : result.verdict == Verdict::non_strict ? "allowed alternative: word = zero"
@@ -59,14 +62,14 @@ TEST_F(ResultFileTest, StoredResultsStillLoad) {
 }
 
 TEST_F(ResultFileTest, EveryVerdictAndRepetitionComesBackFromOurJunit) {
-  std::vector<CaseResult> results;
-  for (Verdict verdict : Tally::verdicts)
+  std::vector<results::CaseResult> results;
+  for (Verdict verdict : text::Tally::verdicts)
     results.push_back(
         samples::with(verdict, "xgt_cnet/v/" + std::to_string(results.size()), "why: so"));
   results.push_back(results.front());
   results.back().repeat = 2;
   samples::write_results(folder_ / "r.ndjson", results);
-  ASSERT_TRUE(write_junit(folder_ / "r.ndjson", folder_ / "r.xml", {}));
+  ASSERT_TRUE(reports::write_junit(folder_ / "r.ndjson", folder_ / "r.xml", {}));
   const Result<ResultFile> file = read_result_file(folder_ / "r.xml");
   ASSERT_TRUE(file) << file.error().message;
   ASSERT_EQ(file->results.size(), results.size());
@@ -75,7 +78,7 @@ TEST_F(ResultFileTest, EveryVerdictAndRepetitionComesBackFromOurJunit) {
     EXPECT_EQ(file->results[i].repeat, results[i].repeat);
     EXPECT_EQ(file->results[i].verdict, results[i].verdict) << results[i].id;
     EXPECT_EQ(file->results[i].message, results[i].verdict == Verdict::pass ? "" : "why: so")
-        << to_string(results[i].verdict);
+        << results::to_string(results[i].verdict);
   }
 }
 
@@ -149,12 +152,12 @@ TEST_F(ResultFileTest, EveryTruncationIsSurvived) {
 }
 
 TEST_F(ResultFileTest, HostileContentComesThrough) {
-  CaseResult result = samples::failure();
+  results::CaseResult result = samples::failure();
   result.message = "<script>\x05\xFF&]]>";
   result.received_bytes.assign(1 << 20, 0xFF);
   samples::write_results(folder_ / "h.ndjson", {result});
-  ASSERT_TRUE(write_json(folder_ / "h.ndjson", folder_ / "h.json"));
-  ASSERT_TRUE(write_junit(folder_ / "h.ndjson", folder_ / "h.xml", {}));
+  ASSERT_TRUE(reports::write_json(folder_ / "h.ndjson", folder_ / "h.json"));
+  ASSERT_TRUE(reports::write_junit(folder_ / "h.ndjson", folder_ / "h.xml", {}));
   for (const char* kind : {"h.ndjson", "h.json", "h.xml"}) {
     const Result<ResultFile> file = read_result_file(folder_ / kind);
     ASSERT_TRUE(file) << file.error().message;
@@ -163,4 +166,4 @@ TEST_F(ResultFileTest, HostileContentComesThrough) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::compare

@@ -13,18 +13,21 @@
 #include "reports/results/sha256.hpp"
 #include "reports/text/report_file.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
+
+using results::Verdict;
+
 namespace {
 
-std::vector<Verdict> occurring(const Tally& tally) {
+std::vector<Verdict> occurring(const text::Tally& tally) {
   std::vector<Verdict> verdicts;
-  for (Verdict verdict : Tally::verdicts) {
+  for (Verdict verdict : text::Tally::verdicts) {
     if (tally.of(verdict) > 0) verdicts.push_back(verdict);
   }
   return verdicts;
 }
 
-void write_contents(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
+void write_contents(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate& gate) {
   out.element("nav", {}, [&] {
     const auto link = [&](bool there, std::string_view anchor, std::string_view text) {
       if (there) out.element("a", {{"href", anchor}}, text);
@@ -42,7 +45,7 @@ void write_contents(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate)
   });
 }
 
-void write_red(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
+void write_red(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate& gate) {
   const std::size_t count = survey.tally.gating(gate);
   if (count == 0) return;
   out.element("h2", {{"id", "red"}},
@@ -82,7 +85,7 @@ void write_section(HtmlWriter& out, const SectionName& name, const SectionReport
       for (Verdict verdict : columns) {
         const std::size_t count = section.tally.of(verdict);
         const std::string css = count == 0 ? "none" : verdict_class(verdict);
-        out.element("span", {{"class", css}, {"data-verdict", to_string(verdict)}},
+        out.element("span", {{"class", css}, {"data-verdict", results::to_string(verdict)}},
                     count == 0 ? "\u00B7" : std::to_string(count));
       }
     });
@@ -110,7 +113,8 @@ void write_sections(HtmlWriter& out, const HtmlSurvey& survey) {
                     out.element("div", {{"class", "head"}}, [&] {
                       out.element("span", {{"class", "name"}},
                                   name.manual.empty() ? "no manual" : name.manual);
-                      for (Verdict verdict : columns) out.element("span", {}, to_string(verdict));
+                      for (Verdict verdict : columns)
+                        out.element("span", {}, results::to_string(verdict));
                     });
                   }
                   manual = &name.manual;
@@ -119,7 +123,7 @@ void write_sections(HtmlWriter& out, const HtmlSurvey& survey) {
               });
 }
 
-double limit_of(const RunInfo& run) {
+double limit_of(const results::RunInfo& run) {
   const auto found = run.properties.find("response_max_ms");
   return found == run.properties.end() ? 0
                                        : std::max(0.0, std::strtod(found->second.c_str(), nullptr));
@@ -145,19 +149,19 @@ void write_soak(HtmlWriter& out, const HtmlSurvey& survey) {
   out.element("p", {},
               "All repetitions. The cases above are the first of each and, as far as they are "
               "written, those that failed.");
-  out.element("pre", {}, soak_text(*survey.log.soak));
+  out.element("pre", {}, results::soak_text(*survey.log.soak));
 }
 
-void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate,
+void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate& gate,
                  const std::string& log_hash) {
   out.element("section", {{"id", "sheet"}, {"class", gate.qualify ? "sheet" : "plain"}}, [&] {
     if (gate.qualify) {
       out.element("h1", {}, "Qualification sheet");
       write_verdict_of_run(out, survey, gate);
       write_facts(out, survey, gate);
-      const RunInfo& run = survey.log.run;
+      const results::RunInfo& run = survey.log.run;
       if (run.duts.empty()) write_fingerprint(out, run.identity);
-      for (const DutInfo& dut : run.duts) write_fingerprint(out, dut.identity);
+      for (const results::DutInfo& dut : run.duts) write_fingerprint(out, dut.identity);
     }
     write_unexecuted(out, survey);
     write_readings(out, survey);
@@ -170,10 +174,11 @@ void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate,
 
 }  // namespace
 
-Result<Tally> write_html(const std::string& ndjson, const std::string& path, const Gate& gate) {
+Result<text::Tally> write_html(const std::string& ndjson, const std::string& path,
+                               const results::Gate& gate) {
   auto survey = survey_for_html(ndjson, gate);
   if (!survey) return survey.error();
-  auto log_hash = sha256_of_file(ndjson);
+  auto log_hash = results::sha256_of_file(ndjson);
   if (!log_hash) return log_hash.error();
 
   HtmlWriter body;
@@ -187,11 +192,11 @@ Result<Tally> write_html(const std::string& ndjson, const std::string& path, con
   write_sheet(body, *survey, gate, *log_hash);
   write_legend(body, gate);
 
-  auto file = ReportFile::create(path);
+  auto file = text::ReportFile::create(path);
   if (!file) return file.error();
   file->out() << html_page("fieldproof: " + device_title(survey->log.run), body);
   if (Status done = file->commit(); !done) return done.error();
   return survey->tally;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -6,7 +6,7 @@
 #include "reports/text/tally.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 /// Reads the results in `ndjson` (of a killed run too) and writes `path`: verdict and device at the
 /// top, what is red first, then sections of the manuals by verdict, response times, readings,
@@ -14,6 +14,7 @@ namespace fieldproof {
 /// well-formed XML. What one file cannot hold (frames, lines and blocks beyond the limits of
 /// html_case.hpp and html_survey.hpp) is counted and said. `path` appears whole or not at all.
 /// Returns the counts of what was read.
-Result<Tally> write_html(const std::string& ndjson, const std::string& path, const Gate& gate);
+Result<text::Tally> write_html(const std::string& ndjson, const std::string& path,
+                               const results::Gate& gate);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -9,10 +9,15 @@
 #include "reports/text/case_text.hpp"
 #include "reports/text/frame_cells.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
+
+using results::CaseResult;
+using results::Event;
+using text::FrameCells;
+
 namespace {
 
-constexpr CaseTextOptions limits{.limit = block_frame_limit};
+constexpr text::CaseTextOptions limits{.limit = block_frame_limit};
 
 std::string more_bytes(std::size_t count) { return fmt::format("... {} more bytes", count); }
 
@@ -37,7 +42,8 @@ void write_cells(HtmlWriter& out, const FrameCells& cells, std::size_t total) {
 void write_frame(HtmlWriter& out, const std::string& notation, const FrameCells& cells,
                  std::size_t total) {
   out.element("td", {}, [&] {
-    if (!notation.empty()) out.element("code", {{"class", "notation"}}, shorten(notation, limits));
+    if (!notation.empty())
+      out.element("code", {{"class", "notation"}}, text::shorten(notation, limits));
     if (!cells.empty())
       out.element("code", {{"class", "hex"}}, [&] { write_cells(out, cells, total); });
   });
@@ -60,7 +66,7 @@ Direction direction(Event::Kind kind) {
 class Monitor {
  public:
   Monitor(HtmlWriter& out, const CaseResult& result) : out_(out), result_(result) {
-    if (has_judged_frames(result)) judged_ = judged_frames(result);
+    if (text::has_judged_frames(result)) judged_ = text::judged_frames(result);
   }
 
   void write() {
@@ -109,7 +115,7 @@ class Monitor {
         ByteView(event.bytes).first(std::min(event.bytes.size(), block_frame_limit));
     row(judged ? "judged" : direction(event.kind).word,
         event.start - result_.exchange.front().start, gap, direction(event.kind), event.text,
-        judged && judged_ ? judged_->received : cells_of(shown), event.bytes.size());
+        judged && judged_ ? judged_->received : text::cells_of(shown), event.bytes.size());
     if (is_frame) last_end_ = event.end;
   }
 
@@ -126,7 +132,7 @@ class Monitor {
 
   HtmlWriter& out_;
   const CaseResult& result_;
-  std::optional<JudgedFrames> judged_;
+  std::optional<text::JudgedFrames> judged_;
   std::optional<Time> last_end_;
 };
 
@@ -136,7 +142,7 @@ void write_clause(HtmlWriter& out, const CaseResult& result) {
         "b", {},
         fmt::format("{}{}{}", result.manual, result.section.empty() ? "" : ", ", result.section));
     if (!result.level.empty()) out.text(fmt::format(" ({}, {})", result.level, result.basis));
-    if (!result.quote.empty()) out.element("q", {}, shorten(result.quote, limits));
+    if (!result.quote.empty()) out.element("q", {}, text::shorten(result.quote, limits));
   });
 }
 
@@ -149,10 +155,10 @@ void write_differences(HtmlWriter& out, const CaseResult& result) {
       });
     });
     out.element("tbody", {}, [&] {
-      for (const Difference& one : result.differences) {
+      for (const results::Difference& one : result.differences) {
         out.element("tr", {}, [&] {
           for (const std::string* text : {&one.field, &one.expected, &one.received, &one.hint})
-            out.element("td", {}, shorten(*text, limits));
+            out.element("td", {}, text::shorten(*text, limits));
         });
       }
     });
@@ -165,11 +171,11 @@ void write_remarks(HtmlWriter& out, const CaseResult& result) {
       if (text.empty()) return;
       out.element("li", {}, [&] {
         out.element("b", {}, name);
-        out.text(" " + shorten(text, limits));
+        out.text(" " + text::shorten(text, limits));
       });
     };
     item("device", result.dut);
-    item("timing", case_timing(result));
+    item("timing", text::case_timing(result));
     for (const auto& [name, taken] : result.readings) item("reading", name + " = " + taken);
     for (const std::string& note : result.notes) item("note", note);
     out.element("li", {}, [&] {
@@ -178,15 +184,15 @@ void write_remarks(HtmlWriter& out, const CaseResult& result) {
     });
   });
   if (!result.replay.empty())
-    out.element("pre", {{"class", "replay"}}, shorten(result.replay, limits));
+    out.element("pre", {{"class", "replay"}}, text::shorten(result.replay, limits));
 }
 
 }  // namespace
 
 void write_pass_line(HtmlWriter& out, const CaseResult& result) {
   out.element("tr", {}, [&] {
-    out.element("th", {{"title", shorten(result.title, {.limit = line_bytes_limit})}},
-                case_label(result));
+    out.element("th", {{"title", text::shorten(result.title, {.limit = line_bytes_limit})}},
+                text::case_label(result));
     out.element("td", {}, [&] {
       std::size_t left = line_bytes_limit, hidden = 0;
       std::string line;
@@ -203,7 +209,7 @@ void write_pass_line(HtmlWriter& out, const CaseResult& result) {
       if (hidden > 0) out.element("em", {}, " " + more_bytes(hidden));
       if (!result.dut.empty()) out.element("small", {{"class", "dut"}}, result.dut);
       for (const std::string& note : result.notes)
-        out.element("small", {}, shorten(note, {.limit = line_bytes_limit}));
+        out.element("small", {}, text::shorten(note, {.limit = line_bytes_limit}));
     });
     const auto& times = result.response_ms;
     out.element(
@@ -217,11 +223,11 @@ void write_case_line(HtmlWriter& out, const CaseResult& result, const std::strin
     out.element("td", {}, [&] { write_verdict(out, result.verdict); });
     out.element("th", {}, [&] {
       if (link.empty())
-        out.text(case_label(result));
+        out.text(text::case_label(result));
       else
-        out.element("a", {{"href", "#" + link}}, case_label(result));
+        out.element("a", {{"href", "#" + link}}, text::case_label(result));
     });
-    out.element("td", {}, shorten(result.message, {.limit = line_bytes_limit}));
+    out.element("td", {}, text::shorten(result.message, {.limit = line_bytes_limit}));
   });
 }
 
@@ -230,11 +236,11 @@ void write_case_block(HtmlWriter& out, const CaseResult& result, bool open, cons
     out.element("summary", {}, [&] {
       write_verdict(out, result.verdict);
       out.markup(" ");
-      out.element("b", {}, case_label(result));
+      out.element("b", {}, text::case_label(result));
       if (!result.message.empty())
-        out.element("span", {{"class", "message"}}, shorten(result.message, limits));
+        out.element("span", {{"class", "message"}}, text::shorten(result.message, limits));
     });
-    out.element("p", {{"class", "title"}}, shorten(result.title, limits));
+    out.element("p", {{"class", "title"}}, text::shorten(result.title, limits));
     write_clause(out, result);
     write_differences(out, result);
     Monitor(out, result).write();
@@ -251,4 +257,4 @@ void write_case_block(HtmlWriter& out, const CaseResult& result, bool open, cons
   out.markup("\n");
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -7,7 +7,7 @@
 #include "reports/html/html_writer.hpp"
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 /// Bytes that are shown: of one frame in a block, and of all frames in a line. Who wants more reads
 /// results.ndjson.
@@ -16,15 +16,16 @@ inline constexpr std::size_t line_bytes_limit = 128;
 
 /// A row of a table: label, the bytes as they went over the line, milliseconds. Titles are
 /// tooltips.
-void write_pass_line(HtmlWriter& out, const CaseResult& result);
+void write_pass_line(HtmlWriter& out, const results::CaseResult& result);
 
 /// A row of a table: verdict, label, and what is to be said of it in one line. `link` leads to its
 /// block.
-void write_case_line(HtmlWriter& out, const CaseResult& result, const std::string& link = "");
+void write_case_line(HtmlWriter& out, const results::CaseResult& result,
+                     const std::string& link = "");
 
 /// <details>: title, clause and quote, the exchange as a frame monitor shows it with the bytes that
 /// differ marked, differing fields, timing, readings, notes, replay command. `id` is its anchor.
-void write_case_block(HtmlWriter& out, const CaseResult& result, bool open,
+void write_case_block(HtmlWriter& out, const results::CaseResult& result, bool open,
                       const std::string& id = "");
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -8,12 +8,17 @@
 #include "reports/html/html_page.hpp"
 #include "reports/text/run_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
+
+using results::Gate;
+using text::Tally;
+
 namespace {
 
 /// As the run ended; a killed run is red whatever it had found so far.
 int exit_code_of(const HtmlSurvey& survey, const Gate& gate) {
-  return survey.log.end ? survey.log.end->exit_code : gate_exit_code(survey.tally, gate, true);
+  return survey.log.end ? survey.log.end->exit_code
+                        : text::gate_exit_code(survey.tally, gate, true);
 }
 
 std::string capitalised(std::string text) {
@@ -30,25 +35,27 @@ std::string duration_text(double seconds) {
 }
 
 void write_bar(HtmlWriter& out, const Tally& tally) {
-  out.element("div", {{"class", "bar"}, {"role", "img"}, {"aria-label", to_string(tally)}}, [&] {
-    for (Verdict verdict : Tally::verdicts) {
-      if (tally.of(verdict) == 0) continue;
-      out.element("span",
-                  {{"class", verdict_class(verdict)},
-                   {"style", fmt::format("flex-grow:{}", tally.of(verdict))}},
-                  "");
-    }
-  });
+  out.element("div", {{"class", "bar"}, {"role", "img"}, {"aria-label", text::to_string(tally)}},
+              [&] {
+                for (results::Verdict verdict : Tally::verdicts) {
+                  if (tally.of(verdict) == 0) continue;
+                  out.element("span",
+                              {{"class", verdict_class(verdict)},
+                               {"style", fmt::format("flex-grow:{}", tally.of(verdict))}},
+                              "");
+                }
+              });
 }
 
 void write_tiles(HtmlWriter& out, const Tally& tally, const Gate& gate) {
   out.element("ul", {{"class", "tiles"}}, [&] {
-    for (Verdict verdict : Tally::verdicts) {
+    for (results::Verdict verdict : Tally::verdicts) {
       if (tally.of(verdict) == 0) continue;
       out.element("li", {{"class", verdict_class(verdict)}}, [&] {
-        out.element("b", {{"data-count", to_string(verdict)}}, std::to_string(tally.of(verdict)));
+        out.element("b", {{"data-count", results::to_string(verdict)}},
+                    std::to_string(tally.of(verdict)));
         write_verdict(out, verdict);
-        out.element("small", {}, verdict_meaning(verdict) + gate_hint(verdict, gate));
+        out.element("small", {}, text::verdict_meaning(verdict) + text::gate_hint(verdict, gate));
       });
     }
   });
@@ -69,8 +76,8 @@ class Facts {
   HtmlWriter& out_;
 };
 
-void write_device(HtmlWriter& out, const RunInfo& run) {
-  const Identity& device = run.identity;
+void write_device(HtmlWriter& out, const results::RunInfo& run) {
+  const results::Identity& device = run.identity;
   Facts facts(out);
   facts.row("maker", device.maker);
   facts.row("model", device.model);
@@ -90,7 +97,7 @@ void write_device(HtmlWriter& out, const RunInfo& run) {
 void write_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
   constexpr std::array<std::string_view, 6> elsewhere{"device", "protocol", "station",
                                                       "line",   "gate",     "response_max_ms"};
-  const RunInfo& run = survey.log.run;
+  const results::RunInfo& run = survey.log.run;
   Facts facts(out);
   facts.row("date", run.started);
   facts.row("duration", survey.log.end ? duration_text(survey.log.end->seconds)
@@ -99,7 +106,7 @@ void write_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
                                 ? ""
                                 : fmt::format(", {} transposed to this device", survey.transposed);
   facts.row("cases", fmt::format("{}{}", survey.tally.total(), moved));
-  facts.row("gate", to_string(gate));
+  facts.row("gate", text::to_string(gate));
   facts.row("fieldproof", run.tool_version);
   facts.row("vectors", run.vectors_hash);
   for (const auto& [name, value] : run.properties) {
@@ -108,15 +115,15 @@ void write_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
 }
 
 /// Several devices shared the run.
-void write_devices(HtmlWriter& out, const RunInfo& run) {
+void write_devices(HtmlWriter& out, const results::RunInfo& run) {
   if (run.duts.empty()) return;
   out.element("h2", {{"id", "devices"}}, "Devices");
   out.element("table", {{"class", "list devices"}}, [&] {
     out.element("tbody", {}, [&] {
-      for (const DutInfo& dut : run.duts) {
+      for (const results::DutInfo& dut : run.duts) {
         out.element("tr", {}, [&] {
           out.element("th", {}, dut.identity.name);
-          out.element("td", {}, device_text(dut));
+          out.element("td", {}, text::device_text(dut));
           out.element("td", {}, dut.identity.notes);
         });
       }
@@ -126,8 +133,8 @@ void write_devices(HtmlWriter& out, const RunInfo& run) {
 
 }  // namespace
 
-std::string device_title(const RunInfo& run) {
-  const Identity& device = run.identity;
+std::string device_title(const results::RunInfo& run) {
+  const results::Identity& device = run.identity;
   std::string title = device.maker;
   if (!device.model.empty()) title += (title.empty() ? "" : " ") + device.model;
   if (title.empty()) return run.endpoint;
@@ -136,8 +143,8 @@ std::string device_title(const RunInfo& run) {
 
 void write_verdict_of_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
   const int code = exit_code_of(survey, gate);
-  const std::string why = early_end(survey.log);
-  std::string detail = red_counts(survey.tally, gate);
+  const std::string why = text::early_end(survey.log);
+  std::string detail = text::red_counts(survey.tally, gate);
   // The gate was met, and the run still failed: `run --baseline` found it worse than the run
   // before.
   if (detail.empty() && code == 1)
@@ -147,9 +154,10 @@ void write_verdict_of_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate&
   if (!why.empty()) detail += (detail.empty() ? "" : "; ") + why;
   out.element("header", {{"class", code == 0 ? "banner good" : "banner bad"}}, [&] {
     out.element("p", {{"class", "device"}}, "Conformance of " + device_title(survey.log.run));
-    out.element("h1", {},
-                (code == 0 ? "\u2713 " : "\u2717 ") +
-                    capitalised(survey.log.end ? exit_meaning(code) : "killed before its end"));
+    out.element(
+        "h1", {},
+        (code == 0 ? "\u2713 " : "\u2717 ") +
+            capitalised(survey.log.end ? text::exit_meaning(code) : "killed before its end"));
     out.element("p", {{"class", "detail"}},
                 detail + (survey.log.end ? fmt::format(" (exit {})", code) : ""));
   });
@@ -168,14 +176,15 @@ void write_facts(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
 void write_legend(HtmlWriter& out, const Gate& gate) {
   out.element("h2", {{"id", "legend"}}, "Verdicts");
   out.element("ul", {{"class", "legend"}}, [&] {
-    for (Verdict verdict : Tally::verdicts) {
+    for (results::Verdict verdict : Tally::verdicts) {
       out.element("li", {}, [&] {
         write_verdict(out, verdict);
-        out.text(" " + verdict_meaning(verdict) +
-                 (gates(verdict, gate) ? "; turns this gate red" : gate_hint(verdict, gate)));
+        out.text(" " + text::verdict_meaning(verdict) +
+                 (results::gates(verdict, gate) ? "; turns this gate red"
+                                                : text::gate_hint(verdict, gate)));
       });
     }
   });
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

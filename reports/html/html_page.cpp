@@ -1,6 +1,6 @@
 #include "reports/html/html_page.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 std::string html_page(std::string_view title, const HtmlWriter& body) {
   HtmlWriter page;
@@ -21,15 +21,16 @@ std::string html_page(std::string_view title, const HtmlWriter& body) {
   return page.take();
 }
 
-std::string verdict_class(Verdict verdict) {
+std::string verdict_class(results::Verdict verdict) {
   std::string name = "v-";
-  for (const char c : to_string(verdict))
+  for (const char c : results::to_string(verdict))
     name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return name;
 }
 
-void write_verdict(HtmlWriter& out, Verdict verdict) {
-  out.element("span", {{"class", "verdict " + verdict_class(verdict)}}, to_string(verdict));
+void write_verdict(HtmlWriter& out, results::Verdict verdict) {
+  out.element("span", {{"class", "verdict " + verdict_class(verdict)}},
+              results::to_string(verdict));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -7,7 +7,7 @@
 #include "reports/html/html_writer.hpp"
 #include "reports/results/verdict.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 /// Doctype, head with the style sheet, and <body><main> around what `body` is.
 std::string html_page(std::string_view title, const HtmlWriter& body);
@@ -17,9 +17,9 @@ std::string html_page(std::string_view title, const HtmlWriter& body);
 extern const char* const html_style;
 
 /// The class of a verdict's colour: "v-pass", "v-non-strict".
-std::string verdict_class(Verdict verdict);
+std::string verdict_class(results::Verdict verdict);
 
 /// <span class="verdict v-fail">FAIL</span>
-void write_verdict(HtmlWriter& out, Verdict verdict);
+void write_verdict(HtmlWriter& out, results::Verdict verdict);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

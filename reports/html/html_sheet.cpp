@@ -7,7 +7,7 @@
 
 #include "reports/html/html_page.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 namespace {
 
 constexpr std::size_t reason_limit = 200;
@@ -114,7 +114,7 @@ void write_errata(HtmlWriter& out, const HtmlSurvey& survey) {
             out.element("code", {}, erratum.correct);
             out.element("small", {}, erratum.why);
           });
-          out.element("td", {}, to_string(tally));
+          out.element("td", {}, text::to_string(tally));
         });
       }
     });
@@ -136,7 +136,7 @@ void write_hashes(HtmlWriter& out, const HtmlSurvey& survey, const std::string& 
   });
 }
 
-void write_fingerprint(HtmlWriter& out, const Identity& identity) {
+void write_fingerprint(HtmlWriter& out, const results::Identity& identity) {
   out.element("h2", {}, identity.name.empty() ? "Fingerprint" : "Fingerprint of " + identity.name);
   if (identity.fingerprint.empty() && identity.fingerprint_found.empty()) {
     out.element(
@@ -176,4 +176,4 @@ void write_signatures(HtmlWriter& out) {
   });
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -6,7 +6,7 @@
 
 #include "reports/html/html_survey.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 void write_unexecuted(HtmlWriter& out, const HtmlSurvey& survey);
 void write_readings(HtmlWriter& out, const HtmlSurvey& survey);
@@ -16,7 +16,7 @@ void write_errata(HtmlWriter& out, const HtmlSurvey& survey);
 void write_hashes(HtmlWriter& out, const HtmlSurvey& survey, const std::string& log_hash);
 
 /// The declared fingerprint beside the found one, and the lines to sign.
-void write_fingerprint(HtmlWriter& out, const Identity& identity);
+void write_fingerprint(HtmlWriter& out, const results::Identity& identity);
 void write_signatures(HtmlWriter& out);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -1,6 +1,6 @@
 #include "reports/html/html_page.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 // Colours are named once and mean a verdict everywhere: text in --c on its own tint. Neither '<'
 // nor '&' may stand here.
@@ -172,4 +172,4 @@ tr,.tiles li,.section>summary,.banner{break-inside:avoid}
 @page{margin:15mm 14mm;@bottom-right{content:counter(page) " / " counter(pages);font-size:9pt}}
 )css";
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

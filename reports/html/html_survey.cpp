@@ -7,7 +7,12 @@
 #include "reports/html/html_case.hpp"
 #include "reports/text/case_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
+
+using results::CaseResult;
+using results::Verdict;
+using text::Tally;
+
 namespace {
 
 constexpr std::size_t open_blocks = 10;  // red cases that need no click
@@ -52,7 +57,7 @@ std::string group_of(const std::string& id) {
 
 class Collector {
  public:
-  explicit Collector(const Gate& gate) : gate_(gate) {}
+  explicit Collector(const results::Gate& gate) : gate_(gate) {}
 
   void add(const CaseResult& result) {
     survey_.tally.add(result.verdict);
@@ -63,15 +68,15 @@ class Collector {
       add_line(section, section.passes, [&](HtmlWriter& out) { write_pass_line(out, result); });
     else if (unexecuted(result.verdict))
       add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
-    else if (gates(result.verdict, gate_) && !unjudged(result.verdict))
+    else if (results::gates(result.verdict, gate_) && !unjudged(result.verdict))
       add_red(section, result);
     else
       add_remarkable(section, result);
     add_facts(result);
   }
 
-  HtmlSurvey finish(RunLog log) {
-    for (const ErratumInfo& erratum : log.run.errata) {
+  HtmlSurvey finish(results::RunLog log) {
+    for (const results::ErratumInfo& erratum : log.run.errata) {
       if (Tally met = executed(erratum.vector_id); met.total() > 0)
         survey_.errata.emplace_back(erratum, met);
     }
@@ -97,8 +102,9 @@ class Collector {
     std::string anchor;
     if (fits(red_blocks_, html_block_limit)) {
       anchor = fmt::format("red-{}", red_blocks_);
-      write_case_block(gates(result.verdict, Gate{}) ? survey_.broken : survey_.red, result,
-                       red_blocks_ <= open_blocks, anchor);
+      write_case_block(
+          results::gates(result.verdict, results::Gate{}) ? survey_.broken : survey_.red, result,
+          red_blocks_ <= open_blocks, anchor);
     } else {
       ++survey_.red_unlisted;
     }
@@ -125,7 +131,7 @@ class Collector {
     }
     if (unjudged(result.verdict)) {
       Unexecuted& reason = survey_.unexecuted[{result.verdict, result.message}];
-      if (++reason.cases <= ids_of_a_reason) reason.ids.push_back(case_label(result));
+      if (++reason.cases <= ids_of_a_reason) reason.ids.push_back(text::case_label(result));
     }
     const auto moved = [](const std::string& note) { return note.starts_with("transposed"); };
     survey_.transposed += std::ranges::any_of(result.notes, moved) ? 1 : 0;
@@ -145,7 +151,7 @@ class Collector {
     return tally;
   }
 
-  Gate gate_;
+  results::Gate gate_;
   HtmlSurvey survey_;
   std::map<std::string, Tally> by_id_;
   std::size_t lines_ = 0, red_blocks_ = 0, other_blocks_ = 0;
@@ -158,11 +164,11 @@ bool operator<(const SectionName& a, const SectionName& b) {
   return manuals != 0 ? manuals < 0 : compare_naturally(a.section, b.section) < 0;
 }
 
-Result<HtmlSurvey> survey_for_html(const std::string& ndjson, const Gate& gate) {
+Result<HtmlSurvey> survey_for_html(const std::string& ndjson, const results::Gate& gate) {
   Collector collector(gate);
-  auto log = read_ndjson(ndjson, [&](const CaseResult& result) { collector.add(result); });
+  auto log = results::read_ndjson(ndjson, [&](const CaseResult& result) { collector.add(result); });
   if (!log) return log.error();
   return collector.finish(std::move(*log));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

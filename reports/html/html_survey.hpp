@@ -12,7 +12,7 @@
 #include "reports/results/ndjson.hpp"
 #include "reports/text/tally.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 /// A section of a manual, in the order in which a person counts: 7.1.2, 7.1.10, Appendix 3.1.
 struct SectionName {
@@ -21,7 +21,7 @@ struct SectionName {
 bool operator<(const SectionName& a, const SectionName& b);
 
 struct SectionReport {
-  Tally tally;
+  text::Tally tally;
   HtmlWriter red;         // lines that lead to the blocks at the top
   HtmlWriter remarkable;  // blocks of what was judged and did not plainly pass
   HtmlWriter unjudged;    // lines: SKIP, BLOCKED, INCONCLUSIVE
@@ -42,16 +42,18 @@ struct Unexecuted {
 };
 
 struct HtmlSurvey {
-  RunLog log;
-  Tally tally;
+  results::RunLog log;
+  text::Tally tally;
   HtmlWriter broken;  // blocks of what turns every gate red: FAIL, XPASS, ERROR
   HtmlWriter red;     // blocks of what turns this gate red: NON-STRICT, MARGINAL
   std::size_t red_unlisted = 0;
   std::map<SectionName, SectionReport> sections;
-  std::map<std::string, std::vector<double>> response_ms;            // by group: "xgt_cnet/rss"
-  std::map<std::string, std::map<std::string, Reading>> readings;    // name: what was taken
-  std::map<std::pair<Verdict, std::string>, Unexecuted> unexecuted;  // by verdict and reason
-  std::vector<std::pair<ErratumInfo, Tally>> errata;  // met by cases that were executed
+  std::map<std::string, std::vector<double>> response_ms;          // by group: "xgt_cnet/rss"
+  std::map<std::string, std::map<std::string, Reading>> readings;  // name: what was taken
+  std::map<std::pair<results::Verdict, std::string>, Unexecuted>
+      unexecuted;  // by verdict and reason
+  std::vector<std::pair<results::ErratumInfo, text::Tally>>
+      errata;                  // met by cases that were executed
   std::size_t transposed = 0;  // cases moved to the device's station or addresses
 };
 
@@ -59,6 +61,6 @@ struct HtmlSurvey {
 inline constexpr std::size_t html_block_limit = 500;
 inline constexpr std::size_t html_line_limit = 20'000;
 
-Result<HtmlSurvey> survey_for_html(const std::string& ndjson, const Gate& gate);
+Result<HtmlSurvey> survey_for_html(const std::string& ndjson, const results::Gate& gate);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

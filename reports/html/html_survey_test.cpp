@@ -7,7 +7,10 @@
 #include "reports/testdata/parsed_html.hpp"
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
+
+using results::Verdict;
+
 namespace {
 
 using samples::with;
@@ -16,13 +19,13 @@ using testing::HasSubstr;
 
 class Survey : public testing::Test {
  protected:
-  HtmlSurvey survey(const std::vector<CaseResult>& results, const Gate& gate = {},
-                    const RunInfo& run = samples::run_info()) {
+  HtmlSurvey survey(const std::vector<results::CaseResult>& results, const results::Gate& gate = {},
+                    const results::RunInfo& run = samples::run_info()) {
     const std::string path = folder_ / "results.ndjson";
-    auto writer = NdjsonWriter::create(path);
+    auto writer = results::NdjsonWriter::create(path);
     EXPECT_TRUE(writer);
     EXPECT_TRUE(writer->write(run));
-    for (const CaseResult& result : results) EXPECT_TRUE(writer->write(result));
+    for (const results::CaseResult& result : results) EXPECT_TRUE(writer->write(result));
     auto made = survey_for_html(path, gate);
     EXPECT_TRUE(made) << made.error().message;
     return std::move(*made);
@@ -47,9 +50,10 @@ TEST(SectionNames, AreOrderedAsAPersonCounts) {
 }
 
 TEST_F(Survey, WhatTurnsEveryGateRedStandsFirst) {
-  const HtmlSurvey made = survey({with(Verdict::non_strict, "a/lenient"),
-                                  with(Verdict::fail, "a/bad"), with(Verdict::error, "a/port")},
-                                 {.strict = true});
+  const HtmlSurvey made =
+      survey({samples::with(Verdict::non_strict, "a/lenient"),
+              samples::with(Verdict::fail, "a/bad"), samples::with(Verdict::error, "a/port")},
+             {.strict = true});
   HtmlWriter red;
   red.element("div", {}, [&] {
     red.markup(made.broken.str());
@@ -60,9 +64,10 @@ TEST_F(Survey, WhatTurnsEveryGateRedStandsFirst) {
 }
 
 TEST_F(Survey, WhatWasNotJudgedIsGroupedByReason) {
-  const HtmlSurvey made = survey(
-      {with(Verdict::blocked, "a/one", "needs M"), with(Verdict::blocked, "a/two", "needs M"),
-       with(Verdict::skip, "a/three", "other model"), with(Verdict::pass, "a/four")});
+  const HtmlSurvey made = survey({samples::with(Verdict::blocked, "a/one", "needs M"),
+                                  samples::with(Verdict::blocked, "a/two", "needs M"),
+                                  samples::with(Verdict::skip, "a/three", "other model"),
+                                  samples::with(Verdict::pass, "a/four")});
   ASSERT_EQ(2u, made.unexecuted.size());
   const Unexecuted& blocked = made.unexecuted.at({Verdict::blocked, "needs M"});
   EXPECT_EQ(2u, blocked.cases);
@@ -70,8 +75,8 @@ TEST_F(Survey, WhatWasNotJudgedIsGroupedByReason) {
 }
 
 TEST_F(Survey, ReadingsAreCountedByWhatWasTaken) {
-  auto one = with(Verdict::pass, "a/one"), two = with(Verdict::pass, "a/two"),
-       three = with(Verdict::pass, "a/three");
+  auto one = samples::with(Verdict::pass, "a/one"), two = samples::with(Verdict::pass, "a/two"),
+       three = samples::with(Verdict::pass, "a/three");
   one.readings = two.readings = {{"type_echo", "upper"}};
   three.readings = {{"type_echo", "as_sent"}};
   const HtmlSurvey made = survey({one, two, three});
@@ -81,28 +86,28 @@ TEST_F(Survey, ReadingsAreCountedByWhatWasTaken) {
 }
 
 TEST_F(Survey, ErrataAreMetByExecutedCasesOfTheirVector) {
-  RunInfo run = samples::run_info();
+  results::RunInfo run = samples::run_info();
   for (const char* vector : {"a/v", "a/w", "a/blocked"})
     run.errata.push_back({vector, "m", "1", "printed", "correct", "why"});
   const HtmlSurvey made =
-      survey({with(Verdict::pass, "a/v/first"), with(Verdict::fail, "a/v/second"),
-              with(Verdict::pass, "a/vx"), with(Verdict::blocked, "a/blocked")},
+      survey({samples::with(Verdict::pass, "a/v/first"), samples::with(Verdict::fail, "a/v/second"),
+              samples::with(Verdict::pass, "a/vx"), samples::with(Verdict::blocked, "a/blocked")},
              {}, run);
   ASSERT_EQ(1u, made.errata.size());
   EXPECT_EQ("a/v", made.errata[0].first.vector_id);
-  EXPECT_EQ("1 PASS, 1 FAIL", to_string(made.errata[0].second));
+  EXPECT_EQ("1 PASS, 1 FAIL", text::to_string(made.errata[0].second));
 }
 
 TEST_F(Survey, MovedCasesAreCounted) {
-  auto moved = with(Verdict::pass, "a/one");
+  auto moved = samples::with(Verdict::pass, "a/one");
   moved.notes = {"transposed: station 1 to 7", "transposed: %MW100 to %MW300"};
-  EXPECT_EQ(1u, survey({moved, with(Verdict::pass, "a/two")}).transposed);
+  EXPECT_EQ(1u, survey({moved, samples::with(Verdict::pass, "a/two")}).transposed);
 }
 
 TEST_F(Survey, WhatOneReportCannotHoldIsCounted) {
-  std::vector<CaseResult> many;
+  std::vector<results::CaseResult> many;
   for (std::size_t i = 0; i < html_block_limit + 7; ++i)
-    many.push_back(with(Verdict::fail, fmt::format("a/n{}", i)));
+    many.push_back(samples::with(Verdict::fail, fmt::format("a/n{}", i)));
   const HtmlSurvey made = survey(many);
   EXPECT_EQ(7u, made.red_unlisted);
   EXPECT_EQ(html_block_limit + 7, made.tally.of(Verdict::fail));
@@ -114,4 +119,4 @@ TEST_F(Survey, WhatOneReportCannotHoldIsCounted) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -10,7 +10,11 @@
 #include "reports/testdata/parsed_html.hpp"
 #include "reports/testdata/samples.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
+
+using results::CaseResult;
+using results::Verdict;
+
 namespace {
 
 using samples::ParsedHtml;
@@ -36,16 +40,16 @@ CaseResult passed(std::size_t number) {
 
 class Html : public testing::Test {
  protected:
-  std::string report(const std::vector<CaseResult>& results, const Gate& gate = {},
+  std::string report(const std::vector<CaseResult>& results, const results::Gate& gate = {},
                      bool end = true) {
     samples::write_results(results_, results, end);
     return render(gate);
   }
 
-  std::string report(const RunInfo& run, const std::vector<CaseResult>& results, const RunEnd& end,
-                     const Gate& gate = {}) {
+  std::string report(const results::RunInfo& run, const std::vector<CaseResult>& results,
+                     const results::RunEnd& end, const results::Gate& gate = {}) {
     {
-      auto writer = NdjsonWriter::create(results_);
+      auto writer = results::NdjsonWriter::create(results_);
       EXPECT_TRUE(writer);
       EXPECT_TRUE(writer->write(run));
       for (const CaseResult& result : results) EXPECT_TRUE(writer->write(result));
@@ -54,7 +58,7 @@ class Html : public testing::Test {
     return render(gate);
   }
 
-  std::string render(const Gate& gate) {
+  std::string render(const results::Gate& gate) {
     const auto written = write_html(results_, report_, gate);
     EXPECT_TRUE(written) << written.error().message;
     return samples::read_file(report_);
@@ -66,8 +70,8 @@ class Html : public testing::Test {
 };
 
 TEST_F(Html, TheVerdictOfTheGateStandsAtTheTop) {
-  const ParsedHtml page(report({samples::failure(), with(Verdict::pass, "a/one"),
-                                with(Verdict::skip, "a/two", "other model")}));
+  const ParsedHtml page(report({samples::failure(), samples::with(Verdict::pass, "a/one"),
+                                samples::with(Verdict::skip, "a/two", "other model")}));
   EXPECT_EQ("\u2717 Conformance failed", page.text("//body/main/*[1]/h1"));
   EXPECT_EQ("1 FAIL (exit 1)", page.text("//p[@class='detail']"));
   EXPECT_EQ(1u, page.tile("FAIL"));
@@ -79,21 +83,21 @@ TEST_F(Html, TheVerdictOfTheGateStandsAtTheTop) {
 
 TEST_F(Html, AMetGateSaysSo) {
   const ParsedHtml page(
-      report(samples::run_info(), {with(Verdict::pass, "a/one")}, samples::run_end(0)));
+      report(samples::run_info(), {samples::with(Verdict::pass, "a/one")}, samples::run_end(0)));
   EXPECT_EQ("\u2713 Gate met", page.text("//h1"));
   EXPECT_EQ("1 cases, none turns the gate red (exit 0)", page.text("//p[@class='detail']"));
   EXPECT_EQ(0u, page.count("//h2[@id='red']"));
 }
 
 TEST_F(Html, AKilledRunIsNoSuccess) {
-  const ParsedHtml page(report({with(Verdict::pass, "a/one")}, {}, false));
+  const ParsedHtml page(report({samples::with(Verdict::pass, "a/one")}, {}, false));
   EXPECT_EQ("\u2717 Killed before its end", page.text("//h1"));
   EXPECT_THAT(page.text("//p[@class='detail']"),
               HasSubstr("the run was killed: 1 results were written before"));
 }
 
 TEST_F(Html, ARunWithoutAResultHasAReport) {
-  RunEnd end = samples::run_end(3);
+  results::RunEnd end = samples::run_end(3);
   end.trouble = "nothing answers on serial:/dev/ttyUSB0";
   const ParsedHtml page(report(samples::run_info(), {}, end));
   EXPECT_EQ("\u2717 Bench trouble", page.text("//h1"));
@@ -101,10 +105,10 @@ TEST_F(Html, ARunWithoutAResultHasAReport) {
 }
 
 TEST_F(Html, IdentityAndRunAreNamed) {
-  RunInfo run = samples::run_info();
+  results::RunInfo run = samples::run_info();
   run.identity = {"c41a", "LS ELECTRIC", "XBL-C41A", "2219-00417", "V1.41", "J. Kim", "port 2", {},
                   {}};
-  const ParsedHtml page(report(run, {with(Verdict::pass, "a/one")}, samples::run_end(0)));
+  const ParsedHtml page(report(run, {samples::with(Verdict::pass, "a/one")}, samples::run_end(0)));
   const auto fact = [&](const std::string& name) {
     return page.text("//table[@class='facts']//tr[th='" + name + "']/td");
   };
@@ -176,7 +180,7 @@ TEST_F(Html, APassIsOneLineWithItsBytes) {
 }
 
 TEST_F(Html, SectionsCountByVerdict) {
-  auto other = with(Verdict::pass, "a/two");
+  auto other = samples::with(Verdict::pass, "a/two");
   other.manual = "xgb-cnet-en-1.6";
   other.section = "7.1.10";
   const ParsedHtml page(report({other, samples::failure()}));
@@ -190,11 +194,11 @@ TEST_F(Html, SectionsCountByVerdict) {
 }
 
 TEST_F(Html, TheQualificationSheetCanBeSigned) {
-  RunInfo run = samples::run_info();
+  results::RunInfo run = samples::run_info();
   run.identity.fingerprint = {{"areas", "PML"}};
   run.identity.fingerprint_found = {{"areas", "PM"}};
   run.hashes = {{"tool", "00ff"}, {"vectors", "11ee"}};
-  const ParsedHtml page(report(run, {with(Verdict::blocked, "a/one", "needs M")},
+  const ParsedHtml page(report(run, {samples::with(Verdict::blocked, "a/one", "needs M")},
                                samples::run_end(1), {.qualify = true}));
   const std::string sheet = "//section[@class='sheet']";
   EXPECT_EQ(1u, page.count(sheet));
@@ -202,20 +206,21 @@ TEST_F(Html, TheQualificationSheetCanBeSigned) {
               ElementsAre("Name", "Date", "Signature", "Name", "Date", "Signature"));
   EXPECT_THAT(page.texts(sheet + "//tr[th='areas']/td"), ElementsAre("PML", "PM (differs)"));
   EXPECT_EQ("00ff", page.text(sheet + "//tr[th='SHA-256 of tool']/td"));
-  EXPECT_EQ(*sha256_of_file(results_), page.text(sheet + "//tr[th='SHA-256 of the log']/td"));
+  EXPECT_EQ(*results::sha256_of_file(results_),
+            page.text(sheet + "//tr[th='SHA-256 of the log']/td"));
   EXPECT_EQ("needs M", page.text(sheet + "//table[@class='list']//details/summary"));
   EXPECT_EQ("a/one", page.text(sheet + "//p[@class='ids']"));
 }
 
 TEST_F(Html, WithoutQualifyThereIsNothingToSign) {
-  const ParsedHtml page(report({with(Verdict::pass, "a/one")}));
+  const ParsedHtml page(report({samples::with(Verdict::pass, "a/one")}));
   EXPECT_EQ(0u, page.count("//section[@class='sheet']"));
   EXPECT_EQ(0u, page.count("//div[@class='signatures']"));
 }
 
 TEST_F(Html, EachVerdictIsExplained) {
-  const ParsedHtml page(report({with(Verdict::pass, "a/one")}));
-  EXPECT_EQ(Tally::verdicts.size(), page.count("//ul[@class='legend']/li"));
+  const ParsedHtml page(report({samples::with(Verdict::pass, "a/one")}));
+  EXPECT_EQ(text::Tally::verdicts.size(), page.count("//ul[@class='legend']/li"));
   EXPECT_EQ("NON-STRICT an allowed alternative, or a SHOULD missed; red with --strict",
             page.text("//ul[@class='legend']/li[3]"));
 }
@@ -224,24 +229,24 @@ TEST_F(Html, HostileBytesSurvive) {
   const std::string hostile =
       "</td></script><script>alert(1)</script> ]]> <!-- &#5; \x05\x7F\xFF\xC3\x28 \xED\xA0\x80 "
       "\"'&\r\n";
-  RunInfo run = samples::run_info();
+  results::RunInfo run = samples::run_info();
   run.endpoint = run.command = run.profile = hostile;
   run.identity = {
       hostile, hostile, hostile, hostile, hostile, hostile, hostile, {{hostile, hostile}}, {}};
   run.hashes = {{hostile, hostile}};
   run.errata = {{"bad", hostile, hostile, hostile, hostile, hostile}};
   std::vector<CaseResult> results;
-  for (Verdict verdict : Tally::verdicts) {
+  for (Verdict verdict : text::Tally::verdicts) {
     CaseResult result = samples::failure();
     result.verdict = verdict;
-    result.id = "bad/" + hostile + std::string(to_string(verdict));
+    result.id = "bad/" + hostile + std::string(results::to_string(verdict));
     result.protocol = result.title = result.level = result.basis = result.manual = result.section =
         result.quote = hostile;
     result.message = result.expected = result.received = result.replay = hostile;
     result.notes = {hostile, "transposed: " + hostile};
     result.differences = {{hostile, hostile, hostile, hostile}};
     result.readings = {{hostile, hostile}};
-    for (Event& event : result.exchange) event.text = hostile;
+    for (results::Event& event : result.exchange) event.text = hostile;
     results.push_back(result);
   }
   for (const bool qualify : {false, true}) {
@@ -250,7 +255,8 @@ TEST_F(Html, HostileBytesSurvive) {
     EXPECT_THAT(html, Not(HasSubstr("<script")));
     EXPECT_THAT(html, Not(HasSubstr("<!--")));
     const ParsedHtml page(html);
-    for (Verdict verdict : Tally::verdicts) EXPECT_GE(page.tile(to_string(verdict)), 1u);
+    for (Verdict verdict : text::Tally::verdicts)
+      EXPECT_GE(page.tile(results::to_string(verdict)), 1u);
     EXPECT_TRUE(samples::xmllint_accepts(report_));
   }
 }
@@ -284,7 +290,7 @@ TEST_F(Html, ThreeThousandPassesStayBelowTwoMebibytes) {
 }
 
 TEST_F(Html, BeyondTheLimitOfLinesCasesAreCounted) {
-  std::vector<CaseResult> results(html_line_limit + 5, with(Verdict::pass, "a/one"));
+  std::vector<CaseResult> results(html_line_limit + 5, samples::with(Verdict::pass, "a/one"));
   const ParsedHtml page(report(results));
   EXPECT_EQ(html_line_limit, page.count("//table[@class='passes']//tr"));
   EXPECT_EQ(html_line_limit + 5, page.tile("PASS"));
@@ -300,11 +306,11 @@ TEST_F(Html, NothingIsLoadedFromElsewhere) {
 
 TEST_F(Html, WhatCannotBeReadOrWrittenIsSaid) {
   EXPECT_THAT(write_html(folder_ / "none", report_, {}).error().message, HasSubstr("cannot read"));
-  samples::write_results(results_, {with(Verdict::pass, "a/one")});
+  samples::write_results(results_, {samples::with(Verdict::pass, "a/one")});
   EXPECT_THAT(write_html(results_, folder_ / "none/report.html", {}).error().message,
               HasSubstr("cannot write"));
   EXPECT_EQ(1u, folder_.files()) << "no half report is left";
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::html

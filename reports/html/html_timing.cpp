@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace fieldproof {
+namespace fieldproof::html {
 namespace {
 
 constexpr double width = 400, left = 8, right = 392, height = 30, base = 24;
@@ -149,4 +149,4 @@ void write_timing(HtmlWriter& out, const std::map<std::string, std::vector<doubl
   });
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

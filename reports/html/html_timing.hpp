@@ -8,7 +8,7 @@
 
 #include "reports/html/html_writer.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 /// The value below which `part` (0 to 1) of the sorted values lie, by nearest rank. `sorted` is not
 /// empty.
@@ -19,4 +19,4 @@ double percentile(const std::vector<double>& sorted, double part);
 void write_timing(HtmlWriter& out, const std::map<std::string, std::vector<double>>& response_ms,
                   double limit_ms);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

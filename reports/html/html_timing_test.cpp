@@ -4,7 +4,7 @@
 
 #include "reports/testdata/parsed_html.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 namespace {
 
 using testing::ElementsAre;
@@ -59,4 +59,4 @@ TEST(HtmlTiming, ZeroNegativeAndAbsurdTimesStayInThePlot) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -2,7 +2,7 @@
 
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 namespace {
 
 void append_escaped(std::string& html, std::string_view clean) {
@@ -47,7 +47,7 @@ void HtmlWriter::empty(std::string_view tag, Attributes attributes) {
   html_ += "/>";
 }
 
-void HtmlWriter::text(std::string_view bytes) { append_escaped(html_, xml_line(bytes)); }
-void HtmlWriter::lines(std::string_view bytes) { append_escaped(html_, xml_text(bytes)); }
+void HtmlWriter::text(std::string_view bytes) { append_escaped(html_, text::xml_line(bytes)); }
+void HtmlWriter::lines(std::string_view bytes) { append_escaped(html_, text::xml_text(bytes)); }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace fieldproof {
+namespace fieldproof::html {
 
 class HtmlWriter {
  public:
@@ -48,4 +48,4 @@ class HtmlWriter {
   std::string html_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::html

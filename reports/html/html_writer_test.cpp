@@ -5,7 +5,7 @@
 #include "reports/testdata/parsed_html.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::html {
 namespace {
 
 TEST(HtmlWriter, ElementsNestAndClose) {
@@ -50,8 +50,8 @@ TEST(HtmlWriter, AnyBytesComeBackFromAParser) {
   HtmlWriter out;
   out.element("html", {{"title", bytes}}, bytes);
   const samples::ParsedHtml page(out.str());
-  EXPECT_EQ(xml_line(bytes), page.text("/html"));
+  EXPECT_EQ(text::xml_line(bytes), page.text("/html"));
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::html

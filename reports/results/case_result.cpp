@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 using nlohmann::json;
@@ -324,4 +324,4 @@ void from_json(const json& object, RunEnd& end) {
   get(object, "trouble", end.trouble);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

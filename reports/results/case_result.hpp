@@ -13,7 +13,7 @@
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 /// A line of the exchange, as a frame monitor would show it.
 struct Event {
@@ -156,4 +156,4 @@ void from_json(const nlohmann::json& json, CaseResult& result);
 void from_json(const nlohmann::json& json, RunInfo& info);
 void from_json(const nlohmann::json& json, RunEnd& end);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

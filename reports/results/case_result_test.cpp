@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 using nlohmann::json;
@@ -167,4 +167,4 @@ TEST(RunJson, SeveralDevicesComeBack) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::results

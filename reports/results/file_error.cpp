@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 const char* advice(int error) {
@@ -33,4 +33,4 @@ Error file_error(std::string_view verb, const std::string& path, int error) {
   return fail(fmt::format("cannot {} {}{}{}", verb, path, cause, advice(error)));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

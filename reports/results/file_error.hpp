@@ -6,9 +6,9 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 /// "cannot write out/junit.xml: no space left on device; free some space". `error` is an errno.
 Error file_error(std::string_view verb, const std::string& path, int error);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

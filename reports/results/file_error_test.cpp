@@ -4,7 +4,7 @@
 
 #include <cerrno>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 TEST(FileError, SaysVerbObjectCauseAndWhatToDo) {
@@ -19,4 +19,4 @@ TEST(FileError, SaysVerbObjectCauseAndWhatToDo) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::results

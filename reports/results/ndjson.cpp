@@ -12,7 +12,7 @@
 
 #include "reports/results/file_error.hpp"
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 using nlohmann::json;
@@ -165,4 +165,4 @@ Result<RunLog> read_ndjson(const std::string& path,
   return Reader(path, on_result).read();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

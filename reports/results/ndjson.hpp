@@ -16,7 +16,7 @@
 #include "reports/results/soak.hpp"
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 /// Appends lines, each by one write(2): no buffer of ours stands between a result and the file.
 /// The file is locked while the writer lives, so two runs cannot mix their lines.
@@ -63,4 +63,4 @@ struct RunLog {
 Result<RunLog> read_ndjson(const std::string& path,
                            const std::function<void(const CaseResult&)>& on_result);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 using testing::ElementsAre;
@@ -203,4 +203,4 @@ TEST_F(Ndjson, FilesThatCannotBeUsedSayWhy) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 namespace {
 
@@ -79,4 +79,4 @@ void from_json(const nlohmann::json& json, ResponseFigures& figures) {
   json.at("max_ms").get_to(figures.greatest);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 class ResponseTimes {
  public:
@@ -47,4 +47,4 @@ std::string to_string(const ResponseFigures& figures);
 void to_json(nlohmann::json& json, const ResponseFigures& figures);
 void from_json(const nlohmann::json& json, ResponseFigures& figures);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 TEST(ResponseTimes, EqualTimesStayExact) {
@@ -55,4 +55,4 @@ TEST(ResponseTimes, InWords) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -12,7 +12,7 @@
 
 #include "reports/results/file_error.hpp"
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ Result<std::string> sha256_of_tree(const fs::path& path) {
   return sha256_of_text(list);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

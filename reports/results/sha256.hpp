@@ -6,7 +6,7 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 /// 64 hex digits, as `sha256sum PATH` prints them.
 Result<std::string> sha256_of_file(const std::filesystem::path& path);
@@ -15,4 +15,4 @@ Result<std::string> sha256_of_file(const std::filesystem::path& path);
 /// sha256sum | sha256sum`. A single file is itself.
 Result<std::string> sha256_of_tree(const std::filesystem::path& path);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,4 +58,4 @@ TEST_F(Sha256, WhatCannotBeReadIsNamed) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::results

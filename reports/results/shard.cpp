@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstdlib>
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 namespace {
 
@@ -39,4 +39,4 @@ std::optional<Shard> parse_shard(std::string_view text) {
   return sound(index ? std::optional(*index - 1) : std::nullopt, number(text.substr(slash + 1)));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 struct Shard {
   int index = 0;  // from 0
@@ -24,4 +24,4 @@ std::optional<Shard> shard_of_environment();
 std::string to_string(const Shard& shard);
 std::optional<Shard> parse_shard(std::string_view text);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

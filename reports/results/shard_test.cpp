@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 TEST(Shard, IsCountedFromOneInText) {
@@ -13,4 +13,4 @@ TEST(Shard, IsCountedFromOneInText) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 namespace {
 
@@ -109,4 +109,4 @@ void from_json(const json& object, SoakSummary& soak) {
   object.at("cases").get_to(soak.cases);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

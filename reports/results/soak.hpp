@@ -12,7 +12,7 @@
 
 #include "reports/results/response_times.hpp"
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 /// A stretch of a soak.
 struct SoakSample {
@@ -54,4 +54,4 @@ void from_json(const nlohmann::json& json, SoakSample& sample);
 void from_json(const nlohmann::json& json, SoakCase& one);
 void from_json(const nlohmann::json& json, SoakSummary& soak);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 // In the order of the enumeration.
@@ -45,4 +45,4 @@ bool gates(Verdict verdict, const Gate& gate) {
   return true;  // nothing passes by default
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace fieldproof {
+namespace fieldproof::results {
 
 enum class Verdict {
   pass,          // as the manual says
@@ -37,4 +37,4 @@ struct Gate {
 /// ERROR always gates, FAIL and XPASS always fail.
 bool gates(Verdict verdict, const Gate& gate);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::results {
 namespace {
 
 const std::vector<Verdict> all = {Verdict::pass,         Verdict::marginal, Verdict::non_strict,
@@ -46,4 +46,4 @@ TEST(Verdict, EachOptionOfTheGateAddsItsOwn) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::results

@@ -15,8 +15,8 @@
 namespace fieldproof::samples {
 
 /// A FAIL with every field filled: a wrong BCC on a read of one word.
-inline CaseResult failure() {
-  CaseResult result;
+inline results::CaseResult failure() {
+  results::CaseResult result;
   result.id = "xgt_cnet/rss/one_word";
   result.protocol = "xgt-cnet";
   result.title = "Read one word from M100 of station 1";
@@ -25,7 +25,7 @@ inline CaseResult failure() {
   result.manual = "xgb-cnet-en-1.6";
   result.section = "7.1.5 (1)(e)";
   result.quote = "BCC is the low byte of the sum from ENQ to EOT";
-  result.verdict = Verdict::fail;
+  result.verdict = results::Verdict::fail;
   result.message = "BCC: expected 0F, received 09 (the sum leaves out the header)";
   result.notes = {"addresses moved: %MW100 -> %MW300"};
   result.expected = "[ACK st 'rSS' '01' '02' '1234' ETX BCC]";
@@ -36,17 +36,19 @@ inline CaseResult failure() {
   result.differences = {{"BCC", "0F", "09", "the sum leaves out the header"}};
   const Bytes request = *from_hex("05 30 31 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 41 33");
   result.exchange = {
-      {Event::Kind::sent, 2s, 2s + 19792us, request, "ENQ '01rSS0106%MW100' EOT 'A3'"},
-      {Event::Kind::received, 2s + 24ms, 2s + 41708us, result.received_bytes, result.received},
-      {Event::Kind::note, 2s + 41708us, 2s + 41708us, {}, "silence until 1041.7 ms"}};
+      {results::Event::Kind::sent, 2s, 2s + 19792us, request, "ENQ '01rSS0106%MW100' EOT 'A3'"},
+      {results::Event::Kind::received, 2s + 24ms, 2s + 41708us, result.received_bytes,
+       result.received},
+      {results::Event::Kind::note, 2s + 41708us, 2s + 41708us, {}, "silence until 1041.7 ms"}};
   result.response_ms = {4.208};
   result.seconds = 0.0125;
   result.replay = "fieldproof run --filter xgt_cnet/rss/one_word --endpoint emulator:xbc-h";
   return result;
 }
 
-inline CaseResult with(Verdict verdict, const std::string& id, const std::string& message = "") {
-  CaseResult result;
+inline results::CaseResult with(results::Verdict verdict, const std::string& id,
+                                const std::string& message = "") {
+  results::CaseResult result;
   result.id = id;
   result.protocol = "xgt-cnet";
   result.verdict = verdict;
@@ -54,7 +56,7 @@ inline CaseResult with(Verdict verdict, const std::string& id, const std::string
   return result;
 }
 
-inline RunInfo run_info() {
+inline results::RunInfo run_info() {
   return {"0.1.0",
           "2026-11-21T12:39:03+00:00",
           "emulator:xbc-h?station=1",
@@ -64,7 +66,7 @@ inline RunInfo run_info() {
           {{"gate", "default"}, {"line", "9600-8N1"}, {"seed", "7"}}};
 }
 
-inline RunEnd run_end(int exit_code = 1) {
+inline results::RunEnd run_end(int exit_code = 1) {
   return {"2026-11-21T12:39:05+00:00", 2.25, exit_code, false, ""};
 }
 
@@ -100,12 +102,12 @@ inline std::string read_file(const std::string& path) {
 }
 
 /// A file of results as a run leaves it; without `end` as a killed run does.
-inline void write_results(const std::string& path, const std::vector<CaseResult>& results,
+inline void write_results(const std::string& path, const std::vector<results::CaseResult>& results,
                           bool end = true) {
-  auto writer = NdjsonWriter::create(path);
+  auto writer = results::NdjsonWriter::create(path);
   ASSERT_TRUE(writer) << writer.error().message;
   ASSERT_TRUE(writer->write(run_info()));
-  for (const CaseResult& result : results) ASSERT_TRUE(writer->write(result));
+  for (const results::CaseResult& result : results) ASSERT_TRUE(writer->write(result));
   if (!end) return;
   ASSERT_TRUE(writer->write(run_end()));
 }

@@ -11,7 +11,11 @@
 #include "reports/text/frame_cells.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
+
+using results::CaseResult;
+using results::Event;
+
 namespace {
 
 constexpr std::size_t bytes_a_line = 16;
@@ -101,7 +105,7 @@ std::string frame(const std::string& notation, const std::string& bytes,
 std::string differences(const CaseResult& result, const CaseTextOptions& options) {
   using Row = std::array<std::string, 4>;
   std::vector<Row> rows = {{"field", "expected", "received", ""}};
-  for (const Difference& difference : result.differences) {
+  for (const results::Difference& difference : result.differences) {
     rows.push_back({shorten(difference.field, options), shorten(difference.expected, options),
                     shorten(difference.received, options), shorten(difference.hint, options)});
   }
@@ -194,7 +198,8 @@ std::string case_timing(const CaseResult& result) {
 }
 
 std::string case_message(const CaseResult& result) {
-  return result.message.empty() ? std::string(to_string(result.verdict)) : xml_line(result.message);
+  return result.message.empty() ? std::string(results::to_string(result.verdict))
+                                : xml_line(result.message);
 }
 
 std::string hex_dump(ByteView bytes, const CaseTextOptions& options) {
@@ -257,4 +262,4 @@ std::string case_block(const CaseResult& result, const CaseTextOptions& options)
   return block.take();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

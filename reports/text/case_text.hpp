@@ -8,7 +8,7 @@
 
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 struct CaseTextOptions {
   std::size_t limit = 0;  // bytes of a frame that are shown; 0: all
@@ -20,17 +20,17 @@ struct CaseTextOptions {
 std::string shorten(const std::string& text, const CaseTextOptions& options);
 
 /// "xgt_cnet/rss/two_words", with the step of a line matrix: "xgt_cnet/rss/two_words [38400-8N1]".
-std::string case_name(const CaseResult& result);
+std::string case_name(const results::CaseResult& result);
 
 /// The name, with " #2" for its first repetition.
-std::string case_label(const CaseResult& result);
+std::string case_label(const results::CaseResult& result);
 
 /// One line: what is wrong; the verdict's word where nothing is said.
-std::string case_message(const CaseResult& result);
+std::string case_message(const results::CaseResult& result);
 
 /// "reply after 4.208 ms"; of many, how many with least, greatest and median. Empty without a
 /// reply.
-std::string case_timing(const CaseResult& result);
+std::string case_timing(const results::CaseResult& result);
 
 /// Title, clause and quote, sent, expected and received frames (notation, and hex with the bytes
 /// that differ marked), differences as a table, timing, readings, notes and replay command. What is
@@ -44,11 +44,11 @@ std::string case_timing(const CaseResult& result);
 ///   ...
 ///
 /// Each line ends with a line feed; only characters that xml_text allows.
-std::string case_block(const CaseResult& result, const CaseTextOptions& options = {});
+std::string case_block(const results::CaseResult& result, const CaseTextOptions& options = {});
 
 /// The exchange as a frame monitor shows it: time since its first event, gap since the frame before
 /// it (ms), direction.
-std::string frame_monitor(const CaseResult& result, const CaseTextOptions& options = {});
+std::string frame_monitor(const results::CaseResult& result, const CaseTextOptions& options = {});
 
 /// Hex in lines of 16 bytes, with offsets where there is more than one line: "06 30 31 ...".
 std::string hex_dump(ByteView bytes, const CaseTextOptions& options = {});
@@ -56,4 +56,4 @@ std::string hex_dump(ByteView bytes, const CaseTextOptions& options = {});
 /// Each line that is not empty moved to the right.
 std::string indent(std::string_view lines, std::size_t columns);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

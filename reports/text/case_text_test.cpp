@@ -5,7 +5,10 @@
 #include "reports/testdata/samples.hpp"
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
+
+using results::CaseResult;
+
 namespace {
 
 using testing::HasSubstr;
@@ -35,7 +38,7 @@ replay    fieldproof run --filter xgt_cnet/rss/one_word --endpoint emulator:xbc-
 }
 
 TEST(CaseBlock, OfACaseThatNeverStartedIsEmpty) {
-  EXPECT_EQ("", case_block(samples::with(Verdict::blocked, "a/b", "needs --allow-write")));
+  EXPECT_EQ("", case_block(samples::with(results::Verdict::blocked, "a/b", "needs --allow-write")));
 }
 
 TEST(CaseBlock, SilenceInsteadOfAnAnswer) {
@@ -80,7 +83,7 @@ TEST(CaseBlock, AlternativesInWordsStayWords) {
 
 TEST(CaseBlock, TheRequestIsTheOneThatWasAnswered) {
   auto result = samples::failure();
-  result.exchange.push_back({Event::Kind::sent, 4s, 4s, {0x05}, "SANITY"});
+  result.exchange.push_back({results::Event::Kind::sent, 4s, 4s, {0x05}, "SANITY"});
   EXPECT_THAT(case_block(result), HasSubstr("sent      ENQ '01rSS0106%MW100' EOT 'A3'"));
   result.received_bytes.clear();
   EXPECT_THAT(case_block(result), HasSubstr("sent      SANITY"))
@@ -142,7 +145,7 @@ TEST(CaseBlock, NothingInItHarmsATerminalOrXml) {
   result.notes = {every};
   result.readings = {{every, every}};
   result.differences = {{every, every, every, every}};
-  for (Event& event : result.exchange) event.text = every;
+  for (results::Event& event : result.exchange) event.text = every;
   const std::string block = case_block(result, {.exchange = true});
   EXPECT_EQ(block, xml_text(block));
 }
@@ -161,11 +164,11 @@ TEST(FrameMonitor, ShowsTimeGapDirectionAndFrame) {
 }
 
 TEST(CaseLabel, CountsRepetitionsFromTwo) {
-  auto result = samples::with(Verdict::pass, "a/b");
+  auto result = samples::with(results::Verdict::pass, "a/b");
   EXPECT_EQ("a/b", case_label(result));
   result.repeat = 1;
   EXPECT_EQ("a/b #2", case_label(result));
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::text

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace fieldproof {
+namespace fieldproof::text {
 namespace {
 
 constexpr std::string_view open_byte = "??";
@@ -43,7 +43,7 @@ FrameCells cells_of(ByteView bytes) {
   return cells;
 }
 
-JudgedFrames judged_frames(const CaseResult& result) {
+JudgedFrames judged_frames(const results::CaseResult& result) {
   JudgedFrames frames{cells_of_hex(result.expected_hex), cells_of(result.received_bytes)};
   if (frames.expected && frames.expected->empty())
     frames.expected = cells_of(result.expected_bytes);
@@ -52,8 +52,8 @@ JudgedFrames judged_frames(const CaseResult& result) {
   return frames;
 }
 
-bool has_judged_frames(const CaseResult& result) {
+bool has_judged_frames(const results::CaseResult& result) {
   return !result.expected.empty() || !result.expected_hex.empty() || !result.received_bytes.empty();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

@@ -8,7 +8,7 @@
 
 #include "reports/results/case_result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 /// "06", or "??" for a byte that the notation leaves open, or "--" for one that is missing.
 struct FrameCell {
@@ -24,9 +24,9 @@ struct JudgedFrames {
       expected;         // nothing: the expectation is no list of bytes (alternatives in words, say)
   FrameCells received;  // marked: each byte that differs; the first alone where the lengths differ
 };
-JudgedFrames judged_frames(const CaseResult& result);
+JudgedFrames judged_frames(const results::CaseResult& result);
 
 /// A step expected a frame, or got one that it did not.
-bool has_judged_frames(const CaseResult& result);
+bool has_judged_frames(const results::CaseResult& result);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

@@ -2,7 +2,7 @@
 
 #include "reports/text/xml_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 std::string markdown_cell(std::string_view text) {
   constexpr std::string_view markup = "\\`*_{}[]()<>#+!|~&";
@@ -29,4 +29,4 @@ std::string markdown_head(std::initializer_list<std::string_view> cells) {
   return markdown_row(cells) + rule + '\n';
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

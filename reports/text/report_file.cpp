@@ -8,7 +8,7 @@
 
 #include "reports/results/file_error.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 namespace {
 
 bool written_in_place(const std::string& path) {
@@ -29,7 +29,7 @@ Result<ReportFile> ReportFile::create(const std::string& path) {
       path, written_in_place(path) ? path : path + "." + std::to_string(::getpid()) + ".part");
   errno = 0;
   file.stream_->open(file.temporary_, std::ios::binary | std::ios::trunc);
-  if (!*file.stream_) return file_error("write", path, errno);
+  if (!*file.stream_) return results::file_error("write", path, errno);
   return file;
 }
 
@@ -42,11 +42,11 @@ ReportFile::~ReportFile() {
 Status ReportFile::commit() {
   errno = 0;
   stream_->close();
-  if (!*stream_) return file_error("write", path_, errno != 0 ? errno : EIO);
+  if (!*stream_) return results::file_error("write", path_, errno != 0 ? errno : EIO);
   if (temporary_ != path_ && std::rename(temporary_.c_str(), path_.c_str()) != 0)
-    return file_error("write", path_, errno);
+    return results::file_error("write", path_, errno);
   stream_.reset();
   return ok();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

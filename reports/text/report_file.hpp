@@ -7,7 +7,7 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 class ReportFile {
  public:
@@ -32,4 +32,4 @@ class ReportFile {
   std::unique_ptr<std::ofstream> stream_;  // nothing once committed or moved
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

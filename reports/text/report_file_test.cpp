@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-namespace fieldproof {
+namespace fieldproof::text {
 namespace {
 
 class ReportFileTest : public testing::Test {
@@ -84,4 +84,4 @@ TEST_F(ReportFileTest, AFullDiskIsAnError) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::text

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-namespace fieldproof {
+namespace fieldproof::text {
+
+using results::Verdict;
 
 std::string verdict_meaning(Verdict verdict) {
   switch (verdict) {
@@ -21,8 +23,8 @@ std::string verdict_meaning(Verdict verdict) {
   return "";
 }
 
-std::string gate_hint(Verdict verdict, const Gate& gate) {
-  if (gates(verdict, gate)) return "";
+std::string gate_hint(Verdict verdict, const results::Gate& gate) {
+  if (results::gates(verdict, gate)) return "";
   switch (verdict) {
     case Verdict::marginal: return "; red with --fail-on marginal";
     case Verdict::non_strict: return "; red with --strict";
@@ -32,17 +34,18 @@ std::string gate_hint(Verdict verdict, const Gate& gate) {
   }
 }
 
-std::string red_counts(const Tally& tally, const Gate& gate) {
+std::string red_counts(const Tally& tally, const results::Gate& gate) {
   std::string text;
   for (Verdict verdict : Tally::verdicts) {
-    if (tally.of(verdict) == 0 || !gates(verdict, gate)) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tally.of(verdict), to_string(verdict));
+    if (tally.of(verdict) == 0 || !results::gates(verdict, gate)) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tally.of(verdict),
+                        results::to_string(verdict));
   }
   return text;
 }
 
-std::string device_text(const DutInfo& dut) {
-  const Identity& device = dut.identity;
+std::string device_text(const results::DutInfo& dut) {
+  const results::Identity& device = dut.identity;
   std::string text = device.maker;
   const auto add = [&](const std::string& separator, const std::string& value) {
     if (!value.empty()) text += (text.empty() ? "" : separator) + value;
@@ -55,10 +58,10 @@ std::string device_text(const DutInfo& dut) {
   return text;
 }
 
-std::string early_end(const RunLog& log) {
+std::string early_end(const results::RunLog& log) {
   if (!log.end) {
     const char* incomplete = log.truncated ? ", and one incomplete" : "";
-    const std::string soak = killed_soak_text(log.samples);
+    const std::string soak = results::killed_soak_text(log.samples);
     return fmt::format("the run was killed: {} results were written before{}{}{}", log.results,
                        incomplete, soak.empty() ? "" : "; ", soak);
   }
@@ -67,4 +70,4 @@ std::string early_end(const RunLog& log) {
   return log.end->trouble;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

@@ -6,23 +6,23 @@
 #include "reports/results/ndjson.hpp"
 #include "reports/text/tally.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 /// "within limits, inside the guard band"
-std::string verdict_meaning(Verdict verdict);
+std::string verdict_meaning(results::Verdict verdict);
 
 /// Which option turns a verdict red that this gate lets pass: "; red with --strict". Empty for the
 /// others.
-std::string gate_hint(Verdict verdict, const Gate& gate);
+std::string gate_hint(results::Verdict verdict, const results::Gate& gate);
 
 /// "1 FAIL, 1 ERROR": what turned the gate red.
-std::string red_counts(const Tally& tally, const Gate& gate);
+std::string red_counts(const Tally& tally, const results::Gate& gate);
 
 /// "LS ELECTRIC XBL-C41A, serial number 2219-00417, firmware V1.41, at serial:/dev/ttyUSB0
 /// 38400-8N1, station 3".
-std::string device_text(const DutInfo& dut);
+std::string device_text(const results::DutInfo& dut);
 
 /// Why a run did not end as it should: killed, interrupted, trouble. Empty for one that did.
-std::string early_end(const RunLog& log);
+std::string early_end(const results::RunLog& log);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

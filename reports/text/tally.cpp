@@ -4,7 +4,10 @@
 
 #include <numeric>
 
-namespace fieldproof {
+namespace fieldproof::text {
+
+using results::Gate;
+using results::Verdict;
 
 std::size_t Tally::total() const {
   return std::accumulate(counts_.begin(), counts_.end(), std::size_t{0});
@@ -12,7 +15,7 @@ std::size_t Tally::total() const {
 
 std::size_t Tally::gating(const Gate& gate) const {
   std::size_t count = 0;
-  for (Verdict verdict : verdicts) count += gates(verdict, gate) ? of(verdict) : 0;
+  for (Verdict verdict : verdicts) count += results::gates(verdict, gate) ? of(verdict) : 0;
   return count;
 }
 
@@ -20,7 +23,8 @@ std::string to_string(const Tally& tally) {
   std::string text;
   for (Verdict verdict : Tally::verdicts) {
     if (tally.of(verdict) == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tally.of(verdict), to_string(verdict));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tally.of(verdict),
+                        results::to_string(verdict));
   }
   return text.empty() ? "nothing" : text;
 }
@@ -32,7 +36,7 @@ JunitOutcome junit_outcome(Verdict verdict, const Gate& gate) {
     case Verdict::skip:
     case Verdict::blocked:
     case Verdict::inconclusive: return JunitOutcome::skipped;
-    default: return gates(verdict, gate) ? JunitOutcome::failure : JunitOutcome::plain;
+    default: return results::gates(verdict, gate) ? JunitOutcome::failure : JunitOutcome::plain;
   }
 }
 
@@ -79,4 +83,4 @@ Gate parse_gate(const std::string& text) {
           .qualify = has("qualify")};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

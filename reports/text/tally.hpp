@@ -7,23 +7,26 @@
 
 #include "reports/results/verdict.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 class Tally {
  public:
   /// In the order of the design's table.
-  static constexpr std::array<Verdict, 11> verdicts = {
-      Verdict::pass,    Verdict::marginal,     Verdict::non_strict, Verdict::info,
-      Verdict::fail,    Verdict::xfail,        Verdict::xpass,      Verdict::skip,
-      Verdict::blocked, Verdict::inconclusive, Verdict::error};
+  static constexpr std::array<results::Verdict, 11> verdicts = {
+      results::Verdict::pass,         results::Verdict::marginal, results::Verdict::non_strict,
+      results::Verdict::info,         results::Verdict::fail,     results::Verdict::xfail,
+      results::Verdict::xpass,        results::Verdict::skip,     results::Verdict::blocked,
+      results::Verdict::inconclusive, results::Verdict::error};
 
-  void add(Verdict verdict, std::size_t count = 1) {
+  void add(results::Verdict verdict, std::size_t count = 1) {
     counts_[static_cast<std::size_t>(verdict)] += count;
   }
-  std::size_t of(Verdict verdict) const { return counts_[static_cast<std::size_t>(verdict)]; }
+  std::size_t of(results::Verdict verdict) const {
+    return counts_[static_cast<std::size_t>(verdict)];
+  }
   std::size_t total() const;
   /// How many results turn the gate red.
-  std::size_t gating(const Gate& gate) const;
+  std::size_t gating(const results::Gate& gate) const;
   bool operator==(const Tally&) const = default;
 
  private:
@@ -37,21 +40,21 @@ std::string to_string(const Tally& tally);
 /// whatever the gate says, because a reader of the report would look for a frame that never was;
 /// the exit code says that the gate is red.
 enum class JunitOutcome { plain, failure, error, skipped };
-JunitOutcome junit_outcome(Verdict verdict, const Gate& gate);
+JunitOutcome junit_outcome(results::Verdict verdict, const results::Gate& gate);
 
 /// The exit code of a run that was started, by precedence: 130 interrupted, 3 any ERROR, 1
 /// conformance failed, 4 nothing selected or judged (no result, or only SKIP, BLOCKED and
 /// INCONCLUSIVE), 0 gate met. 2 and 77 are decided before a run starts, as are trouble without a
 /// result (3) and the empty shard of a selection that is not (0).
-int gate_exit_code(const Tally& tally, const Gate& gate, bool interrupted);
+int gate_exit_code(const Tally& tally, const results::Gate& gate, bool interrupted);
 
 /// "conformance failed", for any exit code of the tool.
 std::string exit_meaning(int exit_code);
 
 /// The gate as a property of a run, so that a report made later from the results judges alike:
 /// "strict, qualify"; "default" when no option is set.
-std::string to_string(const Gate& gate);
+std::string to_string(const results::Gate& gate);
 /// The reverse; what it does not know counts as not set.
-Gate parse_gate(const std::string& text);
+results::Gate parse_gate(const std::string& text);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

@@ -4,7 +4,11 @@
 
 #include <initializer_list>
 
-namespace fieldproof {
+namespace fieldproof::text {
+
+using results::Gate;
+using results::Verdict;
+
 namespace {
 
 Tally tally_of(std::initializer_list<Verdict> verdicts) {
@@ -86,4 +90,4 @@ TEST(GateText, ReadsBack) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::text

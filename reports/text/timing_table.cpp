@@ -6,38 +6,38 @@
 
 #include "reports/text/case_text.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 namespace {
 
-using Times = std::map<std::string, ResponseTimes>;
+using Times = std::map<std::string, results::ResponseTimes>;
 
 nlohmann::json to_object(const Times& times) {
   nlohmann::json object = nlohmann::json::object();
-  for (const auto& [name, one] : times) object[name] = figures_of(one);
+  for (const auto& [name, one] : times) object[name] = results::figures_of(one);
   return object;
 }
 
-void add(Times& all, const std::string& name, const CaseResult& result) {
-  ResponseTimes& times = all[name];
+void add(Times& all, const std::string& name, const results::CaseResult& result) {
+  results::ResponseTimes& times = all[name];
   for (const double ms : result.response_ms) times.add(ms);
 }
 
 }  // namespace
 
-void TimingTable::add(const CaseResult& result) {
+void TimingTable::add(const results::CaseResult& result) {
   if (result.response_ms.empty()) return;
   const std::size_t first = result.id.find('/');
   const std::string line = result.line.empty() ? "" : " [" + result.line + "]";
-  fieldproof::add(protocols_, result.id.substr(0, first), result);
-  fieldproof::add(
+  fieldproof::text::add(protocols_, result.id.substr(0, first), result);
+  fieldproof::text::add(
       groups_,
       (first == std::string::npos ? result.id
                                   : result.id.substr(0, result.id.find('/', first + 1))) +
           line,
       result);
   if (too_many_) return;
-  fieldproof::add(cases_, case_name(result), result);
+  fieldproof::text::add(cases_, case_name(result), result);
   too_many_ = cases_.size() > case_limit;
   if (too_many_) cases_.clear();
 }
@@ -46,7 +46,7 @@ TimingTable::Rows TimingTable::rows(std::size_t limit) const {
   const bool by_case = !too_many_ && cases_.size() <= limit;
   const Times& chosen = by_case ? cases_ : groups_.size() <= limit ? groups_ : protocols_;
   Rows rows;
-  for (const auto& [name, times] : chosen) rows.emplace_back(name, figures_of(times));
+  for (const auto& [name, times] : chosen) rows.emplace_back(name, results::figures_of(times));
   return rows;
 }
 
@@ -71,4 +71,4 @@ std::string timing_text(const TimingTable::Rows& rows) {
   return text;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

@@ -11,13 +11,13 @@
 #include "reports/results/case_result.hpp"
 #include "reports/results/response_times.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 class TimingTable {
  public:
-  void add(const CaseResult& result);
+  void add(const results::CaseResult& result);
 
-  using Rows = std::vector<std::pair<std::string, ResponseFigures>>;
+  using Rows = std::vector<std::pair<std::string, results::ResponseFigures>>;
   /// One row a case where there are at most `limit`, else a group of cases ("xgt_cnet/rss"), else a
   /// protocol.
   Rows rows(std::size_t limit = 20) const;
@@ -27,11 +27,11 @@ class TimingTable {
   static constexpr std::size_t case_limit = 10'000;
 
  private:
-  std::map<std::string, ResponseTimes> cases_, groups_, protocols_;
+  std::map<std::string, results::ResponseTimes> cases_, groups_, protocols_;
   bool too_many_ = false;  // cases: their figures were given up
 };
 
 /// Aligned columns under a head line; empty without rows.
 std::string timing_text(const TimingTable::Rows& rows);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

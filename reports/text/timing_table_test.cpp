@@ -4,11 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::text {
 namespace {
 
-CaseResult replied(const std::string& id, std::vector<double> ms, const std::string& line = "") {
-  CaseResult result;
+results::CaseResult replied(const std::string& id, std::vector<double> ms,
+                            const std::string& line = "") {
+  results::CaseResult result;
   result.id = id;
   result.line = line;
   result.response_ms = std::move(ms);
@@ -53,4 +54,4 @@ TEST(TimingTable, StepsOfALineMatrixStandApart) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::text

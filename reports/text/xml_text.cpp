@@ -4,7 +4,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 namespace {
 
 struct Character {
@@ -57,4 +57,4 @@ std::string show(std::string_view bytes, bool multi_line) {
 std::string xml_text(std::string_view bytes) { return show(bytes, true); }
 std::string xml_line(std::string_view bytes) { return show(bytes, false); }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

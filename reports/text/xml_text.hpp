@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace fieldproof {
+namespace fieldproof::text {
 
 /// UTF-8 of characters that XML 1.0 allows. What it forbids or discourages (control bytes other
 /// than tab and line feed, DEL, U+0080-U+009F, U+FFFE, U+FFFF) and bytes that are not UTF-8 are
@@ -15,4 +15,4 @@ std::string xml_text(std::string_view bytes);
 /// The same in one line, for attributes: tab and line feed are shown as [09] and [0A].
 std::string xml_line(std::string_view bytes);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::text

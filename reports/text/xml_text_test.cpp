@@ -6,7 +6,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::text {
 namespace {
 
 TEST(XmlText, EachOfTheBytes) {
@@ -74,4 +74,4 @@ TEST(XmlText, PairsOfBytesSurviveXml) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::text

@@ -7,7 +7,7 @@
 #include "src/base/bytes.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 /// Bytes without a gap between them: byte i occupies [start + i*character_time, start +
 /// (i+1)*character_time). Behind a pty or a socket there is no wire time: character_time is 0 and
@@ -46,4 +46,4 @@ class Device {
   virtual Bytes advance(Time now) = 0;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

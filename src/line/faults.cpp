@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 namespace {
 Bytes part(const Bytes& bytes, std::size_t from, std::size_t to) {
@@ -112,4 +112,4 @@ Bytes FaultyDevice::flipped(Bytes bytes, const ByteFaults& faults, std::size_t f
   return bytes;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

@@ -9,7 +9,7 @@
 
 #include "src/line/device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 /// What happens to the bytes of one direction. Bytes count from 0 within a burst (request) or a
 /// frame (reply).
@@ -62,4 +62,4 @@ class FaultyDevice : public Device {
   std::size_t request_bytes_ = 0;  // of the burst so far: the line may hand it over in parts
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

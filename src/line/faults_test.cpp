@@ -6,7 +6,7 @@
 
 #include "src/line/line.hpp"
 
-namespace fieldproof {
+namespace fieldproof::line {
 namespace {
 
 const LineSettings n81{9600, 8, 'N', 1};
@@ -168,4 +168,4 @@ TEST_F(Faults, BytesCountThroughABurstThatComesInParts) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::line

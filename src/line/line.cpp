@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 namespace {
 constexpr std::size_t bench = 0;
@@ -231,4 +231,4 @@ std::optional<Character> SimulatedLine::character_for(std::size_t listener) cons
   return next_character(wave, l.settings, l.hunt_from);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

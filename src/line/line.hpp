@@ -10,7 +10,7 @@
 #include "src/line/settings.hpp"
 #include "src/line/uart.hpp"
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 /// May one who transmits hear another who does at the same time? RS-232 and RS-422: full; two-wire
 /// RS-485: half.
@@ -85,4 +85,4 @@ class SimulatedLine {
   Burst part_;  // reused for parts of a burst
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

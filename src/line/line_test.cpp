@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace fieldproof {
+namespace fieldproof::line {
 namespace {
 
 const LineSettings n81{9600, 8, 'N', 1};
@@ -464,4 +464,4 @@ TEST(Line, ADeviceThatNeverRestsIsAProgrammingError) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::line

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 namespace {
 constexpr std::array speeds{1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200};
@@ -47,4 +47,4 @@ std::string to_string(const LineSettings& settings) {
          settings.parity + std::to_string(settings.stop_bits);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

@@ -8,7 +8,7 @@
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 struct LineSettings {
   int baud = 9600;
@@ -29,4 +29,4 @@ Result<LineSettings> parse_line_settings(std::string_view text);
 /// "9600-8N1"
 std::string to_string(const LineSettings& settings);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

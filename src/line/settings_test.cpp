@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::line {
 namespace {
 
 LineSettings read(std::string_view text) {
@@ -62,4 +62,4 @@ TEST(LineSettings, BitsAndCharacterTimes) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::line

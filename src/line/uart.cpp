@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 namespace {
 
@@ -130,4 +130,4 @@ void drop_unsent_bits(Bytes& bytes, const LineSettings& sender) {
   for (Byte& b : bytes) b &= 0x7F;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

@@ -11,7 +11,7 @@
 #include "src/line/device.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::line {
 
 /// Characters that a receiver has dropped. One character may count as both.
 struct LineErrors {
@@ -79,4 +79,4 @@ Reading read_burst(const Burst& burst, const LineSettings& sender, const LineSet
 /// The bytes as a sender with these settings can carry them: 7 data bits drop bit 7.
 void drop_unsent_bits(Bytes& bytes, const LineSettings& sender);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::line

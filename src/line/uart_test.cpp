@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::line {
 namespace {
 
 const LineSettings n81{9600, 8, 'N', 1};
@@ -167,4 +167,4 @@ TEST(Uart, AMutedReceiverReadsIdle) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::line

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 
 namespace {
 constexpr std::size_t digits_of_a_word = 4;
@@ -176,4 +176,4 @@ bool LsReceiver::take(Byte b) {
   return b == ls_eot;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

@@ -21,7 +21,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 
 constexpr Byte ls_enq = 0x05, ls_ack = 0x06, ls_nak = 0x15, ls_eot = 0x04;
 
@@ -118,4 +118,4 @@ class LsReceiver {
   Bytes frame_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

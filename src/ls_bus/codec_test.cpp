@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 namespace {
 
 constexpr auto address_first = LsWriteOrder::address_first, count_first = LsWriteOrder::count_first;
@@ -196,4 +196,4 @@ TEST(LsReceiver, ResetForgetsTheFrameInProgress) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

@@ -7,7 +7,7 @@
 #include "src/plc/config_reader.hpp"
 #include "src/plc/device_action.hpp"
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 
 namespace {
 constexpr std::size_t digits_of_a_word = 4;
@@ -28,7 +28,7 @@ Result<unsigned> find_parameter(const InverterParameters& parameters, std::strin
 }
 }  // namespace
 
-void Inverter::receive(const Burst& burst) {
+void Inverter::receive(const line::Burst& burst) {
   Time end = burst.start;
   for (const Byte b : burst.bytes) {
     end += burst.character_time;
@@ -91,9 +91,9 @@ Result<std::string> Inverter::get(std::string_view address, std::size_t digits) 
 }
 
 Status Inverter::act(std::string_view action) {
-  const Result<DeviceAction> parsed = parse_device_action(action);
+  const Result<plc::DeviceAction> parsed = plc::parse_device_action(action);
   if (!parsed) return parsed.error();
-  if (*parsed != DeviceAction::power_cycle) return ok();
+  if (*parsed != plc::DeviceAction::power_cycle) return ok();
   receiver_.reset();
   replies_.clear();
   return ok();
@@ -106,11 +106,11 @@ Result<InverterConfig> parse_inverter_config(const nlohmann::json& config) {
       "protocol",   "rs485",    "station",
       "write_order"};
   constexpr const char* what = "the inverter's configuration";
-  if (const Status known = known_keys(config, what, keys); !known) return known.error();
+  if (const Status known = plc::known_keys(config, what, keys); !known) return known.error();
   InverterConfig inverter;
-  LineSettings line;
+  line::LineSettings line;
   bool address_first = true;
-  ConfigReader reader(config, what);
+  plc::ConfigReader reader(config, what);
   reader.whole("station", 255, inverter.station);
   reader.either("write_order", "address_first", "count_first", address_first);
   reader.milliseconds("delay_ms", inverter.delay);
@@ -120,10 +120,10 @@ Result<InverterConfig> parse_inverter_config(const nlohmann::json& config) {
   return inverter;
 }
 
-Result<std::unique_ptr<EmulatedDevice>> make_inverter(const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_inverter(const nlohmann::json& config) {
   const Result<InverterConfig> parsed = parse_inverter_config(config);
   if (!parsed) return parsed.error();
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<Inverter>(*parsed));
+  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Inverter>(*parsed));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

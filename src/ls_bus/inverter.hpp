@@ -12,7 +12,7 @@
 #include "src/plc/emulated_device.hpp"
 #include "src/plc/reply_queue.hpp"
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 
 struct InverterConfig {
   unsigned station = 1;  // 0-255 (000 4.3.1)
@@ -25,11 +25,11 @@ struct InverterConfig {
 /// over. The error for an unknown key lists those there are.
 Result<InverterConfig> parse_inverter_config(const nlohmann::json& config);
 
-class Inverter : public EmulatedDevice {
+class Inverter : public plc::EmulatedDevice {
  public:
   explicit Inverter(const InverterConfig& config) : config_(config) {}
 
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override { return replies_.wake_at(std::nullopt); }
   Bytes advance(Time now) override { return replies_.take(now); }
 
@@ -51,10 +51,10 @@ class Inverter : public EmulatedDevice {
   InverterConfig config_;
   InverterParameters parameters_;
   LsReceiver receiver_;
-  ReplyQueue replies_;
+  plc::ReplyQueue replies_;
 };
 
 /// In its power-on state: all parameters zero. Errors name the key of `config`.
-Result<std::unique_ptr<EmulatedDevice>> make_inverter(const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_inverter(const nlohmann::json& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

@@ -6,7 +6,7 @@
 
 #include "src/line/line.hpp"
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 namespace {
 
 using nlohmann::json;
@@ -171,13 +171,13 @@ TEST(Inverter, PowerCycleLosesFramesAndKeepsParameters) {
 }
 
 TEST(Inverter, OnALineWithAnother) {
-  SimulatedLine line(LineSettings{});
+  line::SimulatedLine line(line::LineSettings{});
   Inverter first({.station = 1}), second({.station = 2});
-  line.attach(first, LineSettings{});
-  line.attach(second, LineSettings{});
+  line.attach(first, line::LineSettings{});
+  line.attach(second, line::LineSettings{});
   ASSERT_TRUE(second.set("1230", "0002"));
   line.transmit(enq("02R12301"));
-  const Burst reply = line.receive(line.now() + 1s);
+  const line::Burst reply = line.receive(line.now() + 1s);
   EXPECT_EQ(shown(reply.bytes), "ACK 02R0002") << "the reply of one is no request to the other";
 }
 
@@ -217,7 +217,7 @@ TEST(InverterConfig, Defaults) {
 
 TEST(InverterConfig, ErrorsNameTheKey) {
   const auto error_of = [](const json& config) {
-    const Result<std::unique_ptr<EmulatedDevice>> inverter = make_inverter(config);
+    const Result<std::unique_ptr<plc::EmulatedDevice>> inverter = make_inverter(config);
     return inverter ? "" : inverter.error().message;
   };
   EXPECT_THAT(error_of({{"station", 256}}), HasSubstr("station is 256"));
@@ -230,4 +230,4 @@ TEST(InverterConfig, ErrorsNameTheKey) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

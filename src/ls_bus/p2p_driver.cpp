@@ -6,7 +6,11 @@
 
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
+
+using p2p::P2pBlock;
+using plc::FrameSink;
+using plc::PlcMemory;
 
 namespace {
 
@@ -14,18 +18,18 @@ constexpr std::uint32_t addresses = 0x10000;
 
 bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function::write; }
 
-class LsBusP2pDriver : public P2pDriver {
+class LsBusP2pDriver : public p2p::P2pDriver {
  public:
   LsBusP2pDriver(LsWriteOrder write_order, Duration gap) : write_order_(write_order), gap_(gap) {}
 
   std::string_view name() const override { return "ls-bus-client"; }
-  Status check(const P2pBlock& block, const PlcModel& model) const override;
+  Status check(const P2pBlock& block, const plc::PlcModel& model) const override;
   Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override;
   bool awaits_reply(const P2pBlock&) const override { return true; }
   std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
                                     PlcMemory& memory) const override;
 
-  void receive(const Burst& burst, FrameSink& sink) override;
+  void receive(const line::Burst& burst, FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
   void advance(Time now, FrameSink& sink) override;
   void reset() override {
@@ -46,7 +50,7 @@ class LsBusP2pDriver : public P2pDriver {
   mutable LsRequest sent_;  // the reply to a write repeats its data, whatever memory holds by then
 };
 
-Status LsBusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
+Status LsBusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
   if (block.function != P2pBlock::Function::read && !writes(block))
     return fail("function is neither read nor write; an LS Bus client has no other (8.1.2)");
   if (block.type != 'W') return fail("type is not word; the LS Bus has no other (8.2)");
@@ -74,7 +78,7 @@ Status LsBusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
 }
 
 Result<Bytes> LsBusP2pDriver::request(const P2pBlock& block, const PlcMemory& memory) const {
-  const P2pVariable& variable = block.variables.front();
+  const p2p::P2pVariable& variable = block.variables.front();
   sent_ = {.station = block.station,
            .command = writes(block) ? 'W' : 'R',
            .address = *parse_ls_address(variable.partner),
@@ -89,30 +93,31 @@ std::optional<std::uint16_t> LsBusP2pDriver::take(const P2pBlock& block, ByteVie
   constexpr std::size_t code_size =
       2;  // of a NAK (8.2.1; the four of 8.1.1 contradict every format)
   const LsReply reply = parse_ls_reply(frame);
-  if (!reply.whole) return p2p_error::length;
-  if (!reply.sum_right) return p2p_error::bcc;
-  if (!reply.station) return p2p_error::not_hex;
-  if (reply.station != block.station) return p2p_error::station;
-  if (reply.command != sent_.command) return p2p_error::driver;
-  if (!reply.ack) return reply.content.size() == code_size ? p2p_error::nak : p2p_error::length;
+  if (!reply.whole) return p2p::p2p_error::length;
+  if (!reply.sum_right) return p2p::p2p_error::bcc;
+  if (!reply.station) return p2p::p2p_error::not_hex;
+  if (reply.station != block.station) return p2p::p2p_error::station;
+  if (reply.command != sent_.command) return p2p::p2p_error::driver;
+  if (!reply.ack)
+    return reply.content.size() == code_size ? p2p::p2p_error::nak : p2p::p2p_error::length;
   return take_ack(block, reply, memory);
 }
 
 std::uint16_t LsBusP2pDriver::take_ack(const P2pBlock& block, const LsReply& reply,
                                        PlcMemory& memory) const {
   constexpr std::size_t digits_of_a_word = 4;
-  if (reply.content.size() != digits_of_a_word * sent_.count) return p2p_error::length;
+  if (reply.content.size() != digits_of_a_word * sent_.count) return p2p::p2p_error::length;
   const std::optional<std::vector<std::uint16_t>> words = ls_words(reply.content);
-  if (!words) return p2p_error::not_hex;
+  if (!words) return p2p::p2p_error::not_hex;
   if (writes(block))
-    return std::equal(words->begin(), words->end(), sent_.data.begin()) ? p2p_error::none
-                                                                        : p2p_error::driver;
+    return std::equal(words->begin(), words->end(), sent_.data.begin()) ? p2p::p2p_error::none
+                                                                        : p2p::p2p_error::driver;
   for (std::uint32_t i = 0; i < sent_.count; ++i)
     memory.write(block.variables.front().own + i, (*words)[i]);
-  return p2p_error::none;
+  return p2p::p2p_error::none;
 }
 
-void LsBusP2pDriver::receive(const Burst& burst, FrameSink& sink) {
+void LsBusP2pDriver::receive(const line::Burst& burst, FrameSink& sink) {
   if (burst.bytes.empty()) return;
   Time end = burst.start;
   for (const Byte b : burst.bytes) {
@@ -130,8 +135,8 @@ void LsBusP2pDriver::take_byte(Byte b, Time end, FrameSink& sink) {
     return sink.on_frame(receiver_.frame(), end);
   }
   if (receiver_.inside()) return;
-  if (was_inside) return sink.on_broken_frame(service_status::too_long);
-  if (!noise_) sink.on_broken_frame(service_status::head);
+  if (was_inside) return sink.on_broken_frame(plc::service_status::too_long);
+  if (!noise_) sink.on_broken_frame(plc::service_status::head);
   noise_ = true;
 }
 
@@ -145,13 +150,13 @@ void LsBusP2pDriver::advance(Time now, FrameSink& sink) {
   const auto wake = wake_at();
   if (!wake || now < *wake) return;
   reset();
-  sink.on_broken_frame(service_status::tail);
+  sink.on_broken_frame(plc::service_status::tail);
 }
 
 }  // namespace
 
-std::unique_ptr<P2pDriver> make_ls_bus_p2p_driver(LsWriteOrder write_order, Duration gap) {
+std::unique_ptr<p2p::P2pDriver> make_ls_bus_p2p_driver(LsWriteOrder write_order, Duration gap) {
   return std::make_unique<LsBusP2pDriver>(write_order, gap);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

@@ -18,10 +18,10 @@
 #include "src/ls_bus/codec.hpp"
 #include "src/p2p/driver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 
 /// `gap`: the inter-character time; chapter 8 has none of its own, so it is that of the channel
 /// (4.3.1).
-std::unique_ptr<P2pDriver> make_ls_bus_p2p_driver(LsWriteOrder write_order, Duration gap);
+std::unique_ptr<p2p::P2pDriver> make_ls_bus_p2p_driver(LsWriteOrder write_order, Duration gap);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

@@ -5,16 +5,19 @@
 #include "src/p2p/test_blocks.hpp"
 #include "src/plc/test_frame_log.hpp"
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
+
+using p2p::P2pBlock;
+
 namespace {
 
-using test::Broken;
-using test::Log;
-using test::p2p_read;
-using test::p2p_write;
+using p2p::test::p2p_read;
+using p2p::test::p2p_write;
+using plc::test::Broken;
+using plc::test::Log;
 using testing::HasSubstr;
 
-const PlcModel& xbc = *find_plc_model("xbc-h");
+const plc::PlcModel& xbc = *plc::find_plc_model("xbc-h");
 constexpr Duration gap = 4ms;
 
 /// Header, body with its sum, EOT.
@@ -29,10 +32,10 @@ Bytes nak(std::string_view body) { return frame(ls_nak, body); }
 class LsBusP2p : public testing::Test {
  protected:
   void set(std::string_view address, std::string_view digits) {
-    EXPECT_TRUE(set_by_name(memory, address, digits));
+    EXPECT_TRUE(plc::set_by_name(memory, address, digits));
   }
   std::string get(std::string_view address, std::size_t digits = 0) {
-    return *get_by_name(memory, address, digits);
+    return *plc::get_by_name(memory, address, digits);
   }
   std::string ask(const P2pBlock& of) {
     const Status checked = driver->check(of, xbc);
@@ -43,8 +46,8 @@ class LsBusP2p : public testing::Test {
     return driver->take(of, reply, memory);
   }
 
-  PlcMemory memory{xbc};
-  std::unique_ptr<P2pDriver> driver = make_ls_bus_p2p_driver(LsWriteOrder::address_first, gap);
+  plc::PlcMemory memory{xbc};
+  std::unique_ptr<p2p::P2pDriver> driver = make_ls_bus_p2p_driver(LsWriteOrder::address_first, gap);
 };
 
 /// The examples of 8.2, sums added up by hand.
@@ -80,7 +83,7 @@ TEST_F(LsBusP2p, EightWordsFillAFrame) {
 TEST_F(LsBusP2p, SavesWhatItRead) {
   const P2pBlock of = p2p_read("1230", "%MW200", 2);
   ask(of);
-  EXPECT_EQ(answer(of, ack("01R1234abCD")), p2p_error::none);
+  EXPECT_EQ(answer(of, ack("01R1234abCD")), p2p::p2p_error::none);
   EXPECT_EQ(get("%MW200", 8), "1234ABCD");
 }
 
@@ -89,9 +92,9 @@ TEST_F(LsBusP2p, TakesTheEchoOfWhatWasSent) {
   set("%MW100", "00FF");
   ask(of);
   set("%MW100", "0100");
-  EXPECT_EQ(answer(of, ack("01W00FF")), p2p_error::none);
-  EXPECT_EQ(answer(of, ack("01W0100")), p2p_error::driver);
-  EXPECT_EQ(answer(of, ack("01W")), p2p_error::length);
+  EXPECT_EQ(answer(of, ack("01W00FF")), p2p::p2p_error::none);
+  EXPECT_EQ(answer(of, ack("01W0100")), p2p::p2p_error::driver);
+  EXPECT_EQ(answer(of, ack("01W")), p2p::p2p_error::length);
 }
 
 TEST_F(LsBusP2p, RefusesWhatIsNotTheReply) {
@@ -99,17 +102,17 @@ TEST_F(LsBusP2p, RefusesWhatIsNotTheReply) {
   ask(of);
   Bytes wrong_sum = ack("01R11112222");
   wrong_sum[wrong_sum.size() - 2] ^= 1;
-  EXPECT_EQ(answer(of, wrong_sum), p2p_error::bcc);
-  EXPECT_EQ(answer(of, ack("02R11112222")), p2p_error::station);
-  EXPECT_EQ(answer(of, ack("0GR11112222")), p2p_error::not_hex);
-  EXPECT_EQ(answer(of, ack("01W11112222")), p2p_error::driver);
-  EXPECT_EQ(answer(of, ack("01R1111")), p2p_error::length);
-  EXPECT_EQ(answer(of, ack("01R111122223333")), p2p_error::length);
-  EXPECT_EQ(answer(of, ack("01R1111222G")), p2p_error::not_hex);
-  EXPECT_EQ(answer(of, to_bytes("\x06\x04")), p2p_error::length);
-  EXPECT_EQ(answer(of, nak("01R12")), p2p_error::nak);
-  EXPECT_EQ(answer(of, nak("01RIA")), p2p_error::nak);
-  EXPECT_EQ(answer(of, nak("01R0012")), p2p_error::length);
+  EXPECT_EQ(answer(of, wrong_sum), p2p::p2p_error::bcc);
+  EXPECT_EQ(answer(of, ack("02R11112222")), p2p::p2p_error::station);
+  EXPECT_EQ(answer(of, ack("0GR11112222")), p2p::p2p_error::not_hex);
+  EXPECT_EQ(answer(of, ack("01W11112222")), p2p::p2p_error::driver);
+  EXPECT_EQ(answer(of, ack("01R1111")), p2p::p2p_error::length);
+  EXPECT_EQ(answer(of, ack("01R111122223333")), p2p::p2p_error::length);
+  EXPECT_EQ(answer(of, ack("01R1111222G")), p2p::p2p_error::not_hex);
+  EXPECT_EQ(answer(of, to_bytes("\x06\x04")), p2p::p2p_error::length);
+  EXPECT_EQ(answer(of, nak("01R12")), p2p::p2p_error::nak);
+  EXPECT_EQ(answer(of, nak("01RIA")), p2p::p2p_error::nak);
+  EXPECT_EQ(answer(of, nak("01R0012")), p2p::p2p_error::length);
   EXPECT_EQ(get("%MW200", 8), "00000000") << "nothing is saved of a reply that is refused";
 }
 
@@ -134,7 +137,7 @@ TEST_F(LsBusP2p, RefusesParametersThatHaveNoFrame) {
   odd.function = P2pBlock::Function::receive;
   EXPECT_THAT(why(odd), HasSubstr("neither read nor write"));
   odd = p2p_read("1230", "%MW100");
-  odd.variables.front().own = parse_address(xbc, "%MB100").address;
+  odd.variables.front().own = plc::parse_address(xbc, "%MB100").address;
   EXPECT_THAT(why(odd), HasSubstr("save is not a word"));
 }
 
@@ -142,7 +145,7 @@ TEST_F(LsBusP2p, FindsRepliesAndTellsWhatIsNone) {
   Log log;
   const Bytes reply = ack("01R1234");
   driver->receive({to_bytes("\x05??"), 1ms, 1ms}, log);
-  EXPECT_EQ(log.broken, Broken{p2p_error::head})
+  EXPECT_EQ(log.broken, Broken{p2p::p2p_error::head})
       << "the echo of a request, once for a run of bytes";
   driver->receive({reply, 10ms, 1ms}, log);
   EXPECT_EQ(log.frames, std::vector<Bytes>{reply});
@@ -151,7 +154,8 @@ TEST_F(LsBusP2p, FindsRepliesAndTellsWhatIsNone) {
   EXPECT_EQ(log.frames.size(), 2u);
   driver->receive({Bytes(1, ls_ack), 100ms, 1ms}, log);
   driver->receive({Bytes(300, '0'), 101ms, 1ms}, log);
-  EXPECT_EQ(log.broken, (Broken{p2p_error::head, p2p_error::length, p2p_error::head}));
+  EXPECT_EQ(log.broken,
+            (Broken{p2p::p2p_error::head, p2p::p2p_error::length, p2p::p2p_error::head}));
 }
 
 TEST_F(LsBusP2p, SilenceWithoutTailEndsAFrame) {
@@ -164,7 +168,7 @@ TEST_F(LsBusP2p, SilenceWithoutTailEndsAFrame) {
   driver->advance(*driver->wake_at() - Duration(1), log);
   EXPECT_EQ(log.broken, Broken{});
   driver->advance(*driver->wake_at(), log);
-  EXPECT_EQ(log.broken, Broken{p2p_error::tail});
+  EXPECT_EQ(log.broken, Broken{p2p::p2p_error::tail});
   EXPECT_EQ(driver->wake_at(), std::nullopt);
   driver->receive({to_bytes("\x06"
                             "01R"),
@@ -175,4 +179,4 @@ TEST_F(LsBusP2p, SilenceWithoutTailEndsAFrame) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

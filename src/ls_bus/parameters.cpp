@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 
 namespace {
 constexpr std::array<ParameterRange, 5> ranges{{
@@ -38,4 +38,4 @@ bool InverterParameters::writable(unsigned first, unsigned count) const {
   return all(first, count, [](const ParameterRange* range) { return range && range->write; });
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 
 struct ParameterRange {
   std::uint16_t first = 0, last = 0;  // both belong to it
@@ -32,4 +32,4 @@ class InverterParameters {
   std::vector<std::uint16_t> words_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof {
+namespace fieldproof::ls_bus {
 namespace {
 
 TEST(InverterParameters, EndsOfTheRanges) {
@@ -42,4 +42,4 @@ TEST(InverterParameters, WordsAreZeroAndThenWhatWasWritten) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus

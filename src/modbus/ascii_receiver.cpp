@@ -3,9 +3,9 @@
 #include "src/modbus/frame.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
-void AsciiReceiver::receive(const Burst& burst, FrameSink& sink) {
+void AsciiReceiver::receive(const line::Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > max_gap) give_up(sink);
   Time end = burst.start;
@@ -17,7 +17,7 @@ void AsciiReceiver::receive(const Burst& burst, FrameSink& sink) {
   character_time_ = burst.character_time;
 }
 
-void AsciiReceiver::take(Byte b, Time end, FrameSink& sink) {
+void AsciiReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
   if (b == ':') {
     if (state_ == State::frame) give_up(sink);
     frame_.assign(1, b);
@@ -27,11 +27,11 @@ void AsciiReceiver::take(Byte b, Time end, FrameSink& sink) {
   if (state_ == State::garbage) return;
   if (state_ == State::idle) {
     state_ = State::garbage;
-    return sink.on_broken_frame(service_status::not_modbus);
+    return sink.on_broken_frame(plc::service_status::not_modbus);
   }
   if (frame_.size() == ascii_max_frame) {
     state_ = State::garbage;  // already counted
-    return sink.on_broken_frame(service_status::too_long);
+    return sink.on_broken_frame(plc::service_status::too_long);
   }
   const bool ends = b == '\n' && frame_.back() == '\r';
   frame_.push_back(b);
@@ -40,8 +40,8 @@ void AsciiReceiver::take(Byte b, Time end, FrameSink& sink) {
   sink.on_frame(frame_, end);
 }
 
-void AsciiReceiver::give_up(FrameSink& sink) {
-  if (state_ == State::frame) sink.on_broken_frame(service_status::not_modbus);
+void AsciiReceiver::give_up(plc::FrameSink& sink) {
+  if (state_ == State::frame) sink.on_broken_frame(plc::service_status::not_modbus);
   state_ = State::idle;
 }
 
@@ -51,8 +51,8 @@ std::optional<Time> AsciiReceiver::wake_at() const {
   return last_end_ + max_gap + character_time_ + Duration(1);
 }
 
-void AsciiReceiver::advance(Time now, FrameSink& sink) {
+void AsciiReceiver::advance(Time now, plc::FrameSink& sink) {
   if (const auto wake = wake_at(); wake && now >= *wake) give_up(sink);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

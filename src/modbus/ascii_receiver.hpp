@@ -7,7 +7,7 @@
 
 #include "src/modbus/receiver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 class AsciiReceiver : public ModbusReceiver {
  public:
@@ -17,16 +17,16 @@ class AsciiReceiver : public ModbusReceiver {
   /// Frames have at most ascii_max_frame characters; a longer one is dropped
   /// (service_status::too_long). Characters outside a frame (once a run of them), and a frame
   /// without its end, are service_status::not_modbus.
-  void receive(const Burst& burst, FrameSink& sink) override;
+  void receive(const line::Burst& burst, plc::FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
-  void advance(Time now, FrameSink& sink) override;
+  void advance(Time now, plc::FrameSink& sink) override;
   void reset() override { state_ = State::idle; }
 
  private:
   enum class State { idle, garbage, frame };
 
-  void take(Byte b, Time end, FrameSink& sink);
-  void give_up(FrameSink& sink);
+  void take(Byte b, Time end, plc::FrameSink& sink);
+  void give_up(plc::FrameSink& sink);
 
   State state_ = State::idle;
   Bytes frame_;
@@ -34,4 +34,4 @@ class AsciiReceiver : public ModbusReceiver {
   Duration character_time_{};
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

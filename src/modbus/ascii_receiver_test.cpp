@@ -7,15 +7,15 @@
 #include "src/modbus/test_frames.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 namespace {
 
-using test::Broken;
-using test::Frames;
-using test::Log;
+using plc::test::Broken;
+using plc::test::Frames;
+using plc::test::Log;
 
 constexpr Duration character = 1ms;
-constexpr std::uint16_t broken = service_status::not_modbus;
+constexpr std::uint16_t broken = plc::service_status::not_modbus;
 
 class AsciiReceiverTest : public ::testing::Test {
  protected:
@@ -94,7 +94,7 @@ TEST_F(AsciiReceiverTest, LongestFrameAndOnePast) {
   EXPECT_EQ(log.frames, Frames{to_bytes(longest)});
   at(1s, ":0" + longest.substr(1));
   EXPECT_EQ(log.frames.size(), 1u);
-  EXPECT_EQ(log.broken, Broken{service_status::too_long});
+  EXPECT_EQ(log.broken, Broken{plc::service_status::too_long});
   at(2s, ":0107F8\r\n");
   EXPECT_EQ(log.frames.size(), 2u);
 }
@@ -130,4 +130,4 @@ TEST(AsciiReceiverFuzz, HowBytesAreCutIntoBurstsDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 namespace {
 constexpr std::uint32_t modbus_addresses = 9999;
@@ -23,27 +23,27 @@ std::string device_name(std::string_view base, char type) {
                      typed ? std::string_view() : std::string_view(&type, 1), number);
 }
 
-Result<ModbusTable> place(const PlcModel& model, ModbusBase base, std::string_view text) {
+Result<ModbusTable> place(const plc::PlcModel& model, ModbusBase base, std::string_view text) {
   const bool bits = holds_bits(base);
-  const ParsedAddress parsed = parse_address(model, device_name(text, bits ? 'X' : 'W'));
+  const plc::ParsedAddress parsed = plc::parse_address(model, device_name(text, bits ? 'X' : 'W'));
   if (!parsed) {
     return fail(fmt::format("cannot place {}_base '{}' on {}: {}; give a {} address such as {}",
                             modbus_base_names[static_cast<std::size_t>(base)], text, model.name,
-                            describe(parsed.fault), bits ? "bit" : "word",
+                            plc::describe(parsed.fault), bits ? "bit" : "word",
                             bits ? "M0010" : "M001"));
   }
   const std::uint32_t elements =
-      element_count(model.areas[parsed.address.area], parsed.address.type);
+      plc::element_count(model.areas[parsed.address.area], parsed.address.type);
   return ModbusTable{parsed.address, std::min(modbus_addresses, elements - parsed.address.index)};
 }
 }  // namespace
 
-ModbusBases default_modbus_bases(const PlcModel& model) {
+ModbusBases default_modbus_bases(const plc::PlcModel& model) {
   const std::string input = model.iec ? "I0" : "P0";
   return {input, "M0", input, "M0"};
 }
 
-Result<ModbusTables> place_modbus_tables(const PlcModel& model, const ModbusBases& bases) {
+Result<ModbusTables> place_modbus_tables(const plc::PlcModel& model, const ModbusBases& bases) {
   ModbusTables tables;
   for (std::size_t i = 0; i < bases.size(); ++i) {
     const Result<ModbusTable> table = place(model, static_cast<ModbusBase>(i), bases[i]);
@@ -53,4 +53,4 @@ Result<ModbusTables> place_modbus_tables(const PlcModel& model, const ModbusBase
   return tables;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -19,7 +19,7 @@
 #include "src/base/result.hpp"
 #include "src/plc/address.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 enum class ModbusBase { bit_read, bit_write, word_read, word_write };
 constexpr std::array<std::string_view, 4> modbus_base_names{"bit_read", "bit_write", "word_read",
@@ -29,11 +29,11 @@ constexpr std::array<std::string_view, 4> modbus_base_names{"bit_read", "bit_wri
 using ModbusBases = std::array<std::string, 4>;
 
 /// P0, M0, P0, M0; XEC: I0, M0, I0, M0.
-ModbusBases default_modbus_bases(const PlcModel& model);
+ModbusBases default_modbus_bases(const plc::PlcModel& model);
 
 /// Data addresses 0 to size - 1 are the elements from `first` on.
 struct ModbusTable {
-  DeviceAddress first;
+  plc::DeviceAddress first;
   std::uint32_t size = 0;
 };
 
@@ -44,13 +44,14 @@ class ModbusTables {
   }
 
  private:
-  friend Result<ModbusTables> place_modbus_tables(const PlcModel& model, const ModbusBases& bases);
+  friend Result<ModbusTables> place_modbus_tables(const plc::PlcModel& model,
+                                                  const ModbusBases& bases);
   std::array<ModbusTable, 4> tables_;
 };
 
 /// A base is an area letter and a number as in device names; % in front, and X or W behind the
 /// letter, may be there. Bits of T and C are contacts; D has none (7.1.4 Note). Errors name the
 /// base and what is wrong with it.
-Result<ModbusTables> place_modbus_tables(const PlcModel& model, const ModbusBases& bases);
+Result<ModbusTables> place_modbus_tables(const plc::PlcModel& model, const ModbusBases& bases);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 namespace {
 
 using ::testing::HasSubstr;
 
-const PlcModel& model(std::string_view name) { return *find_plc_model(name); }
+const plc::PlcModel& model(std::string_view name) { return *plc::find_plc_model(name); }
 
 /// A base as a device name: area, element index and size of its table.
 struct Placed {
@@ -47,7 +47,7 @@ TEST(ModbusBases, Defaults) {
   EXPECT_EQ(default_modbus_bases(model("xbc-h")), (ModbusBases{"P0", "M0", "P0", "M0"}));
   EXPECT_EQ(default_modbus_bases(model("xbm-s")), (ModbusBases{"P0", "M0", "P0", "M0"}));
   EXPECT_EQ(default_modbus_bases(model("xec-h")), (ModbusBases{"I0", "M0", "I0", "M0"}));
-  for (const PlcModel& m : plc_models())
+  for (const plc::PlcModel& m : plc::plc_models())
     EXPECT_TRUE(place_modbus_tables(m, default_modbus_bases(m))) << m.name;
 }
 
@@ -110,4 +110,4 @@ TEST(ModbusBases, ErrorsNameTheBase) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -1,6 +1,6 @@
 #include "src/modbus/checks.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 std::uint16_t modbus_crc(ByteView bytes) {
   unsigned crc = 0xFFFF;
@@ -17,4 +17,4 @@ Byte modbus_lrc(ByteView bytes) {
   return static_cast<Byte>(0u - sum);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

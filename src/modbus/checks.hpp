@@ -5,7 +5,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 /// CRC-16 of an RTU frame: polynomial A001 (reflected), start value FFFF. The frame carries its low
 /// byte first.
@@ -15,4 +15,4 @@ std::uint16_t modbus_crc(ByteView bytes);
 /// characters.
 Byte modbus_lrc(ByteView bytes);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -4,7 +4,7 @@
 
 #include "src/modbus/test_frames.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 namespace {
 
 using test::hex;
@@ -26,4 +26,4 @@ TEST(ModbusLrc, TwosComplementOfTheSum) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -6,37 +6,37 @@
 #include "src/modbus/checks.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 namespace {
 constexpr Byte colon = ':', cr = '\r', lf = '\n';
 
 /// Station, function and data without the check.
 ModbusFrame opened(ByteView content) {
-  if (content.size() < 2) return {service_status::not_modbus};
-  return {service_status::normal, content[0], Bytes(content.begin() + 1, content.end())};
+  if (content.size() < 2) return {plc::service_status::not_modbus};
+  return {plc::service_status::normal, content[0], Bytes(content.begin() + 1, content.end())};
 }
 
 ModbusFrame decode_rtu(ByteView frame) {
   constexpr std::size_t crc_size = 2;
-  if (frame.size() < crc_size) return {service_status::not_modbus};
+  if (frame.size() < crc_size) return {plc::service_status::not_modbus};
   const ByteView content = frame.first(frame.size() - crc_size), crc = frame.last(crc_size);
-  if (modbus_crc(content) != (crc[0] | crc[1] << 8)) return {service_status::not_modbus};
+  if (modbus_crc(content) != (crc[0] | crc[1] << 8)) return {plc::service_status::not_modbus};
   return opened(content);
 }
 
 ModbusFrame decode_ascii(ByteView frame) {
   if (frame.size() < 3 || frame[0] != colon || frame[frame.size() - 2] != cr ||
       frame.back() != lf) {
-    return {service_status::not_modbus};
+    return {plc::service_status::not_modbus};
   }
   const ByteView digits = frame.subspan(1, frame.size() - 3);
   if (std::ranges::any_of(digits, [](Byte b) { return hex_digit(static_cast<char>(b)) < 0; }))
-    return {service_status::not_hex};
+    return {plc::service_status::not_hex};
   const std::optional<Bytes> bytes = from_hex(to_text(digits));
-  if (!bytes) return {service_status::not_hex};
+  if (!bytes) return {plc::service_status::not_hex};
   if (bytes->empty() || modbus_lrc(*bytes) != 0)
-    return {service_status::not_modbus};  // with its LRC the sum is 0
+    return {plc::service_status::not_modbus};  // with its LRC the sum is 0
   return opened(ByteView(*bytes).first(bytes->size() - 1));
 }
 }  // namespace
@@ -66,4 +66,4 @@ Bytes encode_modbus_frame(ModbusMode mode, Byte station, ByteView pdu) {
   return frame;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -11,7 +11,7 @@
 #include "src/base/bytes.hpp"
 #include "src/modbus/modbus_mode.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 /// The longest frame: 253 bytes of PDU. RTU: station and CRC; ASCII: ':', station, LRC, CR LF.
 constexpr std::size_t modbus_max_pdu = 253;
@@ -33,4 +33,4 @@ ModbusFrame decode_modbus_frame(ModbusMode mode, ByteView frame);
 /// Appends the check and, in ASCII, head and tail.
 Bytes encode_modbus_frame(ModbusMode mode, Byte station, ByteView pdu);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

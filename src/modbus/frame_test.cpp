@@ -5,7 +5,7 @@
 #include "src/modbus/test_frames.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 namespace {
 
 using test::hex;
@@ -35,7 +35,7 @@ TEST(RtuFrame, PublishedFrames) {
   for (const char* text : published_rtu) {
     const Bytes frame = hex(text);
     const ModbusFrame decoded = decode_modbus_frame(ModbusMode::rtu, frame);
-    EXPECT_EQ(decoded.fault, service_status::normal) << text;
+    EXPECT_EQ(decoded.fault, plc::service_status::normal) << text;
     EXPECT_EQ(decoded.station, frame[0]) << text;
     EXPECT_EQ(to_hex(encode_modbus_frame(ModbusMode::rtu, decoded.station, decoded.pdu)), text);
   }
@@ -46,21 +46,22 @@ TEST(RtuFrame, EachFlippedBitIsAWrongCheck) {
   for (std::size_t bit = 0; bit < 8 * frame.size(); ++bit) {
     Bytes spoiled = frame;
     spoiled[bit / 8] = static_cast<Byte>(spoiled[bit / 8] ^ 1 << bit % 8);
-    EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, spoiled).fault, service_status::not_modbus)
+    EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, spoiled).fault, plc::service_status::not_modbus)
         << bit;
   }
 }
 
 TEST(RtuFrame, LowByteOfTheCrcComesFirst) {
   EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex("11 03 00 6B 00 03 87 76")).fault,
-            service_status::not_modbus);
+            plc::service_status::not_modbus);
 }
 
 TEST(RtuFrame, ShortestIsStationFunctionAndCheck) {
   EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex("02 07 41 12")).pdu, hex("07"));
   for (const char* text : {"", "02", "02 07", "02 07 41", "FF FF",
                            "01 7E 80"}) {  // FF FF: CRC of nothing; 7E 80: of 01
-    EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex(text)).fault, service_status::not_modbus)
+    EXPECT_EQ(decode_modbus_frame(ModbusMode::rtu, hex(text)).fault,
+              plc::service_status::not_modbus)
         << text;
   }
 }
@@ -76,7 +77,7 @@ TEST(AsciiFrame, PublishedFrame) {
             ":110306AE4156524340CC\r\n");
   const ModbusFrame decoded =
       decode_modbus_frame(ModbusMode::ascii, to_bytes(":1103006B00037E\r\n"));
-  EXPECT_EQ(decoded.fault, service_status::normal);
+  EXPECT_EQ(decoded.fault, plc::service_status::normal);
   EXPECT_EQ(decoded.station, 0x11);
   EXPECT_EQ(decoded.pdu, hex("03 00 6B 00 03"));
 }
@@ -87,20 +88,20 @@ TEST(AsciiFrame, HexInEitherCase) {
 }
 
 TEST(AsciiFrame, Faults) {
-  EXPECT_EQ(ascii_fault(":1103006B00037F\r\n"), service_status::not_modbus);  // LRC
-  EXPECT_EQ(ascii_fault(":1103006B00037\r\n"), service_status::not_hex);      // odd
-  EXPECT_EQ(ascii_fault(":1103006B0003G7E\r\n"), service_status::not_hex);
-  EXPECT_EQ(ascii_fault(":11 3006B00037E\r\n"), service_status::not_hex);
-  EXPECT_EQ(ascii_fault(":1103 006B00037E\r\n"), service_status::not_hex);
-  EXPECT_EQ(ascii_fault(":1103006B00037E\n"), service_status::not_modbus);
-  EXPECT_EQ(ascii_fault(":1103006B00037E\r"), service_status::not_modbus);
-  EXPECT_EQ(ascii_fault("1103006B00037E\r\n"), service_status::not_modbus);
+  EXPECT_EQ(ascii_fault(":1103006B00037F\r\n"), plc::service_status::not_modbus);  // LRC
+  EXPECT_EQ(ascii_fault(":1103006B00037\r\n"), plc::service_status::not_hex);      // odd
+  EXPECT_EQ(ascii_fault(":1103006B0003G7E\r\n"), plc::service_status::not_hex);
+  EXPECT_EQ(ascii_fault(":11 3006B00037E\r\n"), plc::service_status::not_hex);
+  EXPECT_EQ(ascii_fault(":1103 006B00037E\r\n"), plc::service_status::not_hex);
+  EXPECT_EQ(ascii_fault(":1103006B00037E\n"), plc::service_status::not_modbus);
+  EXPECT_EQ(ascii_fault(":1103006B00037E\r"), plc::service_status::not_modbus);
+  EXPECT_EQ(ascii_fault("1103006B00037E\r\n"), plc::service_status::not_modbus);
 }
 
 TEST(AsciiFrame, ShortestIsStationFunctionAndCheck) {
-  EXPECT_EQ(ascii_fault(":1107E8\r\n"), service_status::normal);
+  EXPECT_EQ(ascii_fault(":1107E8\r\n"), plc::service_status::normal);
   for (const char* text : {"", ":", ":\r", ":\r\n", ":00\r\n", ":11EF\r\n"}) {
-    EXPECT_EQ(ascii_fault(text), service_status::not_modbus) << text;
+    EXPECT_EQ(ascii_fault(text), plc::service_status::not_modbus) << text;
   }
 }
 
@@ -111,4 +112,4 @@ TEST(ModbusFrames, LongestHoldsALongestPdu) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -1,8 +1,8 @@
 // The two transmission modes of Modbus (000 and 003 9.2.1).
 #pragma once
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 enum class ModbusMode { rtu, ascii };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -12,12 +12,12 @@
 #include "src/plc/port_config.hpp"
 #include "src/plc/reply_queue.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 namespace {
-class ModbusPlc : public EmulatedDevice, private FrameSink {
+class ModbusPlc : public plc::EmulatedDevice, private plc::FrameSink {
  public:
-  ModbusPlc(ModbusMode mode, const PlcModel& model, const PortConfig& port,
+  ModbusPlc(ModbusMode mode, const plc::PlcModel& model, const plc::PortConfig& port,
             const ModbusTables& tables)
       : mode_(mode),
         station_(port.station),
@@ -26,7 +26,7 @@ class ModbusPlc : public EmulatedDevice, private FrameSink {
         tables_(tables),
         receiver_(make_modbus_receiver(mode, port.gap())) {}
 
-  void receive(const Burst& burst) override { receiver_->receive(burst, *this); }
+  void receive(const line::Burst& burst) override { receiver_->receive(burst, *this); }
   std::optional<Time> wake_at() const override { return replies_.wake_at(receiver_->wake_at()); }
   Bytes advance(Time now) override {
     receiver_->advance(now, *this);
@@ -34,18 +34,18 @@ class ModbusPlc : public EmulatedDevice, private FrameSink {
   }
 
   Status set(std::string_view address, std::string_view hex) override {
-    return set_by_name(memory_, address, hex);
+    return plc::set_by_name(memory_, address, hex);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
-    if (address.starts_with('@')) return get_counter(counters_, address, digits);
-    return get_by_name(memory_, address, digits);
+    if (address.starts_with('@')) return plc::get_counter(counters_, address, digits);
+    return plc::get_by_name(memory_, address, digits);
   }
   /// power_cycle: counters, replies and frames in progress are lost; memory stays. A server answers
   /// in RUN and STOP.
   Status act(std::string_view action) override {
-    const Result<DeviceAction> known = parse_device_action(action);
+    const Result<plc::DeviceAction> known = plc::parse_device_action(action);
     if (!known) return known.error();
-    if (*known == DeviceAction::power_cycle) {
+    if (*known == plc::DeviceAction::power_cycle) {
       counters_ = {};
       replies_.clear();
       receiver_->reset();
@@ -56,8 +56,8 @@ class ModbusPlc : public EmulatedDevice, private FrameSink {
  private:
   void on_frame(ByteView bytes, Time end) override {
     const ModbusFrame frame = decode_modbus_frame(mode_, bytes);
-    if (frame.fault != service_status::normal) return counters_.count_error(frame.fault);
-    if (frame.station != station_) return counters_.count_error(service_status::station);
+    if (frame.fault != plc::service_status::normal) return counters_.count_error(frame.fault);
+    if (frame.station != station_) return counters_.count_error(plc::service_status::station);
     const Bytes reply = execute_modbus_request(parse_modbus_request(frame.pdu), tables_, memory_);
     replies_.put(end + delay_, encode_modbus_frame(mode_, frame.station, reply));
     counters_.count_service();
@@ -67,29 +67,30 @@ class ModbusPlc : public EmulatedDevice, private FrameSink {
   ModbusMode mode_;
   unsigned station_;
   Duration delay_;
-  PlcMemory memory_;
+  plc::PlcMemory memory_;
   ModbusTables tables_;
   std::unique_ptr<ModbusReceiver> receiver_;
-  ServiceCounters counters_;
-  ReplyQueue replies_;
+  plc::ServiceCounters counters_;
+  plc::ReplyQueue replies_;
 };
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_modbus_plc(ModbusMode mode, std::string_view model,
-                                                        const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_modbus_plc(ModbusMode mode,
+                                                             std::string_view model,
+                                                             const nlohmann::json& config) {
   constexpr std::string_view what = "the Modbus server's configuration";
   const auto keys =
-      port_keys({"bit_read_base", "bit_write_base", "word_read_base", "word_write_base"});
+      plc::port_keys({"bit_read_base", "bit_write_base", "word_read_base", "word_write_base"});
   if (config.is_object() && config.contains("role") && config["role"] == "client") {
     return fail("cannot make a Modbus server of role client; leave role out, or give server");
   }
-  if (const Status status = known_keys(config, what, keys); !status) return status.error();
-  PortConfig port;
+  if (const Status status = plc::known_keys(config, what, keys); !status) return status.error();
+  plc::PortConfig port;
   port.model = model;
-  ConfigReader reader(config, std::string(what));
-  read_port_config(reader, port);
+  plc::ConfigReader reader(config, std::string(what));
+  plc::read_port_config(reader, port);
   if (reader.error()) return *reader.error();
-  const Result<const PlcModel*> known = check_port_config(port);
+  const Result<const plc::PlcModel*> known = plc::check_port_config(port);
   if (!known) return known.error();
   ModbusBases bases = default_modbus_bases(**known);
   for (std::size_t i = 0; i < bases.size(); ++i)
@@ -97,7 +98,8 @@ Result<std::unique_ptr<EmulatedDevice>> make_modbus_plc(ModbusMode mode, std::st
   if (reader.error()) return *reader.error();
   const Result<ModbusTables> tables = place_modbus_tables(**known, bases);
   if (!tables) return tables.error();
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<ModbusPlc>(mode, **known, port, *tables));
+  return std::unique_ptr<plc::EmulatedDevice>(
+      std::make_unique<ModbusPlc>(mode, **known, port, *tables));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

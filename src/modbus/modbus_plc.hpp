@@ -16,13 +16,14 @@
 #include "src/modbus/modbus_mode.hpp"
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 /// In its power-on state. `config` is `given.config` of a vector (vectors/README.md) with the basic
 /// parameters of a port (src/plc/port_config.hpp) and bit_read_base, bit_write_base, word_read_base
 /// and word_write_base (bases.hpp). Errors name the model, the key or the base. Role client is
 /// refused: that is p2p_driver.hpp.
-Result<std::unique_ptr<EmulatedDevice>> make_modbus_plc(ModbusMode mode, std::string_view model,
-                                                        const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_modbus_plc(ModbusMode mode,
+                                                             std::string_view model,
+                                                             const nlohmann::json& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -7,7 +7,10 @@
 #include "src/line/line.hpp"
 #include "src/modbus/test_frames.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
+
+using line::LineSettings;
+
 namespace {
 
 using nlohmann::json;
@@ -18,7 +21,7 @@ using test::part;
 using test::rtu;
 using ::testing::HasSubstr;
 
-using Device = std::unique_ptr<EmulatedDevice>;
+using Device = std::unique_ptr<plc::EmulatedDevice>;
 
 Device plc_of(ModbusMode mode, const json& config, std::string_view model = "xbc-h") {
   Result<Device> plc = make_modbus_plc(mode, model, config);
@@ -32,13 +35,13 @@ std::string error_of(const json& config, std::string_view model = "xbc-h") {
 }
 
 /// What is sent until nothing more is to come.
-Bytes drained(EmulatedDevice& plc) {
+Bytes drained(plc::EmulatedDevice& plc) {
   Bytes bytes;
   while (const auto wake = plc.wake_at()) bytes = bytes + plc.advance(*wake);
   return bytes;
 }
 
-Bytes ask(EmulatedDevice& plc, Time start, const Bytes& frame) {
+Bytes ask(plc::EmulatedDevice& plc, Time start, const Bytes& frame) {
   plc.receive({frame, start, 1ms});
   return drained(plc);
 }
@@ -277,7 +280,7 @@ const std::vector<LineSettings> rtu_lines = {
 struct Wire {
   Wire(ModbusMode mode, const LineSettings& line, json config = {{"station", 1}})
       : settings(line), wire(line) {
-    config["line"] = to_string(line);
+    config["line"] = line::to_string(line);
     plc = plc_of(mode, config);
     wire.attach(*plc, line);
   }
@@ -292,7 +295,7 @@ struct Wire {
   }
 
   LineSettings settings;
-  SimulatedLine wire;
+  line::SimulatedLine wire;
   Device plc;
 };
 
@@ -300,9 +303,9 @@ TEST(ModbusOnALine, RtuReplyFollowsTheSilence) {
   for (const LineSettings& line : rtu_lines) {
     Wire w(ModbusMode::rtu, line);
     const auto sent = w.wire.transmit(rtu("01 03 00 00 00 01"));
-    const Burst reply = w.wire.receive(sent.end + 2s);
-    EXPECT_EQ(reply.bytes, rtu("01 03 02 00 00")) << to_string(line);
-    EXPECT_EQ(reply.start, sent.end + w.gap() + line.character_time()) << to_string(line);
+    const line::Burst reply = w.wire.receive(sent.end + 2s);
+    EXPECT_EQ(reply.bytes, rtu("01 03 02 00 00")) << line::to_string(line);
+    EXPECT_EQ(reply.start, sent.end + w.gap() + line.character_time()) << line::to_string(line);
   }
 }
 
@@ -321,10 +324,14 @@ TEST(ModbusOnALine, RtuGapsAtEverySpeed) {
     for (std::size_t cut = 1; cut < request.size(); ++cut) {
       Wire short_gap(ModbusMode::rtu, line), just(ModbusMode::rtu, line),
           equal(ModbusMode::rtu, line), longer(ModbusMode::rtu, line);
-      EXPECT_TRUE(answered(short_gap, request, cut, c * 14 / 10)) << to_string(line) << ' ' << cut;
-      EXPECT_TRUE(answered(just, request, cut, just.gap() - 1ns)) << to_string(line) << ' ' << cut;
-      EXPECT_FALSE(answered(equal, request, cut, equal.gap())) << to_string(line) << ' ' << cut;
-      EXPECT_FALSE(answered(longer, request, cut, c * 45 / 10)) << to_string(line) << ' ' << cut;
+      EXPECT_TRUE(answered(short_gap, request, cut, c * 14 / 10))
+          << line::to_string(line) << ' ' << cut;
+      EXPECT_TRUE(answered(just, request, cut, just.gap() - 1ns))
+          << line::to_string(line) << ' ' << cut;
+      EXPECT_FALSE(answered(equal, request, cut, equal.gap()))
+          << line::to_string(line) << ' ' << cut;
+      EXPECT_FALSE(answered(longer, request, cut, c * 45 / 10))
+          << line::to_string(line) << ' ' << cut;
       EXPECT_EQ(*longer.plc->get("@errors", 0), "0002");  // two parts that are no frames
     }
   }
@@ -373,9 +380,9 @@ TEST(ModbusOnALine, AsciiRepliesAtOnceWith7And8DataBits) {
                                    LineSettings{115200, 8, 'N', 1}}) {
     Wire w(ModbusMode::ascii, line);
     const auto sent = w.wire.transmit(to_bytes(":010600000001F8\r\n"));
-    const Burst reply = w.wire.receive(sent.end + 2s);
-    EXPECT_EQ(to_text(reply.bytes), ":010600000001F8\r\n") << to_string(line);
-    EXPECT_EQ(reply.start, sent.end) << to_string(line);
+    const line::Burst reply = w.wire.receive(sent.end + 2s);
+    EXPECT_EQ(to_text(reply.bytes), ":010600000001F8\r\n") << line::to_string(line);
+    EXPECT_EQ(reply.start, sent.end) << line::to_string(line);
   }
 }
 
@@ -396,4 +403,4 @@ TEST(ModbusOnALine, AsciiRequestsBackToBack) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -1,6 +1,6 @@
 #include "src/modbus/p2p_address.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 std::optional<ModbusP2pAddress> parse_modbus_p2p_address(std::string_view text) {
   constexpr std::string_view prefix = "0x", tables = "0134";
@@ -17,8 +17,8 @@ std::optional<ModbusP2pAddress> parse_modbus_p2p_address(std::string_view text) 
   return parsed;
 }
 
-Byte modbus_p2p_function(const P2pBlock& block, const ModbusP2pAddress& partner) {
-  const bool write = block.function == P2pBlock::Function::write;
+Byte modbus_p2p_function(const p2p::P2pBlock& block, const ModbusP2pAddress& partner) {
+  const bool write = block.function == p2p::P2pBlock::Function::write;
   switch (partner.table) {
     case '0': return write ? (block.continuous ? 0x0F : 0x05) : 0x01;
     case '1': return 0x02;
@@ -27,4 +27,4 @@ Byte modbus_p2p_function(const P2pBlock& block, const ModbusP2pAddress& partner)
   }
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

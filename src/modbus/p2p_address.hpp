@@ -18,7 +18,7 @@
 #include "src/base/bytes.hpp"
 #include "src/p2p/block.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 struct ModbusP2pAddress {
   char table = 0;
@@ -34,6 +34,6 @@ struct ModbusP2pAddress {
 std::optional<ModbusP2pAddress> parse_modbus_p2p_address(std::string_view text);
 
 /// `block` reads or writes, and what it writes is writable.
-Byte modbus_p2p_function(const P2pBlock& block, const ModbusP2pAddress& partner);
+Byte modbus_p2p_function(const p2p::P2pBlock& block, const ModbusP2pAddress& partner);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

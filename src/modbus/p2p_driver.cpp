@@ -9,7 +9,11 @@
 #include "src/modbus/receiver.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
+
+using p2p::P2pBlock;
+using plc::FrameSink;
+using plc::PlcMemory;
 
 namespace {
 
@@ -33,7 +37,7 @@ void put_word(Bytes& to, std::uint64_t value) {
 
 /// The values of `count` elements as they stand in a frame: bits from bit 0 of the first byte on,
 /// words high byte first.
-Bytes read_values(const DeviceAddress& from, unsigned count, const PlcMemory& memory) {
+Bytes read_values(const plc::DeviceAddress& from, unsigned count, const PlcMemory& memory) {
   const bool bits = from.type == 'X';
   Bytes bytes(bits ? (count + 7) / 8 : 0);
   for (unsigned i = 0; i < count; ++i) {
@@ -45,7 +49,7 @@ Bytes read_values(const DeviceAddress& from, unsigned count, const PlcMemory& me
   return bytes;
 }
 
-void write_values(const DeviceAddress& to, unsigned count, ByteView bytes, PlcMemory& memory) {
+void write_values(const plc::DeviceAddress& to, unsigned count, ByteView bytes, PlcMemory& memory) {
   for (unsigned i = 0; i < count; ++i) {
     if (to.type == 'X')
       memory.write(to + i, bytes[i / 8] >> i % 8 & 1);
@@ -61,7 +65,7 @@ ModbusP2pAddress partner_of(const P2pBlock& block) {
 
 Bytes request_pdu(const P2pBlock& block, const PlcMemory& memory) {
   const ModbusP2pAddress partner = partner_of(block);
-  const DeviceAddress& own = block.variables.front().own;
+  const plc::DeviceAddress& own = block.variables.front().own;
   Bytes pdu{modbus_p2p_function(block, partner)};
   put_word(pdu, partner.address);
   if (!writes(block)) {
@@ -85,7 +89,7 @@ class ClientSink : public FrameSink {
   ClientSink(FrameSink& to, std::uint16_t broken) : to_(to), broken_(broken) {}
   void on_frame(ByteView frame, Time end) override { to_.on_frame(frame, end); }
   void on_broken_frame(std::uint16_t why) override {
-    to_.on_broken_frame(why == service_status::not_modbus ? broken_ : why);
+    to_.on_broken_frame(why == plc::service_status::not_modbus ? broken_ : why);
   }
 
  private:
@@ -93,7 +97,7 @@ class ClientSink : public FrameSink {
   std::uint16_t broken_;
 };
 
-class ModbusP2pDriver : public P2pDriver {
+class ModbusP2pDriver : public p2p::P2pDriver {
  public:
   ModbusP2pDriver(ModbusMode mode, Duration gap)
       : mode_(mode), receiver_(make_modbus_receiver(mode, gap)) {}
@@ -101,7 +105,7 @@ class ModbusP2pDriver : public P2pDriver {
   std::string_view name() const override {
     return mode_ == ModbusMode::rtu ? "modbus-rtu-client" : "modbus-ascii-client";
   }
-  Status check(const P2pBlock& block, const PlcModel& model) const override;
+  Status check(const P2pBlock& block, const plc::PlcModel& model) const override;
   Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override {
     sent_ = request_pdu(block, memory);
     return encode_modbus_frame(mode_, static_cast<Byte>(block.station), sent_);
@@ -110,13 +114,13 @@ class ModbusP2pDriver : public P2pDriver {
   std::optional<std::uint16_t> take(const P2pBlock& block, ByteView bytes,
                                     PlcMemory& memory) const override;
 
-  void receive(const Burst& burst, FrameSink& sink) override {
-    ClientSink client(sink, service_status::head);
+  void receive(const line::Burst& burst, FrameSink& sink) override {
+    ClientSink client(sink, plc::service_status::head);
     receiver_->receive(burst, client);
   }
   std::optional<Time> wake_at() const override { return receiver_->wake_at(); }
   void advance(Time now, FrameSink& sink) override {
-    ClientSink client(sink, service_status::tail);
+    ClientSink client(sink, plc::service_status::tail);
     receiver_->advance(now, client);
   }
   void reset() override { receiver_->reset(); }
@@ -131,7 +135,7 @@ class ModbusP2pDriver : public P2pDriver {
       sent_;  // the last PDU: the reply to a write repeats it, whatever memory holds by then
 };
 
-Status ModbusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
+Status ModbusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
   if (block.function != P2pBlock::Function::read && !writes(block))
     return fail(
         "function is neither read nor write; a Modbus client has no other (000 11.1.4: FFFE)");
@@ -174,17 +178,18 @@ Status ModbusP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
 }
 
 std::uint16_t ModbusP2pDriver::fault_of(const ModbusFrame& frame, ByteView bytes) const {
-  if (frame.fault == service_status::normal) return p2p_error::none;
-  if (frame.fault == service_status::not_hex) return p2p_error::not_hex;
+  if (frame.fault == plc::service_status::normal) return p2p::p2p_error::none;
+  if (frame.fault == plc::service_status::not_hex) return p2p::p2p_error::not_hex;
   const std::size_t shortest = encode_modbus_frame(mode_, 0, Bytes{0}).size();
-  return bytes.size() < shortest ? p2p_error::length : p2p_error::bcc;
+  return bytes.size() < shortest ? p2p::p2p_error::length : p2p::p2p_error::bcc;
 }
 
 std::optional<std::uint16_t> ModbusP2pDriver::take(const P2pBlock& block, ByteView bytes,
                                                    PlcMemory& memory) const {
   const ModbusFrame frame = decode_modbus_frame(mode_, bytes);
-  if (const std::uint16_t fault = fault_of(frame, bytes); fault != p2p_error::none) return fault;
-  if (frame.station != block.station) return p2p_error::station;
+  if (const std::uint16_t fault = fault_of(frame, bytes); fault != p2p::p2p_error::none)
+    return fault;
+  if (frame.station != block.station) return p2p::p2p_error::station;
   return take_pdu(block, frame.pdu, memory);
 }
 
@@ -194,24 +199,24 @@ std::uint16_t ModbusP2pDriver::take_pdu(const P2pBlock& block, ByteView pdu,
                         echo_size = 5;  // function; exception code, or address and count or value
   const Byte function = sent_.at(0);
   if (pdu[0] == (function | exception_bit))
-    return pdu.size() == exception_size ? p2p_error::nak : p2p_error::length;
-  if (pdu[0] != function) return p2p_error::driver;
+    return pdu.size() == exception_size ? p2p::p2p_error::nak : p2p::p2p_error::length;
+  if (pdu[0] != function) return p2p::p2p_error::driver;
   if (writes(block)) {
-    if (pdu.size() != echo_size) return p2p_error::length;
-    return std::ranges::equal(pdu, ByteView(sent_).first(echo_size)) ? p2p_error::none
-                                                                     : p2p_error::driver;
+    if (pdu.size() != echo_size) return p2p::p2p_error::length;
+    return std::ranges::equal(pdu, ByteView(sent_).first(echo_size)) ? p2p::p2p_error::none
+                                                                     : p2p::p2p_error::driver;
   }
   const unsigned count = block.elements();
   const std::size_t expected = block.type == 'X' ? (count + 7) / 8 : std::size_t{2} * count;
-  if (pdu.size() != 2 + expected || pdu[1] != expected) return p2p_error::length;
+  if (pdu.size() != 2 + expected || pdu[1] != expected) return p2p::p2p_error::length;
   write_values(block.variables.front().own, count, pdu.subspan(2), memory);
-  return p2p_error::none;
+  return p2p::p2p_error::none;
 }
 
 }  // namespace
 
-std::unique_ptr<P2pDriver> make_modbus_p2p_driver(ModbusMode mode, Duration gap) {
+std::unique_ptr<p2p::P2pDriver> make_modbus_p2p_driver(ModbusMode mode, Duration gap) {
   return std::make_unique<ModbusP2pDriver>(mode, gap);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

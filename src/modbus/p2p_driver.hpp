@@ -28,9 +28,9 @@
 #include "src/modbus/modbus_mode.hpp"
 #include "src/p2p/driver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 /// `gap`: the inter-character time, by which RTU frames end (rtu_receiver.hpp).
-std::unique_ptr<P2pDriver> make_modbus_p2p_driver(ModbusMode mode, Duration gap);
+std::unique_ptr<p2p::P2pDriver> make_modbus_p2p_driver(ModbusMode mode, Duration gap);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

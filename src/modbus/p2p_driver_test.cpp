@@ -7,19 +7,22 @@
 #include "src/p2p/test_blocks.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
+
+using p2p::P2pBlock;
+
 namespace {
 
+using p2p::test::p2p_read;
+using p2p::test::p2p_write;
+using plc::test::Broken;
+using plc::test::Log;
 using test::ascii;
-using test::Broken;
 using test::hex;
-using test::Log;
-using test::p2p_read;
-using test::p2p_write;
 using test::rtu;
 using testing::HasSubstr;
 
-const PlcModel& xbc = *find_plc_model("xbc-h");
+const plc::PlcModel& xbc = *plc::find_plc_model("xbc-h");
 constexpr Duration gap = 4ms;
 
 class ModbusP2p : public testing::TestWithParam<ModbusMode> {
@@ -27,10 +30,10 @@ class ModbusP2p : public testing::TestWithParam<ModbusMode> {
   Bytes frame(std::string_view text) const { return test::framed(GetParam(), text); }
 
   void set(std::string_view address, std::string_view digits) {
-    EXPECT_TRUE(set_by_name(memory, address, digits));
+    EXPECT_TRUE(plc::set_by_name(memory, address, digits));
   }
   std::string get(std::string_view address, std::size_t digits = 0) {
-    return *get_by_name(memory, address, digits);
+    return *plc::get_by_name(memory, address, digits);
   }
   Bytes ask(const P2pBlock& of) {
     const Status checked = driver->check(of, xbc);
@@ -41,8 +44,8 @@ class ModbusP2p : public testing::TestWithParam<ModbusMode> {
     return driver->take(of, frame(text), memory);
   }
 
-  PlcMemory memory{xbc};
-  const std::unique_ptr<P2pDriver> driver = make_modbus_p2p_driver(GetParam(), gap);
+  plc::PlcMemory memory{xbc};
+  const std::unique_ptr<p2p::P2pDriver> driver = make_modbus_p2p_driver(GetParam(), gap);
 };
 
 INSTANTIATE_TEST_SUITE_P(Modes, ModbusP2p, testing::Values(ModbusMode::rtu, ModbusMode::ascii),
@@ -82,14 +85,14 @@ TEST_P(ModbusP2p, SavesWhatItRead) {
   const P2pBlock words = p2p_read("0x30000", "%MW150", 2),
                  bits = p2p_read("0x00010", "%MX01804", 10), bit = p2p_read("0x10021", "%MX01701");
   ask(words);
-  EXPECT_EQ(answer(words, "01 04 04 1234 ABCD"), p2p_error::none);
+  EXPECT_EQ(answer(words, "01 04 04 1234 ABCD"), p2p::p2p_error::none);
   EXPECT_EQ(get("%MW150", 8), "1234ABCD");
   ask(bits);
   set("%MW180", "FFFF");
-  EXPECT_EQ(answer(bits, "01 01 02 CD 01"), p2p_error::none);
+  EXPECT_EQ(answer(bits, "01 01 02 CD 01"), p2p::p2p_error::none);
   EXPECT_EQ(get("%MW180"), "DCDF") << "01 11001101 from bit 4 on; the bits beside stay";
   ask(bit);
-  EXPECT_EQ(answer(bit, "01 02 01 01"), p2p_error::none);
+  EXPECT_EQ(answer(bit, "01 02 01 01"), p2p::p2p_error::none);
   EXPECT_EQ(get("%MX01701"), "01");
 }
 
@@ -100,7 +103,7 @@ TEST_P(ModbusP2p, TakesTheEchoOfAWrite) {
                                   {p2p_write("0x00142", "%MX01002"), "01 05 0142 FF00"},
                                   {p2p_write("0x00150", "%MX00020", 16), "01 0F 0150 0010"}}) {
     ask(of);
-    EXPECT_EQ(answer(of, reply), p2p_error::none) << reply;
+    EXPECT_EQ(answer(of, reply), p2p::p2p_error::none) << reply;
   }
 }
 
@@ -109,35 +112,35 @@ TEST_P(ModbusP2p, TheEchoIsOfWhatWasSent) {
   set("%MW100", "1234");
   ask(of);
   set("%MW100", "5678");
-  EXPECT_EQ(answer(of, "01 06 0001 1234"), p2p_error::none);
-  EXPECT_EQ(answer(of, "01 06 0001 5678"), p2p_error::driver);
+  EXPECT_EQ(answer(of, "01 06 0001 1234"), p2p::p2p_error::none);
+  EXPECT_EQ(answer(of, "01 06 0001 5678"), p2p::p2p_error::driver);
 }
 
 TEST_P(ModbusP2p, RefusesWhatIsNotTheReply) {
   const P2pBlock words = p2p_read("0x40002", "%MW160", 2), run = p2p_write("0x40002", "%MW100", 2);
   ask(words);
-  for (const auto& [reply, code] : {std::pair{"02 03 04 1111 2222", p2p_error::station},
-                                    {"01 04 04 1111 2222", p2p_error::driver},
-                                    {"01 84 02", p2p_error::driver},
-                                    {"01 83 02", p2p_error::nak},
-                                    {"01 83 7F", p2p_error::nak},
-                                    {"01 83", p2p_error::length},
-                                    {"01 83 02 02", p2p_error::length},
-                                    {"01 03", p2p_error::length},
-                                    {"01 03 02 1111", p2p_error::length},
-                                    {"01 03 04 1111", p2p_error::length},
-                                    {"01 03 02 1111 2222", p2p_error::length},
-                                    {"01 03 06 1111 2222 3333", p2p_error::length},
-                                    {"01 03 0002 0002", p2p_error::length}})
+  for (const auto& [reply, code] : {std::pair{"02 03 04 1111 2222", p2p::p2p_error::station},
+                                    {"01 04 04 1111 2222", p2p::p2p_error::driver},
+                                    {"01 84 02", p2p::p2p_error::driver},
+                                    {"01 83 02", p2p::p2p_error::nak},
+                                    {"01 83 7F", p2p::p2p_error::nak},
+                                    {"01 83", p2p::p2p_error::length},
+                                    {"01 83 02 02", p2p::p2p_error::length},
+                                    {"01 03", p2p::p2p_error::length},
+                                    {"01 03 02 1111", p2p::p2p_error::length},
+                                    {"01 03 04 1111", p2p::p2p_error::length},
+                                    {"01 03 02 1111 2222", p2p::p2p_error::length},
+                                    {"01 03 06 1111 2222 3333", p2p::p2p_error::length},
+                                    {"01 03 0002 0002", p2p::p2p_error::length}})
     EXPECT_EQ(answer(words, reply), code) << reply;
   EXPECT_EQ(get("%MW160", 8), "00000000") << "nothing is saved of a reply that is refused";
   ask(run);
-  for (const auto& [reply, code] : {std::pair{"01 10 0002 0001", p2p_error::driver},
-                                    {"01 10 0003 0002", p2p_error::driver},
-                                    {"01 10 0002", p2p_error::length},
-                                    {"01 10 0002 0002 00", p2p_error::length},
-                                    {"01 90 01", p2p_error::nak},
-                                    {"01 06 0002 0002", p2p_error::driver}})
+  for (const auto& [reply, code] : {std::pair{"01 10 0002 0001", p2p::p2p_error::driver},
+                                    {"01 10 0003 0002", p2p::p2p_error::driver},
+                                    {"01 10 0002", p2p::p2p_error::length},
+                                    {"01 10 0002 0002 00", p2p::p2p_error::length},
+                                    {"01 90 01", p2p::p2p_error::nak},
+                                    {"01 06 0002 0002", p2p::p2p_error::driver}})
     EXPECT_EQ(answer(run, reply), code) << reply;
 }
 
@@ -164,7 +167,7 @@ TEST_P(ModbusP2p, RefusesParametersThatHaveNoFrame) {
   send.function = P2pBlock::Function::send;
   EXPECT_THAT(why(send), HasSubstr("neither read nor write"));
   P2pBlock mixed = p2p_read("0x40001", "%MW100");
-  mixed.variables.front().own = parse_address(xbc, "%MB100").address;
+  mixed.variables.front().own = plc::parse_address(xbc, "%MB100").address;
   EXPECT_THAT(why(mixed), HasSubstr("save is not a word"));
 }
 
@@ -190,26 +193,26 @@ TEST_P(ModbusP2p, KeepsTheSizesOfTheManual) {
 
 TEST(ModbusP2pRtu, AWrongCrcIsABccError) {
   const auto driver = make_modbus_p2p_driver(ModbusMode::rtu, gap);
-  PlcMemory memory(xbc);
+  plc::PlcMemory memory(xbc);
   const P2pBlock of = p2p_read("0x40002", "%MW160");
   EXPECT_TRUE(driver->request(of, memory));
   Bytes reply = rtu("01 03 02 1234");
   reply.back() ^= 1;
-  EXPECT_EQ(driver->take(of, reply, memory), p2p_error::bcc);
-  EXPECT_EQ(driver->take(of, hex("01"), memory), p2p_error::length);
-  EXPECT_EQ(driver->take(of, hex("01 03 02"), memory), p2p_error::length);
+  EXPECT_EQ(driver->take(of, reply, memory), p2p::p2p_error::bcc);
+  EXPECT_EQ(driver->take(of, hex("01"), memory), p2p::p2p_error::length);
+  EXPECT_EQ(driver->take(of, hex("01 03 02"), memory), p2p::p2p_error::length);
 }
 
 TEST(ModbusP2pAscii, TellsCheckDigitsAndLengthApart) {
   const auto driver = make_modbus_p2p_driver(ModbusMode::ascii, gap);
-  PlcMemory memory(xbc);
+  plc::PlcMemory memory(xbc);
   const P2pBlock of = p2p_read("0x40002", "%MW160");
   EXPECT_TRUE(driver->request(of, memory));
-  EXPECT_EQ(driver->take(of, to_bytes(":0103021234B5\r\n"), memory), p2p_error::bcc);
-  EXPECT_EQ(driver->take(of, to_bytes(":01030212G4B4\r\n"), memory), p2p_error::not_hex);
-  EXPECT_EQ(driver->take(of, to_bytes(":0103021234B\r\n"), memory), p2p_error::not_hex);
-  EXPECT_EQ(driver->take(of, to_bytes(":01\r\n"), memory), p2p_error::length);
-  EXPECT_EQ(driver->take(of, to_bytes(":0103021234b4\r\n"), memory), p2p_error::none);
+  EXPECT_EQ(driver->take(of, to_bytes(":0103021234B5\r\n"), memory), p2p::p2p_error::bcc);
+  EXPECT_EQ(driver->take(of, to_bytes(":01030212G4B4\r\n"), memory), p2p::p2p_error::not_hex);
+  EXPECT_EQ(driver->take(of, to_bytes(":0103021234B\r\n"), memory), p2p::p2p_error::not_hex);
+  EXPECT_EQ(driver->take(of, to_bytes(":01\r\n"), memory), p2p::p2p_error::length);
+  EXPECT_EQ(driver->take(of, to_bytes(":0103021234b4\r\n"), memory), p2p::p2p_error::none);
 }
 
 TEST(ModbusP2pRtu, SilenceEndsAFrame) {
@@ -220,7 +223,7 @@ TEST(ModbusP2pRtu, SilenceEndsAFrame) {
   EXPECT_TRUE(log.frames.empty());
   ASSERT_EQ(driver->wake_at(), 10ms + 7ms + gap + 1ms);
   driver->advance(*driver->wake_at(), log);
-  EXPECT_EQ(log.frames, test::Frames{reply});
+  EXPECT_EQ(log.frames, plc::test::Frames{reply});
   driver->receive({reply, 100ms, 1ms}, log);
   driver->reset();
   EXPECT_EQ(driver->wake_at(), std::nullopt);
@@ -230,18 +233,18 @@ TEST(ModbusP2pAscii, SaysWhetherHeadOrTailIsMissing) {
   const auto driver = make_modbus_p2p_driver(ModbusMode::ascii, gap);
   Log log;
   driver->receive({to_bytes("0103021234B4\r\n"), 10ms, 1ms}, log);
-  EXPECT_EQ(log.broken, Broken{p2p_error::head});
+  EXPECT_EQ(log.broken, Broken{p2p::p2p_error::head});
   driver->reset();
   driver->receive({to_bytes(":0103021234B4"), 100ms, 1ms}, log);
   driver->advance(*driver->wake_at(), log);
-  EXPECT_EQ(log.broken, (Broken{p2p_error::head, p2p_error::tail}));
+  EXPECT_EQ(log.broken, (Broken{p2p::p2p_error::head, p2p::p2p_error::tail}));
   driver->receive({Bytes(600, '0'), 5s, 1ms}, log);
   Bytes endless(600, '0');
   endless.front() = ':';
   log.broken.clear();
   driver->receive({endless, 9s, 1ms}, log);
-  EXPECT_EQ(log.broken, Broken{p2p_error::length});
+  EXPECT_EQ(log.broken, Broken{p2p::p2p_error::length});
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

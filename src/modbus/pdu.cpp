@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 namespace {
 constexpr Byte read_coils = 0x01, read_inputs = 0x02, write_coil = 0x05, write_register = 0x06,
@@ -68,7 +68,8 @@ Byte check_form(ModbusRequest& request, ByteView pdu) {
   return pdu[head] != expected || request.data.size() != expected ? wrong : modbus_exception::none;
 }
 
-Bytes read(const ModbusRequest& request, const DeviceAddress& first, const PlcMemory& memory) {
+Bytes read(const ModbusRequest& request, const plc::DeviceAddress& first,
+           const plc::PlcMemory& memory) {
   const std::size_t size = data_bytes(request.code, request.count);
   Bytes reply{request.code, static_cast<Byte>(size)};
   if (handles_bits(request.code)) {
@@ -82,7 +83,7 @@ Bytes read(const ModbusRequest& request, const DeviceAddress& first, const PlcMe
   return reply;
 }
 
-Bytes write(const ModbusRequest& request, const DeviceAddress& first, PlcMemory& memory) {
+Bytes write(const ModbusRequest& request, const plc::DeviceAddress& first, plc::PlcMemory& memory) {
   for (std::uint32_t i = 0; i < request.count; ++i) {
     std::uint64_t value = 0;
     if (request.code == write_coil)
@@ -114,7 +115,7 @@ ModbusRequest parse_modbus_request(ByteView pdu) {
 }
 
 Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& tables,
-                             PlcMemory& memory) {
+                             plc::PlcMemory& memory) {
   if (request.exception != modbus_exception::none)
     return modbus_exception_reply(request.code, request.exception);
   const ModbusTable& table = tables[request.function->base];
@@ -122,7 +123,7 @@ Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& t
   if (request.address + request.count > table.size || (writes(request.code) && read_only)) {
     return modbus_exception_reply(request.code, modbus_exception::address);
   }
-  const DeviceAddress first = table.first + request.address;
+  const plc::DeviceAddress first = table.first + request.address;
   return writes(request.code) ? write(request, first, memory) : read(request, first, memory);
 }
 
@@ -130,4 +131,4 @@ Bytes modbus_exception_reply(Byte code, Byte exception) {
   return {static_cast<Byte>(code | 0x80), exception};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

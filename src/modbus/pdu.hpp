@@ -17,7 +17,7 @@
 #include "src/modbus/bases.hpp"
 #include "src/plc/memory.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 /// Exception codes (9.2.2). 04 to 06 are those of a server in trouble, which the emulated one never
 /// is.
@@ -53,9 +53,9 @@ ModbusRequest parse_modbus_request(ByteView pdu);
 
 /// The PDU of the reply; a write has happened then, all of it or, with an exception, nothing.
 Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& tables,
-                             PlcMemory& memory);
+                             plc::PlcMemory& memory);
 
 /// Function code with bit 7 set, and the exception code.
 Bytes modbus_exception_reply(Byte code, Byte exception);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -6,7 +6,7 @@
 
 #include "src/modbus/test_frames.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 namespace {
 
 using test::hex;
@@ -14,28 +14,28 @@ using test::operator+;
 
 struct Server {
   explicit Server(std::string_view model = "xbc-h")
-      : Server(model, default_modbus_bases(*find_plc_model(model))) {}
+      : Server(model, default_modbus_bases(*plc::find_plc_model(model))) {}
   Server(std::string_view model, const ModbusBases& bases)
-      : memory(*find_plc_model(model)), tables(*place_modbus_tables(memory.model(), bases)) {}
+      : memory(*plc::find_plc_model(model)), tables(*place_modbus_tables(memory.model(), bases)) {}
 
   Bytes ask(const Bytes& pdu) {
     return execute_modbus_request(parse_modbus_request(pdu), tables, memory);
   }
   std::string ask(std::string_view pdu) { return to_hex(ask(hex(pdu))); }
   void set(std::string_view address, std::string_view value) {
-    ASSERT_TRUE(set_by_name(memory, address, value)) << address;
+    ASSERT_TRUE(plc::set_by_name(memory, address, value)) << address;
   }
   std::string get(std::string_view address, std::size_t digits = 0) {
-    return *get_by_name(memory, address, digits);
+    return *plc::get_by_name(memory, address, digits);
   }
   std::string dump() {
     std::string all;
-    for (const DeviceArea& area : memory.model().areas)
+    for (const plc::DeviceArea& area : memory.model().areas)
       all += get(std::string("%") + area.letter + "W0", 4 * area.words);
     return all;
   }
 
-  PlcMemory memory;
+  plc::PlcMemory memory;
   ModbusTables tables;
 };
 
@@ -226,8 +226,8 @@ TEST(ModbusPdu, ValueIsCheckedBeforeTheAddress) {
 // --- Both ends of each area of each model ---
 
 TEST(ModbusPdu, EndsOfEachArea) {
-  for (const PlcModel& model : plc_models()) {
-    for (const DeviceArea& area : model.areas) {
+  for (const plc::PlcModel& model : plc::plc_models()) {
+    for (const plc::DeviceArea& area : model.areas) {
       const std::string base = std::string(1, area.letter) + "0";
       const bool has_bits = area.letter != 'D';
       const std::string bits = has_bits ? base : "M0";
@@ -346,4 +346,4 @@ TEST(ModbusPduFuzz, AnyBytesAreAnsweredWithinAFrame) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -8,16 +8,16 @@
 #include "src/modbus/modbus_mode.hpp"
 #include "src/plc/frame_sink.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 class ModbusReceiver {
  public:
   virtual ~ModbusReceiver() = default;
 
-  virtual void receive(const Burst& burst, FrameSink& sink) = 0;
+  virtual void receive(const line::Burst& burst, plc::FrameSink& sink) = 0;
   /// When silence has ended the frame in progress.
   virtual std::optional<Time> wake_at() const = 0;
-  virtual void advance(Time now, FrameSink& sink) = 0;
+  virtual void advance(Time now, plc::FrameSink& sink) = 0;
   /// As after power on.
   virtual void reset() = 0;
 };
@@ -25,4 +25,4 @@ class ModbusReceiver {
 /// `gap`: the inter-character time, by which RTU frames end. ASCII has a second of its own.
 std::unique_ptr<ModbusReceiver> make_modbus_receiver(ModbusMode mode, Duration gap);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -6,9 +6,9 @@
 #include "src/modbus/frame.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
-void RtuReceiver::receive(const Burst& burst, FrameSink& sink) {
+void RtuReceiver::receive(const line::Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ >= gap_) finish(sink);
   const std::size_t room = rtu_max_frame + 1 - frame_.size();
@@ -23,18 +23,18 @@ std::optional<Time> RtuReceiver::wake_at() const {
   return last_end_ + gap_ + character_time_;
 }
 
-void RtuReceiver::advance(Time now, FrameSink& sink) {
+void RtuReceiver::advance(Time now, plc::FrameSink& sink) {
   if (const auto wake = wake_at(); wake && now >= *wake) finish(sink);
 }
 
-void RtuReceiver::finish(FrameSink& sink) {
+void RtuReceiver::finish(plc::FrameSink& sink) {
   if (frame_.empty()) return;
   const Time end = *wake_at();
   const Bytes frame = std::exchange(frame_, {});
   if (frame.size() > rtu_max_frame)
-    sink.on_broken_frame(service_status::too_long);
+    sink.on_broken_frame(plc::service_status::too_long);
   else
     sink.on_frame(frame, end);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

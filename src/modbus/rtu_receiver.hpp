@@ -9,7 +9,7 @@
 
 #include "src/modbus/receiver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 
 class RtuReceiver : public ModbusReceiver {
  public:
@@ -17,13 +17,13 @@ class RtuReceiver : public ModbusReceiver {
 
   /// Frames have at most rtu_max_frame bytes; a longer one is dropped (service_status::too_long).
   /// The `end` of a frame is the moment at which its end is known.
-  void receive(const Burst& burst, FrameSink& sink) override;
+  void receive(const line::Burst& burst, plc::FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
-  void advance(Time now, FrameSink& sink) override;
+  void advance(Time now, plc::FrameSink& sink) override;
   void reset() override { frame_.clear(); }
 
  private:
-  void finish(FrameSink& sink);
+  void finish(plc::FrameSink& sink);
 
   Duration gap_;
   Bytes frame_;  // one byte more than the longest at most
@@ -31,4 +31,4 @@ class RtuReceiver : public ModbusReceiver {
   Duration character_time_{};
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -5,13 +5,13 @@
 #include "src/modbus/test_frames.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus {
 namespace {
 
-using test::Broken;
-using test::Frames;
+using plc::test::Broken;
+using plc::test::Frames;
+using plc::test::Log;
 using test::hex;
-using test::Log;
 using test::operator+;
 
 constexpr Duration character = 1ms, gap = 4ms;
@@ -84,7 +84,7 @@ TEST_F(RtuReceiverTest, LongestFrameAndOnePast) {
   at(2s + 256ms, Bytes(2, 1));
   silence();
   EXPECT_EQ(log.frames.size(), 1u);
-  EXPECT_EQ(log.broken, (Broken{service_status::too_long, service_status::too_long}));
+  EXPECT_EQ(log.broken, (Broken{plc::service_status::too_long, plc::service_status::too_long}));
   at(5s, hex("01"));
   silence();
   EXPECT_EQ(log.frames.back(), hex("01"));
@@ -109,4 +109,4 @@ TEST_F(RtuReceiverTest, ResetForgets) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus

@@ -9,7 +9,7 @@
 #include "src/modbus/frame.hpp"
 #include "src/plc/test_frame_log.hpp"
 
-namespace fieldproof::test {
+namespace fieldproof::modbus::test {
 
 inline Bytes hex(std::string_view text) {
   const auto bytes = from_hex(text);
@@ -35,4 +35,4 @@ inline Bytes part(const Bytes& bytes, std::size_t from, std::size_t until) {
                bytes.begin() + static_cast<std::ptrdiff_t>(until));
 }
 
-}  // namespace fieldproof::test
+}  // namespace fieldproof::modbus::test

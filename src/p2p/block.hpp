@@ -10,7 +10,7 @@
 #include "src/base/time.hpp"
 #include "src/plc/address.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 constexpr unsigned p2p_parameters =
     3;  // 1: built-in channels, 2 and 3: communication modules (003 6.2.1)
@@ -29,13 +29,13 @@ constexpr std::uint16_t none = 0, head = 0x01, tail = 0x02, bcc = 0x03, station 
 struct P2pVariable {
   std::string
       partner{};  // as the driver spells it: "%MW100", "0x40001", "1230"; empty: of a user frame
-  DeviceAddress own{};  // the save area of a read or receive, the read area of a write or send
+  plc::DeviceAddress own{};  // the save area of a read or receive, the read area of a write or send
 };
 
 /// When a block fires: at the rising edge of a bit, or of a clock. Neither: a RECEIVE block, which
 /// is always armed.
 struct P2pCondition {
-  std::optional<DeviceAddress> flag{};
+  std::optional<plc::DeviceAddress> flag{};
   Duration period{};  // of a clock: 20 ms, 200 ms or 1 s
 };
 
@@ -59,4 +59,4 @@ struct P2pBlock {
   unsigned elements() const { return continuous ? size : 1; }
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

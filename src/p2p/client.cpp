@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 namespace {
 /// Appendix 3.3 for what is no frame.
 std::uint16_t error_of(std::uint16_t status) {
-  return status == service_status::not_modbus ? p2p_error::bcc : status;
+  return status == plc::service_status::not_modbus ? p2p_error::bcc : status;
 }
 
 /// 000 11.1.4 'P2P service'.
@@ -19,7 +19,7 @@ std::uint16_t service_code(std::uint16_t error) {
 }
 }  // namespace
 
-P2pClient::P2pClient(PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
+P2pClient::P2pClient(plc::PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
                      std::unique_ptr<P2pDriver> driver, const Timing& timing,
                      std::function<void()> saved)
     : memory_(memory), driver_(std::move(driver)), timing_(timing), saved_(std::move(saved)) {
@@ -36,7 +36,7 @@ P2pClient::P2pClient(PlcMemory& memory, const P2pParameters& parameters, unsigne
   }
 }
 
-void P2pClient::receive(const Burst& burst) {
+void P2pClient::receive(const line::Burst& burst) {
   driver_->receive(burst, *this);
   now_ = std::max(now_, burst.end());
   heard_until_ = std::max(heard_until_, burst.end());
@@ -155,7 +155,7 @@ void P2pClient::on_frame(ByteView frame, Time) {
 
 void P2pClient::on_broken_frame(std::uint16_t why) {
   if (!busy_ || !awaits_reply_) return;
-  if (why == service_status::head)
+  if (why == plc::service_status::head)
     noise_ = true;
   else
     finish(*busy_, error_of(why));
@@ -166,7 +166,7 @@ void P2pClient::finish(std::size_t block, std::uint16_t error) {
   memory_.write(result.ndr, error == p2p_error::none);
   memory_.write(result.err, error != p2p_error::none);
   memory_.write(result.status, error);
-  const DeviceAddress& count = error == p2p_error::none ? result.services : result.errors;
+  const plc::DeviceAddress& count = error == p2p_error::none ? result.services : result.errors;
   memory_.write(count, memory_.read(count) + 1);  // a dword: it wraps
   if (error == p2p_error::none)
     counters_.count_service();
@@ -176,4 +176,4 @@ void P2pClient::finish(std::size_t block, std::uint16_t error) {
   if (saved_) saved_();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

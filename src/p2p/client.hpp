@@ -22,9 +22,9 @@
 #include "src/p2p/registers.hpp"
 #include "src/plc/counters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
-class P2pClient : public Device, private FrameSink {
+class P2pClient : public line::Device, private plc::FrameSink {
  public:
   struct Timing {
     Duration time_out{};  // after the last byte sent
@@ -35,10 +35,10 @@ class P2pClient : public Device, private FrameSink {
   /// The blocks of `parameters` that are of `channel`, checked with `driver` (parameters.hpp).
   /// `memory` outlives the client; `saved` is called when it has changed memory. It is off until
   /// `set_active`.
-  P2pClient(PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
+  P2pClient(plc::PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
             std::unique_ptr<P2pDriver> driver, const Timing& timing, std::function<void()> saved);
 
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
@@ -51,7 +51,7 @@ class P2pClient : public Device, private FrameSink {
   void power_cycle();
   /// Of all blocks. The status is that of the P2P service, 000 11.1.4: 4 station, 5 time-out, FFFE
   /// no such request; where it has no code, that of Appendix 3.3.
-  const ServiceCounters& counters() const { return counters_; }
+  const plc::ServiceCounters& counters() const { return counters_; }
 
  private:
   using BlockSet = std::uint32_t;  // bit i: block i of blocks_
@@ -72,7 +72,7 @@ class P2pClient : public Device, private FrameSink {
   void finish(std::size_t block, std::uint16_t error);
   Time free_at() const { return heard_until_ + timing_.delay; }
 
-  PlcMemory& memory_;
+  plc::PlcMemory& memory_;
   std::vector<P2pBlock> blocks_;
   std::vector<P2pResultFlags> results_;
   std::unique_ptr<P2pDriver> driver_;
@@ -90,7 +90,7 @@ class P2pClient : public Device, private FrameSink {
   bool noise_ = false;  // bytes without a header came while waiting
   Time heard_until_{};  // or sent
   Time now_{};
-  ServiceCounters counters_;
+  plc::ServiceCounters counters_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

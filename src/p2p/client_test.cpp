@@ -6,7 +6,7 @@
 
 #include "src/p2p/test_driver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 namespace {
 
 constexpr Duration character = 1ms, time_out = 200ms;
@@ -24,7 +24,7 @@ struct Bench {
   }
 
   void set(std::string_view name, std::string_view hex) {
-    const Status status = set_by_name(memory, name, hex);
+    const Status status = plc::set_by_name(memory, name, hex);
     ASSERT_TRUE(status) << status.error().message;
     client->scan();
   }
@@ -32,7 +32,7 @@ struct Bench {
     set(name, "00");
     set(name, "01");
   }
-  std::string get(std::string_view name) { return *get_by_name(memory, name, 0); }
+  std::string get(std::string_view name) { return *plc::get_by_name(memory, name, 0); }
 
   /// Time passes until the client sends; "" when it does not until `until`. Then `now` is when it
   /// began.
@@ -50,7 +50,7 @@ struct Bench {
   std::string sent() { return sent(now); }
   void reply(const std::string& text, Duration after = 50ms) {
     EXPECT_EQ(sent(now + after), "");
-    const Burst burst{to_bytes(text), now, character};
+    const line::Burst burst{to_bytes(text), now, character};
     client->receive(burst);
     now = burst.end();
   }
@@ -58,14 +58,14 @@ struct Bench {
   std::string result(unsigned block) {
     const P2pResultFlags flags = p2p_result_flags(memory.model(), 1, block);
     std::string text;
-    for (const DeviceAddress& address :
+    for (const plc::DeviceAddress& address :
          {flags.ndr, flags.err, flags.status, flags.services, flags.errors})
       text += hex_number(memory.read(address), address.type == 'X' ? 1 : 2) + ' ';
     text.pop_back();
     return text;
   }
 
-  PlcMemory memory{*find_plc_model("xbc-h")};
+  plc::PlcMemory memory{*plc::find_plc_model("xbc-h")};
   std::unique_ptr<P2pClient> client;
   Time now{};
 };
@@ -345,4 +345,4 @@ TEST(P2pClient, AllThirtyTwoBlocks) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -7,7 +7,7 @@
 
 #include "src/base/letters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 namespace {
 struct Clock {
@@ -25,7 +25,7 @@ std::string without_zeros(std::string text) {
   return text;
 }
 
-std::string clock_names(const PlcModel& model) {
+std::string clock_names(const plc::PlcModel& model) {
   std::string names;
   for (const Clock& clock : clocks)
     names += fmt::format("{}{} ({} ms)", names.empty() ? "" : ", ",
@@ -33,13 +33,13 @@ std::string clock_names(const PlcModel& model) {
   return names;
 }
 
-bool is_clock_bit(const Clock& clock, const DeviceAddress& bit, const PlcModel& model) {
+bool is_clock_bit(const Clock& clock, const plc::DeviceAddress& bit, const plc::PlcModel& model) {
   return !model.iec && model.areas[bit.area].letter == 'F' &&
          bit.index == clock_word * 16 + clock.bit;
 }
 }  // namespace
 
-Result<P2pCondition> parse_p2p_condition(std::string_view flag, const PlcModel& model) {
+Result<P2pCondition> parse_p2p_condition(std::string_view flag, const plc::PlcModel& model) {
   const auto wrong = [&model](const std::string& what) {
     return fail(
         fmt::format("{}; give a bit such as %MX00000, or a clock: {}", what, clock_names(model)));
@@ -49,10 +49,10 @@ Result<P2pCondition> parse_p2p_condition(std::string_view flag, const PlcModel& 
   for (const Clock& clock : clocks)
     if (model.iec ? name == clock.iec : without_zeros(name) == clock.mk)
       return P2pCondition{{}, clock.period};
-  const ParsedAddress parsed = parse_address(model, flag);
+  const plc::ParsedAddress parsed = plc::parse_address(model, flag);
   if (!parsed)
-    return wrong(
-        fmt::format("flag '{}' is no bit of {}: {}", flag, model.name, describe(parsed.fault)));
+    return wrong(fmt::format("flag '{}' is no bit of {}: {}", flag, model.name,
+                             plc::describe(parsed.fault)));
   if (parsed.address.type != 'X')
     return wrong(fmt::format("flag '{}' is no bit: its type is {}", flag, parsed.address.type));
   for (const Clock& clock : clocks)
@@ -60,4 +60,4 @@ Result<P2pCondition> parse_p2p_condition(std::string_view flag, const PlcModel& 
   return P2pCondition{parsed.address};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -11,9 +11,9 @@
 #include "src/p2p/block.hpp"
 #include "src/plc/model.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 /// The error says what is allowed.
-Result<P2pCondition> parse_p2p_condition(std::string_view flag, const PlcModel& model);
+Result<P2pCondition> parse_p2p_condition(std::string_view flag, const plc::PlcModel& model);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -15,7 +15,7 @@
 #include "src/plc/frame_sink.hpp"
 #include "src/plc/memory.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 class P2pDriver {
  public:
@@ -27,11 +27,11 @@ class P2pDriver {
 
   /// What XG5000 refuses of this driver's blocks beyond the common rules: sizes, addresses of the
   /// partner, functions.
-  virtual Status check(const P2pBlock& block, const PlcModel& model) const = 0;
+  virtual Status check(const P2pBlock& block, const plc::PlcModel& model) const = 0;
 
   /// The request of a block, with the values of a write taken from memory. An error: it cannot be
   /// sent (STATUS 07).
-  virtual Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const = 0;
+  virtual Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory& memory) const = 0;
 
   /// Does the request of such a block wait for a reply? A user frame that was sent is done.
   virtual bool awaits_reply(const P2pBlock& block) const = 0;
@@ -40,15 +40,15 @@ class P2pDriver {
   /// nothing: the error code, 0 for a normal end. Nothing: the frame is none of this block's (a
   /// RECEIVE block of another frame).
   virtual std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
-                                            PlcMemory& memory) const = 0;
+                                            plc::PlcMemory& memory) const = 0;
 
   /// Finds frames in what arrives: complete ones and broken ones (`why` is a service_status) go to
   /// the sink.
-  virtual void receive(const Burst& burst, FrameSink& sink) = 0;
+  virtual void receive(const line::Burst& burst, plc::FrameSink& sink) = 0;
   virtual std::optional<Time> wake_at() const = 0;
-  virtual void advance(Time now, FrameSink& sink) = 0;
+  virtual void advance(Time now, plc::FrameSink& sink) = 0;
   /// Forgets what was half received.
   virtual void reset() = 0;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

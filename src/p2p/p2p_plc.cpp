@@ -6,26 +6,26 @@
 
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 namespace {
 constexpr unsigned longest_time_out = 50;  // 000 figure 4.3.1: (0-50)(*100ms)
 }
 
-P2pPlc::P2pPlc(const PlcModel& model, const P2pParameters& parameters, bool run)
+P2pPlc::P2pPlc(const plc::PlcModel& model, const P2pParameters& parameters, bool run)
     : memory_(model), run_(run), link_(parameters.link) {
   write_p2p_registers(memory_, parameters);
 }
 
 Status P2pPlc::set(std::string_view address, std::string_view hex) {
-  const Status status = set_by_name(memory_, address, hex);
+  const Status status = plc::set_by_name(memory_, address, hex);
   if (status) scan();
   return status;
 }
 
 Result<std::string> P2pPlc::get(std::string_view address, std::size_t digits) const {
-  if (address.starts_with('@')) return get_counter(line_->counters(), address, digits);
-  return get_by_name(memory_, address, digits);
+  if (address.starts_with('@')) return plc::get_counter(line_->counters(), address, digits);
+  return plc::get_by_name(memory_, address, digits);
 }
 
 Status P2pPlc::act(std::string_view action) {
@@ -61,17 +61,17 @@ Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view model, const nlohm
                                              const P2pDriverFactory& driver,
                                              std::initializer_list<std::string_view> own_keys) {
   constexpr std::string_view what = "the P2P client's configuration";
-  std::vector<std::string_view> keys = port_keys(own_keys);
+  std::vector<std::string_view> keys = plc::port_keys(own_keys);
   keys.insert(keys.end(), {"p2p", "time_out"});
-  if (const Status status = known_keys(config, what, keys); !status) return status.error();
-  PortConfig port;
+  if (const Status status = plc::known_keys(config, what, keys); !status) return status.error();
+  plc::PortConfig port;
   port.model = model;
   unsigned time_out = 1;
-  ConfigReader reader(config, std::string(what));
-  read_port_config(reader, port);
+  plc::ConfigReader reader(config, std::string(what));
+  plc::read_port_config(reader, port);
   reader.whole("time_out", longest_time_out, time_out);
   if (reader.error()) return *reader.error();
-  const Result<const PlcModel*> known = check_port_config(port);
+  const Result<const plc::PlcModel*> known = plc::check_port_config(port);
   if (!known) return known.error();
   if (!config.contains("p2p"))
     return fail("cannot make a P2P client: there is no p2p; give its blocks, or role server");
@@ -94,12 +94,12 @@ Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view model, const nlohm
   return plc;
 }
 
-Result<std::unique_ptr<EmulatedDevice>> make_p2p_device(
+Result<std::unique_ptr<plc::EmulatedDevice>> make_p2p_device(
     std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
     std::initializer_list<std::string_view> own_keys) {
   Result<std::unique_ptr<P2pPlc>> plc = make_p2p_plc(model, config, driver, own_keys);
   if (!plc) return plc.error();
-  return std::unique_ptr<EmulatedDevice>(std::move(*plc));
+  return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -22,17 +22,17 @@
 #include "src/plc/emulated_device.hpp"
 #include "src/plc/port_config.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 /// The driver of one channel, in its power-on state.
-using P2pDriverFactory = std::function<std::unique_ptr<P2pDriver>(const PortConfig& port)>;
+using P2pDriverFactory = std::function<std::unique_ptr<P2pDriver>(const plc::PortConfig& port)>;
 
-class P2pPlc : public EmulatedDevice {
+class P2pPlc : public plc::EmulatedDevice {
  public:
   P2pPlc(const P2pPlc&) = delete;
   P2pPlc& operator=(const P2pPlc&) = delete;
 
-  void receive(const Burst& burst) override { line_->receive(burst); }
+  void receive(const line::Burst& burst) override { line_->receive(burst); }
   std::optional<Time> wake_at() const override { return line_->wake_at(); }
   Bytes advance(Time now) override { return line_->advance(now); }
 
@@ -47,18 +47,18 @@ class P2pPlc : public EmulatedDevice {
   P2pClient& channel(unsigned number) { return *channels_.at(number - 1); }
   /// For another service of the same PLC, such as a server on another channel. Who writes calls
   /// `scan` after it.
-  PlcMemory& memory() { return memory_; }
+  plc::PlcMemory& memory() { return memory_; }
   void scan();
 
  private:
   friend Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view, const nlohmann::json&,
                                                       const P2pDriverFactory&,
                                                       std::initializer_list<std::string_view>);
-  P2pPlc(const PlcModel& model, const P2pParameters& parameters, bool run);
+  P2pPlc(const plc::PlcModel& model, const P2pParameters& parameters, bool run);
 
   void update_mode();
 
-  PlcMemory memory_;
+  plc::PlcMemory memory_;
   bool run_, link_;
   std::array<std::unique_ptr<P2pClient>, 2> channels_;
   P2pClient* line_ = nullptr;
@@ -73,11 +73,11 @@ Result<std::unique_ptr<P2pPlc>> make_p2p_plc(std::string_view model, const nlohm
                                              std::initializer_list<std::string_view> own_keys = {});
 
 /// The same as a device.
-Result<std::unique_ptr<EmulatedDevice>> make_p2p_device(
+Result<std::unique_ptr<plc::EmulatedDevice>> make_p2p_device(
     std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
     std::initializer_list<std::string_view> own_keys = {});
 
 /// Is role client asked for?
 bool is_p2p_client(const nlohmann::json& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

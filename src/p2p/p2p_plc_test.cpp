@@ -6,7 +6,7 @@
 
 #include "src/p2p/test_driver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 namespace {
 
 using nlohmann::json;
@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 Result<std::unique_ptr<P2pPlc>> make(const json& config, std::string_view model = "xbc-h") {
   return make_p2p_plc(model, config,
-                      [](const PortConfig&) { return std::make_unique<test::TestDriver>(); },
+                      [](const plc::PortConfig&) { return std::make_unique<test::TestDriver>(); },
                       {"colour"});
 }
 
@@ -39,7 +39,7 @@ std::string error_of(const json& with_config) {
   return plc ? "" : plc.error().message;
 }
 
-std::string sent(Device& device, Time now = {}) {
+std::string sent(line::Device& device, Time now = {}) {
   const auto wake = device.wake_at();
   return wake && *wake <= now ? to_text(device.advance(now)) : "";
 }
@@ -120,7 +120,7 @@ TEST(P2pPlc, TimesOutByItsParameter) {
   const auto plc = plc_of(with({{"time_out", 3}, {"line", "9600-8N1"}}));
   ASSERT_TRUE(plc->set("%MX0", "01"));
   EXPECT_EQ(sent(*plc), "ask 0");
-  EXPECT_EQ(plc->wake_at(), 5 * LineSettings{}.character_time() + 400ms);
+  EXPECT_EQ(plc->wake_at(), 5 * line::LineSettings{}.character_time() + 400ms);
 }
 
 TEST(P2pPlc, DelayHoldsWithRs485) {
@@ -166,4 +166,4 @@ TEST(P2pPlc, IsAskedForByItsRole) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -12,7 +12,7 @@
 #include "src/p2p/driver.hpp"
 #include "src/plc/config_reader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 namespace {
 using nlohmann::json;
@@ -38,7 +38,7 @@ std::string_view type_name(char type) {
 /// Reads one block; the first error stays.
 class BlockReader {
  public:
-  BlockReader(const json& object, const PlcModel& model, P2pBlock& block, std::string what)
+  BlockReader(const json& object, const plc::PlcModel& model, P2pBlock& block, std::string what)
       : object_(object),
         model_(model),
         block_(block),
@@ -49,7 +49,7 @@ class BlockReader {
     constexpr std::array<std::string_view, 11> keys{"block", "channel",  "command", "flag",
                                                     "frame", "function", "read",    "save",
                                                     "size",  "station",  "type"};
-    if (const Status known = known_keys(object_, what_, keys); !known) return known;
+    if (const Status known = plc::known_keys(object_, what_, keys); !known) return known;
     int function = int(block_.function), continuous = block_.continuous, type = block_.type;
     reader_.whole("channel", channels, block_.channel);
     reader_.whole("station", highest_station, block_.station);
@@ -139,7 +139,7 @@ class BlockReader {
     if (!block_.continuous && object_.contains("size"))
       return wrong("size is of continuous blocks; remove it, or set command");
     for (std::size_t i = 0; i < own->size(); ++i) {
-      const Result<DeviceAddress> address = own_address(own_key, (*own)[i], block_.elements());
+      const Result<plc::DeviceAddress> address = own_address(own_key, (*own)[i], block_.elements());
       if (!address) return address.error();
       if (address->type != block_.type)
         return wrong(fmt::format("{} '{}' is of type {}, and the block of type {}; make them equal",
@@ -163,23 +163,23 @@ class BlockReader {
     const auto own = names(own_key);
     if (!own) return own.error();
     for (const std::string& name : *own) {
-      const Result<DeviceAddress> address = own_address(own_key, name, 1);
+      const Result<plc::DeviceAddress> address = own_address(own_key, name, 1);
       if (!address) return address.error();
       block_.variables.push_back({"", *address});
     }
     return ok();
   }
 
-  Result<DeviceAddress> own_address(const char* key, const std::string& name,
-                                    unsigned elements) const {
-    const ParsedAddress parsed = parse_address(model_, name);
+  Result<plc::DeviceAddress> own_address(const char* key, const std::string& name,
+                                         unsigned elements) const {
+    const plc::ParsedAddress parsed = plc::parse_address(model_, name);
     if (!parsed)
       return wrong(fmt::format("{} '{}' is wrong on {}: {}", key, name, model_.name,
-                               describe(parsed.fault)));
-    if (!fits(model_, parsed.address, elements))
+                               plc::describe(parsed.fault)));
+    if (!plc::fits(model_, parsed.address, elements))
       return wrong(fmt::format("{} '{}': the area ends before the last of {} elements", key, name,
                                elements));
-    const DeviceArea& area = model_.areas[parsed.address.area];
+    const plc::DeviceArea& area = model_.areas[parsed.address.area];
     if (std::string_view(key) == "save" && !area.write)
       return wrong(
           fmt::format("save '{}': {} is read only; save in another area", name, area.letter));
@@ -187,9 +187,9 @@ class BlockReader {
   }
 
   const json& object_;
-  const PlcModel& model_;
+  const plc::PlcModel& model_;
   P2pBlock& block_;
-  ConfigReader reader_;
+  plc::ConfigReader reader_;
   std::string what_;
 };
 
@@ -223,11 +223,11 @@ Status check_together(const P2pParameters& parameters) {
 }
 }  // namespace
 
-Result<P2pParameters> parse_p2p_parameters(const json& p2p, const PlcModel& model) {
+Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel& model) {
   constexpr std::array<std::string_view, 4> keys{"blocks", "channel", "link", "parameter"};
-  if (const Status known = known_keys(p2p, "p2p", keys); !known) return known.error();
+  if (const Status known = plc::known_keys(p2p, "p2p", keys); !known) return known.error();
   P2pParameters parameters;
-  ConfigReader reader(p2p, "p2p");
+  plc::ConfigReader reader(p2p, "p2p");
   reader.whole("parameter", p2p_parameters, parameters.parameter);
   reader.whole("channel", channels, parameters.channel);
   reader.boolean("link", parameters.link);
@@ -244,7 +244,7 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const PlcModel& mode
     P2pBlock block;
     block.number = static_cast<unsigned>(parameters.blocks.size());
     block.channel = parameters.channel;
-    ConfigReader number(object, fmt::format("p2p.blocks[{}]", block.number));
+    plc::ConfigReader number(object, fmt::format("p2p.blocks[{}]", block.number));
     if (object.is_object()) number.whole("block", p2p_blocks - 1, block.number);
     if (number.error()) return *number.error();
     const Status status =
@@ -258,7 +258,7 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const PlcModel& mode
 }
 
 Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const P2pDriver& driver,
-                        const PlcModel& model) {
+                        const plc::PlcModel& model) {
   const bool user_frames = driver.name() == "user-frames";
   for (const P2pBlock& block : parameters.blocks) {
     if (block.channel != channel) continue;
@@ -276,4 +276,4 @@ Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const
   return ok();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -18,7 +18,7 @@
 #include "src/base/result.hpp"
 #include "src/p2p/block.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 class P2pDriver;
 
@@ -31,11 +31,11 @@ struct P2pParameters {
 
 /// What holds whatever the driver is. Errors name the block and the key: "cannot set up P2P block
 /// 3: ...".
-Result<P2pParameters> parse_p2p_parameters(const nlohmann::json& p2p, const PlcModel& model);
+Result<P2pParameters> parse_p2p_parameters(const nlohmann::json& p2p, const plc::PlcModel& model);
 
 /// What the driver of `channel` adds: user frames are for the driver user-frames alone, which has
 /// nothing else (6.2.3); and P2pDriver::check of each block of that channel.
 Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const P2pDriver& driver,
-                        const PlcModel& model);
+                        const plc::PlcModel& model);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -6,14 +6,16 @@
 
 #include "src/p2p/test_driver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const PlcModel& model(std::string_view name = "xbc-h") { return *find_plc_model(name); }
-DeviceAddress address(std::string_view name) { return parse_address(model(), name).address; }
+const plc::PlcModel& model(std::string_view name = "xbc-h") { return *plc::find_plc_model(name); }
+plc::DeviceAddress address(std::string_view name) {
+  return plc::parse_address(model(), name).address;
+}
 
 const json read{{"flag", "%MX00000"}, {"read", "%MW100"}, {"save", "%MW200"}, {"station", 2}};
 const json send{{"function", "send"}, {"flag", "F93"}, {"frame", "TX.B"}};
@@ -240,4 +242,4 @@ TEST(P2pParameters, DriversHaveRulesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 namespace {
 constexpr std::uint32_t first_result = 512, words_a_result = 6;
 
-DeviceAddress address_in(const PlcModel& model, char area, char type, std::uint32_t index) {
+plc::DeviceAddress address_in(const plc::PlcModel& model, char area, char type,
+                              std::uint32_t index) {
   return {static_cast<std::uint8_t>(model.area(area) - model.areas.data()), type, false, index};
 }
 
-void write_name(PlcMemory& memory, const DeviceAddress& first, unsigned words,
+void write_name(plc::PlcMemory& memory, const plc::DeviceAddress& first, unsigned words,
                 std::string_view name) {
   for (unsigned i = 0; i < words; ++i) {
     const auto letter = [name](std::size_t at) {
@@ -21,13 +22,13 @@ void write_name(PlcMemory& memory, const DeviceAddress& first, unsigned words,
   }
 }
 
-void write_block(PlcMemory& memory, unsigned parameter, const P2pBlock& block) {
+void write_block(plc::PlcMemory& memory, unsigned parameter, const P2pBlock& block) {
   const P2pRegisters registers = p2p_registers(memory.model(), parameter, block.number);
   memory.write(registers.station, block.station);
   const bool own_is_saved =
       block.function == P2pBlock::Function::read || block.function == P2pBlock::Function::receive;
   const unsigned bytes =
-      block.is_user_frame() ? block.size : block.elements() * type_bytes(block.type);
+      block.is_user_frame() ? block.size : block.elements() * plc::type_bytes(block.type);
   for (std::size_t i = 0; i < p2p_max_variables; ++i) {
     const bool used = i < block.variables.size();
     const std::string own = used ? device_name(memory.model(), block.variables[i].own) : "";
@@ -42,7 +43,7 @@ void write_block(PlcMemory& memory, unsigned parameter, const P2pBlock& block) {
 }
 }  // namespace
 
-P2pResultFlags p2p_result_flags(const PlcModel& model, unsigned parameter, unsigned block) {
+P2pResultFlags p2p_result_flags(const plc::PlcModel& model, unsigned parameter, unsigned block) {
   const std::uint32_t word = first_result + words_a_result * (p2p_blocks * (parameter - 1) + block);
   return {.ndr = address_in(model, 'L', 'X', word * 16),
           .err = address_in(model, 'L', 'X', word * 16 + 1),
@@ -51,7 +52,7 @@ P2pResultFlags p2p_result_flags(const PlcModel& model, unsigned parameter, unsig
           .errors = address_in(model, 'L', 'D', word / 2 + 2)};
 }
 
-P2pRegisters p2p_registers(const PlcModel& model, unsigned parameter, unsigned block) {
+P2pRegisters p2p_registers(const plc::PlcModel& model, unsigned parameter, unsigned block) {
   P2pRegisters registers;
   registers.name_words = model.iec ? 5 : 4;
   const std::uint32_t words_an_area = registers.name_words + 1,
@@ -68,11 +69,11 @@ P2pRegisters p2p_registers(const PlcModel& model, unsigned parameter, unsigned b
   return registers;
 }
 
-void write_p2p_registers(PlcMemory& memory, const P2pParameters& parameters) {
+void write_p2p_registers(plc::PlcMemory& memory, const P2pParameters& parameters) {
   for (const P2pBlock& block : parameters.blocks) write_block(memory, parameters.parameter, block);
 }
 
-std::string device_name(const PlcModel& model, const DeviceAddress& address) {
+std::string device_name(const plc::PlcModel& model, const plc::DeviceAddress& address) {
   const char area = model.areas[address.area].letter;
   if (address.type == 'X' && !address.contact && !model.iec) {
     return fmt::format("%{}X{}{:X}", area,
@@ -82,4 +83,4 @@ std::string device_name(const PlcModel& model, const DeviceAddress& address) {
   return fmt::format("%{}{}{}", area, address.type, address.index);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -19,33 +19,33 @@
 #include "src/p2p/parameters.hpp"
 #include "src/plc/memory.hpp"
 
-namespace fieldproof {
+namespace fieldproof::p2p {
 
 struct P2pResultFlags {
-  DeviceAddress ndr, err;          // bits: the last service ended normally, or not
-  DeviceAddress status;            // word: p2p_error
-  DeviceAddress services, errors;  // dwords: counts
+  plc::DeviceAddress ndr, err;          // bits: the last service ended normally, or not
+  plc::DeviceAddress status;            // word: p2p_error
+  plc::DeviceAddress services, errors;  // dwords: counts
 };
 
 /// `parameter` 1-3, `block` 0-31.
-P2pResultFlags p2p_result_flags(const PlcModel& model, unsigned parameter, unsigned block);
+P2pResultFlags p2p_result_flags(const plc::PlcModel& model, unsigned parameter, unsigned block);
 
 struct P2pRegisters {
   struct Area {
-    DeviceAddress name;  // the first of its words
-    DeviceAddress size;
+    plc::DeviceAddress name;  // the first of its words
+    plc::DeviceAddress size;
   };
-  DeviceAddress station;
+  plc::DeviceAddress station;
   std::array<Area, p2p_max_variables> read, save;
   unsigned name_words = 0;
 };
 
-P2pRegisters p2p_registers(const PlcModel& model, unsigned parameter, unsigned block);
+P2pRegisters p2p_registers(const plc::PlcModel& model, unsigned parameter, unsigned block);
 
 /// Writes the parameters where the PLC shows them; those of other blocks are left alone.
-void write_p2p_registers(PlcMemory& memory, const P2pParameters& parameters);
+void write_p2p_registers(plc::PlcMemory& memory, const P2pParameters& parameters);
 
 /// "%MW100": as it goes out, without leading zeros.
-std::string device_name(const PlcModel& model, const DeviceAddress& address);
+std::string device_name(const plc::PlcModel& model, const plc::DeviceAddress& address);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

@@ -4,15 +4,19 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::p2p {
+
+using plc::PlcModel;
+
 namespace {
 
-const PlcModel& mk() { return *find_plc_model("xbc-h"); }
-const PlcModel& iec() { return *find_plc_model("xec-h"); }
+const PlcModel& mk() { return *plc::find_plc_model("xbc-h"); }
+const PlcModel& iec() { return *plc::find_plc_model("xec-h"); }
 
 std::string named(const PlcModel& model, const P2pResultFlags& flags) {
   std::string names;
-  for (const DeviceAddress& a : {flags.ndr, flags.err, flags.status, flags.services, flags.errors})
+  for (const plc::DeviceAddress& a :
+       {flags.ndr, flags.err, flags.status, flags.services, flags.errors})
     names += device_name(model, a) + ' ';
   return names;
 }
@@ -60,14 +64,14 @@ TEST(P2pRegisters, PrintedAddresses) {
 }
 
 TEST(P2pRegisters, EveryModelHasThem) {
-  for (const PlcModel& model : plc_models()) {
-    EXPECT_TRUE(fits(model, p2p_registers(model, 3, 31).save[3].size)) << model.name;
-    EXPECT_TRUE(fits(model, p2p_result_flags(model, 3, 31).errors)) << model.name;
+  for (const PlcModel& model : plc::plc_models()) {
+    EXPECT_TRUE(plc::fits(model, p2p_registers(model, 3, 31).save[3].size)) << model.name;
+    EXPECT_TRUE(plc::fits(model, p2p_result_flags(model, 3, 31).errors)) << model.name;
   }
 }
 
-PlcMemory written(const PlcModel& model, const char* p2p) {
-  PlcMemory memory(model);
+plc::PlcMemory written(const PlcModel& model, const char* p2p) {
+  plc::PlcMemory memory(model);
   const Result<P2pParameters> parameters = parse_p2p_parameters(nlohmann::json::parse(p2p), model);
   EXPECT_TRUE(parameters) << (parameters ? "" : parameters.error().message);
   if (parameters) write_p2p_registers(memory, *parameters);
@@ -75,39 +79,39 @@ PlcMemory written(const PlcModel& model, const char* p2p) {
 }
 
 TEST(P2pRegisters, ShowARead) {
-  const PlcMemory memory =
+  const plc::PlcMemory memory =
       written(mk(), R"({"blocks": [{"block": 1, "flag": "F92", "read": ["%MW100", "%DW10239"],
                                              "save": ["%MW00200", "%KW1"], "station": 2}]})");
-  EXPECT_EQ(*get_by_name(memory, "%NW41", 0), "0002");
-  EXPECT_EQ(*get_by_name(memory, "%NB84", 20),
+  EXPECT_EQ(*plc::get_by_name(memory, "%NW41", 0), "0002");
+  EXPECT_EQ(*plc::get_by_name(memory, "%NB84", 20),
             "254D573130300000"
             "0200");  // %MW100, 2 bytes
-  EXPECT_EQ(*get_by_name(memory, "%NB94", 20),
+  EXPECT_EQ(*plc::get_by_name(memory, "%NB94", 20),
             "2544573130323339"
             "0200");  // %DW10239: all of the four words
-  EXPECT_EQ(*get_by_name(memory, "%NB104", 20), "00000000000000000000");  // no third
-  EXPECT_EQ(*get_by_name(memory, "%NB124", 20),
+  EXPECT_EQ(*plc::get_by_name(memory, "%NB104", 20), "00000000000000000000");  // no third
+  EXPECT_EQ(*plc::get_by_name(memory, "%NB124", 20),
             "254D573230300000"
-            "0200");                                   // saved in %MW200
-  EXPECT_EQ(*get_by_name(memory, "%NW0", 4), "0000");  // block 0 is not set up
+            "0200");                                        // saved in %MW200
+  EXPECT_EQ(*plc::get_by_name(memory, "%NW0", 4), "0000");  // block 0 is not set up
 }
 
 TEST(P2pRegisters, ShowAWrite) {
-  const PlcMemory memory = written(
+  const plc::PlcMemory memory = written(
       iec(), R"({"parameter": 2, "blocks": [{"function": "write", "flag": "_T200MS", "type": "byte",
                                               "command": "continuous", "size": 10, "read": "%MB250", "save": "%QW15.15.3", "station": 5}]})");
-  EXPECT_EQ(*get_by_name(memory, "%NW1568", 0), "0005");
-  EXPECT_EQ(*get_by_name(memory, "%NB3138", 24),
+  EXPECT_EQ(*plc::get_by_name(memory, "%NW1568", 0), "0005");
+  EXPECT_EQ(*plc::get_by_name(memory, "%NB3138", 24),
             "254D4232353000000000"
             "0A00");  // read here: %MB250, 10 bytes
-  EXPECT_EQ(*get_by_name(memory, "%NB3186", 24),
+  EXPECT_EQ(*plc::get_by_name(memory, "%NB3186", 24),
             "25515731352E31352E33"
             "0A00");  // saved there: ten characters
 }
 
 TEST(DeviceName, IsUnpadded) {
   const auto name = [](const PlcModel& model, std::string_view text) {
-    return device_name(model, parse_address(model, text).address);
+    return device_name(model, plc::parse_address(model, text).address);
   };
   EXPECT_EQ(name(mk(), "%MX0010A"), "%MX10A");
   EXPECT_EQ(name(mk(), "%MX0000A"), "%MXA");
@@ -118,4 +122,4 @@ TEST(DeviceName, IsUnpadded) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::p2p

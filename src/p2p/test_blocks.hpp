@@ -10,12 +10,12 @@
 
 #include "src/p2p/block.hpp"
 
-namespace fieldproof::test {
+namespace fieldproof::p2p::test {
 
 /// Of station 1; `size` 0: a single variable.
 inline P2pBlock p2p_block(P2pBlock::Function function, std::string partner, std::string_view own,
                           unsigned size = 0) {
-  const ParsedAddress parsed = parse_address(*find_plc_model("xbc-h"), own);
+  const plc::ParsedAddress parsed = plc::parse_address(*plc::find_plc_model("xbc-h"), own);
   EXPECT_TRUE(parsed) << own;
   return {.function = function,
           .continuous = size != 0,
@@ -31,4 +31,4 @@ inline P2pBlock p2p_write(std::string partner, std::string_view own, unsigned si
   return p2p_block(P2pBlock::Function::write, std::move(partner), own, size);
 }
 
-}  // namespace fieldproof::test
+}  // namespace fieldproof::p2p::test

@@ -10,24 +10,24 @@
 
 #include "src/p2p/driver.hpp"
 
-namespace fieldproof::test {
+namespace fieldproof::p2p::test {
 
 class TestDriver : public P2pDriver {
  public:
   explicit TestDriver(std::string name = "test") : name_(std::move(name)) {}
 
   std::string_view name() const override { return name_; }
-  Status check(const P2pBlock& block, const PlcModel&) const override {
+  Status check(const P2pBlock& block, const plc::PlcModel&) const override {
     return block.station == 99 ? Status(fail("station is 99, which this driver has not")) : ok();
   }
-  Result<Bytes> request(const P2pBlock& block, const PlcMemory&) const override {
+  Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory&) const override {
     if (block.station == 255) return fail("no such request");
     return to_bytes(block.is_user_frame() ? "send " + block.frame
                                           : "ask " + std::to_string(block.number));
   }
   bool awaits_reply(const P2pBlock& block) const override { return !block.is_user_frame(); }
   std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
-                                    PlcMemory& memory) const override {
+                                    plc::PlcMemory& memory) const override {
     const std::string text = to_text(frame);
     if (block.function == P2pBlock::Function::receive) {
       if (text != "got " + block.frame) return std::nullopt;
@@ -39,14 +39,14 @@ class TestDriver : public P2pDriver {
     for (const P2pVariable& variable : block.variables) memory.write(variable.own, 1);
     return p2p_error::none;
   }
-  void receive(const Burst& burst, FrameSink& sink) override {
+  void receive(const line::Burst& burst, plc::FrameSink& sink) override {
     if (const std::string text = to_text(burst.bytes); text.starts_with("broken "))
       sink.on_broken_frame(code_in(text));
     else
       sink.on_frame(burst.bytes, burst.end());
   }
   std::optional<Time> wake_at() const override { return std::nullopt; }
-  void advance(Time, FrameSink&) override {}
+  void advance(Time, plc::FrameSink&) override {}
   void reset() override {}
 
  private:
@@ -59,4 +59,4 @@ class TestDriver : public P2pDriver {
   std::string name_;
 };
 
-}  // namespace fieldproof::test
+}  // namespace fieldproof::p2p::test

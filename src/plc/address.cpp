@@ -6,7 +6,7 @@
 #include "src/base/bytes.hpp"
 #include "src/base/letters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 namespace {
 constexpr std::uint32_t beyond = 1'000'000;  // more than any area holds
@@ -129,4 +129,4 @@ std::string_view describe(AddressFault fault) {
   return "";
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -18,7 +18,7 @@
 
 #include "src/plc/model.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 /// What is wrong with a name, in the order in which it is looked at (PROTOCOLS.md 'order of
 /// checks').
@@ -75,4 +75,4 @@ bool fits(const PlcModel& model, const DeviceAddress& address, std::uint32_t cou
 /// "it does not begin with %", for messages.
 std::string_view describe(AddressFault fault);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

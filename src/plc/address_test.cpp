@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 namespace {
 
 /// "M X 170", "T X contact 5", or the fault.
@@ -182,4 +182,4 @@ TEST(DeviceAddress, AnyBytesAreANameOrAFault) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -9,7 +9,7 @@
 
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 namespace {
 using nlohmann::json;
@@ -102,11 +102,11 @@ void ConfigReader::either(const char* key, std::string_view yes, std::string_vie
                               yes, no));
 }
 
-void ConfigReader::line(const char* key, LineSettings& to) {
-  std::string settings = to_string(to);
+void ConfigReader::line(const char* key, line::LineSettings& to) {
+  std::string settings = line::to_string(to);
   text(key, settings);
   if (error_) return;
-  const Result<LineSettings> parsed = parse_line_settings(settings);
+  const Result<line::LineSettings> parsed = line::parse_line_settings(settings);
   if (parsed)
     to = *parsed;
   else
@@ -125,4 +125,4 @@ const json* ConfigReader::find(const char* key) const {
   return error_ || found == object_.end() ? nullptr : &*found;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -13,7 +13,7 @@
 #include "src/base/time.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 /// Is it an object with no other keys than these? The error lists them.
 Status known_keys(const nlohmann::json& object, std::string_view what,
@@ -38,7 +38,7 @@ class ConfigReader {
   void text(const char* key, std::string& to);
   /// One of two words; `to`: is it `yes`?
   void either(const char* key, std::string_view yes, std::string_view no, bool& to);
-  void line(const char* key, LineSettings& to);
+  void line(const char* key, line::LineSettings& to);
 
  private:
   const nlohmann::json* find(const char* key) const;
@@ -50,4 +50,4 @@ class ConfigReader {
   std::optional<Error> error_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

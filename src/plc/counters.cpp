@@ -7,7 +7,7 @@
 #include "src/base/bytes.hpp"
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 Result<std::string> get_counter(const ServiceCounters& counters, std::string_view name,
                                 std::size_t digits) {
@@ -25,4 +25,4 @@ Result<std::string> get_counter(const ServiceCounters& counters, std::string_vie
                   name, suggestion(name, names)));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -7,7 +7,7 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 /// Status codes of the dedicated service. XGT: a request that no code fits (unknown command or
 /// type) counts as `head`. Modbus: a wrong CRC or LRC, and what is no frame at all, as
@@ -40,4 +40,4 @@ struct ServiceCounters {
 Result<std::string> get_counter(const ServiceCounters& counters, std::string_view name,
                                 std::size_t digits);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -6,7 +6,7 @@
 
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 Result<DeviceAction> parse_device_action(std::string_view text) {
   if (text == "run") return DeviceAction::run;
@@ -17,4 +17,4 @@ Result<DeviceAction> parse_device_action(std::string_view text) {
                           text, suggestion(text, names)));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

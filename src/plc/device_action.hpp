@@ -5,11 +5,11 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 enum class DeviceAction { run, stop, power_cycle };
 
 /// "run", "stop" or "power_cycle"; the error lists them.
 Result<DeviceAction> parse_device_action(std::string_view text);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 namespace {
 
 TEST(DeviceAction, Words) {
@@ -15,4 +15,4 @@ TEST(DeviceAction, Words) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

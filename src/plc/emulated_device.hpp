@@ -8,9 +8,9 @@
 #include "src/base/result.hpp"
 #include "src/line/device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
-class EmulatedDevice : public Device {
+class EmulatedDevice : public line::Device {
  public:
   /// Sets memory at a device address ("%MW100", "%MX0010A") to hex digits, most significant first.
   /// More digits than the type has fill the following elements. Rights do not bind the back door.
@@ -27,4 +27,4 @@ class EmulatedDevice : public Device {
   virtual Status act(std::string_view action) = 0;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 std::string_view to_string(FrameResult result) {
   switch (result) {
@@ -62,7 +62,7 @@ std::string csv_row(const MonitoredFrame& frame, std::string_view time) {
                      in_quotes(ascii_view(frame)));
 }
 
-void FrameMonitor::receive(const Burst& burst) {
+void FrameMonitor::receive(const line::Burst& burst) {
   heard_.insert(heard_.end(), burst.bytes.begin(), burst.bytes.end());
   last_end_ = burst.end();
   character_time_ = burst.character_time;
@@ -115,4 +115,4 @@ Result<std::string> FrameMonitor::get(std::string_view address, std::size_t digi
                     static_cast<int>(digits == 0 ? 2 : digits));
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

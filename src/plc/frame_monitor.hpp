@@ -10,7 +10,7 @@
 
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 /// As the manual numbers them. Its list knows no LS Bus: 7 is this project's.
 enum class FrameResult {
@@ -62,7 +62,7 @@ class FrameMonitor : public EmulatedDevice {
   FrameMonitor(std::unique_ptr<EmulatedDevice> device, MonitorRules rules, Record record = {})
       : device_(std::move(device)), rules_(std::move(rules)), record_(std::move(record)) {}
 
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
@@ -87,4 +87,4 @@ class FrameMonitor : public EmulatedDevice {
   std::optional<FrameResult> last_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

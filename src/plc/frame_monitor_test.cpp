@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 namespace {
 
 constexpr Duration character = 1ms;
@@ -15,7 +15,7 @@ constexpr Duration character = 1ms;
 class Answerer : public EmulatedDevice {
  public:
   explicit Answerer(Bytes answer) : answer_(std::move(answer)) {}
-  void receive(const Burst& burst) override { due_ = burst.end() + 10ms; }
+  void receive(const line::Burst& burst) override { due_ = burst.end() + 10ms; }
   std::optional<Time> wake_at() const override { return due_; }
   Bytes advance(Time now) override {
     if (!due_ || now < *due_) return {};
@@ -154,4 +154,4 @@ TEST(FrameMonitor, Csv) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -6,7 +6,7 @@
 #include "src/base/bytes.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 class FrameSink {
  public:
@@ -19,4 +19,4 @@ class FrameSink {
   ~FrameSink() = default;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

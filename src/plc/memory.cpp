@@ -6,7 +6,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 PlcMemory::PlcMemory(const PlcModel& model) : model_(&model) {
   std::uint32_t words = 0, contacts = 0;
@@ -128,4 +128,4 @@ Result<std::string> get_by_name(const PlcMemory& memory, std::string_view addres
   return hex;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -11,7 +11,7 @@
 #include "src/plc/address.hpp"
 #include "src/plc/model.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 class PlcMemory {
  public:
@@ -42,4 +42,4 @@ Status set_by_name(PlcMemory& memory, std::string_view address, std::string_view
 Result<std::string> get_by_name(const PlcMemory& memory, std::string_view address,
                                 std::size_t digits);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

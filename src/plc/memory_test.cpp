@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 namespace {
 
 using ::testing::HasSubstr;
@@ -132,4 +132,4 @@ TEST(BackDoor, RefusedValueWritesNothing) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

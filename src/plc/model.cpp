@@ -3,7 +3,7 @@
 #include <array>
 #include <set>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 namespace {
 constexpr bool read_only = false;
@@ -80,4 +80,4 @@ std::string plc_model_names() {
   return names;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

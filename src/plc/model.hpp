@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 /// Base, slot and element of dotted names: XEC I, Q and U ("%IW0.0.0"). All zero: the area has no
 /// dotted names.
@@ -49,4 +49,4 @@ std::vector<std::uint32_t> last_words_of(char letter);
 /// "xbc-h, xbm-s, xec-h", for messages.
 std::string plc_model_names();
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

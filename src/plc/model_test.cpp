@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 namespace {
 
 struct Row {
@@ -96,4 +96,4 @@ TEST(PlcModel, UnknownNames) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

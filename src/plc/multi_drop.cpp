@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
-void MultiDrop::receive(const Burst& burst) {
+void MultiDrop::receive(const line::Burst& burst) {
   for (const auto& device : devices_) device->receive(burst);
 }
 
@@ -27,4 +27,4 @@ Bytes MultiDrop::advance(Time now) {
   return {};
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -7,7 +7,7 @@
 
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 /// All hear what arrives, and what the others send. The back door leads to the first.
 class MultiDrop : public EmulatedDevice {
@@ -16,7 +16,7 @@ class MultiDrop : public EmulatedDevice {
   explicit MultiDrop(std::vector<std::unique_ptr<EmulatedDevice>> devices)
       : devices_(std::move(devices)) {}
 
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
@@ -32,4 +32,4 @@ class MultiDrop : public EmulatedDevice {
   std::vector<std::unique_ptr<EmulatedDevice>> devices_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 namespace {
 
 /// Says its name once it has heard it; keeps all that it hears.
 class Talker : public EmulatedDevice {
  public:
   Talker(std::string name, std::string& heard) : name_(std::move(name)), heard_(heard) {}
-  void receive(const Burst& burst) override {
+  void receive(const line::Burst& burst) override {
     const std::string text = to_text(burst.bytes);
     heard_ += text + ";";
     if (text == name_) due_ = burst.end() + 1ms;
@@ -49,4 +49,4 @@ TEST(MultiDrop, TheOneThatIsMeantAnswersAndAllHearIt) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

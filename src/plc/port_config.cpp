@@ -6,7 +6,7 @@
 
 #include "src/base/spelling.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 namespace {
 constexpr Duration delay_step = 10ms, longest_delay = 2550ms;
@@ -16,7 +16,7 @@ Duration PortConfig::gap() const {
   return effective_gap(inter_character, inter_character_floor, line);
 }
 
-Duration effective_gap(Duration parameter, Duration floor, const LineSettings& line) {
+Duration effective_gap(Duration parameter, Duration floor, const line::LineSettings& line) {
   const Duration default_gap(Duration::rep{77} * 1'000'000'000 / 2 /
                              line.baud);  // 3.5 * 11 = 38.5 bits
   return std::max(parameter > Duration::zero() ? parameter : default_gap, floor);
@@ -74,4 +74,4 @@ Result<const PlcModel*> check_port_config(const PortConfig& config) {
   return model;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -12,7 +12,7 @@
 #include "src/plc/config_reader.hpp"
 #include "src/plc/model.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 struct PortConfig {
   enum class Role { server, client };
@@ -21,7 +21,7 @@ struct PortConfig {
   unsigned station = 0;  // 0-255 (table 4.3.1; the 0-31 of 9.3 is what one line carries)
   Role role = Role::server;
   bool run = true;  // STOP: servers keep answering, the client is silent
-  LineSettings line{};
+  line::LineSettings line{};
   Duration inter_character{};        // 0: 3.5 characters of 11 bits
   Duration inter_character_floor{};  // 20 ms behind a pty or socket
   Duration delay{};                  // of a reply, 0-2550 ms in steps of 10 ms; only with rs485
@@ -37,7 +37,7 @@ struct PortConfig {
 
 /// The inter-character time: `parameter`, or 3.5 characters of 11 bits where it is zero, but at
 /// least `floor` (a pty or socket has no wire time).
-Duration effective_gap(Duration parameter, Duration floor, const LineSettings& line);
+Duration effective_gap(Duration parameter, Duration floor, const line::LineSettings& line);
 
 /// The keys of `read_port_config`, those for others (bench_line, model, neighbours, protocol),
 /// which are passed over, and `more`: for `known_keys`.
@@ -49,4 +49,4 @@ void read_port_config(ConfigReader& reader, PortConfig& to);
 /// The model. Errors name it, or the parameter that is out of its range.
 Result<const PlcModel*> check_port_config(const PortConfig& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

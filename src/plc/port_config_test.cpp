@@ -4,14 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
 
 TEST(EffectiveGap, DefaultFloorAndParameter) {
-  const LineSettings line;                                        // 9600 bit/s
+  const line::LineSettings line;                                  // 9600 bit/s
   EXPECT_EQ(effective_gap(0ms, 0ms, line), Duration(4'010'416));  // 38.5 bits
   EXPECT_EQ(effective_gap(0ms, 0ms, {.baud = 115200}), Duration(334'201));
   EXPECT_EQ(effective_gap(0ms, 0ms, {.baud = 9600, .data_bits = 7, .parity = 'E'}),
@@ -82,4 +82,4 @@ TEST(CheckPortConfig, LimitsAndOnePast) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

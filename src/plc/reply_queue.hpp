@@ -9,7 +9,7 @@
 #include "src/base/bytes.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::plc {
 
 class ReplyQueue {
  public:
@@ -39,4 +39,4 @@ class ReplyQueue {
   std::deque<Pending> replies_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::plc {
 namespace {
 
 TEST(ReplyQueue, EachWhenItIsDueInTheOrderOfRequests) {
@@ -28,4 +28,4 @@ TEST(ReplyQueue, Clear) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::plc

@@ -6,7 +6,7 @@
 
 #include "src/plc/frame_sink.hpp"
 
-namespace fieldproof::test {
+namespace fieldproof::plc::test {
 
 class Log : public FrameSink {
  public:
@@ -24,4 +24,4 @@ class Log : public FrameSink {
 using Broken = std::vector<std::uint16_t>;
 using Frames = std::vector<Bytes>;
 
-}  // namespace fieldproof::test
+}  // namespace fieldproof::plc::test

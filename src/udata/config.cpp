@@ -10,7 +10,7 @@
 #include "src/base/spelling.hpp"
 #include "src/udata/instruction_reader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 
 namespace {
 
@@ -56,7 +56,7 @@ Result<double> version_number(std::string text) {
                           what, text));
 }
 
-Result<UdataModule> read_module(ConfigReader& reader) {
+Result<UdataModule> read_module(plc::ConfigReader& reader) {
   UdataModule module;
   std::string kind = "xbl-c21a", driver = "user-frames", version = "1.4";
   reader.text("module", kind);
@@ -90,15 +90,15 @@ Result<UdataModule> read_module(ConfigReader& reader) {
 }  // namespace
 
 Result<UdataConfig> parse_udata_config(std::string_view model, const json& config) {
-  const auto keys = port_keys(
+  const auto keys = plc::port_keys(
       {"channel", "driver", "instructions", "link", "module", "module_hangs", "slot", "version"});
-  if (const Status known = known_keys(config, what, keys); !known) return known.error();
+  if (const Status known = plc::known_keys(config, what, keys); !known) return known.error();
   UdataConfig parsed;
   parsed.port.model = model;
-  ConfigReader reader(config, std::string(what));
-  read_port_config(reader, parsed.port);
+  plc::ConfigReader reader(config, std::string(what));
+  plc::read_port_config(reader, parsed.port);
   if (reader.error()) return *reader.error();
-  const Result<const PlcModel*> plc = check_port_config(parsed.port);
+  const Result<const plc::PlcModel*> plc = plc::check_port_config(parsed.port);
   if (!plc) return plc.error();
   parsed.plc = *plc;
   if (parsed.plc->name == "xbm-s")
@@ -119,4 +119,4 @@ Result<UdataConfig> parse_udata_config(std::string_view model, const json& confi
   return parsed;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

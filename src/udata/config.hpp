@@ -10,11 +10,11 @@
 #include "src/plc/port_config.hpp"
 #include "src/udata/instruction.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 
 struct UdataConfig {
-  PortConfig port;
-  const PlcModel* plc = nullptr;
+  plc::PortConfig port;
+  const plc::PlcModel* plc = nullptr;
   UdataModule module;
   std::vector<UdataInstruction> instructions;
 };
@@ -23,4 +23,4 @@ struct UdataConfig {
 /// (003 2.2).
 Result<UdataConfig> parse_udata_config(std::string_view model, const nlohmann::json& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

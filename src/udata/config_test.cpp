@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::udata {
 namespace {
 
 using nlohmann::json;
@@ -68,4 +68,4 @@ TEST(UdataConfig, ChecksTheModule) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

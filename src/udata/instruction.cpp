@@ -1,6 +1,8 @@
 #include "src/udata/instruction.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
+
+using plc::PlcMemory;
 
 using Operation = UdataInstruction::Operation;
 
@@ -15,7 +17,7 @@ bool right_value(const UdataInstruction& instruction, const PlcMemory& memory) {
   switch (instruction.operation) {
     case Operation::receive: return true;
     case Operation::send:
-      return value >= 1 && value <= udata_max && fits(memory.model(), instruction.data, value);
+      return value >= 1 && value <= udata_max && plc::fits(memory.model(), instruction.data, value);
     default: return value <= 1;
   }
 }
@@ -51,4 +53,4 @@ void put_data(const UdataInstruction& instruction, ByteView data, PlcMemory& mem
   if (instruction.size) memory.write(*instruction.size, data.size());
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

@@ -10,7 +10,7 @@
 #include "src/plc/address.hpp"
 #include "src/plc/memory.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 
 constexpr unsigned udata_max = 1024;  // bytes that one instruction sends, or receives
 
@@ -34,9 +34,9 @@ struct UdataModule {
 /// A constant, or a word of memory that is read at the rising edge.
 struct UdataOperand {
   std::uint16_t constant = 0;
-  std::optional<DeviceAddress> word{};
+  std::optional<plc::DeviceAddress> word{};
 
-  unsigned read(const PlcMemory& memory) const {
+  unsigned read(const plc::PlcMemory& memory) const {
     return word ? static_cast<unsigned>(memory.read(*word)) : constant;
   }
 };
@@ -47,31 +47,31 @@ struct UdataInstruction {
   std::string name;  // "SNDUDATA"
   Operation operation = Operation::send;
   bool iec = false;
-  DeviceAddress request{};      // a bit
-  unsigned base = 0, slot = 0;  // MK: sl; an XGB has base 0 alone
+  plc::DeviceAddress request{};  // a bit
+  unsigned base = 0, slot = 0;   // MK: sl; an XGB has base 0 alone
   UdataOperand channel{};
-  UdataOperand value{};                   // send: bytes; DTR and RTS: the level
-  DeviceAddress data{};                   // send and receive: a byte
-  std::optional<DeviceAddress> status{};  // MK: D, three reserved words follow; IEC: STAT
-  std::optional<DeviceAddress> done{};    // IEC: a bit
-  std::optional<DeviceAddress> size{};    // receive: where the size goes
+  UdataOperand value{};                        // send: bytes; DTR and RTS: the level
+  plc::DeviceAddress data{};                   // send and receive: a byte
+  std::optional<plc::DeviceAddress> status{};  // MK: D, three reserved words follow; IEC: STAT
+  std::optional<plc::DeviceAddress> done{};    // IEC: a bit
+  std::optional<plc::DeviceAddress> size{};    // receive: where the size goes
 };
 
 /// What the instruction meets, in the order of the codes: `done` when nothing stands in its way
 /// (PROTOCOLS: the manual prints no order). Whether there is data, and whether the module answers,
 /// shows later.
 std::uint16_t check_udata(const UdataInstruction& instruction, const UdataModule& module,
-                          const PlcMemory& memory);
+                          const plc::PlcMemory& memory);
 
 /// Does it name a base and slot where no Cnet module is? MK sets F110 for it.
 bool misses_module(const UdataInstruction& instruction, const UdataModule& module);
 
 /// The outputs: status, and DONE of IEC.
-void put_status(const UdataInstruction& instruction, std::uint16_t status, PlcMemory& memory);
+void put_status(const UdataInstruction& instruction, std::uint16_t status, plc::PlcMemory& memory);
 
 /// The bytes to send: of a word, the low one first.
-Bytes read_data(const UdataInstruction& instruction, const PlcMemory& memory);
+Bytes read_data(const UdataInstruction& instruction, const plc::PlcMemory& memory);
 /// Stores what was received, and its size.
-void put_data(const UdataInstruction& instruction, ByteView data, PlcMemory& memory);
+void put_data(const UdataInstruction& instruction, ByteView data, plc::PlcMemory& memory);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

@@ -12,7 +12,9 @@
 #include "src/base/spelling.hpp"
 #include "src/plc/config_reader.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
+
+using plc::DeviceAddress;
 
 namespace {
 
@@ -36,7 +38,7 @@ enum class Access { read, write };
 
 class OperandReader {
  public:
-  OperandReader(const json& object, std::string what, const PlcModel& model, bool iec)
+  OperandReader(const json& object, std::string what, const plc::PlcModel& model, bool iec)
       : object_(object), what_(std::move(what)), model_(model), iec_(iec) {}
 
   const std::optional<Error>& error() const { return error_; }
@@ -48,10 +50,11 @@ class OperandReader {
     if (found == object_.end()) return wrong(key, "is missing", types);
     if (!found->is_string()) return wrong(key, "is " + found->dump(), types);
     const std::string& name = found->get_ref<const std::string&>();
-    const ParsedAddress parsed = parse_address(model_, name);
-    if (!parsed) return wrong(key, fmt::format("is '{}': {}", name, describe(parsed.fault)), types);
+    const plc::ParsedAddress parsed = plc::parse_address(model_, name);
+    if (!parsed)
+      return wrong(key, fmt::format("is '{}': {}", name, plc::describe(parsed.fault)), types);
     const DeviceAddress at = parsed.address;
-    const DeviceArea& area = model_.areas[at.area];
+    const plc::DeviceArea& area = model_.areas[at.area];
     if (types.find(at.type) == std::string_view::npos)
       return wrong(key, fmt::format("is '{}'", name), types);
     if (access == Access::write && !area.write)
@@ -59,7 +62,7 @@ class OperandReader {
     if (!iec_ && at.type != 'X' &&
         std::string_view("PMKLUDR").find(area.letter) == std::string_view::npos)
       return wrong(key, fmt::format("is '{}': operands lie in P M K L U D or R", name), types);
-    if (!fits(model_, at, count))
+    if (!plc::fits(model_, at, count))
       return wrong(key,
                    fmt::format("is '{}': {} elements from there on do not fit into {}", name, count,
                                area.letter),
@@ -75,7 +78,7 @@ class OperandReader {
     DeviceAddress at = address(key, iec_ ? "BW" : "W", access);
     if (error_) return at;
     if (at.type == 'W') at = {at.area, 'B', false, at.index * 2};
-    if (!fits(model_, at, count))
+    if (!plc::fits(model_, at, count))
       wrong(key, fmt::format("leaves less than {} bytes to the end of its area", count), "W");
     return at;
   }
@@ -111,12 +114,12 @@ class OperandReader {
 
   const json& object_;
   std::string what_;
-  const PlcModel& model_;
+  const plc::PlcModel& model_;
   bool iec_;
   std::optional<Error> error_;
 };
 
-Result<Form> form_of(const json& object, const std::string& what, const PlcModel& model) {
+Result<Form> form_of(const json& object, const std::string& what, const plc::PlcModel& model) {
   const std::string name =
       object.is_object() && object.contains("instruction") && object["instruction"].is_string()
           ? object["instruction"].get<std::string>()
@@ -147,12 +150,13 @@ std::vector<std::string_view> keys_of(const Form& form) {
 }  // namespace
 
 Result<UdataInstruction> read_udata_instruction(const json& object, std::size_t number,
-                                                const PlcModel& model) {
+                                                const plc::PlcModel& model) {
   std::string what = fmt::format("instruction {}", number);
   const Result<Form> form = form_of(object, what, model);
   if (!form) return form.error();
   what += fmt::format(" ({})", form->name);
-  if (const Status known = known_keys(object, what, keys_of(*form)); !known) return known.error();
+  if (const Status known = plc::known_keys(object, what, keys_of(*form)); !known)
+    return known.error();
 
   OperandReader reader(object, what, model, form->iec);
   UdataInstruction one;
@@ -181,4 +185,4 @@ Result<UdataInstruction> read_udata_instruction(const json& object, std::size_t 
   return one;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

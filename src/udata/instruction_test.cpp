@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof {
+namespace fieldproof::udata {
 namespace {
 
 using Operation = UdataInstruction::Operation;
 
-const PlcModel& xbc() { return *find_plc_model("xbc-h"); }
-DeviceAddress at(std::string_view name) { return parse_address(xbc(), name).address; }
+const plc::PlcModel& xbc() { return *plc::find_plc_model("xbc-h"); }
+plc::DeviceAddress at(std::string_view name) { return plc::parse_address(xbc(), name).address; }
 
 /// Sends 10 bytes from D100 on by the RS-232C channel of a module in slot 1.
 UdataInstruction sending() {
@@ -22,7 +22,7 @@ UdataInstruction sending() {
 }
 
 std::uint16_t checked(const UdataInstruction& instruction, const UdataModule& module = {}) {
-  return check_udata(instruction, module, PlcMemory(xbc()));
+  return check_udata(instruction, module, plc::PlcMemory(xbc()));
 }
 
 TEST(UdataInstruction, HasNothingInItsWay) { EXPECT_EQ(checked(sending()), udata_status::done); }
@@ -107,7 +107,7 @@ TEST(UdataInstruction, TellsTheFirstOfSeveralFaults) {
 }
 
 TEST(UdataInstruction, ReadsOperandsFromMemory) {
-  PlcMemory memory(xbc());
+  plc::PlcMemory memory(xbc());
   UdataInstruction one = sending();
   one.value.word = at("%DW50");
   EXPECT_EQ(check_udata(one, {}, memory), udata_status::value);
@@ -116,7 +116,7 @@ TEST(UdataInstruction, ReadsOperandsFromMemory) {
 }
 
 TEST(UdataInstruction, BytesOfAWordGoLowFirst) {
-  PlcMemory memory(xbc());
+  plc::PlcMemory memory(xbc());
   memory.write(at("%DW100"), 0x4241);
   memory.write(at("%DW101"), 0x9943);
   UdataInstruction one = sending();
@@ -125,7 +125,7 @@ TEST(UdataInstruction, BytesOfAWordGoLowFirst) {
 }
 
 TEST(UdataInstruction, StoresDataAndSizeAndLeavesTheRestOfTheLastWord) {
-  PlcMemory memory(xbc());
+  plc::PlcMemory memory(xbc());
   memory.write(at("%DW101"), 0x9988);
   UdataInstruction one = sending();
   one.size = at("%DW90");
@@ -136,4 +136,4 @@ TEST(UdataInstruction, StoresDataAndSizeAndLeavesTheRestOfTheLastWord) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

@@ -9,7 +9,7 @@
 #include "src/plc/config_reader.hpp"
 #include "src/plc/port_config.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 
 namespace {
 
@@ -25,14 +25,15 @@ bool dials(std::string_view command) {
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_modem(const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_modem(const nlohmann::json& config) {
   const std::string what = "the modem's configuration";
-  const auto keys = port_keys({"dtr", "modem", "network", "network_ms", "reply_end", "rts", "sms"});
-  if (const Status known = known_keys(config, what, keys); !known) return known.error();
+  const auto keys =
+      plc::port_keys({"dtr", "modem", "network", "network_ms", "reply_end", "rts", "sms"});
+  if (const Status known = plc::known_keys(config, what, keys); !known) return known.error();
   ModemConfig modem;
-  PortConfig port;
-  ConfigReader reader(config, what);
-  read_port_config(reader, port);
+  plc::PortConfig port;
+  plc::ConfigReader reader(config, what);
+  plc::read_port_config(reader, port);
   reader.either("modem", "rcu-890", "bsm-856r", modem.rcu_890);
   reader.text("sms", modem.sms);
   reader.boolean("network", modem.network);
@@ -41,10 +42,10 @@ Result<std::unique_ptr<EmulatedDevice>> make_modem(const nlohmann::json& config)
   reader.boolean("dtr", modem.dtr);
   reader.boolean("rts", modem.rts);
   if (reader.error()) return *reader.error();
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<Modem>(std::move(modem)));
+  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Modem>(std::move(modem)));
 }
 
-void Modem::receive(const Burst& burst) {
+void Modem::receive(const line::Burst& burst) {
   Time end = burst.start;
   for (const Byte b : burst.bytes) {
     end += burst.character_time;
@@ -61,7 +62,7 @@ void Modem::take(Byte b, Time now) {
 
 void Modem::take_command(Time now) {
   const std::string command = std::exchange(command_, {});
-  if (!command.starts_with("AT")) return counters_.count_error(service_status::head);
+  if (!command.starts_with("AT")) return counters_.count_error(plc::service_status::head);
   counters_.count_service();
   if (!config_.sms.empty() && command.starts_with(config_.sms)) return take_sms(now);
   connected_ = !config_.rcu_890 && dials(command);
@@ -109,7 +110,7 @@ Status Modem::set(std::string_view address, std::string_view hex) {
 Result<std::string> Modem::get(std::string_view address, std::size_t digits) const {
   if (const bool* const one = switch_at(address))
     return hex_number(*one, static_cast<int>(digits == 0 ? 2 : digits));
-  if (address != "@data") return get_counter(counters_, address, digits);
+  if (address != "@data") return plc::get_counter(counters_, address, digits);
   std::string hex;
   for (const Byte b : passed_on_) hex += hex_number(b, 2);
   if (digits != 0 && hex.size() != digits)
@@ -136,4 +137,4 @@ Status Modem::act(std::string_view action) {
   return ok();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

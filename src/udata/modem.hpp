@@ -22,7 +22,7 @@
 #include "src/plc/emulated_device.hpp"
 #include "src/plc/reply_queue.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 
 struct ModemConfig {
   bool rcu_890 = false;  // else BSM-856R
@@ -34,12 +34,12 @@ struct ModemConfig {
        rts = true;  // set by the PLC ('SET(1)'); without them the modem is deaf and mute
 };
 
-class Modem : public EmulatedDevice {
+class Modem : public plc::EmulatedDevice {
  public:
   explicit Modem(ModemConfig config)
       : config_(std::move(config)), dtr_(config_.dtr), rts_(config_.rts) {}
 
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
@@ -67,12 +67,12 @@ class Modem : public EmulatedDevice {
   std::string command_;
   Bytes passed_on_;
   Time now_{};
-  ReplyQueue replies_, reports_;  // reports come from the network, whatever is asked meanwhile
-  ServiceCounters counters_;
+  plc::ReplyQueue replies_, reports_;  // reports come from the network, whatever is asked meanwhile
+  plc::ServiceCounters counters_;
 };
 
 /// `config`: modem (bsm-856r, rcu-890), sms, network, network_ms, reply_end, dtr, rts, and those of
 /// port_config.hpp that the line needs. Errors name the key.
-Result<std::unique_ptr<EmulatedDevice>> make_modem(const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_modem(const nlohmann::json& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::udata {
 namespace {
 
 using nlohmann::json;
@@ -37,7 +37,7 @@ class Wired {
     return to_text(out);
   }
 
-  std::unique_ptr<EmulatedDevice> modem;
+  std::unique_ptr<plc::EmulatedDevice> modem;
 
  private:
   static constexpr Duration character = 87us;  // 115200-8N1, as the table of 11.5 has it
@@ -119,4 +119,4 @@ TEST(Modem, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

@@ -5,17 +5,17 @@
 
 #include "src/plc/device_action.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 
 namespace {
 constexpr std::size_t most_held = 16;  // the manual does not say how many; PROTOCOLS
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_udata_port(std::string_view model,
-                                                        const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_udata_port(std::string_view model,
+                                                             const nlohmann::json& config) {
   const Result<UdataConfig> parsed = parse_udata_config(model, config);
   if (!parsed) return parsed.error();
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<UdataPort>(*parsed));
+  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<UdataPort>(*parsed));
 }
 
 UdataPort::UdataPort(const UdataConfig& config)
@@ -25,7 +25,7 @@ UdataPort::UdataPort(const UdataConfig& config)
       gap_(config.port.gap()),
       run_(config.port.run) {}
 
-void UdataPort::receive(const Burst& burst) {
+void UdataPort::receive(const line::Burst& burst) {
   if (burst.bytes.empty()) return;
   last_end_ = burst.end();
   now_ = std::max(now_, last_end_);
@@ -43,7 +43,7 @@ void UdataPort::end_datum() {
     received_.push_back(std::move(heard_));
     counters_.count_service();
   } else {
-    counters_.count_error(service_status::too_long);
+    counters_.count_error(plc::service_status::too_long);
   }
   heard_.clear();
 }
@@ -83,7 +83,7 @@ std::optional<Bytes> UdataPort::take_received() {
 }
 
 Status UdataPort::set(std::string_view address, std::string_view hex) {
-  if (Status done = set_by_name(memory_, address, hex); !done) return done;
+  if (Status done = plc::set_by_name(memory_, address, hex); !done) return done;
   scan();
   return ok();
 }
@@ -94,17 +94,17 @@ Result<std::string> UdataPort::get(std::string_view address, std::size_t digits)
   };
   if (address == "@dtr") return level(dtr_);
   if (address == "@rts") return level(rts_);
-  return address.starts_with('@') ? get_counter(counters_, address, digits)
-                                  : get_by_name(memory_, address, digits);
+  return address.starts_with('@') ? plc::get_counter(counters_, address, digits)
+                                  : plc::get_by_name(memory_, address, digits);
 }
 
 Status UdataPort::act(std::string_view action) {
-  const Result<DeviceAction> known = parse_device_action(action);
+  const Result<plc::DeviceAction> known = plc::parse_device_action(action);
   if (!known) return known.error();
   switch (*known) {
-    case DeviceAction::run: run_ = true; return ok();
-    case DeviceAction::stop: run_ = false; break;
-    case DeviceAction::power_cycle:
+    case plc::DeviceAction::run: run_ = true; return ok();
+    case plc::DeviceAction::stop: run_ = false; break;
+    case plc::DeviceAction::power_cycle:
       counters_ = {};
       dtr_ = rts_ = false;
       received_.clear();
@@ -117,4 +117,4 @@ Status UdataPort::act(std::string_view action) {
   return ok();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

@@ -11,15 +11,15 @@
 #include "src/udata/config.hpp"
 #include "src/udata/program.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 
-class UdataPort : public EmulatedDevice, private UdataChannel {
+class UdataPort : public plc::EmulatedDevice, private UdataChannel {
  public:
   explicit UdataPort(const UdataConfig& config);
 
   /// A datum ends when the line is silent for the inter-character time (003 4.3.1), or is 1024
   /// bytes long.
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
@@ -41,7 +41,7 @@ class UdataPort : public EmulatedDevice, private UdataChannel {
   void end_datum();
   void scan();
 
-  PlcMemory memory_;
+  plc::PlcMemory memory_;
   UdataModule module_;
   UdataProgram program_;
   Duration gap_;
@@ -51,12 +51,12 @@ class UdataPort : public EmulatedDevice, private UdataChannel {
   std::deque<Bytes> received_;  // oldest first
   Time last_end_{}, now_{};
   Duration character_time_{};
-  ReplyQueue queue_;
-  ServiceCounters counters_;
+  plc::ReplyQueue queue_;
+  plc::ServiceCounters counters_;
 };
 
 /// In its power-on state. Errors: parse_udata_config.
-Result<std::unique_ptr<EmulatedDevice>> make_udata_port(std::string_view model,
-                                                        const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_udata_port(std::string_view model,
+                                                             const nlohmann::json& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

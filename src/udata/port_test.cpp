@@ -6,7 +6,7 @@
 
 #include "src/line/line.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 namespace {
 
 using nlohmann::json;
@@ -48,14 +48,15 @@ class Port {
   std::string hear(Duration patience = 100ms) {
     const Time until = line_.now() + patience;
     Bytes heard;
-    for (Burst burst = line_.receive(until); !burst.bytes.empty(); burst = line_.receive(until))
+    for (line::Burst burst = line_.receive(until); !burst.bytes.empty();
+         burst = line_.receive(until))
       heard.insert(heard.end(), burst.bytes.begin(), burst.bytes.end());
     return to_text(heard);
   }
 
  private:
-  SimulatedLine line_{LineSettings{}};
-  std::unique_ptr<EmulatedDevice> device_;
+  line::SimulatedLine line_{line::LineSettings{}};
+  std::unique_ptr<plc::EmulatedDevice> device_;
 };
 
 TEST(UdataPort, SendsOnTheRisingEdgeAlone) {
@@ -246,4 +247,4 @@ TEST(UdataPort, IecHasDoneAndStat) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

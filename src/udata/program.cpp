@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-namespace fieldproof {
+namespace fieldproof::udata {
+
+using plc::PlcMemory;
 
 using Operation = UdataInstruction::Operation;
 
@@ -14,7 +16,7 @@ constexpr Duration answer_max = 1s;  // status 6
 /// F110: an instruction ended with an error. XEC has no such flag for them.
 void set_error_flag(const UdataInstruction& instruction, bool error, PlcMemory& memory) {
   if (instruction.iec) return;
-  memory.write(parse_address(memory.model(), "%FX0110").address, error ? 1 : 0);
+  memory.write(plc::parse_address(memory.model(), "%FX0110").address, error ? 1 : 0);
 }
 
 }  // namespace
@@ -96,4 +98,4 @@ bool UdataProgram::advance(Time now, PlcMemory& memory) {
   return wrote;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

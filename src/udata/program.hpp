@@ -8,7 +8,7 @@
 #include "src/base/time.hpp"
 #include "src/udata/instruction.hpp"
 
-namespace fieldproof {
+namespace fieldproof::udata {
 
 /// The channel of the module, as the instructions use it.
 class UdataChannel {
@@ -31,10 +31,10 @@ class UdataProgram {
   /// Executes each instruction whose request has risen since the last scan, in program order, until
   /// no result raises another one. A request that rises while its instruction waits for the module
   /// is lost.
-  void scan(PlcMemory& memory, UdataChannel& channel);
+  void scan(plc::PlcMemory& memory, UdataChannel& channel);
 
   /// Takes the requests as they are, without executing anything: STOP.
-  void look(const PlcMemory& memory);
+  void look(const plc::PlcMemory& memory);
 
   /// Forgets edges and what waits: power-on.
   void reset() { states_.assign(instructions_.size(), {}); }
@@ -43,7 +43,7 @@ class UdataProgram {
   /// begins.
   std::optional<Time> wake_at() const;
   /// Returns whether a result was written: then there is something to scan.
-  bool advance(Time now, PlcMemory& memory);
+  bool advance(Time now, plc::PlcMemory& memory);
 
  private:
   struct State {
@@ -51,9 +51,9 @@ class UdataProgram {
     bool waits = false;  // for a module that hangs
     std::optional<Time> give_up{};
   };
-  bool rises(std::size_t i, const PlcMemory& memory);
-  void execute(std::size_t i, PlcMemory& memory, UdataChannel& channel);
-  std::uint16_t carry_out(const UdataInstruction& instruction, PlcMemory& memory,
+  bool rises(std::size_t i, const plc::PlcMemory& memory);
+  void execute(std::size_t i, plc::PlcMemory& memory, UdataChannel& channel);
+  std::uint16_t carry_out(const UdataInstruction& instruction, plc::PlcMemory& memory,
                           UdataChannel& channel);
 
   UdataModule module_;
@@ -61,4 +61,4 @@ class UdataProgram {
   std::vector<State> states_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::udata

@@ -11,8 +11,8 @@ namespace fieldproof::user_frames {
 
 namespace {
 
-Result<UserFrame> find_frame(const FrameDefinition& definition, const P2pBlock& block) {
-  const bool sends = block.function == P2pBlock::Function::send;
+Result<UserFrame> find_frame(const FrameDefinition& definition, const p2p::P2pBlock& block) {
+  const bool sends = block.function == p2p::P2pBlock::Function::send;
   const UserFrame* found = definition.find(block.frame);
   if (found && found->sent == sends) return *found;
   if (found)
@@ -25,8 +25,8 @@ Result<UserFrame> find_frame(const FrameDefinition& definition, const P2pBlock& 
 }
 
 /// Gives an open variable its memory, and where it is sent without one, its size.
-Status settle(const FrameDefinition& definition, const P2pBlock& block, const UserFrame& frame,
-              const DeviceAddress& own, Segment& to) {
+Status settle(const FrameDefinition& definition, const p2p::P2pBlock& block, const UserFrame& frame,
+              const plc::DeviceAddress& own, Segment& to) {
   const char* key = frame.sent ? "read" : "save";
   if (own.type == 'X')
     return fail(fmt::format("{} of {} is a bit; name bytes or words such as %MB200 or %MW100", key,
@@ -54,7 +54,7 @@ Status settle(const FrameDefinition& definition, const P2pBlock& block, const Us
 
 }  // namespace
 
-Result<UserFrame> frame_of_block(const FrameDefinition& definition, const P2pBlock& block) {
+Result<UserFrame> frame_of_block(const FrameDefinition& definition, const p2p::P2pBlock& block) {
   Result<UserFrame> frame = find_frame(definition, block);
   if (!frame) return frame;
   const char* key = frame->sent ? "read" : "save";

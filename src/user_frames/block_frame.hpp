@@ -11,6 +11,6 @@ namespace fieldproof::user_frames {
 /// Errors say what is wrong with `frame`, `read`, `save` or `size` of the block: an unknown frame,
 /// one of the other direction, more or fewer addresses than variables without memory, addresses
 /// that cannot hold them.
-Result<UserFrame> frame_of_block(const FrameDefinition& definition, const P2pBlock& block);
+Result<UserFrame> frame_of_block(const FrameDefinition& definition, const p2p::P2pBlock& block);
 
 }  // namespace fieldproof::user_frames

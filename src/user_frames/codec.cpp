@@ -87,7 +87,8 @@ bool check_holds(const UserFrame& frame, const FrameMatch& match, ByteView bytes
          std::ranges::equal(match.part(bytes, position), due_check(frame, match, bytes));
 }
 
-Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, PlcMemory& memory) {
+Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes,
+             plc::PlcMemory& memory) {
   std::vector<std::pair<const Segment*, Bytes>> values;
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& segment = frame.segments[i];
@@ -102,7 +103,7 @@ Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, Pl
   return Stored::yes;
 }
 
-Result<Bytes> build_frame(const UserFrame& frame, const PlcMemory& memory) {
+Result<Bytes> build_frame(const UserFrame& frame, const plc::PlcMemory& memory) {
   Bytes bytes;
   FrameMatch match;
   for (const Segment& segment : frame.segments) {

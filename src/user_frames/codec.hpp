@@ -30,10 +30,11 @@ bool check_holds(const UserFrame& frame, const FrameMatch& match, ByteView bytes
 
 /// Stores the variables, all or none.
 enum class Stored { yes, not_hex, beyond_area };
-Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes, PlcMemory& memory);
+Stored store(const UserFrame& frame, const FrameMatch& match, ByteView bytes,
+             plc::PlcMemory& memory);
 
 /// The bytes of a sent frame. The error names the variable whose memory does not hold hex digits,
 /// or is a P2P block's.
-Result<Bytes> build_frame(const UserFrame& frame, const PlcMemory& memory);
+Result<Bytes> build_frame(const UserFrame& frame, const plc::PlcMemory& memory);
 
 }  // namespace fieldproof::user_frames

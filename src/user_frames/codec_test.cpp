@@ -40,7 +40,7 @@ class Frames : public testing::Test {
   }
 
   Result<FrameDefinition> definition = parse_frame_definition(text, "test.json");
-  PlcMemory memory{*find_plc_model("xbc-h")};
+  plc::PlcMemory memory{*plc::find_plc_model("xbc-h")};
 };
 
 TEST_F(Frames, AFixedFrameEndsWithItsLastByte) {
@@ -79,7 +79,7 @@ TEST_F(Frames, ACheckCoversWhatItsDefinitionSays) {
 }
 
 TEST_F(Frames, AFrameIsBuiltFromMemory) {
-  ASSERT_TRUE(set_by_name(memory, "%MW0", "1234ABCD"));
+  ASSERT_TRUE(plc::set_by_name(memory, "%MW0", "1234ABCD"));
   const Result<Bytes> bytes = build_frame(frame("T.DATA"), memory);
   ASSERT_TRUE(bytes);
   EXPECT_EQ(to_hex(*bytes), "02 33 34 31 32 43 44 41 42 2E 06 9D 0D");
@@ -88,7 +88,7 @@ TEST_F(Frames, AFrameIsBuiltFromMemory) {
 TEST_F(Frames, AllVariablesAreStoredOrNone) {
   const Bytes bytes = *from_hex("02 46 12 34 7B 0D 0A");
   EXPECT_EQ(store(frame("R.FIX"), match_frame(frame("R.FIX"), bytes), bytes, memory), Stored::yes);
-  EXPECT_EQ(*get_by_name(memory, "%MW0", 0), "1234");
+  EXPECT_EQ(*plc::get_by_name(memory, "%MW0", 0), "1234");
 }
 
 TEST_F(Frames, MoreThanTheAreaHoldsIsNotStored) {
@@ -101,7 +101,7 @@ TEST_F(Frames, MoreThanTheAreaHoldsIsNotStored) {
   const Bytes bytes = *from_hex("11 22 33 44 55 03");
   EXPECT_EQ(store(one, match_frame(one, bytes), bytes, memory),
             Stored::beyond_area);  // 3 bytes from the last word on
-  EXPECT_EQ(*get_by_name(memory, "%MW0", 0), "0000");
+  EXPECT_EQ(*plc::get_by_name(memory, "%MW0", 0), "0000");
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ struct Group {
   Json head = Json::array(), tail = Json::array();
 };
 
-Status read_area(const Json& list, const PlcModel& plc, const Group& group,
+Status read_area(const Json& list, const plc::PlcModel& plc, const Group& group,
                  const std::string& place, Area area, std::vector<Segment>& to) {
   if (!list.is_array())
     return wrong(place, fmt::format("{} is not an array of segments", to_string(area)));
@@ -84,7 +84,7 @@ Status check_limits(const UserFrame& frame, const std::string& place) {
   return ok();
 }
 
-Result<UserFrame> read_frame(const std::string& name, const Json& value, const PlcModel& plc,
+Result<UserFrame> read_frame(const std::string& name, const Json& value, const plc::PlcModel& plc,
                              const Group& group) {
   const std::string place = fmt::format("{}, frame {}", group.place, name);
   if (const Status keys = check_keys(value, place, {"answer", "body", "note"}); !keys)
@@ -196,9 +196,9 @@ Result<FrameDefinition> parse_frame_definition(const std::string& text, const st
   if (title->empty())
     return wrong(file, "there is no title; say in one line whose frames these are");
   definition.title = *title;
-  definition.plc = find_plc_model(*plc);
+  definition.plc = plc::find_plc_model(*plc);
   if (!definition.plc)
-    return wrong(file, fmt::format("plc is '{}'; use one of {}", *plc, plc_model_names()));
+    return wrong(file, fmt::format("plc is '{}'; use one of {}", *plc, plc::plc_model_names()));
   const Json groups = json->value("groups", Json::object());
   if (!groups.is_object() || groups.empty())
     return wrong(file, "there are no groups; give at least one, by name");

@@ -4,7 +4,7 @@
 
 namespace fieldproof::user_frames {
 
-void FrameFinder::receive(const Burst& burst, Sink& sink) {
+void FrameFinder::receive(const line::Burst& burst, Sink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > gap_) {
     take_frames(burst.start, true, sink);
@@ -46,12 +46,12 @@ void FrameFinder::take_frames(Time now, bool ended, Sink& sink) {
 /// Cut off, or too long.
 void FrameFinder::drop_heard(Sink& sink) {
   heard_.clear();
-  sink.on_no_frame(service_status::tail);
+  sink.on_no_frame(plc::service_status::tail);
 }
 
 void FrameFinder::pass_over(Sink& sink) {
   heard_.erase(heard_.begin());
-  if (!passing_over_) sink.on_no_frame(service_status::head);
+  if (!passing_over_) sink.on_no_frame(plc::service_status::head);
   passing_over_ = true;
 }
 
@@ -63,7 +63,7 @@ void FrameFinder::take(const Found& found, Time now, Sink& sink) {
   if (found.frame)
     sink.on_user_frame(*found.frame, found.match, frame, now);
   else
-    sink.on_no_frame(service_status::bcc);
+    sink.on_no_frame(plc::service_status::bcc);
 }
 
 std::optional<Time> FrameFinder::wake_at() const {

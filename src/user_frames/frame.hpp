@@ -41,9 +41,9 @@ struct Segment {
 
   Bytes bytes;  // constant
 
-  std::optional<DeviceAddress> memory;  // data, rest; none: any bytes, which are forgotten
-  std::string address;                  // the same as written: "%MW200"
-  bool in_block = false;                // a P2P block gives the memory
+  std::optional<plc::DeviceAddress> memory;  // data, rest; none: any bytes, which are forgotten
+  std::string address;                       // the same as written: "%MW200"
+  bool in_block = false;                     // a P2P block gives the memory
   Convert convert = Convert::none;
   std::size_t swap = 1;  // bytes that are turned round: 2, 4, 8; 1: none
 
@@ -65,7 +65,7 @@ struct UserFrame {
 
 struct FrameDefinition {
   std::string title;
-  const PlcModel* plc = nullptr;
+  const plc::PlcModel* plc = nullptr;
   std::vector<UserFrame> frames;   // in the order of the file
   std::string probe, probe_reply;  // names of frames; empty: there is no probe
 

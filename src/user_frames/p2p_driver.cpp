@@ -5,19 +5,16 @@
 #include "src/user_frames/block_frame.hpp"
 #include "src/user_frames/finder.hpp"
 
-namespace fieldproof {
+namespace fieldproof::user_frames {
 
-using user_frames::FrameDefinition;
-using user_frames::FrameFinder;
-using user_frames::FrameMatch;
-using user_frames::UserFrame;
+using p2p::P2pBlock;
 
 namespace {
 
 /// The frames of RECEIVE blocks, in the order of the definition.
 std::vector<const UserFrame*> armed_frames(const FrameDefinition& definition,
                                            std::span<const P2pBlock> blocks) {
-  std::vector<const UserFrame*> frames = user_frames::received_frames(definition);
+  std::vector<const UserFrame*> frames = received_frames(definition);
   std::erase_if(frames, [blocks](const UserFrame* frame) {
     return std::ranges::none_of(blocks, [frame](const P2pBlock& block) {
       return block.function == P2pBlock::Function::receive && block.frame == frame->name;
@@ -26,14 +23,14 @@ std::vector<const UserFrame*> armed_frames(const FrameDefinition& definition,
   return frames;
 }
 
-class UserFrameP2pDriver : public P2pDriver {
+class UserFrameP2pDriver : public p2p::P2pDriver {
  public:
   UserFrameP2pDriver(FrameDefinition definition, std::span<const P2pBlock> blocks, Duration gap)
       : definition_(std::move(definition)), finder_(armed_frames(definition_, blocks), gap) {}
 
   std::string_view name() const override { return "user-frames"; }
 
-  Status check(const P2pBlock& block, const PlcModel& model) const override {
+  Status check(const P2pBlock& block, const plc::PlcModel& model) const override {
     if (definition_.plc != &model)
       return fail(std::string("the definition is for ") + std::string(definition_.plc->name) +
                   ", not for " + std::string(model.name) +
@@ -42,29 +39,29 @@ class UserFrameP2pDriver : public P2pDriver {
     return frame ? ok() : Status(frame.error());
   }
 
-  Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override {
+  Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory& memory) const override {
     return build_frame(*frame_of_block(definition_, block), memory);
   }
   bool awaits_reply(const P2pBlock&) const override { return false; }
 
   std::optional<std::uint16_t> take(const P2pBlock& block, ByteView bytes,
-                                    PlcMemory& memory) const override {
+                                    plc::PlcMemory& memory) const override {
     if (block.function != P2pBlock::Function::receive || block.frame != found_) return std::nullopt;
     const UserFrame frame = *frame_of_block(definition_, block);
     switch (store(frame, match_frame(frame, bytes, true), bytes, memory)) {
-      case user_frames::Stored::yes: break;
-      case user_frames::Stored::not_hex: return p2p_error::not_hex;
-      case user_frames::Stored::beyond_area: return p2p_error::range;
+      case Stored::yes: break;
+      case Stored::not_hex: return p2p::p2p_error::not_hex;
+      case Stored::beyond_area: return p2p::p2p_error::range;
     }
-    return p2p_error::none;
+    return p2p::p2p_error::none;
   }
 
-  void receive(const Burst& burst, FrameSink& sink) override {
+  void receive(const line::Burst& burst, plc::FrameSink& sink) override {
     Heard heard(*this, sink);
     finder_.receive(burst, heard);
   }
   std::optional<Time> wake_at() const override { return finder_.wake_at(); }
-  void advance(Time now, FrameSink& sink) override {
+  void advance(Time now, plc::FrameSink& sink) override {
     Heard heard(*this, sink);
     finder_.advance(now, heard);
   }
@@ -74,7 +71,7 @@ class UserFrameP2pDriver : public P2pDriver {
   /// Remembers which frame it is that goes to the sink: the same bytes may be another one too.
   class Heard : public FrameFinder::Sink {
    public:
-    Heard(UserFrameP2pDriver& driver, FrameSink& to) : driver_(driver), to_(to) {}
+    Heard(UserFrameP2pDriver& driver, plc::FrameSink& to) : driver_(driver), to_(to) {}
     void on_user_frame(const UserFrame& frame, const FrameMatch&, ByteView bytes,
                        Time end) override {
       driver_.found_ = frame.name;
@@ -84,7 +81,7 @@ class UserFrameP2pDriver : public P2pDriver {
 
    private:
     UserFrameP2pDriver& driver_;
-    FrameSink& to_;
+    plc::FrameSink& to_;
   };
 
   const FrameDefinition definition_;
@@ -94,10 +91,10 @@ class UserFrameP2pDriver : public P2pDriver {
 
 }  // namespace
 
-std::unique_ptr<P2pDriver> make_user_frame_p2p_driver(FrameDefinition definition,
-                                                      std::span<const P2pBlock> blocks,
-                                                      Duration gap) {
+std::unique_ptr<p2p::P2pDriver> make_user_frame_p2p_driver(FrameDefinition definition,
+                                                           std::span<const P2pBlock> blocks,
+                                                           Duration gap) {
   return std::make_unique<UserFrameP2pDriver>(std::move(definition), blocks, gap);
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::user_frames

@@ -19,11 +19,11 @@
 #include "src/p2p/driver.hpp"
 #include "src/user_frames/frame.hpp"
 
-namespace fieldproof {
+namespace fieldproof::user_frames {
 
 /// `blocks`: whose RECEIVE blocks arm a frame. `gap`: the inter-character time.
-std::unique_ptr<P2pDriver> make_user_frame_p2p_driver(user_frames::FrameDefinition definition,
-                                                      std::span<const P2pBlock> blocks,
-                                                      Duration gap);
+std::unique_ptr<p2p::P2pDriver> make_user_frame_p2p_driver(FrameDefinition definition,
+                                                           std::span<const p2p::P2pBlock> blocks,
+                                                           Duration gap);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::user_frames

@@ -5,13 +5,16 @@
 #include "src/plc/counters.hpp"
 #include "src/user_frames/definition.hpp"
 
-namespace fieldproof {
+namespace fieldproof::user_frames {
+
+using p2p::P2pBlock;
+
 namespace {
 
 using testing::HasSubstr;
 using Function = P2pBlock::Function;
 
-const PlcModel& xbc = *find_plc_model("xbc-h");
+const plc::PlcModel& xbc = *plc::find_plc_model("xbc-h");
 constexpr Duration gap = 4ms;
 
 constexpr const char* frames = R"j({
@@ -36,7 +39,7 @@ P2pBlock block(Function function, std::string frame, std::vector<std::string_vie
                unsigned size = 1) {
   P2pBlock made{.function = function, .size = size, .variables = {}, .frame = std::move(frame)};
   for (const std::string_view name : own)
-    made.variables.push_back({"", parse_address(xbc, name).address});
+    made.variables.push_back({"", plc::parse_address(xbc, name).address});
   return made;
 }
 P2pBlock send(std::string frame, std::vector<std::string_view> own = {}, unsigned size = 1) {
@@ -47,24 +50,24 @@ P2pBlock receive(std::string frame, std::vector<std::string_view> own = {}) {
 }
 
 /// One channel: what is heard is offered to every block.
-class UserFrameP2p : public testing::Test, private FrameSink {
+class UserFrameP2p : public testing::Test, private plc::FrameSink {
  protected:
   void set_up(std::vector<P2pBlock> of) {
     blocks = std::move(of);
-    const auto definition = user_frames::parse_frame_definition(frames, "frames.json");
+    const auto definition = parse_frame_definition(frames, "frames.json");
     if (!definition) throw std::runtime_error(definition.error().message);
     driver = make_user_frame_p2p_driver(*definition, blocks, gap);
     for (const P2pBlock& one : blocks) EXPECT_EQ(why(one), "accepted");
   }
-  std::string why(const P2pBlock& one, const PlcModel& model = xbc) {
+  std::string why(const P2pBlock& one, const plc::PlcModel& model = xbc) {
     const Status checked = driver->check(one, model);
     return checked ? std::string("accepted") : checked.error().message;
   }
   void set(std::string_view address, std::string_view digits) {
-    EXPECT_TRUE(set_by_name(memory, address, digits));
+    EXPECT_TRUE(plc::set_by_name(memory, address, digits));
   }
   std::string get(std::string_view address, std::size_t digits = 0) {
-    return *get_by_name(memory, address, digits);
+    return *plc::get_by_name(memory, address, digits);
   }
   std::string ask(const P2pBlock& of) {
     const Result<Bytes> bytes = driver->request(of, memory);
@@ -84,8 +87,8 @@ class UserFrameP2p : public testing::Test, private FrameSink {
   }
 
   std::vector<P2pBlock> blocks;
-  std::unique_ptr<P2pDriver> driver;
-  PlcMemory memory{xbc};
+  std::unique_ptr<p2p::P2pDriver> driver;
+  plc::PlcMemory memory{xbc};
 
  private:
   void on_frame(ByteView frame, Time) override {
@@ -182,9 +185,9 @@ TEST_F(UserFrameP2p, RefusesParametersThatDoNotFitTheDefinition) {
               HasSubstr("read of body 1: the area ends before the last of 4 bytes"));
   EXPECT_THAT(why(send("TX.OPEN", {"%MW0"}, 512)),
               HasSubstr("frame TX.OPEN has 1027 bytes; it may have 1024"));
-  EXPECT_THAT(why(send("TX.FIXED"), *find_plc_model("xec-h")),
+  EXPECT_THAT(why(send("TX.FIXED"), *plc::find_plc_model("xec-h")),
               HasSubstr("the definition is for xbc-h, not for xec-h"));
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::user_frames

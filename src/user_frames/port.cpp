@@ -9,49 +9,46 @@
 #include "src/plc/config_reader.hpp"
 #include "src/plc/device_action.hpp"
 
-namespace fieldproof {
-
-using user_frames::FrameMatch;
-using user_frames::UserFrame;
+namespace fieldproof::user_frames {
 
 namespace {
 constexpr std::string_view send_verb = "send ";
 }  // namespace
 
-UserFramePort::UserFramePort(const user_frames::FrameDefinition& definition,
-                             const PortConfig& config)
+UserFramePort::UserFramePort(const FrameDefinition& definition, const plc::PortConfig& config)
     : definition_(definition),
       memory_(*definition.plc),
       delay_(config.reply_delay()),
       run_(config.run),
-      finder_(user_frames::received_frames(definition_), config.gap()) {}
+      finder_(received_frames(definition_), config.gap()) {}
 
-Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(
-    const user_frames::FrameDefinition& definition, const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(
+    const FrameDefinition& definition, const nlohmann::json& config) {
   const std::string what = "the port's configuration";
-  if (const Status known = known_keys(config, what, port_keys()); !known) return known.error();
-  PortConfig port;
+  if (const Status known = plc::known_keys(config, what, plc::port_keys()); !known)
+    return known.error();
+  plc::PortConfig port;
   port.model = definition.plc->name;
-  ConfigReader reader(config, what);
-  read_port_config(reader, port);
+  plc::ConfigReader reader(config, what);
+  plc::read_port_config(reader, port);
   if (reader.error()) return *reader.error();
-  if (const auto model = check_port_config(port); !model) return model.error();
-  return std::unique_ptr<EmulatedDevice>(new UserFramePort(definition, port));
+  if (const auto model = plc::check_port_config(port); !model) return model.error();
+  return std::unique_ptr<plc::EmulatedDevice>(new UserFramePort(definition, port));
 }
 
-void UserFramePort::receive(const Burst& burst) {
+void UserFramePort::receive(const line::Burst& burst) {
   if (run_) finder_.receive(burst, *this);
   now_ = std::max(now_, burst.end());
 }
 
 void UserFramePort::on_user_frame(const UserFrame& frame, const FrameMatch& match, ByteView bytes,
                                   Time end) {
-  if (store(frame, match, bytes, memory_) != user_frames::Stored::yes)
-    return counters_.count_error(service_status::not_hex);
+  if (store(frame, match, bytes, memory_) != Stored::yes)
+    return counters_.count_error(plc::service_status::not_hex);
   counters_.count_service();
   if (frame.answer.empty()) return;
   Result<Bytes> answer = build_frame(*definition_.find(frame.answer), memory_);
-  if (!answer) return counters_.count_error(service_status::not_hex);
+  if (!answer) return counters_.count_error(plc::service_status::not_hex);
   counters_.count_service();
   queue_.put(end + delay_, std::move(*answer));
 }
@@ -65,12 +62,12 @@ Bytes UserFramePort::advance(Time now) {
 }
 
 Status UserFramePort::set(std::string_view address, std::string_view hex) {
-  return set_by_name(memory_, address, hex);
+  return plc::set_by_name(memory_, address, hex);
 }
 
 Result<std::string> UserFramePort::get(std::string_view address, std::size_t digits) const {
-  return address.starts_with('@') ? get_counter(counters_, address, digits)
-                                  : get_by_name(memory_, address, digits);
+  return address.starts_with('@') ? plc::get_counter(counters_, address, digits)
+                                  : plc::get_by_name(memory_, address, digits);
 }
 
 Status UserFramePort::send(std::string_view name) {
@@ -96,16 +93,16 @@ Status UserFramePort::send(std::string_view name) {
 
 Status UserFramePort::act(std::string_view action) {
   if (action.starts_with(send_verb)) return send(action.substr(send_verb.size()));
-  const Result<DeviceAction> known = parse_device_action(action);
+  const Result<plc::DeviceAction> known = plc::parse_device_action(action);
   if (!known) return fail(known.error().message + "; or send GROUP.FRAME");
   switch (*known) {
-    case DeviceAction::run: run_ = true; return ok();
-    case DeviceAction::stop: run_ = false; break;
-    case DeviceAction::power_cycle: counters_ = {}; break;
+    case plc::DeviceAction::run: run_ = true; return ok();
+    case plc::DeviceAction::stop: run_ = false; break;
+    case plc::DeviceAction::power_cycle: counters_ = {}; break;
   }
   finder_.reset();
   queue_.clear();
   return ok();
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::user_frames

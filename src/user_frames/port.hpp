@@ -12,11 +12,11 @@
 #include "src/user_frames/finder.hpp"
 #include "src/user_frames/frame.hpp"
 
-namespace fieldproof {
+namespace fieldproof::user_frames {
 
-class UserFramePort : public EmulatedDevice, private user_frames::FrameFinder::Sink {
+class UserFramePort : public plc::EmulatedDevice, private FrameFinder::Sink {
  public:
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
@@ -28,28 +28,28 @@ class UserFramePort : public EmulatedDevice, private user_frames::FrameFinder::S
   Status act(std::string_view action) override;
 
  private:
-  friend Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(
-      const user_frames::FrameDefinition&, const nlohmann::json&);
-  UserFramePort(const user_frames::FrameDefinition& definition, const PortConfig& config);
+  friend Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(const FrameDefinition&,
+                                                                             const nlohmann::json&);
+  UserFramePort(const FrameDefinition& definition, const plc::PortConfig& config);
 
-  void on_user_frame(const user_frames::UserFrame& frame, const user_frames::FrameMatch& match,
-                     ByteView bytes, Time end) override;
+  void on_user_frame(const UserFrame& frame, const FrameMatch& match, ByteView bytes,
+                     Time end) override;
   void on_no_frame(std::uint16_t why) override { counters_.count_error(why); }
   Status send(std::string_view name);
 
-  const user_frames::FrameDefinition definition_;
-  PlcMemory memory_;
+  const FrameDefinition definition_;
+  plc::PlcMemory memory_;
   Duration delay_;
   bool run_;
-  user_frames::FrameFinder finder_;
+  FrameFinder finder_;
   Time now_{};
-  ReplyQueue queue_;
-  ServiceCounters counters_;
+  plc::ReplyQueue queue_;
+  plc::ServiceCounters counters_;
 };
 
 /// In its power-on state. `config`: port_config.hpp; station and role change nothing. Errors name
 /// the key.
-Result<std::unique_ptr<EmulatedDevice>> make_user_frame_device(
-    const user_frames::FrameDefinition& definition, const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(
+    const FrameDefinition& definition, const nlohmann::json& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::user_frames

@@ -6,7 +6,7 @@
 
 #include "src/user_frames/definition.hpp"
 
-namespace fieldproof {
+namespace fieldproof::user_frames {
 namespace {
 
 using testing::HasSubstr;
@@ -29,7 +29,7 @@ constexpr const char* talker = R"j({
 class Port {
  public:
   explicit Port(const char* text = talker, nlohmann::json config = nlohmann::json::object()) {
-    const auto definition = user_frames::parse_frame_definition(text, "talker.json");
+    const auto definition = parse_frame_definition(text, "talker.json");
     if (!definition) throw std::runtime_error(definition.error().message);
     auto made = make_user_frame_device(*definition, config);
     if (!made) throw std::runtime_error(made.error().message);
@@ -64,7 +64,7 @@ class Port {
   void set(std::string_view address, std::string_view hex) {
     ASSERT_TRUE(device_->set(address, hex));
   }
-  EmulatedDevice& device() { return *device_; }
+  plc::EmulatedDevice& device() { return *device_; }
   std::string act(std::string_view action) {
     const Status done = device_->act(action);
     return done ? hear() : done.error().message;
@@ -74,7 +74,7 @@ class Port {
   Duration spoke_after{};
 
  private:
-  std::unique_ptr<EmulatedDevice> device_;
+  std::unique_ptr<plc::EmulatedDevice> device_;
   Time now_{};
 };
 
@@ -249,7 +249,7 @@ TEST(UserFramePort, TheDelayIsThatOfTheAnswer) {
 }
 
 TEST(UserFramePort, AnUnknownConfigurationKeyIsAnError) {
-  const auto definition = user_frames::parse_frame_definition(talker, "talker.json");
+  const auto definition = parse_frame_definition(talker, "talker.json");
   ASSERT_TRUE(definition);
   const auto made = make_user_frame_device(*definition, {{"mod", "run"}});
   ASSERT_FALSE(made);
@@ -257,4 +257,4 @@ TEST(UserFramePort, AnUnknownConfigurationKeyIsAnError) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::user_frames

@@ -58,10 +58,10 @@ Status read_memory(const Json& value, const Place& place, Segment& to) {
                               "there is no memory; name where the bytes come from, such as %MW100, "
                               "or true: as a P2P block says")
                       : ok();
-  const ParsedAddress parsed = parse_address(place.plc, *address);
+  const plc::ParsedAddress parsed = plc::parse_address(place.plc, *address);
   if (!parsed)
     return wrong(place.text, fmt::format("memory '{}' is wrong on {}: {}", *address, place.plc.name,
-                                         describe(parsed.fault)));
+                                         plc::describe(parsed.fault)));
   if (parsed.address.type == 'X')
     return wrong(place.text,
                  fmt::format("memory '{}' is a bit; name bytes or words such as %MB200 or %MW100",
@@ -247,7 +247,7 @@ Error wrong(const std::string& place, const std::string& what) {
 
 Status check_keys(const Json& object, const std::string& place,
                   std::initializer_list<std::string_view> keys) {
-  return known_keys(nlohmann::json(object), place, std::span(keys.begin(), keys.size()));
+  return plc::known_keys(nlohmann::json(object), place, std::span(keys.begin(), keys.size()));
 }
 
 Result<std::string> text_of(const Json& object, const std::string& place, const char* key,

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 /// Where a segment stands.
 struct Place {
-  const PlcModel& plc;
+  const plc::PlcModel& plc;
   bool sent = false;
   Area area = Area::body;
   std::size_t index = 0;

@@ -31,29 +31,30 @@ Bytes swapped(std::size_t group, ByteView bytes) {
 }
 
 namespace {
-std::uint32_t elements(const DeviceAddress& address, std::size_t bytes) {
-  const std::size_t each = type_bytes(address.type);
+std::uint32_t elements(const plc::DeviceAddress& address, std::size_t bytes) {
+  const std::size_t each = plc::type_bytes(address.type);
   return static_cast<std::uint32_t>((bytes + each - 1) / each);
 }
 }  // namespace
 
-bool fits_bytes(const PlcModel& model, const DeviceAddress& address, std::size_t count) {
-  return count == 0 || fits(model, address, elements(address, count));
+bool fits_bytes(const plc::PlcModel& model, const plc::DeviceAddress& address, std::size_t count) {
+  return count == 0 || plc::fits(model, address, elements(address, count));
 }
 
-Bytes read_bytes(const PlcMemory& memory, const DeviceAddress& address, std::size_t count) {
+Bytes read_bytes(const plc::PlcMemory& memory, const plc::DeviceAddress& address,
+                 std::size_t count) {
   Bytes bytes;
   for (std::uint32_t i = 0; i < elements(address, count); ++i) {
     const std::uint64_t value = memory.read(address + i);
-    for (unsigned shift = 8 * type_bytes(address.type); shift > 0; shift -= 8)
+    for (unsigned shift = 8 * plc::type_bytes(address.type); shift > 0; shift -= 8)
       bytes.push_back(static_cast<Byte>(value >> (shift - 8)));
   }
   bytes.resize(count);
   return bytes;
 }
 
-void write_bytes(PlcMemory& memory, const DeviceAddress& address, ByteView bytes) {
-  const std::size_t each = type_bytes(address.type);
+void write_bytes(plc::PlcMemory& memory, const plc::DeviceAddress& address, ByteView bytes) {
+  const std::size_t each = plc::type_bytes(address.type);
   for (std::uint32_t i = 0; i < elements(address, bytes.size()); ++i) {
     std::uint64_t value = memory.read(address + i);
     for (std::size_t k = 0; k < each && i * each + k < bytes.size(); ++k) {

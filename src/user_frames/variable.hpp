@@ -16,11 +16,12 @@ std::optional<Bytes> converted(Convert convert, ByteView bytes);
 Bytes swapped(std::size_t group, ByteView bytes);
 
 /// Do `count` bytes from `address` on lie inside the area?
-bool fits_bytes(const PlcModel& model, const DeviceAddress& address, std::size_t count);
+bool fits_bytes(const plc::PlcModel& model, const plc::DeviceAddress& address, std::size_t count);
 
 /// Memory as bytes: elements in ascending order, each high byte first. They must fit (fits_bytes).
-Bytes read_bytes(const PlcMemory& memory, const DeviceAddress& address, std::size_t count);
+Bytes read_bytes(const plc::PlcMemory& memory, const plc::DeviceAddress& address,
+                 std::size_t count);
 /// An element that `bytes` end in keeps its lower bytes.
-void write_bytes(PlcMemory& memory, const DeviceAddress& address, ByteView bytes);
+void write_bytes(plc::PlcMemory& memory, const plc::DeviceAddress& address, ByteView bytes);
 
 }  // namespace fieldproof::user_frames

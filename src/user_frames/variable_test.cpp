@@ -42,8 +42,8 @@ TEST(UserFrameVariable, AnIncompleteGroupStays) {
 
 class Memory : public testing::Test {
  protected:
-  DeviceAddress at(std::string_view name) const {
-    return parse_address(memory.model(), name).address;
+  plc::DeviceAddress at(std::string_view name) const {
+    return plc::parse_address(memory.model(), name).address;
   }
   std::string read(std::string_view name, std::size_t count) const {
     return to_hex(read_bytes(memory, at(name), count));
@@ -52,11 +52,11 @@ class Memory : public testing::Test {
     write_bytes(memory, at(name), *from_hex(hex));
   }
 
-  PlcMemory memory{*find_plc_model("xbc-h")};
+  plc::PlcMemory memory{*plc::find_plc_model("xbc-h")};
 };
 
 TEST_F(Memory, WordsAreReadHighByteFirst) {
-  ASSERT_TRUE(set_by_name(memory, "%MW100", "123456789ABC"));
+  ASSERT_TRUE(plc::set_by_name(memory, "%MW100", "123456789ABC"));
   EXPECT_EQ(read("%MW100", 6), "12 34 56 78 9A BC");
   EXPECT_EQ(read("%MW100", 3), "12 34 56");
   EXPECT_EQ(read("%MB200", 6), "34 12 78 56 BC 9A");
@@ -71,7 +71,7 @@ TEST_F(Memory, WhatIsWrittenIsReadBack) {
 }
 
 TEST_F(Memory, AnElementThatIsNotFilledKeepsItsLowBytes) {
-  ASSERT_TRUE(set_by_name(memory, "%MW100", "AAAABBBBCCCC"));
+  ASSERT_TRUE(plc::set_by_name(memory, "%MW100", "AAAABBBBCCCC"));
   write("%MW100", "112233");
   EXPECT_EQ(read("%MW100", 6), "11 22 33 BB CC CC");
 }

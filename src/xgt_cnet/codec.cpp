@@ -5,7 +5,7 @@
 #include "src/base/letters.hpp"
 #include "src/plc/address.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 
 namespace {
 constexpr std::size_t first_of_content = 6;  // header, station, command, type or number
@@ -210,7 +210,7 @@ class ContentReader {
   }
 
   static unsigned element_bytes(const XgtBlock& block) {
-    return block.name.size() > 2 ? type_bytes(block.name[2]) : 0;
+    return block.name.size() > 2 ? plc::type_bytes(block.name[2]) : 0;
   }
 
   bool read_data(XgtBlock& block, std::size_t digits) {
@@ -456,4 +456,4 @@ void encode_reply(const XgtReply& reply, Bytes& out) {
   end_frame(out, begin, xgt_etx, reply.has_bcc());
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

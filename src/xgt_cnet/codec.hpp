@@ -18,7 +18,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 
 constexpr Byte xgt_enq = 0x05, xgt_ack = 0x06, xgt_nak = 0x15, xgt_eot = 0x04, xgt_etx = 0x03;
 
@@ -141,4 +141,4 @@ Byte xgt_bcc(ByteView header_to_tail);
 /// The value of 1 to 15 hex digits in either case, or -1.
 std::int64_t hex_value(std::string_view digits);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

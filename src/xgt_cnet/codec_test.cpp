@@ -6,7 +6,7 @@
 
 #include "src/xgt_cnet/test_frames.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 namespace {
 
 using test::ack;
@@ -299,4 +299,4 @@ TEST(XgtCodec, RandomBytesNeverReadPastTheEnd) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -7,24 +7,27 @@
 
 #include "src/base/letters.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
+
+using p2p::P2pBlock;
 
 namespace {
 bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function::write; }
 
 std::size_t digits_of(const P2pBlock& block) {
-  return std::size_t{2} * type_bytes(block.type) * block.elements();
+  return std::size_t{2} * plc::type_bytes(block.type) * block.elements();
 }
 
-std::string digits_in(const PlcMemory& memory, const P2pBlock& block, const DeviceAddress& first) {
+std::string digits_in(const plc::PlcMemory& memory, const P2pBlock& block,
+                      const plc::DeviceAddress& first) {
   std::string digits;
   for (unsigned i = 0; i < block.elements(); ++i)
-    digits += hex_number(memory.read(first + i), static_cast<int>(2 * type_bytes(block.type)));
+    digits += hex_number(memory.read(first + i), static_cast<int>(2 * plc::type_bytes(block.type)));
   return digits;
 }
 
-void save(PlcMemory& memory, DeviceAddress to, std::string_view digits) {
-  const std::size_t size = std::size_t{2} * type_bytes(to.type);
+void save(plc::PlcMemory& memory, plc::DeviceAddress to, std::string_view digits) {
+  const std::size_t size = std::size_t{2} * plc::type_bytes(to.type);
   for (; !digits.empty(); digits.remove_prefix(size), to = to + 1) {
     std::uint64_t value = 0;
     for (const char c : digits.substr(0, size))
@@ -35,41 +38,43 @@ void save(PlcMemory& memory, DeviceAddress to, std::string_view digits) {
 
 std::uint16_t error_of(const XgtFault& fault) {
   switch (fault.check) {
-    case XgtCheck::none: return p2p_error::none;
-    case XgtCheck::head: return p2p_error::head;
-    case XgtCheck::tail: return p2p_error::tail;
-    case XgtCheck::bcc: return p2p_error::bcc;
-    case XgtCheck::station: return p2p_error::station;
-    case XgtCheck::command: return p2p_error::driver;
-    case XgtCheck::data: return p2p_error::not_hex;
-    default: return p2p_error::length;
+    case XgtCheck::none: return p2p::p2p_error::none;
+    case XgtCheck::head: return p2p::p2p_error::head;
+    case XgtCheck::tail: return p2p::p2p_error::tail;
+    case XgtCheck::bcc: return p2p::p2p_error::bcc;
+    case XgtCheck::station: return p2p::p2p_error::station;
+    case XgtCheck::command: return p2p::p2p_error::driver;
+    case XgtCheck::data: return p2p::p2p_error::not_hex;
+    default: return p2p::p2p_error::length;
   }
 }
 
 /// What is wrong with the data of a read, if anything.
-std::uint16_t check_data(const XgtReply& reply, const P2pBlock& block, const PlcModel& model) {
-  if (reply.blocks != block.variables.size()) return p2p_error::length;
-  const std::size_t due = digits_of(block), element = std::size_t{2} * type_bytes(block.type);
+std::uint16_t check_data(const XgtReply& reply, const P2pBlock& block, const plc::PlcModel& model) {
+  if (reply.blocks != block.variables.size()) return p2p::p2p_error::length;
+  const std::size_t due = digits_of(block), element = std::size_t{2} * plc::type_bytes(block.type);
   for (std::size_t i = 0; i < block.variables.size(); ++i) {
     const std::size_t digits = reply.data[i].size();
     if (digits == due) continue;
     const auto elements = static_cast<std::uint32_t>((digits + element - 1) / element);
-    return fits(model, block.variables[i].own, elements) ? p2p_error::length : p2p_error::range;
+    return plc::fits(model, block.variables[i].own, elements) ? p2p::p2p_error::length
+                                                              : p2p::p2p_error::range;
   }
-  return p2p_error::none;
+  return p2p::p2p_error::none;
 }
 
-std::uint16_t check_reply(const XgtReply& reply, const P2pBlock& block, const PlcModel& model) {
+std::uint16_t check_reply(const XgtReply& reply, const P2pBlock& block,
+                          const plc::PlcModel& model) {
   if (reply.fault.check <= XgtCheck::bcc) return error_of(reply.fault);
   if (reply.fault.check == XgtCheck::station || reply.station != block.station)
-    return p2p_error::station;
+    return p2p::p2p_error::station;
   const bool same_service = reply.command == (writes(block) ? 'w' : 'r') &&
                             reply.kind.size() == 2 &&
                             upper(reply.kind[1]) == (block.continuous ? 'B' : 'S');
-  if (!same_service) return p2p_error::driver;
+  if (!same_service) return p2p::p2p_error::driver;
   if (reply.fault) return error_of(reply.fault);
-  if (!reply.ack) return p2p_error::nak;
-  return writes(block) ? p2p_error::none : check_data(reply, block, model);
+  if (!reply.ack) return p2p::p2p_error::nak;
+  return writes(block) ? p2p::p2p_error::none : check_data(reply, block, model);
 }
 }  // namespace
 
@@ -79,14 +84,14 @@ std::string unpadded_name(std::string_view name) {
   return std::string(name.substr(0, 3)) + std::string(name.substr(digit));
 }
 
-Status XgtP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
+Status XgtP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
   const std::string_view key = writes(block) ? "save" : "read";
   // The name belongs to the partner, whose areas are not known here.
-  for (const P2pVariable& variable : block.variables) {
+  for (const p2p::P2pVariable& variable : block.variables) {
     const std::string& name = variable.partner;
     const auto is_index = [](char c) { return hex_digit(c) >= 0 || c == '.'; };
     if (name.size() < 4 || name.size() > xgt_max_name || name[0] != '%' ||
-        type_bytes(name[2]) == 0 ||
+        plc::type_bytes(name[2]) == 0 ||
         !std::ranges::all_of(std::string_view(name).substr(3), is_index))
       return fail(fmt::format("{} '{}' is no device name of the partner; give one such as %MW100",
                               key, name));
@@ -97,14 +102,14 @@ Status XgtP2pDriver::check(const P2pBlock& block, const PlcModel&) const {
   if (!block.continuous) return ok();
   if (block.type == 'X')
     return fail("bits are not read or written as a run; use command single (003 6.3.2)");
-  const unsigned most = p2p_max_bytes / type_bytes(block.type);
+  const unsigned most = p2p::p2p_max_bytes / plc::type_bytes(block.type);
   if (block.size > most)
     return fail(fmt::format("size is {}; a run has at most {} bytes: {} elements of this type",
-                            block.size, p2p_max_bytes, most));
+                            block.size, p2p::p2p_max_bytes, most));
   return ok();
 }
 
-Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const PlcMemory& memory) const {
+Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const plc::PlcMemory& memory) const {
   XgtRequest request{.station = block.station,
                      .command = writes(block) ? 'w' : 'r',
                      .kind = block.continuous ? "SB" : "SS"};
@@ -114,7 +119,7 @@ Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const PlcMemory& memo
   request.service = request.content;
   request.blocks = static_cast<unsigned>(block.variables.size());
   request.count = block.elements();
-  std::array<std::string, p2p_max_variables> names, data;
+  std::array<std::string, p2p::p2p_max_variables> names, data;
   for (std::size_t i = 0; i < block.variables.size(); ++i) {
     names[i] = unpadded_name(block.variables[i].partner);
     if (writes(block)) data[i] = digits_in(memory, block, block.variables[i].own);
@@ -126,14 +131,14 @@ Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const PlcMemory& memo
 }
 
 std::optional<std::uint16_t> XgtP2pDriver::take(const P2pBlock& block, ByteView frame,
-                                                PlcMemory& memory) const {
+                                                plc::PlcMemory& memory) const {
   const XgtReply reply = parse_reply(frame);
   const std::uint16_t error = check_reply(reply, block, memory.model());
-  if (error == p2p_error::none && !writes(block)) {
+  if (error == p2p::p2p_error::none && !writes(block)) {
     for (std::size_t i = 0; i < block.variables.size(); ++i)
       save(memory, block.variables[i].own, reply.data[i]);
   }
   return error;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -14,23 +14,25 @@
 #include "src/xgt_cnet/codec.hpp"
 #include "src/xgt_cnet/receiver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 
-class XgtP2pDriver : public P2pDriver {
+class XgtP2pDriver : public p2p::P2pDriver {
  public:
   /// `gap`: the inter-character time.
   explicit XgtP2pDriver(Duration gap) : receiver_(FrameReceiver::Side::client, gap) {}
 
   std::string_view name() const override { return "xgt-client"; }
-  Status check(const P2pBlock& block, const PlcModel& model) const override;
-  Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override;
-  bool awaits_reply(const P2pBlock&) const override { return true; }
-  std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
-                                    PlcMemory& memory) const override;
+  Status check(const p2p::P2pBlock& block, const plc::PlcModel& model) const override;
+  Result<Bytes> request(const p2p::P2pBlock& block, const plc::PlcMemory& memory) const override;
+  bool awaits_reply(const p2p::P2pBlock&) const override { return true; }
+  std::optional<std::uint16_t> take(const p2p::P2pBlock& block, ByteView frame,
+                                    plc::PlcMemory& memory) const override;
 
-  void receive(const Burst& burst, FrameSink& sink) override { receiver_.receive(burst, sink); }
+  void receive(const line::Burst& burst, plc::FrameSink& sink) override {
+    receiver_.receive(burst, sink);
+  }
   std::optional<Time> wake_at() const override { return receiver_.wake_at(); }
-  void advance(Time now, FrameSink& sink) override { receiver_.advance(now, sink); }
+  void advance(Time now, plc::FrameSink& sink) override { receiver_.advance(now, sink); }
   void reset() override { receiver_.reset(); }
 
  private:
@@ -40,4 +42,4 @@ class XgtP2pDriver : public P2pDriver {
 /// "%MW00100" as it is sent: "%MW100". Dotted names stay as they are.
 std::string unpadded_name(std::string_view name);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -9,7 +9,7 @@
 #include "src/xgt_cnet/plc.hpp"
 #include "src/xgt_cnet/test_frames.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 namespace {
 
 using nlohmann::json;
@@ -19,9 +19,9 @@ using test::nak;
 using test::operator+;
 using ::testing::HasSubstr;
 
-Result<std::unique_ptr<P2pPlc>> make(const json& block, const std::string& model = "xbc-h") {
+Result<std::unique_ptr<p2p::P2pPlc>> make(const json& block, const std::string& model = "xbc-h") {
   const json config{{"p2p", {{"blocks", json::array({block})}}}};
-  return make_p2p_plc(model, config, [](const PortConfig& port) {
+  return p2p::make_p2p_plc(model, config, [](const plc::PortConfig& port) {
     return std::make_unique<XgtP2pDriver>(port.gap());
   });
 }
@@ -33,14 +33,14 @@ json block(const json& changes = json::object()) {
 }
 
 std::string error_of(const json& changes) {
-  const Result<std::unique_ptr<P2pPlc>> plc = make(block(changes));
+  const Result<std::unique_ptr<p2p::P2pPlc>> plc = make(block(changes));
   return plc ? "" : plc.error().message;
 }
 
 /// A client with one block, and its partner.
 struct Bench {
   explicit Bench(const json& changes = json::object(), const std::string& model = "xbc-h") {
-    Result<std::unique_ptr<P2pPlc>> made = make(block(changes), model);
+    Result<std::unique_ptr<p2p::P2pPlc>> made = make(block(changes), model);
     EXPECT_TRUE(made) << (made ? "" : made.error().message);
     if (made) plc = std::move(*made);
   }
@@ -69,7 +69,7 @@ struct Bench {
     return result();
   }
 
-  std::unique_ptr<P2pPlc> plc;
+  std::unique_ptr<p2p::P2pPlc> plc;
   Time now{};
 };
 
@@ -269,18 +269,18 @@ TEST(XgtP2pDriver, WhatIsRefused) {
 }
 
 TEST(XgtP2pDriver, TalksToAServer) {
-  const LineSettings line{.baud = 38400, .data_bits = 7, .parity = 'E'};
+  const line::LineSettings line{.baud = 38400, .data_bits = 7, .parity = 'E'};
   const auto server = make_plc({.model = "xbm-s", .station = 2, .line = line});
   ASSERT_TRUE(server);
   const json config = json::parse(R"({"line": "38400-7E1", "p2p": {"blocks": [
     {"flag": "F92", "read": ["%MW100", "%DW5"], "save": ["%MW200", "%MW300"], "station": 2},
     {"flag": "F92", "function": "write", "command": "continuous", "size": 60, "read": "%DW0", "save": "%DW100", "station": 2},
     {"flag": "F93", "read": "%MW256", "save": "%MW201", "station": 2}]}})");
-  const auto client = make_p2p_plc("xbc-h", config, [](const PortConfig& port) {
+  const auto client = p2p::make_p2p_plc("xbc-h", config, [](const plc::PortConfig& port) {
     return std::make_unique<XgtP2pDriver>(port.gap());
   });
   ASSERT_TRUE(client) << client.error().message;
-  SimulatedLine wire(line);
+  line::SimulatedLine wire(line);
   wire.attach(**client, line);
   wire.attach(**server, line);
   ASSERT_TRUE((*server)->set("%MW100", "CAFE"));
@@ -306,4 +306,4 @@ TEST(UnpaddedName, DropsLeadingZeros) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

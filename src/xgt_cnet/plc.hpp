@@ -11,19 +11,19 @@
 #include "src/plc/port_config.hpp"
 #include "src/xgt_cnet/server.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 
-class Plc : public EmulatedDevice {
+class Plc : public plc::EmulatedDevice {
  public:
   Plc(const Plc&) = delete;
   Plc& operator=(const Plc&) = delete;
 
-  void receive(const Burst& burst) override { server_.receive(burst); }
+  void receive(const line::Burst& burst) override { server_.receive(burst); }
   std::optional<Time> wake_at() const override { return server_.wake_at(); }
   Bytes advance(Time now) override { return server_.advance(now); }
 
   Status set(std::string_view address, std::string_view hex) override {
-    return set_by_name(memory_, address, hex);
+    return plc::set_by_name(memory_, address, hex);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   /// power_cycle: registrations, counters and frames in progress are lost; memory stays. A server
@@ -31,15 +31,15 @@ class Plc : public EmulatedDevice {
   Status act(std::string_view action) override;
 
  private:
-  friend Result<std::unique_ptr<Plc>> make_plc(const PortConfig& config);
-  Plc(const PlcModel& model, const PortConfig& config)
+  friend Result<std::unique_ptr<Plc>> make_plc(const plc::PortConfig& config);
+  Plc(const plc::PlcModel& model, const plc::PortConfig& config)
       : memory_(model), server_(memory_, config.station, config.gap(), config.reply_delay()) {}
 
-  PlcMemory memory_;
+  plc::PlcMemory memory_;
   XgtServer server_;
 };
 
 /// In its power-on state. Errors name the model, or the parameter that is out of its range.
-Result<std::unique_ptr<Plc>> make_plc(const PortConfig& config);
+Result<std::unique_ptr<Plc>> make_plc(const plc::PortConfig& config);
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -4,7 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
+
+using plc::PortConfig;
+
 namespace {
 
 using nlohmann::json;
@@ -91,4 +94,4 @@ TEST(PlcConfig, AServerHasNoP2p) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -5,7 +5,7 @@
 #include "src/line/line.hpp"
 #include "src/xgt_cnet/test_frames.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 namespace {
 
 using test::ack;
@@ -13,13 +13,13 @@ using test::enq;
 using test::shown;
 using ::testing::HasSubstr;
 
-std::unique_ptr<Plc> plc_of(const PortConfig& config) {
+std::unique_ptr<Plc> plc_of(const plc::PortConfig& config) {
   Result<std::unique_ptr<Plc>> plc = make_plc(config);
   EXPECT_TRUE(plc) << (plc ? "" : plc.error().message);
   return plc ? std::move(*plc) : nullptr;
 }
 
-std::string error_of(const PortConfig& config) {
+std::string error_of(const plc::PortConfig& config) {
   const Result<std::unique_ptr<Plc>> plc = make_plc(config);
   return plc ? "" : plc.error().message;
 }
@@ -92,7 +92,7 @@ TEST(Plc, DelayOnlyWithRs485) {
 }
 
 TEST(Plc, InterCharacterTimeAndItsFloor) {
-  const auto answers = [](const PortConfig& config, Duration silence) {
+  const auto answers = [](const plc::PortConfig& config, Duration silence) {
     const auto plc = plc_of(config);
     plc->receive({to_bytes("\x05"
                            "01RSS"),
@@ -114,14 +114,14 @@ TEST(Plc, InterCharacterTimeAndItsFloor) {
 // --- On the simulated line ---
 
 TEST(PlcOnALine, OnlyTheAddressedStationAnswersAndAtOnce) {
-  const LineSettings line;
+  const line::LineSettings line;
   const auto one = plc_of({.station = 1}), two = plc_of({.station = 2});
-  SimulatedLine wire(line);
+  line::SimulatedLine wire(line);
   wire.attach(*one, line);
   wire.attach(*two, line);
   ASSERT_TRUE(two->set("%MW0", "2222"));
   const auto sent = wire.transmit(enq("02rSS0104%MW0"));
-  const Burst reply = wire.receive(sent.end + 1s);
+  const line::Burst reply = wire.receive(sent.end + 1s);
   EXPECT_EQ(shown(reply.bytes), "ACK 02rSS01022222");
   EXPECT_EQ(reply.start, sent.end);
   EXPECT_TRUE(wire.receive(wire.now() + 1s).bytes.empty());
@@ -129,12 +129,12 @@ TEST(PlcOnALine, OnlyTheAddressedStationAnswersAndAtOnce) {
 
 /// Two parts of a request with a silence between them, at both sides of the inter-character time.
 TEST(PlcOnALine, GapsAreJudgedToTheNanosecond) {
-  const LineSettings line;
+  const line::LineSettings line;
   const Bytes request = enq("01RSS0104%MW0");
   for (const Duration longer : {Duration(0), Duration(1)}) {
     for (std::size_t cut = 1; cut < request.size(); ++cut) {
       const auto plc = plc_of({.station = 1, .line = line, .inter_character = 10ms});
-      SimulatedLine wire(line);
+      line::SimulatedLine wire(line);
       wire.attach(*plc, line);
       const auto at = request.begin() + static_cast<std::ptrdiff_t>(cut);
       const auto sent = wire.transmit(Bytes(request.begin(), at));
@@ -147,9 +147,9 @@ TEST(PlcOnALine, GapsAreJudgedToTheNanosecond) {
 }
 
 TEST(PlcOnALine, MissingTailIsCountedBySilenceAlone) {
-  const LineSettings line;
+  const line::LineSettings line;
   const auto plc = plc_of({.station = 1});
-  SimulatedLine wire(line);
+  line::SimulatedLine wire(line);
   wire.attach(*plc, line);
   wire.transmit(
       to_bytes("\x05"
@@ -171,4 +171,4 @@ TEST(MakePlc, ErrorsNameTheParameter) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -3,7 +3,7 @@
 #include "src/plc/counters.hpp"
 #include "src/xgt_cnet/codec.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 
 namespace {
 constexpr std::size_t command_at = 3;
@@ -19,7 +19,7 @@ bool FrameReceiver::is_head(Byte b) const {
   return side_ == Side::server ? b == xgt_enq : b == xgt_ack || b == xgt_nak;
 }
 
-void FrameReceiver::receive(const Burst& burst, FrameSink& sink) {
+void FrameReceiver::receive(const line::Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > gap_) give_up(sink);
   Time end = burst.start;
@@ -31,7 +31,7 @@ void FrameReceiver::receive(const Burst& burst, FrameSink& sink) {
   character_time_ = burst.character_time;
 }
 
-void FrameReceiver::take(Byte b, Time end, FrameSink& sink) {
+void FrameReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
   if (is_head(b)) {
     if (state_ == State::frame || state_ == State::bcc) give_up(sink);
     frame_.assign(1, b);
@@ -41,13 +41,13 @@ void FrameReceiver::take(Byte b, Time end, FrameSink& sink) {
   switch (state_) {
     case State::idle:
       state_ = State::garbage;
-      sink.on_broken_frame(service_status::head);
+      sink.on_broken_frame(plc::service_status::head);
       return;
     case State::garbage: return;
     case State::frame:
       if (frame_.size() == max_frame) {
         state_ = State::garbage;  // already counted
-        sink.on_broken_frame(service_status::tail);
+        sink.on_broken_frame(plc::service_status::tail);
         return;
       }
       frame_.push_back(b);
@@ -68,9 +68,9 @@ void FrameReceiver::take(Byte b, Time end, FrameSink& sink) {
   sink.on_frame(frame_, end);
 }
 
-void FrameReceiver::give_up(FrameSink& sink) {
-  if (state_ == State::frame) sink.on_broken_frame(service_status::tail);
-  if (state_ == State::bcc) sink.on_broken_frame(service_status::bcc);
+void FrameReceiver::give_up(plc::FrameSink& sink) {
+  if (state_ == State::frame) sink.on_broken_frame(plc::service_status::tail);
+  if (state_ == State::bcc) sink.on_broken_frame(plc::service_status::bcc);
   state_ = State::idle;
 }
 
@@ -80,10 +80,10 @@ std::optional<Time> FrameReceiver::wake_at() const {
   return last_end_ + gap_ + character_time_ + Duration(1);
 }
 
-void FrameReceiver::advance(Time now, FrameSink& sink) {
+void FrameReceiver::advance(Time now, plc::FrameSink& sink) {
   if (const auto wake = wake_at(); wake && now >= *wake) give_up(sink);
 }
 
 void FrameReceiver::reset() { state_ = State::idle; }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

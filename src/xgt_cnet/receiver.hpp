@@ -7,7 +7,7 @@
 #include "src/line/device.hpp"
 #include "src/plc/frame_sink.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 
 /// A frame: header to tail, and BCC after a lower-case command; it ends with its last stop bit.
 /// No frame: service_status::head (bytes outside a frame, once a run of them), tail, or bcc (the
@@ -23,10 +23,10 @@ class FrameReceiver {
   /// A silence longer than `gap` between two characters ends a frame.
   FrameReceiver(Side side, Duration gap);
 
-  void receive(const Burst& burst, FrameSink& sink);
+  void receive(const line::Burst& burst, plc::FrameSink& sink);
   /// When the silence has become too long even for a character that is arriving at that moment.
   std::optional<Time> wake_at() const;
-  void advance(Time now, FrameSink& sink);
+  void advance(Time now, plc::FrameSink& sink);
   /// As after power on.
   void reset();
 
@@ -34,8 +34,8 @@ class FrameReceiver {
   enum class State { idle, garbage, frame, bcc };
 
   bool is_head(Byte b) const;
-  void take(Byte b, Time end, FrameSink& sink);
-  void give_up(FrameSink& sink);
+  void take(Byte b, Time end, plc::FrameSink& sink);
+  void give_up(plc::FrameSink& sink);
 
   Side side_;
   Byte tail_;
@@ -47,4 +47,4 @@ class FrameReceiver {
   Duration character_time_{};
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -8,14 +8,14 @@
 #include "src/plc/test_frame_log.hpp"
 #include "src/xgt_cnet/test_frames.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 namespace {
 
+using plc::test::Broken;
+using plc::test::Frames;
+using plc::test::Log;
 using test::ack;
-using test::Broken;
 using test::enq;
-using test::Frames;
-using test::Log;
 using test::nak;
 using test::operator+;
 
@@ -195,4 +195,4 @@ TEST(FrameReceiverFuzz, HowBytesAreCutIntoBurstsDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -4,7 +4,9 @@
 
 #include "src/plc/address.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
+
+using plc::AddressFault;
 
 namespace {
 std::uint64_t value_of(std::string_view hex) {
@@ -62,7 +64,7 @@ std::string_view replied_number(std::string_view sent, std::array<char, 2>& numb
 }
 }  // namespace
 
-XgtServer::XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay)
+XgtServer::XgtServer(plc::PlcMemory& memory, unsigned station, Duration gap, Duration delay)
     : memory_(memory),
       station_(station),
       delay_(delay),
@@ -83,10 +85,10 @@ void XgtServer::power_cycle() {
 void XgtServer::on_frame(ByteView frame, Time end) {
   XgtRequest request = parse_request(frame);
   const XgtCheck check = request.fault.check;
-  if (check == XgtCheck::bcc) return counters_.count_error(service_status::bcc);
+  if (check == XgtCheck::bcc) return counters_.count_error(plc::service_status::bcc);
   if (check == XgtCheck::station || request.station != station_)
-    return counters_.count_error(service_status::station);
-  if (check == XgtCheck::command) return counters_.count_error(service_status::head);
+    return counters_.count_error(plc::service_status::station);
+  if (check == XgtCheck::command) return counters_.count_error(plc::service_status::head);
 
   Addresses addresses;
   check_names(request, addresses);
@@ -117,9 +119,9 @@ void XgtServer::check_names(XgtRequest& request, Addresses& addresses) const {
     }
     return;
   }
-  const PlcModel& model = memory_.model();
+  const plc::PlcModel& model = memory_.model();
   for (unsigned i = 0; i < request.blocks; ++i) {
-    const ParsedAddress parsed = parse_address(model, request.block[i].name);
+    const plc::ParsedAddress parsed = plc::parse_address(model, request.block[i].name);
     addresses[i] = parsed.address;
     XgtFault fault = name_fault(parsed.fault);
     const bool area_known =
@@ -133,7 +135,7 @@ void XgtServer::check_names(XgtRequest& request, Addresses& addresses) const {
       fault.note({XgtCheck::equal_types, xgt_error::mixed_types, "name",
                   "is of another type than the first", 0, 0});
     }
-    if (!fault && is_run(request.content) && !fits(model, parsed.address, request.count)) {
+    if (!fault && is_run(request.content) && !plc::fits(model, parsed.address, request.count)) {
       fault.note(
           {XgtCheck::range, xgt_error::range, "number of data", "goes beyond the area", 0, 0});
     }
@@ -166,14 +168,14 @@ void XgtServer::execute(const XgtRequest& request, const Addresses& addresses, X
   }
 }
 
-void XgtServer::read_blocks(std::span<const DeviceAddress> addresses, XgtReply& reply) {
+void XgtServer::read_blocks(std::span<const plc::DeviceAddress> addresses, XgtReply& reply) {
   reply.with_block_count = true;
-  for (const DeviceAddress& address : addresses) add_data(address, 1, reply);
+  for (const plc::DeviceAddress& address : addresses) add_data(address, 1, reply);
 }
 
-void XgtServer::add_data(const DeviceAddress& first, unsigned count, XgtReply& reply) {
+void XgtServer::add_data(const plc::DeviceAddress& first, unsigned count, XgtReply& reply) {
   char* const begin = data_.data() + data_size_;
-  const unsigned digits = 2 * type_bytes(first.type);
+  const unsigned digits = 2 * plc::type_bytes(first.type);
   for (unsigned i = 0; i < count; ++i) {
     const std::uint64_t value = memory_.read(first + i);
     for (unsigned d = digits; d-- > 0;)
@@ -189,10 +191,10 @@ void XgtServer::write(const XgtRequest& request, const Addresses& addresses) {
       memory_.write(addresses[i], value_of(request.block[i].data));
     return;
   }
-  const std::size_t digits = 2 * type_bytes(addresses[0].type);
+  const std::size_t digits = 2 * plc::type_bytes(addresses[0].type);
   for (unsigned i = 0; i < request.count; ++i) {
     memory_.write(addresses[0] + i, value_of(request.block[0].data.substr(i * digits, digits)));
   }
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

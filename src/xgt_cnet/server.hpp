@@ -19,27 +19,27 @@
 #include "src/xgt_cnet/codec.hpp"
 #include "src/xgt_cnet/receiver.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 
-class XgtServer : private FrameSink {
+class XgtServer : private plc::FrameSink {
  public:
   /// `gap`: inter-character time. `delay`: from the end of a request to its reply. `memory`
   /// outlives the server.
-  XgtServer(PlcMemory& memory, unsigned station, Duration gap, Duration delay);
+  XgtServer(plc::PlcMemory& memory, unsigned station, Duration gap, Duration delay);
 
-  void receive(const Burst& burst) { receiver_.receive(burst, *this); }
+  void receive(const line::Burst& burst) { receiver_.receive(burst, *this); }
   std::optional<Time> wake_at() const { return replies_.wake_at(receiver_.wake_at()); }
   Bytes advance(Time now);
 
-  const ServiceCounters& counters() const { return counters_; }
+  const plc::ServiceCounters& counters() const { return counters_; }
   /// Registrations, counters and frames in progress are lost.
   void power_cycle();
 
  private:
-  using Addresses = std::array<DeviceAddress, xgt_max_blocks>;
+  using Addresses = std::array<plc::DeviceAddress, xgt_max_blocks>;
   struct Registration {
     XgtService content = XgtService::unknown;  // read_blocks or read_run; unknown: free
-    std::vector<DeviceAddress> addresses;
+    std::vector<plc::DeviceAddress> addresses;
     unsigned count = 0;
   };
 
@@ -48,21 +48,21 @@ class XgtServer : private FrameSink {
 
   void check_names(XgtRequest& request, Addresses& addresses) const;
   void execute(const XgtRequest& request, const Addresses& addresses, XgtReply& reply);
-  void read_blocks(std::span<const DeviceAddress> addresses, XgtReply& reply);
+  void read_blocks(std::span<const plc::DeviceAddress> addresses, XgtReply& reply);
   /// One block of `count` elements.
-  void add_data(const DeviceAddress& first, unsigned count, XgtReply& reply);
+  void add_data(const plc::DeviceAddress& first, unsigned count, XgtReply& reply);
   void write(const XgtRequest& request, const Addresses& addresses);
 
-  PlcMemory& memory_;
+  plc::PlcMemory& memory_;
   unsigned station_;
   Duration delay_;
   FrameReceiver receiver_;
-  ServiceCounters counters_;
+  plc::ServiceCounters counters_;
   std::array<Registration, xgt_registrations> registrations_;
-  ReplyQueue replies_;
+  plc::ReplyQueue replies_;
   std::array<char, 2 * xgt_max_run + 16>
       data_;  // digits of the reply in progress; 16 LWords have 256
   std::size_t data_size_ = 0;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

@@ -6,7 +6,7 @@
 
 #include "src/xgt_cnet/test_frames.hpp"
 
-namespace fieldproof {
+namespace fieldproof::xgt_cnet {
 namespace {
 
 using test::enq;
@@ -19,7 +19,7 @@ constexpr Duration gap = 4ms;
 /// A server of one model; each request goes out after a second of silence.
 struct Bench {
   explicit Bench(std::string_view model = "xbc-h", unsigned station = 1, Duration delay = {})
-      : memory(*find_plc_model(model)), server(memory, station, gap, delay) {}
+      : memory(*plc::find_plc_model(model)), server(memory, station, gap, delay) {}
 
   /// The reply to raw bytes, as text.
   std::string send(const Bytes& bytes) {
@@ -31,15 +31,15 @@ struct Bench {
   std::string ask(std::string_view body) { return send(enq(body)); }
 
   void set(std::string_view address, std::string_view hex) {
-    const Status status = set_by_name(memory, address, hex);
+    const Status status = plc::set_by_name(memory, address, hex);
     ASSERT_TRUE(status) << status.error().message;
   }
   std::string get(std::string_view address, std::size_t digits = 0) {
-    const Result<std::string> value = get_by_name(memory, address, digits);
+    const Result<std::string> value = plc::get_by_name(memory, address, digits);
     return value ? *value : value.error().message;
   }
 
-  PlcMemory memory;
+  plc::PlcMemory memory;
   XgtServer server;
   Time now{};
 };
@@ -212,7 +212,7 @@ TEST(XgtServer, AllStations) {
     EXPECT_EQ(b.ask(st + "wSS0104%MW01234"), "ACK " + st + "wSS");
     EXPECT_EQ(b.ask(other + "wSS0104%MW05678"), "");
     EXPECT_EQ(b.get("%MW0"), "1234");
-    EXPECT_EQ(b.server.counters().status, service_status::station);
+    EXPECT_EQ(b.server.counters().status, plc::service_status::station);
   }
 }
 
@@ -323,16 +323,16 @@ TEST(XgtServerErrors, FAndNCanBeReadAndMonitored) {
 }
 
 TEST(XgtServerErrors, LastAndFirstInvalidOfEveryAreaInEveryModel) {
-  for (const PlcModel& model : plc_models()) {
+  for (const plc::PlcModel& model : plc::plc_models()) {
     Bench b(model.name);
-    for (const DeviceArea& area : model.areas) {
+    for (const plc::DeviceArea& area : model.areas) {
       for (const char type : {'B', 'W', 'D', 'L'}) {
-        const std::uint32_t elements = area.words * 2 / type_bytes(type);
+        const std::uint32_t elements = area.words * 2 / plc::type_bytes(type);
         const auto named = [&](std::uint32_t index) {
           const std::string name = std::string{'%', area.letter, type} + std::to_string(index);
           return hex_number(name.size(), 2) + name;
         };
-        const std::string value(2 * type_bytes(type), '7');
+        const std::string value(2 * plc::type_bytes(type), '7');
         EXPECT_EQ(b.ask("01RSS01" + named(elements - 1)).substr(0, 9), "ACK 01RSS")
             << model.name << named(elements - 1);
         EXPECT_EQ(b.ask("01RSS01" + named(elements)), "NAK 01RSS7132")
@@ -485,13 +485,13 @@ TEST(XgtServerStatus, WrongBccOfAnotherStationIsABccError) {
   Bytes bytes = enq("02rSS0104%MW0");
   bytes.back() ^= 1;
   EXPECT_EQ(b.send(bytes), "");
-  EXPECT_EQ(b.server.counters().status, service_status::bcc);
+  EXPECT_EQ(b.server.counters().status, plc::service_status::bcc);
 }
 
 TEST(XgtServerStatus, BccAfterAnUpperCaseCommandIsNoPartOfTheFrame) {
   Bench b;
   EXPECT_EQ(b.send(enq("01RSS0104%MW0") + to_bytes("20")), "ACK 01RSS01020000");
-  EXPECT_EQ(b.server.counters().status, service_status::head);
+  EXPECT_EQ(b.server.counters().status, plc::service_status::head);
 }
 
 // --- Time ---
@@ -584,4 +584,4 @@ TEST(XgtServerFuzz, NearlyRightRequestsAreAnsweredInOneForm) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::xgt_cnet

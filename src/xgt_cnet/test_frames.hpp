@@ -7,7 +7,7 @@
 #include "src/base/bytes.hpp"
 #include "src/line/device.hpp"
 
-namespace fieldproof::test {
+namespace fieldproof::xgt_cnet::test {
 
 /// Header, body, tail and, where the command letter of the body is lower case, BCC.
 inline Bytes framed(char head, std::string_view body, char tail) {
@@ -43,4 +43,4 @@ inline Bytes operator+(Bytes a, const Bytes& b) {
   return a;
 }
 
-}  // namespace fieldproof::test
+}  // namespace fieldproof::xgt_cnet::test

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::broken {
 
 /// `neighbours` of a fault whose case runs by itself.
 constexpr std::string_view alone = "-";
@@ -40,4 +40,4 @@ std::vector<Fault> gather(std::initializer_list<std::vector<Fault> (*)()> parts)
   return all;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::broken

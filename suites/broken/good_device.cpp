@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-namespace fieldproof {
+namespace fieldproof::broken {
 
 Bytes GoodDevice::answer(ByteView frame) {
   now_ += 10s;  // far from the frame before: no gap is judged here
-  device_->receive(Burst{Bytes(frame.begin(), frame.end()), now_, {}});
+  device_->receive(line::Burst{Bytes(frame.begin(), frame.end()), now_, {}});
   Bytes reply;
   while (const std::optional<Time> wake = device_->wake_at()) {
     now_ = std::max(now_, *wake);
@@ -16,4 +16,4 @@ Bytes GoodDevice::answer(ByteView frame) {
   return reply;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::broken

@@ -5,20 +5,20 @@
 
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof {
+namespace fieldproof::broken {
 
 class GoodDevice {
  public:
-  explicit GoodDevice(std::unique_ptr<EmulatedDevice> device) : device_(std::move(device)) {}
+  explicit GoodDevice(std::unique_ptr<plc::EmulatedDevice> device) : device_(std::move(device)) {}
 
   /// What it answers to a frame; empty: silence.
   Bytes answer(ByteView frame);
   /// The back door.
-  EmulatedDevice& memory() const { return *device_; }
+  plc::EmulatedDevice& memory() const { return *device_; }
 
  private:
-  std::unique_ptr<EmulatedDevice> device_;
+  std::unique_ptr<plc::EmulatedDevice> device_;
   Time now_{};
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::broken

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace fieldproof {
+namespace fieldproof::broken {
 
 void SendQueue::put(Sendings sendings, Time from) {
   for (Sending& sending : sendings) {
@@ -33,4 +33,4 @@ Bytes SendQueue::take(Time now) {
   return bytes;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::broken

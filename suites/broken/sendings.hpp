@@ -8,7 +8,7 @@
 #include "src/base/bytes.hpp"
 #include "src/base/time.hpp"
 
-namespace fieldproof {
+namespace fieldproof::broken {
 
 /// Bytes that go out `after` the request. With `every`, again and again.
 struct Sending {
@@ -37,4 +37,4 @@ class SendQueue {
   std::deque<Pending> pending_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::broken

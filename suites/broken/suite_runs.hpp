@@ -19,7 +19,7 @@
 #include "reports/results/ndjson.hpp"
 #include "suites/tool/tool.hpp"
 
-namespace fieldproof {
+namespace fieldproof::broken {
 
 /// One run of the tool.
 struct Trial {
@@ -32,8 +32,8 @@ struct Trial {
 };
 
 struct SuiteRun {
-  Finished tool;
-  std::map<std::string, CaseResult> results;
+  tool_tests::Finished tool;
+  std::map<std::string, results::CaseResult> results;
   double seconds = 0;
 };
 
@@ -52,10 +52,11 @@ inline SuiteRun run_trial(Trial trial, const std::string& folder) {
   std::filesystem::create_directories(folder);
   SuiteRun run;
   // The whole suite under sanitizers on a busy machine.
-  run.tool = Process(tool_arguments(std::move(arguments))).wait(Process::Limit(280));
-  const Result<RunLog> log =
-      read_ndjson(folder + "/results.ndjson",
-                  [&run](const CaseResult& result) { run.results.emplace(result.id, result); });
+  run.tool = tool_tests::Process(tool_tests::tool_arguments(std::move(arguments)))
+                 .wait(tool_tests::Process::Limit(280));
+  const Result<results::RunLog> log = results::read_ndjson(
+      folder + "/results.ndjson",
+      [&run](const results::CaseResult& result) { run.results.emplace(result.id, result); });
   if (!log) run.tool.err += log.error().message;
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
@@ -102,7 +103,7 @@ class SuiteRuns : public testing::Environment {
   }
 
   TrialOf trial_of_;
-  TestFolder folder_;
+  tool_tests::TestFolder folder_;
   std::vector<Trial> queue_;
   std::map<std::string, std::promise<SuiteRun>> runs_;
   std::atomic<std::size_t> next_{0};
@@ -122,9 +123,9 @@ inline std::string neighbours_of(const std::string& id) {
 }
 
 /// The line of the verdict, or a field that it shows as different.
-inline bool names(const CaseResult& result, std::string_view what) {
+inline bool names(const results::CaseResult& result, std::string_view what) {
   if (result.message.find(what) != std::string::npos) return true;
-  return std::ranges::any_of(result.differences, [what](const Difference& one) {
+  return std::ranges::any_of(result.differences, [what](const results::Difference& one) {
     return one.field.find(what) != std::string::npos;
   });
 }
@@ -138,8 +139,8 @@ inline std::string expect_caught(const SuiteRun& run, const std::string& id,
     ADD_FAILURE() << id << " did not run\n" << run.tool.out << run.tool.err;
     return {};
   }
-  const CaseResult& result = found->second;
-  EXPECT_EQ(result.verdict, Verdict::fail) << id << ": " << result.message;
+  const results::CaseResult& result = found->second;
+  EXPECT_EQ(result.verdict, results::Verdict::fail) << id << ": " << result.message;
   EXPECT_TRUE(names(result, message))
       << "the message does not name '" << message << "': " << result.message;
   EXPECT_NE(run.tool.out.find(result.section), std::string::npos)
@@ -152,12 +153,13 @@ inline std::size_t expect_healthy(const SuiteRun& run, std::size_t enough) {
   EXPECT_EQ(run.tool.code, 0) << run.tool.out << run.tool.err;
   std::size_t passed = 0;
   for (const auto& [id, result] : run.results) {
-    passed += result.verdict == Verdict::pass;
-    EXPECT_FALSE(result.verdict == Verdict::fail || result.verdict == Verdict::error)
+    passed += result.verdict == results::Verdict::pass;
+    EXPECT_FALSE(result.verdict == results::Verdict::fail ||
+                 result.verdict == results::Verdict::error)
         << id << ": " << result.message;
   }
   EXPECT_GT(passed, enough);
   return passed;
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::broken

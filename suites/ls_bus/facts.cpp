@@ -10,7 +10,9 @@
 #include "src/ls_bus/codec.hpp"
 #include "src/ls_bus/parameters.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
+
+using ls_bus::LsFault;
 
 namespace {
 
@@ -33,7 +35,7 @@ Status check_parameters(const json& facts) {
     return fail("first and last are parameter addresses of four hex digits");
   if (!facts.contains("write") && !facts.contains("exists"))
     return fail("a fact about parameters says write or exists");
-  const InverterParameters parameters;
+  const ls_bus::InverterParameters parameters;
   for (unsigned address = *first; address <= *last; ++address) {
     const bool exists = parameters.exist(address, 1), write = parameters.writable(address, 1);
     if (exists != facts.value("exists", true))
@@ -55,7 +57,8 @@ Status check_number(const json& facts, const char* key, std::size_t has) {
 Status check_error(const std::string& code) {
   constexpr std::array known{LsFault::frame, LsFault::address, LsFault::data, LsFault::function,
                              LsFault::rights};
-  if (std::ranges::any_of(known, [&](LsFault fault) { return ls_error_code(fault) == code; }))
+  if (std::ranges::any_of(known,
+                          [&](LsFault fault) { return ls_bus::ls_error_code(fault) == code; }))
     return ok();
   return fail(fmt::format("the emulated inverter has no error code '{}'", code));
 }
@@ -73,8 +76,9 @@ Status check_fact(const json& facts) {
     if (const Status right = check_parameters(facts); !right) return right;
   if (facts.contains("error"))
     if (const Status right = check_error(facts.value("error", "")); !right) return right;
-  if (const Status right = check_number(facts, "max_words", ls_max_words); !right) return right;
-  return check_number(facts, "max_frame", ls_max_frame);
+  if (const Status right = check_number(facts, "max_words", ls_bus::ls_max_words); !right)
+    return right;
+  return check_number(facts, "max_frame", ls_bus::ls_max_frame);
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

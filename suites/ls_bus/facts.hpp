@@ -12,9 +12,9 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
 
 /// The error says what the table holds instead.
 Status check_fact(const nlohmann::json& facts);
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

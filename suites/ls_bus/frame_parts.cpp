@@ -8,7 +8,7 @@
 
 #include "src/base/letters.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
 
 namespace {
 
@@ -57,7 +57,7 @@ class Reader {
     content_end_ = end_ == frame.size() || end_ < head_size + sum_size ? end_ : end_ - sum_size;
   }
 
-  std::vector<Field> read() {
+  std::vector<harness::Field> read() {
     if (frame_.empty()) return {};
     const bool headed = is_header(frame_[0]);
     add("header", 1, std::string(header_name(frame_[0])),
@@ -179,7 +179,7 @@ class Reader {
   std::size_t end_ = 0;          // of what stands before EOT
   std::size_t content_end_ = 0;  // of what stands before the sum
   unsigned count_ = 0;
-  std::vector<Field> fields_;
+  std::vector<harness::Field> fields_;
 };
 
 }  // namespace
@@ -219,6 +219,6 @@ std::vector<WriteReading> write_readings(ByteView frame) {
   return readings;
 }
 
-std::vector<Field> explain(ByteView frame) { return Reader(frame).read(); }
+std::vector<harness::Field> explain(ByteView frame) { return Reader(frame).read(); }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

@@ -8,7 +8,7 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
 
 constexpr Byte enq = 0x05, ack = 0x06, nak = 0x15, eot = 0x04;
 
@@ -18,7 +18,7 @@ std::optional<std::size_t> frame_length(ByteView bytes);
 
 /// The parts of a request, ACK or NAK (000 8.2), as far as it can be read. A write is shown with
 /// the address first, unless it adds up with the count first alone; its count then says so.
-std::vector<Field> explain(ByteView frame);
+std::vector<harness::Field> explain(ByteView frame);
 
 /// A write request in one of its two orders.
 struct WriteReading {
@@ -33,4 +33,4 @@ std::vector<WriteReading> write_readings(ByteView frame);
 /// What an error code means (FE IA ID IF WM: inverter manuals); empty for an unknown one.
 std::string_view error_meaning(std::string_view code);
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

@@ -4,7 +4,7 @@
 
 #include "suites/ls_bus/memory_requests.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
 namespace {
 
 using testing::HasSubstr;
@@ -13,7 +13,7 @@ using testing::IsEmpty;
 Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
 std::string part(ByteView frame, std::string_view name) {
-  for (const Field& field : explain(frame))
+  for (const harness::Field& field : explain(frame))
     if (field.name == name)
       return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
   return "absent";
@@ -36,14 +36,15 @@ TEST(LsExplain, NamesEveryPartOfTheManualsExamples) {
   EXPECT_EQ(part(read_ack, "SUM"), "7D");
   EXPECT_THAT(part(write_nak, "error code"), HasSubstr("12"));
   for (const Bytes& frame : {read_request, read_ack, write_count_first, write_nak})
-    for (const Field& field : explain(frame)) EXPECT_THAT(field.problem, IsEmpty()) << field.name;
+    for (const harness::Field& field : explain(frame))
+      EXPECT_THAT(field.problem, IsEmpty()) << field.name;
 }
 
 TEST(LsExplain, FieldsCoverTheFrameWithoutHoles) {
   for (const Bytes& frame : {read_request, read_ack, write_count_first, write_nak,
                              bytes("05 30 31 52 04"), bytes("06 04"), bytes("05")}) {
     std::size_t at = 0;
-    for (const Field& field : explain(frame)) {
+    for (const harness::Field& field : explain(frame)) {
       EXPECT_EQ(field.offset, at) << field.name << " of " << to_hex(frame);
       at += field.size;
     }
@@ -117,7 +118,7 @@ TEST(LsExplain, AnyBytesAreReadWithoutHarm) {
                                         : static_cast<Byte>(state >> 24));
     }
     std::size_t covered = 0;
-    for (const Field& field : explain(frame)) covered += field.size;
+    for (const harness::Field& field : explain(frame)) covered += field.size;
     EXPECT_EQ(covered, frame.size()) << to_hex(frame);
     (void)written_by(frame);
     if (const auto length = frame_length(frame)) {
@@ -141,4 +142,4 @@ TEST(LsFrameLength, EndsAtEotOrAtTheNextHeader) {
 }
 
 }  // namespace
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

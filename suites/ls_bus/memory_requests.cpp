@@ -10,7 +10,9 @@
 #include "src/ls_bus/parameters.hpp"
 #include "suites/ls_bus/frame_parts.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
+
+using harness::Protocol;
 
 namespace {
 
@@ -62,11 +64,11 @@ Result<std::vector<Part>> parts_of(std::string_view address, std::size_t digits)
 std::optional<std::string> refusal(ByteView reply) {
   if (reply.empty()) return "no answer";
   if (reply[0] == nak) {
-    for (const Field& field : explain(reply))
+    for (const harness::Field& field : explain(reply))
       if (field.name == "error code") return "the device answers NAK " + field.text;
     return "the device answers NAK";
   }
-  if (reply[0] != ack) return "the answer is neither ACK nor NAK: " + print_bytes(reply);
+  if (reply[0] != ack) return "the answer is neither ACK nor NAK: " + notation::print_bytes(reply);
   return std::nullopt;
 }
 
@@ -117,7 +119,7 @@ Status write_reply(ByteView reply) {
 Result<std::string> read_reply(ByteView reply) {
   if (const std::optional<std::string> why = refusal(reply)) return fail(*why);
   std::string digits;
-  for (const Field& field : explain(reply))
+  for (const harness::Field& field : explain(reply))
     if (field.name.starts_with("data")) digits += field.text;
   if (digits.empty()) return fail("the answer holds no data");
   return digits;
@@ -132,7 +134,7 @@ std::vector<Protocol::Place> places(const Protocol::Written& written) {
   bool joined = false;
   for (std::uint32_t word = written.first_word; word <= std::min(written.last_word, 0xFFFFu);
        ++word) {
-    const bool fixed = within(read_only, word), known = within(inverter_ranges(), word);
+    const bool fixed = within(read_only, word), known = within(ls_bus::inverter_ranges(), word);
     joined = joined && !fixed && runs.back().declared == known;
     if (joined)
       runs.back().digits += digits_of_a_word;
@@ -175,7 +177,7 @@ std::vector<Protocol::AddressField> address_fields(ByteView frame, bool count_fi
       }
     return {};
   }
-  for (const Field& field : explain(frame)) {
+  for (const harness::Field& field : explain(frame)) {
     if (field.name != "address") continue;
     const std::optional<std::uint32_t> first = value_of(field.text);
     const int words =
@@ -209,4 +211,4 @@ std::vector<Protocol::Written> written_by(ByteView frame, std::optional<bool> or
   return written;
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

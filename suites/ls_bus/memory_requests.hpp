@@ -9,7 +9,7 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
 
 /// The area of all parameters in the write fence, by the value of their address: --allow-write
 /// h1230.
@@ -29,14 +29,15 @@ Result<std::string> read_reply(ByteView reply);
 
 /// Runs of parameters that are not read only; those that the emulated inverter lacks are not
 /// declared.
-std::vector<Protocol::Place> places(const Protocol::Written& written);
-std::optional<Protocol::Written> named(std::string_view address, std::size_t digits);
+std::vector<harness::Protocol::Place> places(const harness::Protocol::Written& written);
+std::optional<harness::Protocol::Written> named(std::string_view address, std::size_t digits);
 std::optional<std::string> moved(std::string_view address, int words);
 /// The address of a request, in one of the two orders of a write (000 8.2.1: count first).
-std::vector<Protocol::AddressField> address_fields(ByteView request, bool count_first);
+std::vector<harness::Protocol::AddressField> address_fields(ByteView request, bool count_first);
 
 /// What a request frame would write: address first, and count first too unless it adds up address
 /// first alone. Of a device that declares its order (true: count first), in that one.
-std::vector<Protocol::Written> written_by(ByteView request, std::optional<bool> order = {});
+std::vector<harness::Protocol::Written> written_by(ByteView request,
+                                                   std::optional<bool> order = {});
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
 namespace {
 
 using testing::ElementsAre;
@@ -16,9 +16,9 @@ Bytes reply(char header, std::string_view body) {
 }
 
 /// "H 4656-4657 1230", one an entry.
-std::vector<std::string> shown(const std::vector<Protocol::Written>& written) {
+std::vector<std::string> shown(const std::vector<harness::Protocol::Written>& written) {
   std::vector<std::string> texts;
-  for (const Protocol::Written& one : written)
+  for (const harness::Protocol::Written& one : written)
     texts.push_back(one.area + ' ' + std::to_string(one.first_word) + '-' +
                     std::to_string(one.last_word) + ' ' + one.address);
   return texts;
@@ -119,7 +119,7 @@ TEST(WrittenBy, ADeclaredOrderIsTheOnlyReading) {
 
 TEST(Places, LeaveOutWhatIsReadOnly) {
   std::string text;
-  for (const Protocol::Place& one : places({"H", 0x0002, 0x0011, ""}))
+  for (const harness::Protocol::Place& one : places({"H", 0x0002, 0x0011, ""}))
     text += one.address + ":" + std::to_string(one.digits) + (one.declared ? " " : "? ");
   EXPECT_EQ(text, "0004:20 0010:8 ");
   EXPECT_FALSE(places({"H", 0x1000, 0x1000, ""}).at(0).declared);
@@ -146,4 +146,4 @@ TEST(Addresses, StandInRequests) {
 }
 
 }  // namespace
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

@@ -4,14 +4,14 @@
 #include "suites/ls_bus/protocol.hpp"
 #include "suites/test_p2p_pair.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
 namespace {
 
 using nlohmann::json;
-using test::get;
-using test::P2pPair;
-using test::result_of;
-using test::set;
+using suites::test::get;
+using suites::test::P2pPair;
+using suites::test::result_of;
+using suites::test::set;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -68,4 +68,4 @@ TEST(LsBusDevices, AreInverterAndClient) {
 }
 
 }  // namespace
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

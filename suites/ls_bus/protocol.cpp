@@ -12,7 +12,9 @@
 #include "suites/ls_bus/frame_parts.hpp"
 #include "suites/ls_bus/memory_requests.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
+
+using harness::Protocol;
 
 namespace {
 
@@ -28,18 +30,19 @@ bool reads_one_word(ByteView request) {
   return frame.size() > count_at && frame[command_at] == 'R' && frame[count_at] == '1';
 }
 
-Result<std::unique_ptr<EmulatedDevice>> make_client(std::string_view model,
-                                                    const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_client(std::string_view model,
+                                                         const nlohmann::json& config) {
   bool address_first = true;
-  ConfigReader reader(config, "the LS Bus client's configuration");
+  plc::ConfigReader reader(config, "the LS Bus client's configuration");
   reader.either("write_order", "address_first", "count_first", address_first);
   if (reader.error()) return *reader.error();
-  const LsWriteOrder order =
-      address_first ? LsWriteOrder::address_first : LsWriteOrder::count_first;
-  return make_p2p_device(
-      model, config,
-      [order](const PortConfig& port) { return make_ls_bus_p2p_driver(order, port.gap()); },
-      {"write_order"});
+  const ls_bus::LsWriteOrder order =
+      address_first ? ls_bus::LsWriteOrder::address_first : ls_bus::LsWriteOrder::count_first;
+  return p2p::make_p2p_device(model, config,
+                              [order](const plc::PortConfig& port) {
+                                return ls_bus::make_ls_bus_p2p_driver(order, port.gap());
+                              },
+                              {"write_order"});
 }
 
 class LsBus : public Protocol {
@@ -53,34 +56,36 @@ class LsBus : public Protocol {
 
   /// In role client the device is the PLC that asks the inverter.
   bool has_model(std::string_view model) const override {
-    return Protocol::has_model(model) || find_plc_model(model);
+    return Protocol::has_model(model) || plc::find_plc_model(model);
   }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
-                                                      const nlohmann::json& config) const override {
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
+      std::string_view model, const nlohmann::json& config) const override {
     if (!has_model(model))
       return fail(fmt::format(
           "cannot make a device '{}': the LS Bus has the inverter, and in role client {}", model,
-          plc_model_names()));
-    if (is_p2p_client(config))
-      return make_client(find_plc_model(model) ? model : plc_models().front().name, config);
-    if (find_plc_model(model))
+          plc::plc_model_names()));
+    if (p2p::is_p2p_client(config))
+      return make_client(plc::find_plc_model(model) ? model : plc::plc_models().front().name,
+                         config);
+    if (plc::find_plc_model(model))
       return fail(
           fmt::format("cannot make {} an LS Bus server: a PLC is its client; set role client, or "
                       "use the inverter",
                       model));
-    return make_inverter(config);
+    return ls_bus::make_inverter(config);
   }
 
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
-    return ls_bus::frame_length(bytes);
+    return frame_length(bytes);
   }
-  std::vector<Field> explain(ByteView frame) const override { return ls_bus::explain(frame); }
-  FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
+  std::vector<harness::Field> explain(ByteView frame) const override { return explain(frame); }
+  plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = !frame.empty() && frame[0] == enq;
-    return request == (client == sent) && faultless(explain(frame)) ? FrameResult::ls_bus
-                                                                    : FrameResult::unknown;
+    return request == (client == sent) && harness::faultless(explain(frame))
+               ? plc::FrameResult::ls_bus
+               : plc::FrameResult::unknown;
   }
 
   /// Parameter 0000, which inverters have for their model: one word, or two where the tested
@@ -97,24 +102,22 @@ class LsBus : public Protocol {
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
                                             std::string_view hex) const override {
-    return ls_bus::write_requests(station_text(station), address, hex, count_first_);
+    return write_requests(station_text(station), address, hex, count_first_);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
                                            std::size_t digits) const override {
-    return ls_bus::read_requests(station_text(station), address, digits);
+    return read_requests(station_text(station), address, digits);
   }
-  Status write_reply(ByteView reply) const override { return ls_bus::write_reply(reply); }
-  Result<std::string> read_reply(ByteView reply) const override {
-    return ls_bus::read_reply(reply);
-  }
+  Status write_reply(ByteView reply) const override { return write_reply(reply); }
+  Result<std::string> read_reply(ByteView reply) const override { return read_reply(reply); }
   std::vector<Written> written_by(ByteView request) const override {
-    return ls_bus::written_by(request, order_);
+    return written_by(request, order_);
   }
 
   Result<std::unique_ptr<Protocol>> configured(std::string_view,
                                                const nlohmann::json& config) const override {
     bool address_first = true;
-    ConfigReader reader(config, "the inverter's configuration");
+    plc::ConfigReader reader(config, "the inverter's configuration");
     reader.either("write_order", "address_first", "count_first", address_first);
     if (reader.error()) return *reader.error();
     const bool declared = config.contains("write_order");
@@ -124,24 +127,20 @@ class LsBus : public Protocol {
   std::string spell(std::string_view, std::uint32_t word) const override {
     return "h" + hex_number(word, 4);
   }
-  std::vector<Place> places(const Written& written) const override {
-    return ls_bus::places(written);
-  }
+  std::vector<Place> places(const Written& written) const override { return places(written); }
   std::optional<Written> named(std::string_view address, std::size_t digits) const override {
-    return ls_bus::named(address, digits);
+    return named(address, digits);
   }
   std::optional<std::string> moved(std::string_view address, int words) const override {
-    return ls_bus::moved(address, words);
+    return moved(address, words);
   }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
-    return reply ? std::vector<AddressField>() : ls_bus::address_fields(frame, count_first_);
+    return reply ? std::vector<AddressField>() : address_fields(frame, count_first_);
   }
   /// A parameter may be the run command: a motor turns.
   std::string_view output_areas() const override { return parameter_area; }
 
-  Status check_fact(const nlohmann::json& facts) const override {
-    return ls_bus::check_fact(facts);
-  }
+  Status check_fact(const nlohmann::json& facts) const override { return check_fact(facts); }
 
  private:
   std::optional<bool> order_;
@@ -155,4 +154,4 @@ const Protocol& protocol() {
   return ls_bus;
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

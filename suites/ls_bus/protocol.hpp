@@ -4,8 +4,8 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_suite {
 
-const Protocol& protocol();
+const harness::Protocol& protocol();
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_suite

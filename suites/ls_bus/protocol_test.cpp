@@ -7,15 +7,13 @@
 
 #include "suites/ls_bus/memory_requests.hpp"
 
-namespace fieldproof {
-
-namespace ls_bus {
+namespace fieldproof::ls_bus_suite {
 namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
 
-Bytes answer_of(EmulatedDevice& device, const Bytes& request) {
+Bytes answer_of(plc::EmulatedDevice& device, const Bytes& request) {
   device.receive({request, 0ms, {}});
   return device.wake_at() ? device.advance(*device.wake_at()) : Bytes{};
 }
@@ -111,13 +109,12 @@ TEST(LsBusFacts, AreCheckedAgainstTheTables) {
 
 TEST(Monitor, KnowsRequestsAndReplies) {
   const Bytes request = protocol().probe(1, {});
-  EXPECT_EQ(protocol().monitor_result(request, true, true), FrameResult::ls_bus);
-  EXPECT_EQ(protocol().monitor_result(request, false, false), FrameResult::ls_bus);
-  EXPECT_EQ(protocol().monitor_result(request, true, false), FrameResult::unknown)
+  EXPECT_EQ(protocol().monitor_result(request, true, true), plc::FrameResult::ls_bus);
+  EXPECT_EQ(protocol().monitor_result(request, false, false), plc::FrameResult::ls_bus);
+  EXPECT_EQ(protocol().monitor_result(request, true, false), plc::FrameResult::unknown)
       << "its own echo";
-  EXPECT_EQ(protocol().monitor_result(to_bytes("01R"), false, false), FrameResult::unknown);
+  EXPECT_EQ(protocol().monitor_result(to_bytes("01R"), false, false), plc::FrameResult::unknown);
 }
 
 }  // namespace
-}  // namespace ls_bus
-}  // namespace fieldproof
+}  // namespace fieldproof::ls_bus_suite

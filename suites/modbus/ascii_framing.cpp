@@ -8,7 +8,9 @@
 #include "suites/modbus/framing.hpp"
 #include "suites/modbus/message.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
+
+using harness::Field;
 
 namespace {
 
@@ -50,7 +52,8 @@ class Ascii : public Framing {
     std::string text = ":";
     for (Byte b : message) text += hex_number(b, 2);
     Bytes frame = to_bytes(text);
-    std::ranges::copy(compute_check(CheckKind::lrc, frame), std::back_inserter(frame));
+    std::ranges::copy(notation::compute_check(notation::CheckKind::lrc, frame),
+                      std::back_inserter(frame));
     frame.insert(frame.end(), {carriage_return, line_feed});
     return frame;
   }
@@ -73,8 +76,8 @@ class Ascii : public Framing {
   std::vector<Field> explain(ByteView frame) const override {
     if (frame.empty()) return {};
     if (frame[0] != start)
-      return {
-          {"foreign bytes", 0, frame.size(), print_bytes(frame), "a frame begins with a colon"}};
+      return {{"foreign bytes", 0, frame.size(), notation::print_bytes(frame),
+               "a frame begins with a colon"}};
     const std::size_t end = end_of_digits(frame);
     const Bytes bytes = decoded(frame, 1, end);
     const std::size_t decoded_end = 1 + bytes.size() * 2;
@@ -86,7 +89,7 @@ class Ascii : public Framing {
       note_lower_case(frame, fields.back());
     }
     if (whole)
-      fields.push_back(check_field(frame, end - check_size));
+      fields.push_back(check_field(frame, end - notation::check_size));
     else
       add_rest(frame, decoded_end, end, fields);
     add_tail(frame, end, fields);
@@ -118,9 +121,10 @@ class Ascii : public Framing {
   }
 
   static Field check_field(ByteView frame, std::size_t at) {
-    const std::string right = to_text(compute_check(CheckKind::lrc, frame.first(at)));
-    const std::string text = to_text(frame.subspan(at, check_size));
-    Field field{"LRC", at, check_size, text, ""};
+    const std::string right =
+        to_text(notation::compute_check(notation::CheckKind::lrc, frame.first(at)));
+    const std::string text = to_text(frame.subspan(at, notation::check_size));
+    Field field{"LRC", at, notation::check_size, text, ""};
     if (upper(text) == right) {
       note_lower_case(frame, field);
       return field;
@@ -138,7 +142,7 @@ class Ascii : public Framing {
     if (at >= end) return;
     const bool odd = end - at == 1 && hex_digit(static_cast<char>(frame[at])) >= 0;
     fields.push_back({odd ? "odd digit" : "not hex", at, end - at,
-                      print_bytes(frame.subspan(at, end - at)),
+                      notation::print_bytes(frame.subspan(at, end - at)),
                       odd ? "an odd number of digits" : "not two hex digits a byte"});
   }
 
@@ -150,8 +154,8 @@ class Ascii : public Framing {
     }
     const ByteView tail = frame.subspan(end);
     const bool right = tail.size() == 2 && tail[0] == carriage_return && tail[1] == line_feed;
-    fields.push_back(
-        {"tail", end, tail.size(), print_bytes(tail), right ? "" : "a frame ends with CR LF"});
+    fields.push_back({"tail", end, tail.size(), notation::print_bytes(tail),
+                      right ? "" : "a frame ends with CR LF"});
   }
 };
 
@@ -162,4 +166,4 @@ const Framing& ascii_framing() {
   return ascii;
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

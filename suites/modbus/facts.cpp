@@ -8,7 +8,7 @@
 #include "src/modbus/pdu.hpp"
 #include "suites/modbus/functions.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
 namespace {
 
@@ -31,14 +31,15 @@ Status compare(const json& facts, const json& row) {
 Status check_function(const json& facts) {
   const std::optional<Bytes> code = from_hex(facts.value("code", ""));
   const FunctionCode* known = code && code->size() == 1 ? find_function(code->front()) : nullptr;
-  const ModbusFunction* emulated = known ? find_modbus_function(known->code) : nullptr;
+  const modbus::ModbusFunction* emulated =
+      known ? modbus::find_modbus_function(known->code) : nullptr;
   if (!emulated)
     return fail(
         fmt::format("no function code '{}'; a code is two hex digits", facts.value("code", "")));
   const json common{{"code", hex_number(known->code, 2)}, {"address", known->address}};
   json row{{"name", emulated->name},
            {"limit", emulated->limit},
-           {"base", modbus_base_names[static_cast<std::size_t>(emulated->base)]}};
+           {"base", modbus::modbus_base_names[static_cast<std::size_t>(emulated->base)]}};
   row.update(common);
   if (const Status agrees = compare(facts, row); !agrees) return agrees;
   json explained{{"name", known->name}, {"limit", known->limit}, {"base", known->base}};
@@ -63,13 +64,14 @@ Status check_exception(const json& facts) {
 }
 
 Status check_default_bases(const json& facts) {
-  const PlcModel* model = find_plc_model(facts.value("model", ""));
+  const plc::PlcModel* model = plc::find_plc_model(facts.value("model", ""));
   if (!model)
-    return fail(
-        fmt::format("no model '{}'; there are {}", facts.value("model", ""), plc_model_names()));
+    return fail(fmt::format("no model '{}'; there are {}", facts.value("model", ""),
+                            plc::plc_model_names()));
   json row{{"model", model->name}};
-  const ModbusBases bases = default_modbus_bases(*model);
-  for (std::size_t i = 0; i < bases.size(); ++i) row[std::string(modbus_base_names[i])] = bases[i];
+  const modbus::ModbusBases bases = modbus::default_modbus_bases(*model);
+  for (std::size_t i = 0; i < bases.size(); ++i)
+    row[std::string(modbus::modbus_base_names[i])] = bases[i];
   return compare(facts, row);
 }
 
@@ -90,4 +92,4 @@ Status check_fact(const json& facts) {
       table));
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

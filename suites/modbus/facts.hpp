@@ -6,9 +6,9 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
 /// `facts.table` names the table; the error says what it holds instead.
 Status check_fact(const nlohmann::json& facts);
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

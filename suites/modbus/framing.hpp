@@ -6,7 +6,7 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
 class Framing {
  public:
@@ -23,7 +23,7 @@ class Framing {
   /// Length of the first complete frame, request or reply. Bytes that begin no frame count as a
   /// piece of their own.
   virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
-  virtual std::vector<Field> explain(ByteView frame) const = 0;
+  virtual std::vector<harness::Field> explain(ByteView frame) const = 0;
   virtual Duration frame_gap(Duration character_time) const = 0;
 
   /// Every message that a device could read in these bytes, whole or damaged: several frames, a
@@ -34,4 +34,4 @@ class Framing {
 const Framing& rtu_framing();
 const Framing& ascii_framing();
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 namespace {
 
 using testing::ElementsAre;
@@ -11,7 +11,7 @@ using testing::HasSubstr;
 Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
 std::string part(const Framing& framing, ByteView frame, std::string_view name) {
-  for (const Field& field : framing.explain(frame))
+  for (const harness::Field& field : framing.explain(frame))
     if (field.name == name)
       return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
   return "absent";
@@ -103,7 +103,7 @@ TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
                                        {&ascii_framing(), to_bytes(ascii_request)},
                                        {&ascii_framing(), to_bytes(":01030G6B")}}) {
     std::size_t at = 0;
-    for (const Field& field : framing->explain(frame)) {
+    for (const harness::Field& field : framing->explain(frame)) {
       EXPECT_EQ(field.offset, at) << field.name;
       at += field.size;
     }
@@ -124,7 +124,7 @@ TEST(Explain, AnyBytesAreReadWithoutHarm) {
     state = state * 1103515245u + 12345u;
     for (const Framing* framing : {&rtu_framing(), &ascii_framing()}) {
       std::size_t covered = 0;
-      for (const Field& field : framing->explain(frame)) covered += field.size;
+      for (const harness::Field& field : framing->explain(frame)) covered += field.size;
       EXPECT_EQ(covered, frame.size()) << to_hex(frame);
       (void)framing->unwrap(frame);
       (void)framing->messages(frame);
@@ -174,4 +174,4 @@ TEST(Messages, FindsEveryRequestThatADeviceCouldRead) {
 }
 
 }  // namespace
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

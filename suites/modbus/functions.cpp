@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
 namespace {
 
@@ -42,4 +42,4 @@ std::string_view exception_meaning(Byte code) {
   return code < exceptions.size() ? exceptions[code] : std::string_view();
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

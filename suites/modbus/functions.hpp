@@ -8,7 +8,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
 struct FunctionCode {
   Byte code = 0;
@@ -34,4 +34,4 @@ inline constexpr std::uint32_t last_data_address = 9998;
 
 inline constexpr Byte exception_bit = 0x80;
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

@@ -10,7 +10,10 @@
 #include "src/plc/config_reader.hpp"
 #include "suites/modbus/functions.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
+
+using harness::Protocol;
+using modbus::ModbusBase;
 
 namespace {
 
@@ -28,10 +31,10 @@ struct Place {
 };
 
 /// The table that `index` of an area lies behind the base of, the writable one first.
-std::optional<ModbusBase> table_of(const Bases& bases, const DeviceAddress& first, bool bits) {
+std::optional<ModbusBase> table_of(const Bases& bases, const plc::DeviceAddress& first, bool bits) {
   using enum ModbusBase;
   for (const ModbusBase base : {bits ? bit_write : word_write, bits ? bit_read : word_read}) {
-    const DeviceAddress& begin = bases.tables[base].first;
+    const plc::DeviceAddress& begin = bases.tables[base].first;
     if (begin.area == first.area && begin.contact == first.contact && begin.index <= first.index)
       return base;
   }
@@ -41,17 +44,17 @@ std::optional<ModbusBase> table_of(const Bases& bases, const DeviceAddress& firs
 Result<Place> place_of(const Bases& bases, std::string_view name) {
   if (name.starts_with('@'))
     return fail(fmt::format("{} is a counter, which no function code reaches", name));
-  const ParsedAddress parsed = parse_address(*bases.model, name);
-  if (!parsed) return fail(fmt::format("cannot reach {}: {}", name, describe(parsed.fault)));
-  DeviceAddress first = parsed.address;
+  const plc::ParsedAddress parsed = plc::parse_address(*bases.model, name);
+  if (!parsed) return fail(fmt::format("cannot reach {}: {}", name, plc::describe(parsed.fault)));
+  plc::DeviceAddress first = parsed.address;
   const bool bits = first.type == 'X' || first.type == 'B';
   const std::uint32_t width = first.type == 'X'   ? 1
                               : first.type == 'B' ? 8
-                                                  : type_bytes(first.type) / 2;
+                                                  : plc::type_bytes(first.type) / 2;
   first.index *= width;
   const std::optional<ModbusBase> base = table_of(bases, first, bits);
   if (!base) return fail(fmt::format("{} lies outside the Modbus bases of the device", name));
-  const ModbusTable& table = bases.tables[*base];
+  const modbus::ModbusTable& table = bases.tables[*base];
   const bool writable = *base == ModbusBase::bit_write || *base == ModbusBase::word_write;
   return Place{bits, writable, table.size, parsed.address.type, first.index - table.first.index,
                width};
@@ -67,7 +70,7 @@ struct Slice {
 /// Cuts `digits` of memory into parts of one request each, of at most `most` elements.
 Result<std::vector<Slice>> parts_of(const Place& place, std::string_view name, std::size_t digits,
                                     std::size_t most) {
-  const std::size_t element = type_bytes(place.type) * 2;
+  const std::size_t element = plc::type_bytes(place.type) * 2;
   if (digits == 0 || digits % element != 0)
     return fail(fmt::format("{} digits are not a whole number of elements of {} ({} digits each)",
                             digits, name, element));
@@ -118,7 +121,7 @@ Bytes words_in_order(const Bytes& values, std::uint32_t width) {
 
 std::optional<std::string> refusal(ByteView message, ByteView reply) {
   if (reply.empty()) return "no answer";
-  if (message.size() < 2) return "the answer is no frame: " + print_bytes(reply);
+  if (message.size() < 2) return "the answer is no frame: " + notation::print_bytes(reply);
   if (!(message[1] & exception_bit)) return std::nullopt;
   const Byte code = message.size() > 2 ? message[2] : Byte{};
   return fmt::format("the device answers exception {:02X} {}", code, exception_meaning(code));
@@ -135,10 +138,11 @@ Protocol::Written memory_at(const Bases& bases, const FunctionCode& function,
                             std::uint32_t data_address, std::uint32_t count) {
   const bool inputs = function.base == "bit_read" || function.base == "word_read";
   using enum ModbusBase;
-  const ModbusTable& table = bases.tables[function.bits ? (inputs ? bit_read : bit_write)
-                                          : inputs      ? word_read
-                                                        : word_write];
-  Protocol::Written memory = memory_of(*bases.model, table.first + data_address, count, "");
+  const modbus::ModbusTable& table = bases.tables[function.bits ? (inputs ? bit_read : bit_write)
+                                                  : inputs      ? word_read
+                                                                : word_write];
+  Protocol::Written memory =
+      harness::memory_of(*bases.model, table.first + data_address, count, "");
   memory.address = memory.contacts ? fmt::format("%{}X{}", memory.area, memory.first_word)
                                    : fmt::format("%{}W{}", memory.area, memory.first_word);
   return memory;
@@ -163,15 +167,17 @@ const Bases& default_bases() {
 }
 
 Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config) {
-  const PlcModel* known = model.empty() ? &plc_models().front() : find_plc_model(model);
+  const plc::PlcModel* known =
+      model.empty() ? &plc::plc_models().front() : plc::find_plc_model(model);
   if (!known)
-    return fail(fmt::format("there is no model '{}'; use one of {}", model, plc_model_names()));
-  ModbusBases bases = default_modbus_bases(*known);
-  ConfigReader reader(config, "the Modbus bases");
+    return fail(
+        fmt::format("there is no model '{}'; use one of {}", model, plc::plc_model_names()));
+  modbus::ModbusBases bases = modbus::default_modbus_bases(*known);
+  plc::ConfigReader reader(config, "the Modbus bases");
   for (std::size_t i = 0; i < bases.size(); ++i)
-    reader.text((std::string(modbus_base_names[i]) + "_base").c_str(), bases[i]);
+    reader.text((std::string(modbus::modbus_base_names[i]) + "_base").c_str(), bases[i]);
   if (reader.error()) return *reader.error();
-  const Result<ModbusTables> tables = place_modbus_tables(*known, bases);
+  const Result<modbus::ModbusTables> tables = modbus::place_modbus_tables(*known, bases);
   if (!tables) return tables.error();
   return Bases{known, *tables};
 }
@@ -184,7 +190,7 @@ Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& b
     return fail(fmt::format(
         "{} is read only with the bases of the device (function codes 02 and 04)", address));
   const std::size_t most =
-      place->type == 'X' ? bytes_at_once * 8 : bytes_at_once / type_bytes(place->type);
+      place->type == 'X' ? bytes_at_once * 8 : bytes_at_once / plc::type_bytes(place->type);
   const Result<std::vector<Slice>> parts = parts_of(*place, address, hex.size(), most);
   if (!parts) return parts.error();
   std::vector<Bytes> requests;
@@ -207,8 +213,8 @@ Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& ba
   const Result<Place> place = place_of(bases, address);
   if (!place) return place.error();
   const bool as_it_stands = place->type == 'B' || place->type == 'W';  // else one element a request
-  const Result<std::vector<Slice>> parts =
-      parts_of(*place, address, digits, as_it_stands ? bytes_at_once / type_bytes(place->type) : 1);
+  const Result<std::vector<Slice>> parts = parts_of(
+      *place, address, digits, as_it_stands ? bytes_at_once / plc::type_bytes(place->type) : 1);
   if (!parts) return parts.error();
   const Byte function = place->bits       ? (place->writable ? 0x01 : 0x02)
                         : place->writable ? 0x03
@@ -266,7 +272,7 @@ std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& b
 
 std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written& written) {
   std::vector<Protocol::Place> result;
-  for (Protocol::Place& place : places_on(*bases.model, written)) {
+  for (Protocol::Place& place : harness::places_on(*bases.model, written)) {
     const bool by_words =
         place_of(bases, place.address) && place_of(bases, place.address)->writable;
     if (by_words || written.contacts || !place.declared) {
@@ -304,4 +310,4 @@ std::optional<Bytes> moved_field(const Framing& framing, ByteView frame,
   return Bytes{static_cast<Byte>(moved >> 8), static_cast<Byte>(moved)};
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

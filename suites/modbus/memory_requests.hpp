@@ -10,12 +10,12 @@
 #include "src/modbus/bases.hpp"
 #include "suites/modbus/framing.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
 /// Which memory of which model the data addresses are.
 struct Bases {
-  const PlcModel* model = nullptr;
-  ModbusTables tables;
+  const plc::PlcModel* model = nullptr;
+  modbus::ModbusTables tables;
 };
 /// Of xbc-h: P0, M0, P0, M0.
 const Bases& default_bases();
@@ -34,17 +34,19 @@ Status write_reply(const Framing& framing, ByteView reply);
 Result<std::string> read_reply(const Framing& framing, ByteView reply);
 
 /// What the messages in a request would write.
-std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases,
-                                          ByteView request);
+std::vector<harness::Protocol::Written> written_by(const Framing& framing, const Bases& bases,
+                                                   ByteView request);
 
 /// Words as names that the writable tables reach: words, else bytes through the table of bits; each
 /// contact by itself.
-std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written& written);
+std::vector<harness::Protocol::Place> places(const Bases& bases,
+                                             const harness::Protocol::Written& written);
 
 /// The data address of a frame, or none: where the message is damaged, or a reply without one.
-std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases,
-                                                   ByteView frame, bool reply);
+std::vector<harness::Protocol::AddressField> address_fields(const Framing& framing,
+                                                            const Bases& bases, ByteView frame,
+                                                            bool reply);
 std::optional<Bytes> moved_field(const Framing& framing, ByteView frame,
-                                 const Protocol::AddressField& field, int words);
+                                 const harness::Protocol::AddressField& field, int words);
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

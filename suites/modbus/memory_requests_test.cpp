@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 namespace {
 
 using testing::HasSubstr;
@@ -84,7 +84,7 @@ std::string written(std::string_view hex) {
   std::string text;
   for (const Framing* framing : {&rtu_framing(), &ascii_framing()}) {
     std::string one;
-    for (const Protocol::Written& range :
+    for (const harness::Protocol::Written& range :
          written_by(*framing, default_bases(), framing->wrap(*from_hex(hex))))
       one += (one.empty() ? "" : " ") + (range.area == "?"
                                              ? "?"
@@ -147,9 +147,9 @@ TEST(DeclaredBases, MistakesAreNamed) {
 }
 
 /// "%MW100:4"
-std::string shown(const std::vector<Protocol::Place>& all) {
+std::string shown(const std::vector<harness::Protocol::Place>& all) {
   std::string text;
-  for (const Protocol::Place& one : all)
+  for (const harness::Protocol::Place& one : all)
     text += (text.empty() ? "" : " ") + one.address + ":" + std::to_string(one.digits) +
             (one.declared ? "" : "?");
   return text;
@@ -198,4 +198,4 @@ TEST(WrittenBy, DamagedRequestsNameNoPlace) {
 }
 
 }  // namespace
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

@@ -5,7 +5,7 @@
 
 #include "suites/modbus/functions.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
 namespace {
 
@@ -174,4 +174,4 @@ bool can_be(ByteView message, bool request) {
   return (both || function.write) && message.size() == lengths.front();
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

@@ -8,7 +8,7 @@
 
 #include "src/base/bytes.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
 /// A named part of a message, in bytes of the message.
 struct Part {
@@ -31,4 +31,4 @@ std::vector<std::size_t> message_lengths(ByteView bytes);
 /// Can a whole message be a request, or else a reply? A single write is both.
 bool can_be(ByteView message, bool request);
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

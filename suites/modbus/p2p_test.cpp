@@ -5,14 +5,14 @@
 #include "suites/modbus/protocol.hpp"
 #include "suites/test_p2p_pair.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 namespace {
 
 using nlohmann::json;
-using test::get;
-using test::P2pPair;
-using test::result_of;
-using test::set;
+using suites::test::get;
+using suites::test::P2pPair;
+using suites::test::result_of;
+using suites::test::set;
 using testing::HasSubstr;
 
 json block(const char* function, const char* type, const char* read, const char* save,
@@ -34,7 +34,7 @@ const json blocks_of_the_example{
 
 json client_of(const json& blocks) { return {{"role", "client"}, {"p2p", {{"blocks", blocks}}}}; }
 
-class ModbusClient : public testing::TestWithParam<const Protocol*> {
+class ModbusClient : public testing::TestWithParam<const harness::Protocol*> {
  protected:
   P2pPair pair(const json& blocks, int station = 1) {
     return P2pPair(*GetParam(), {"xbc-h", client_of(blocks)}, {"xbc-h", {{"station", station}}});
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, ModbusClient, testing::Values(&rtu(), &ascii()),
 
 TEST_P(ModbusClient, DoesWhatTheExampleSays) {
   P2pPair of_example = pair(blocks_of_the_example);
-  EmulatedDevice &client = of_example.client(), &server = of_example.partner();
+  plc::EmulatedDevice &client = of_example.client(), &server = of_example.partner();
   set(client, "%MW100", "1234");
   set(client, "%DW0", "0001000200030004");
   set(client, "%MX0001F", "01");
@@ -107,4 +107,4 @@ TEST(ModbusClientParameters, AreRefusedWithBlockAndKey) {
 }
 
 }  // namespace
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

@@ -15,28 +15,30 @@
 #include "suites/modbus/memory_requests.hpp"
 #include "suites/modbus/message.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
+
+using harness::Protocol;
 
 namespace {
 
 class Modbus : public Protocol {
  public:
-  Modbus(ModbusMode mode, const Framing& framing, Bases bases = default_bases())
+  Modbus(modbus::ModbusMode mode, const Framing& framing, Bases bases = default_bases())
       : mode_(mode), framing_(framing), bases_(std::move(bases)) {}
 
   std::string_view name() const override { return framing_.protocol_name(); }
 
   std::vector<std::string> models() const override {
     std::vector<std::string> names;
-    for (const PlcModel& model : plc_models()) names.emplace_back(model.name);
+    for (const plc::PlcModel& model : plc::plc_models()) names.emplace_back(model.name);
     return names;
   }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
-                                                      const nlohmann::json& config) const override {
-    if (!is_p2p_client(config)) return make_modbus_plc(mode_, model, config);
-    return make_p2p_device(model, config, [mode = mode_](const PortConfig& port) {
-      return make_modbus_p2p_driver(mode, port.gap());
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
+      std::string_view model, const nlohmann::json& config) const override {
+    if (!p2p::is_p2p_client(config)) return modbus::make_modbus_plc(mode_, model, config);
+    return p2p::make_p2p_device(model, config, [mode = mode_](const plc::PortConfig& port) {
+      return modbus::make_modbus_p2p_driver(mode, port.gap());
     });
   }
 
@@ -44,12 +46,14 @@ class Modbus : public Protocol {
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return framing_.frame_length(bytes);
   }
-  std::vector<Field> explain(ByteView frame) const override { return framing_.explain(frame); }
-  FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
+  std::vector<harness::Field> explain(ByteView frame) const override {
+    return framing_.explain(frame);
+  }
+  plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = client == sent;
-    if (!faultless(explain(frame)) || !can_be(framing_.unwrap(frame), request))
-      return FrameResult::unknown;
-    return client ? FrameResult::modbus_client : FrameResult::modbus_server;
+    if (!harness::faultless(explain(frame)) || !can_be(framing_.unwrap(frame), request))
+      return plc::FrameResult::unknown;
+    return client ? plc::FrameResult::modbus_client : plc::FrameResult::modbus_server;
   }
   Duration frame_gap(Duration character_time) const override {
     return framing_.frame_gap(character_time);
@@ -77,18 +81,18 @@ class Modbus : public Protocol {
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
                                             std::string_view hex) const override {
-    return modbus::write_requests(framing_, bases_, station, address, hex);
+    return write_requests(framing_, bases_, station, address, hex);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
                                            std::size_t digits) const override {
-    return modbus::read_requests(framing_, bases_, station, address, digits);
+    return read_requests(framing_, bases_, station, address, digits);
   }
-  Status write_reply(ByteView reply) const override { return modbus::write_reply(framing_, reply); }
+  Status write_reply(ByteView reply) const override { return write_reply(framing_, reply); }
   Result<std::string> read_reply(ByteView reply) const override {
-    return modbus::read_reply(framing_, reply);
+    return read_reply(framing_, reply);
   }
   std::vector<Written> written_by(ByteView request) const override {
-    return modbus::written_by(framing_, bases_, request);
+    return written_by(framing_, bases_, request);
   }
 
   Result<std::unique_ptr<Protocol>> configured(std::string_view model,
@@ -98,37 +102,35 @@ class Modbus : public Protocol {
     return std::unique_ptr<Protocol>(std::make_unique<Modbus>(mode_, framing_, std::move(*bases)));
   }
   std::vector<Place> places(const Written& written) const override {
-    return modbus::places(bases_, written);
+    return places(bases_, written);
   }
   std::optional<Written> named(std::string_view address, std::size_t digits) const override {
-    return named_memory(*bases_.model, address, digits);
+    return harness::named_memory(*bases_.model, address, digits);
   }
   std::optional<std::string> moved(std::string_view address, int words) const override {
-    return moved_name(*bases_.model, address, words);
+    return harness::moved_name(*bases_.model, address, words);
   }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
-    return modbus::address_fields(framing_, bases_, frame, reply);
+    return address_fields(framing_, bases_, frame, reply);
   }
   std::optional<Bytes> moved_field(ByteView frame, const AddressField& field,
                                    int words) const override {
-    return modbus::moved_field(framing_, frame, field, words);
+    return moved_field(framing_, frame, field, words);
   }
   std::uint32_t words_of(std::string_view area) const override {
-    const DeviceArea* found = area.size() == 1 ? bases_.model->area(area[0]) : nullptr;
+    const plc::DeviceArea* found = area.size() == 1 ? bases_.model->area(area[0]) : nullptr;
     return found ? found->words : 0;
   }
 
   std::string_view output_areas() const override { return "PQU"; }
 
   /// What the default base of the holding registers reaches.
-  std::vector<Area> areas() const override { return {{"M", last_words_of('M')}}; }
+  std::vector<Area> areas() const override { return {{"M", plc::last_words_of('M')}}; }
 
-  Status check_fact(const nlohmann::json& facts) const override {
-    return modbus::check_fact(facts);
-  }
+  Status check_fact(const nlohmann::json& facts) const override { return check_fact(facts); }
 
  private:
-  ModbusMode mode_;
+  modbus::ModbusMode mode_;
   const Framing& framing_;
   Bases bases_;
 };
@@ -136,13 +138,13 @@ class Modbus : public Protocol {
 }  // namespace
 
 const Protocol& rtu() {
-  static const Modbus protocol(ModbusMode::rtu, rtu_framing());
+  static const Modbus protocol(modbus::ModbusMode::rtu, rtu_framing());
   return protocol;
 }
 
 const Protocol& ascii() {
-  static const Modbus protocol(ModbusMode::ascii, ascii_framing());
+  static const Modbus protocol(modbus::ModbusMode::ascii, ascii_framing());
   return protocol;
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

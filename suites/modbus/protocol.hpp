@@ -3,9 +3,9 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_suite {
 
-const Protocol& rtu();
-const Protocol& ascii();
+const harness::Protocol& rtu();
+const harness::Protocol& ascii();
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_suite

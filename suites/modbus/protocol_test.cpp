@@ -5,9 +5,7 @@
 
 #include "suites/modbus/framing.hpp"
 
-namespace fieldproof {
-
-namespace modbus {
+namespace fieldproof::modbus_suite {
 namespace {
 
 using nlohmann::json;
@@ -29,7 +27,7 @@ TEST(Protocol, OnlyRtuNeedsSilenceBetweenFrames) {
 }
 
 TEST(Protocol, MakesTheDevicesOfBothModes) {
-  for (const fieldproof::Protocol* protocol : {&rtu(), &ascii()})
+  for (const fieldproof::harness::Protocol* protocol : {&rtu(), &ascii()})
     for (const std::string& model : protocol->models()) {
       const auto device = protocol->make_device(model, json{{"station", 3}});
       ASSERT_TRUE(device) << device.error().message;
@@ -81,10 +79,10 @@ TEST(Monitor, TellsTheSidesApart) {
     EXPECT_EQ(seen(one.message, false, true), one.reply ? modbus_server : unknown) << one.message;
   }
   EXPECT_EQ(rtu().monitor_result(bytes("01 03 00 01 00 01 00 00"), true, true),
-            FrameResult::unknown)
+            plc::FrameResult::unknown)
       << "its CRC is wrong";
   EXPECT_EQ(ascii().monitor_result(to_bytes(":010300010001FA\r\n"), true, true),
-            FrameResult::modbus_client);
+            plc::FrameResult::modbus_client);
 }
 
 TEST(Facts, AreComparedWithTheTables) {
@@ -112,5 +110,4 @@ TEST(Facts, AreComparedWithTheTables) {
 }
 
 }  // namespace
-}  // namespace modbus
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus_suite

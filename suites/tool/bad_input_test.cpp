@@ -9,7 +9,7 @@
 #include "harness/system/pty_pair.hpp"
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using nlohmann::ordered_json;
@@ -277,7 +277,7 @@ class BadDevices : public testing::Test {
 };
 
 TEST_F(BadDevices, port_in_use) {
-  Result<PtyPair> pty = open_pty_pair();
+  Result<os::PtyPair> pty = os::open_pty_pair();
   ASSERT_TRUE(pty) << pty.error().message;
   ASSERT_EQ(::flock(pty->slave.get(), LOCK_EX | LOCK_NB), 0);
   const Finished finished = run("serial:" + pty->path, 1);
@@ -497,4 +497,4 @@ TEST(Report, names_the_damaged_line) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -6,7 +6,7 @@
 
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using testing::HasSubstr;
@@ -222,4 +222,4 @@ TEST(Capture, says_where_it_cannot_be_written) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

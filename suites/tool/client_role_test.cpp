@@ -4,7 +4,7 @@
 
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using nlohmann::json;
@@ -256,4 +256,4 @@ TEST_F(ClientRole, RolesSelectCases) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

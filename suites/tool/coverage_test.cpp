@@ -4,7 +4,7 @@
 #include "reports/testdata/parsed_html.hpp"
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using nlohmann::ordered_json;
@@ -181,4 +181,4 @@ TEST_F(Traceability, errata_have_three_forms) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -10,7 +10,7 @@
 #include "suites/tool/plc_client.hpp"
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using nlohmann::json;
@@ -84,7 +84,7 @@ class SerialLink : public Link {
         std::vector<std::string>{FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
     EXPECT_TRUE(device_->wait_for(folder_ / "device"));
     // Whoever asks later cannot rely on zeros.
-    PlcClient(folder_ / "bench").fill(plc_models().front());
+    PlcClient(folder_ / "bench").fill(plc::plc_models().front());
   }
   std::string endpoint() override { return "serial:" + (folder_ / "bench"); }
 
@@ -247,4 +247,4 @@ TEST(EveryProtocol, is_run_by_default) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -3,7 +3,7 @@
 
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using testing::AllOf;
@@ -68,4 +68,4 @@ TEST_F(FingerprintRuns, WhatNoReadFindsIsRefused) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

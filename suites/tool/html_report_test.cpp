@@ -4,7 +4,7 @@
 #include "reports/testdata/parsed_html.hpp"
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using samples::ParsedHtml;
@@ -73,7 +73,7 @@ TEST_F(HtmlReport, sheet_has_the_hashes_of_what_was_run) {
   EXPECT_EQ(row("profile xbc-h"), sum(FIELDPROOF_SOURCE_DIR "/suites/profiles/xbc-h.json"));
   EXPECT_EQ(row("the log"), sum(folder_ / "out/results.ndjson"));
   const std::string list =
-      "cd " + fieldproof::quoted(vectors_) +
+      "cd " + fieldproof::tool_tests::quoted(vectors_) +
       " && find . -type f -printf '%P\\n' | LC_ALL=C sort | xargs sha256sum | sha256sum";
   EXPECT_EQ(row("vectors"), run_program({"bash", "-c", list}).out.substr(0, 64));
 }
@@ -136,4 +136,4 @@ TEST_F(HtmlReport, wrong_bench_files_are_exit_2) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -3,7 +3,7 @@
 
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using testing::AllOf;
@@ -116,4 +116,4 @@ TEST_F(MergeCommand, NothingIsOverwritten) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -3,7 +3,7 @@
 
 #include "suites/tool/tool.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using testing::HasSubstr;
@@ -44,4 +44,4 @@ TEST(EmulateP2p, ErrorsNameFileAndKey) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

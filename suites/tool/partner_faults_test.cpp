@@ -5,7 +5,7 @@
 #include "harness/exchange/partner.hpp"
 #include "suites/protocols.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 struct Asked {
@@ -19,21 +19,22 @@ void PrintTo(const Asked& asked, std::ostream* out) { *out << asked.protocol; }
 
 class PartnerFaults : public testing::TestWithParam<Asked> {
  protected:
-  Result<Partner::Answer> answer(const std::string& fault) {
-    Partner partner(protocol());
-    PartnerSpec spec{GetParam().model, {{"station", 2}}, {{GetParam().address, "5ABC"}}, fault};
+  Result<exchange::Partner::Answer> answer(const std::string& fault) {
+    exchange::Partner partner(protocol());
+    vectors::PartnerSpec spec{
+        GetParam().model, {{"station", 2}}, {{GetParam().address, "5ABC"}}, fault};
     return partner.answer(spec, request(), 1s);
   }
-  Burst request() {
+  line::Burst request() {
     if (GetParam().request) return {to_bytes(GetParam().request), Time{}, 1ms};
     return {protocol().read_requests(2, GetParam().address, 4)->front(), Time{}, 1ms};
   }
-  const Protocol& protocol() { return *protocols().find(GetParam().protocol); }
+  const harness::Protocol& protocol() { return *suites::protocols().find(GetParam().protocol); }
 
   /// "station=03 BCC!": the station, and the fields that are wrong.
   std::string seen(ByteView frame) {
     std::string text;
-    for (const Field& field : protocol().explain(frame)) {
+    for (const harness::Field& field : protocol().explain(frame)) {
       if (field.name == "station") text += "station=" + field.text;
       if (!field.problem.empty()) text += " " + field.name + "!";
     }
@@ -92,4 +93,4 @@ INSTANTIATE_TEST_SUITE_P(Protocols, PartnerFaults,
                                          Asked{"ls-bus", "inverter", "1230"}));
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -14,7 +14,7 @@
 
 #include "src/plc/model.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 
 class PlcClient {
  public:
@@ -34,8 +34,9 @@ class PlcClient {
 
   /// Every word that may be written gets a value of its own, and every second contact of T and C is
   /// on.
-  void fill(const PlcModel& model) {
-    for_each_block(model, [this](const DeviceArea& area, std::uint32_t first, std::uint32_t count) {
+  void fill(const plc::PlcModel& model) {
+    for_each_block(model, [this](const plc::DeviceArea& area, std::uint32_t first,
+                                 std::uint32_t count) {
       std::string data;
       for (std::uint32_t word = first; word < first + count; ++word)
         data += fmt::format(
@@ -43,7 +44,7 @@ class PlcClient {
       EXPECT_EQ(ask(fmt::format("WSB{}{:02X}{}", name(area, 'W', first), count, data)).substr(0, 1),
                 "\x06");
     });
-    for_each_contact(model, [this](const DeviceArea& area, std::uint32_t contact) {
+    for_each_contact(model, [this](const plc::DeviceArea& area, std::uint32_t contact) {
       EXPECT_EQ(
           ask(fmt::format("WSS01{}{:02X}", name(area, 'X', contact), contact % 2)).substr(0, 1),
           "\x06");
@@ -51,30 +52,31 @@ class PlcClient {
   }
 
   /// All that `fill` writes, as replies by name.
-  std::map<std::string, std::string> read(const PlcModel& model) {
+  std::map<std::string, std::string> read(const plc::PlcModel& model) {
     std::map<std::string, std::string> all;
-    for_each_block(model, [&](const DeviceArea& area, std::uint32_t first, std::uint32_t count) {
+    for_each_block(model, [&](const plc::DeviceArea& area, std::uint32_t first,
+                              std::uint32_t count) {
       all[name(area, 'W', first)] = ask(fmt::format("RSB{}{:02X}", name(area, 'W', first), count));
     });
-    for_each_contact(model, [&](const DeviceArea& area, std::uint32_t contact) {
+    for_each_contact(model, [&](const plc::DeviceArea& area, std::uint32_t contact) {
       all[name(area, 'X', contact)] = ask("RSS01" + name(area, 'X', contact));
     });
     return all;
   }
 
  private:
-  static std::string name(const DeviceArea& area, char type, std::uint32_t number) {
+  static std::string name(const plc::DeviceArea& area, char type, std::uint32_t number) {
     const std::string text = fmt::format("%{}{}{}", area.letter, type, number);
     return fmt::format("{:02X}{}", text.size(), text);
   }
-  static void for_each_block(const PlcModel& model, const auto& visit) {
+  static void for_each_block(const plc::PlcModel& model, const auto& visit) {
     constexpr std::uint32_t most = 60;
-    for (const DeviceArea& area : model.areas)
+    for (const plc::DeviceArea& area : model.areas)
       for (std::uint32_t first = 0; area.write && first < area.words; first += most)
         visit(area, first, std::min(most, area.words - first));
   }
-  static void for_each_contact(const PlcModel& model, const auto& visit) {
-    for (const DeviceArea& area : model.areas)
+  static void for_each_contact(const plc::PlcModel& model, const auto& visit) {
+    for (const plc::DeviceArea& area : model.areas)
       for (std::uint32_t contact = 0; contact < area.contacts; ++contact) visit(area, contact);
   }
 
@@ -100,4 +102,4 @@ class PlcClient {
   int fd_;
 };
 
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

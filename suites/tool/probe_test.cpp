@@ -7,7 +7,7 @@
 
 #include "suites/tool/tool.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using testing::ContainsRegex;
@@ -128,4 +128,4 @@ TEST(Probe, AnInterruptEndsIt) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -3,7 +3,7 @@
 
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 constexpr const char* failing = "xgt_cnet/v/it_fails";
@@ -100,4 +100,4 @@ TEST_F(Replay, of_a_stricter_gate) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

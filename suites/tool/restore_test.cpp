@@ -6,13 +6,13 @@
 #include "suites/tool/plc_client.hpp"
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using testing::HasSubstr;
 using Memory = std::map<std::string, std::string>;
 
-const PlcModel& xbc() { return plc_models().front(); }
+const plc::PlcModel& xbc() { return plc::plc_models().front(); }
 
 class Restore : public testing::Test {
  protected:
@@ -184,4 +184,4 @@ TEST_F(Restore, WhatDoesNotAnswerStaysOpen) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -7,10 +7,10 @@
 #include "harness/endpoints/rfc2217_test_servers.hpp"
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
-using endpoint_tests::Ser2net;
+using endpoints::test::Ser2net;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -54,7 +54,7 @@ class RemotePort : public testing::Test {
   }
 
   TestFolder folder_;
-  UniqueFd told_;
+  os::UniqueFd told_;
   Process socat_;
   std::unique_ptr<Ser2net> server_;
 };
@@ -128,4 +128,4 @@ TEST_F(RemotePort, a_second_user_is_told_of_the_first) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -5,7 +5,7 @@
 
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using testing::AllOf;
@@ -245,4 +245,4 @@ TEST_F(SharedRuns, CtrlCEndsAllPorts) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -4,7 +4,7 @@
 
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using testing::HasSubstr;
@@ -136,4 +136,4 @@ TEST_F(Soak, WrongOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

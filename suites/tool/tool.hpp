@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 
 /// How a program ended. `code` is its exit code, 128 + signal where a signal ended it, -1 where it
 /// missed the deadline.
@@ -261,4 +261,4 @@ class FileWatch {
 /// For a command line of the shell.
 inline std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -11,7 +11,7 @@
 
 #include "suites/tool/tool.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 
 /// A request for one word of M100, and the answer of a device whose memory is zero.
 inline constexpr const char* ask_word = "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]";
@@ -157,4 +157,4 @@ inline void expect_reports(const std::string& out) {
   EXPECT_EQ(junit.children, results.cases.size());
 }
 
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -6,7 +6,7 @@
 #include "reports/testdata/parsed_html.hpp"
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof {
+namespace fieldproof::tool_tests {
 namespace {
 
 using nlohmann::ordered_json;
@@ -278,4 +278,4 @@ TEST(ExitCodes, silence_at_the_start_is_3) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::tool_tests

@@ -7,22 +7,22 @@
 #include "src/udata/modem.hpp"
 #include "src/udata/port.hpp"
 
-namespace fieldproof::udata {
+namespace fieldproof::udata_suite {
 
 namespace {
 
 constexpr std::string_view modem = "modem";
 
-class Udata : public Protocol {
+class Udata : public harness::Protocol {
  public:
   std::string_view name() const override { return "udata"; }
   std::vector<std::string> models() const override {
     return {"xbc-h", "xec-h", std::string(modem)};
   }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
-                                                      const nlohmann::json& config) const override {
-    return model == modem ? make_modem(config) : make_udata_port(model, config);
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
+      std::string_view model, const nlohmann::json& config) const override {
+    return model == modem ? udata::make_modem(config) : udata::make_udata_port(model, config);
   }
 
   /// There is no station in the data; this is how XGT writes one.
@@ -32,10 +32,10 @@ class Udata : public Protocol {
   /// What a case expects is as long as it is; nothing in the bytes ends them.
   std::optional<std::size_t> frame_length(ByteView) const override { return std::nullopt; }
 
-  std::vector<Field> explain(ByteView frame) const override {
+  std::vector<harness::Field> explain(ByteView frame) const override {
     if (frame.empty()) return {};
     return {{"data", 0, frame.size(), to_hex(frame),
-             frame.size() > udata_max ? "more than 1024 bytes" : ""}};
+             frame.size() > udata::udata_max ? "more than 1024 bytes" : ""}};
   }
 
   Bytes probe(int, ByteView) const override { return {}; }
@@ -77,9 +77,9 @@ class Udata : public Protocol {
 
 }  // namespace
 
-const Protocol& protocol() {
+const harness::Protocol& protocol() {
   static const Udata udata;
   return udata;
 }
 
-}  // namespace fieldproof::udata
+}  // namespace fieldproof::udata_suite

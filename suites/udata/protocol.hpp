@@ -4,8 +4,8 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::udata {
+namespace fieldproof::udata_suite {
 
-const Protocol& protocol();
+const harness::Protocol& protocol();
 
-}  // namespace fieldproof::udata
+}  // namespace fieldproof::udata_suite

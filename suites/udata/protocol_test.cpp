@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof::udata {
+namespace fieldproof::udata_suite {
 namespace {
 
 using testing::HasSubstr;
@@ -25,11 +25,12 @@ TEST(UdataProtocol, DataHasNoEndOfItsOwn) {
 }
 
 TEST(UdataProtocol, ShowsTheData) {
-  const std::vector<Field> fields = protocol().explain(to_bytes("OK"));
+  const std::vector<harness::Field> fields = protocol().explain(to_bytes("OK"));
   ASSERT_EQ(fields.size(), 1u);
   EXPECT_EQ(fields[0].text, "4F 4B");
   EXPECT_EQ(fields[0].problem, "");
-  EXPECT_EQ(protocol().monitor_result(to_bytes("OK"), true, false), FrameResult::user_definition);
+  EXPECT_EQ(protocol().monitor_result(to_bytes("OK"), true, false),
+            plc::FrameResult::user_definition);
   EXPECT_EQ(protocol().explain(Bytes(1025, 0x41))[0].problem, "more than 1024 bytes");
 }
 
@@ -39,4 +40,4 @@ TEST(UdataProtocol, WhatIsSentMayWriteAnything) {
 }
 
 }  // namespace
-}  // namespace fieldproof::udata
+}  // namespace fieldproof::udata_suite

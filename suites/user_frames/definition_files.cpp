@@ -13,7 +13,7 @@
 #include "src/base/spelling.hpp"
 #include "src/user_frames/definition.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_suite {
 
 namespace fs = std::filesystem;
 
@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view extension = ".json";
 }  // namespace
 
-fs::path definitions_folder() { return find_data().definitions; }
+fs::path definitions_folder() { return harness::find_data().definitions; }
 
 std::vector<std::string> definition_names(const fs::path& folder) {
   std::vector<std::string> names;
@@ -51,7 +51,8 @@ Result<NamedDefinition> load_definition(std::string_view model, const fs::path& 
         "there are no user-defined frames '{}'; use one of {}, or the path of a .json file{}",
         model, fmt::join(names, ", "), suggestion(model, names)));
   }
-  Result<FrameDefinition> definition = parse_frame_definition(text, path.filename());
+  Result<user_frames::FrameDefinition> definition =
+      user_frames::parse_frame_definition(text, path.filename());
   if (!definition) return definition.error();
   return NamedDefinition{path.stem(), std::move(*definition)};
 }
@@ -64,4 +65,4 @@ std::vector<NamedDefinition> load_definitions(const fs::path& folder) {
   return all;
 }
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_suite

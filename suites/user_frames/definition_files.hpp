@@ -9,11 +9,11 @@
 #include "src/base/result.hpp"
 #include "src/user_frames/frame.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_suite {
 
 struct NamedDefinition {
   std::string name;  // "px7", the model
-  FrameDefinition definition;
+  user_frames::FrameDefinition definition;
 };
 
 /// The folder of the shipped definitions: beside the installed tool's vectors, else in the source
@@ -34,4 +34,4 @@ Result<NamedDefinition> load_definition(std::string_view model,
 /// All shipped definitions that can be read.
 std::vector<NamedDefinition> load_definitions(const std::filesystem::path& folder);
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_suite

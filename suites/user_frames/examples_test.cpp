@@ -3,7 +3,10 @@
 
 #include "suites/tool/tool.hpp"
 
-namespace fieldproof {
+namespace fieldproof::user_frames_suite {
+
+using tool_tests::Finished;
+
 namespace {
 
 using testing::HasSubstr;
@@ -11,20 +14,21 @@ using testing::HasSubstr;
 const std::string examples = FIELDPROOF_SOURCE_DIR "/suites/user_frames/examples/";
 const std::string endpoint = "emulator:" + examples + "balance.json?protocol=user-frames";
 
-Finished run(const TestFolder& folder, const std::string& vectors) {
-  return run_tool({"run", "--endpoint", endpoint, "--vectors", vectors, "--out", folder / "out"});
+Finished run(const tool_tests::TestFolder& folder, const std::string& vectors) {
+  return tool_tests::run_tool(
+      {"run", "--endpoint", endpoint, "--vectors", vectors, "--out", folder / "out"});
 }
 
 TEST(Balance, PassesItsOwnVectors) {
-  const TestFolder folder;
+  const tool_tests::TestFolder folder;
   const Finished tool = run(folder, examples + "balance_vectors.json");
   EXPECT_EQ(tool.code, 0) << tool.out << tool.err;
   EXPECT_THAT(tool.out, HasSubstr("3  PASS"));
 }
 
 TEST(Balance, FailsWhereAVectorSaysOtherwise) {
-  const TestFolder folder;
-  std::string text = read_text(examples + "balance_vectors.json");
+  const tool_tests::TestFolder folder;
+  std::string text = tool_tests::read_text(examples + "balance_vectors.json");
   const std::string held = R"("0250")";
   text.replace(text.find(held), held.size(), R"("0251")");
   const Finished tool = run(folder, folder.write("mine.json", text));
@@ -33,19 +37,19 @@ TEST(Balance, FailsWhereAVectorSaysOtherwise) {
 }
 
 TEST(Balance, AMistakeInTheDefinitionIsNamed) {
-  const TestFolder folder;
-  std::string text = read_text(examples + "balance.json");
+  const tool_tests::TestFolder folder;
+  std::string text = tool_tests::read_text(examples + "balance.json");
   text.replace(text.find("hex_to_ascii"), 12, "hex_to_asci");
   const std::string mine = folder.write("mine.json", text);
   const Finished tool =
-      run_tool({"emulate", mine + "?protocol=user-frames", "--tcp", "127.0.0.1:0"});
+      tool_tests::run_tool({"emulate", mine + "?protocol=user-frames", "--tcp", "127.0.0.1:0"});
   EXPECT_EQ(tool.code, 2) << tool.out;
   EXPECT_THAT(tool.err, HasSubstr("cannot read mine.json: group SAY, frame WEIGHT, body[1]: "
                                   "convert is 'hex_to_asci'; use hex_to_ascii"));
 }
 
 TEST(Frame, NamesTheSegmentsOfAShippedDefinition) {
-  const Finished tool = run_tool(
+  const Finished tool = tool_tests::run_tool(
       {"frame", "--protocol", "user-frames", "02 30 31 44 52 53 2C 30 32 2C 30 30 30 31 0D 0A"});
   EXPECT_EQ(tool.code, 0) << tool.err;
   EXPECT_THAT(tool.out, HasSubstr("start address"));
@@ -53,4 +57,4 @@ TEST(Frame, NamesTheSegmentsOfAShippedDefinition) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::user_frames_suite

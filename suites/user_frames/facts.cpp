@@ -8,7 +8,7 @@
 #include "src/plc/config_reader.hpp"
 #include "src/user_frames/definition.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_suite {
 
 namespace {
 
@@ -18,11 +18,11 @@ constexpr std::string_view what = "a fact";
 
 Status check_limit(const json& facts) {
   constexpr std::array<std::string_view, 2> keys{"limit", "value"};
-  if (const Status known = known_keys(facts, what, keys); !known) return known.error();
+  if (const Status known = plc::known_keys(facts, what, keys); !known) return known.error();
   const std::string limit = facts["limit"].is_string() ? facts["limit"].get<std::string>() : "";
-  const std::size_t held = limit == "frame_bytes"      ? max_frame
-                           : limit == "constant_bytes" ? max_constant
-                           : limit == "variables"      ? max_variables
+  const std::size_t held = limit == "frame_bytes"      ? user_frames::max_frame
+                           : limit == "constant_bytes" ? user_frames::max_constant
+                           : limit == "variables"      ? user_frames::max_variables
                                                        : 0;
   if (held == 0) return fail("a fact has limit frame_bytes, constant_bytes or variables");
   return facts.value("value", json()) == held
@@ -33,9 +33,10 @@ Status check_limit(const json& facts) {
 
 Status check_method(const json& facts) {
   constexpr std::array<std::string_view, 2> keys{"bytes", "check"};
-  if (const Status known = known_keys(facts, what, keys); !known) return known.error();
-  const CheckMethodFacts* method =
-      facts["check"].is_string() ? find_check_method(facts["check"].get<std::string>()) : nullptr;
+  if (const Status known = plc::known_keys(facts, what, keys); !known) return known.error();
+  const user_frames::CheckMethodFacts* method =
+      facts["check"].is_string() ? user_frames::find_check_method(facts["check"].get<std::string>())
+                                 : nullptr;
   if (!method) return fail("there is no check " + facts["check"].dump());
   return facts.value("bytes", json()) == method->bytes
              ? ok()
@@ -45,9 +46,9 @@ Status check_method(const json& facts) {
 
 Status check_definition(const json& facts) {
   constexpr std::array<std::string_view, 2> keys{"definition", "refused"};
-  if (const Status known = known_keys(facts, what, keys); !known) return known.error();
-  const Result<FrameDefinition> definition =
-      parse_frame_definition(facts["definition"].dump(), "definition");
+  if (const Status known = plc::known_keys(facts, what, keys); !known) return known.error();
+  const Result<user_frames::FrameDefinition> definition =
+      user_frames::parse_frame_definition(facts["definition"].dump(), "definition");
   const auto refused = facts.find("refused");
   if (refused == facts.end()) return definition ? ok() : Status(definition.error());
   if (!refused->is_string()) return fail("refused is no text");
@@ -66,4 +67,4 @@ Status check_fact(const json& facts) {
   return fail("a fact about user-defined frames has limit, check or definition");
 }
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_suite

@@ -5,9 +5,9 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_suite {
 
 /// The error says what is held instead.
 Status check_fact(const nlohmann::json& facts);
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_suite

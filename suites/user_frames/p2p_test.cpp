@@ -4,14 +4,14 @@
 #include "suites/test_p2p_pair.hpp"
 #include "suites/user_frames/protocol.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_suite {
 namespace {
 
 using nlohmann::json;
-using test::get;
-using test::P2pPair;
-using test::result_of;
-using test::set;
+using suites::test::get;
+using suites::test::P2pPair;
+using suites::test::result_of;
+using suites::test::set;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -65,4 +65,4 @@ TEST(UserFramePort, TakesItsDefinitionFromTheConfiguration) {
 }
 
 }  // namespace
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_suite

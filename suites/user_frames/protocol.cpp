@@ -16,7 +16,9 @@
 #include "suites/user_frames/facts.hpp"
 #include "suites/user_frames/frame_parts.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_suite {
+
+using harness::Protocol;
 
 namespace {
 
@@ -38,43 +40,47 @@ class UserFrames : public Protocol {
   }
   /// A PLC, where the key `definition` of its configuration names its frames.
   bool has_model(std::string_view model) const override {
-    return is_definition_path(model) || Protocol::has_model(model) || find_plc_model(model);
+    return is_definition_path(model) || Protocol::has_model(model) || plc::find_plc_model(model);
   }
   const Protocol& of_model(std::string_view model) const override {
     return model.empty() ? *this : protocol_of(model);
   }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
-                                                      const nlohmann::json& config) const override;
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
+      std::string_view model, const nlohmann::json& config) const override;
 
   /// Stations are constants of the frames; this is how XGT writes them.
   Bytes station_bytes(int station) const override {
     return to_bytes(hex_number(static_cast<unsigned>(station), 2));
   }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
-    return user_frames::frame_length(definitions_, bytes);
+    return frame_length(definitions_, bytes);
   }
-  std::vector<Field> explain(ByteView frame) const override {
-    return user_frames::explain(definitions_, frame);
+  std::vector<harness::Field> explain(ByteView frame) const override {
+    return explain(definitions_, frame);
   }
 
   /// None after a frame that has the probe's own reply.
   Bytes probe(int, ByteView tested) const override {
-    const FrameDefinition* one = own();
+    const user_frames::FrameDefinition* one = own();
     if (!one || one->probe.empty()) return {};
-    for (const UserFrame& frame : one->frames)
+    for (const user_frames::UserFrame& frame : one->frames)
       if (!frame.sent && frame.answer == one->probe_reply &&
-          match_frame(frame, tested, true).state == FrameMatch::State::complete)
+          user_frames::match_frame(frame, tested, true).state ==
+              user_frames::FrameMatch::State::complete)
         return {};
-    const Result<Bytes> bytes = build_frame(*one->find(one->probe), PlcMemory(*one->plc));
+    const Result<Bytes> bytes =
+        user_frames::build_frame(*one->find(one->probe), plc::PlcMemory(*one->plc));
     return bytes ? *bytes : Bytes{};
   }
 
   bool is_reply_to_probe(ByteView, ByteView reply) const override {
-    const FrameDefinition* one = own();
+    const user_frames::FrameDefinition* one = own();
     if (!one || one->probe.empty()) return false;
-    const FrameMatch match = match_frame(*one->find(one->probe_reply), reply, true);
-    return match.state == FrameMatch::State::complete && match.length() == reply.size();
+    const user_frames::FrameMatch match =
+        user_frames::match_frame(*one->find(one->probe_reply), reply, true);
+    return match.state == user_frames::FrameMatch::State::complete &&
+           match.length() == reply.size();
   }
 
   Result<std::vector<Bytes>> write_requests(int, std::string_view address,
@@ -95,16 +101,16 @@ class UserFrames : public Protocol {
   /// Without the device's definition nobody can tell what a frame does there.
   std::vector<Written> written_by(ByteView request) const override {
     if (!own()) return {{"?", 0, 0, "what its definition says"}};
-    return user_frames::written_by(definitions_.front(), request);
+    return written_by(definitions_.front(), request);
   }
   std::string_view output_areas() const override { return "PQU"; }
-  Status check_fact(const nlohmann::json& facts) const override {
-    return user_frames::check_fact(facts);
-  }
+  Status check_fact(const nlohmann::json& facts) const override { return check_fact(facts); }
 
  private:
   /// Where this is the protocol of one model.
-  const FrameDefinition* own() const { return own_ ? &definitions_.front().definition : nullptr; }
+  const user_frames::FrameDefinition* own() const {
+    return own_ ? &definitions_.front().definition : nullptr;
+  }
 
   std::vector<NamedDefinition> definitions_;
   bool own_ = false;
@@ -121,38 +127,38 @@ Result<const UserFrames*> read_once(std::string_view model) {
 }
 
 /// The blocks of role client, where they can be read; what is wrong with them make_p2p_device says.
-std::vector<P2pBlock> blocks_of(const nlohmann::json& config, const PlcModel& plc) {
+std::vector<p2p::P2pBlock> blocks_of(const nlohmann::json& config, const plc::PlcModel& plc) {
   if (!config.contains("p2p")) return {};
-  const Result<P2pParameters> parameters = parse_p2p_parameters(config["p2p"], plc);
-  return parameters ? parameters->blocks : std::vector<P2pBlock>{};
+  const Result<p2p::P2pParameters> parameters = p2p::parse_p2p_parameters(config["p2p"], plc);
+  return parameters ? parameters->blocks : std::vector<p2p::P2pBlock>{};
 }
 
-Result<std::unique_ptr<EmulatedDevice>> UserFrames::make_device(
+Result<std::unique_ptr<plc::EmulatedDevice>> UserFrames::make_device(
     std::string_view model, const nlohmann::json& config) const {
   std::string name(model);
-  ConfigReader reader(config, "the port's configuration");
+  plc::ConfigReader reader(config, "the port's configuration");
   reader.text("definition", name);
   if (reader.error()) return *reader.error();
-  if (find_plc_model(name))
+  if (plc::find_plc_model(name))
     return fail(fmt::format(
         "cannot make {} send or receive user frames: name them with definition, such as px7",
         name));
   const Result<const UserFrames*> one = read_once(name);
   if (!one) return one.error();
-  const FrameDefinition& definition = *(*one)->own();
-  if (!is_p2p_client(config)) {
+  const user_frames::FrameDefinition& definition = *(*one)->own();
+  if (!p2p::is_p2p_client(config)) {
     nlohmann::json of_port = config;
     of_port.erase("definition");
-    return make_user_frame_device(definition, of_port);
+    return user_frames::make_user_frame_device(definition, of_port);
   }
-  const PlcModel* plc = find_plc_model(model);
+  const plc::PlcModel* plc = plc::find_plc_model(model);
   if (!plc) plc = definition.plc;
-  return make_p2p_device(plc->name, config,
-                         [&](const PortConfig& port) {
-                           return make_user_frame_p2p_driver(definition, blocks_of(config, *plc),
-                                                             port.gap());
-                         },
-                         {"definition"});
+  return p2p::make_p2p_device(plc->name, config,
+                              [&](const plc::PortConfig& port) {
+                                return user_frames::make_user_frame_p2p_driver(
+                                    definition, blocks_of(config, *plc), port.gap());
+                              },
+                              {"definition"});
 }
 
 }  // namespace
@@ -167,4 +173,4 @@ const Protocol& protocol_of(std::string_view model) {
   return one ? **one : protocol();
 }
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_suite

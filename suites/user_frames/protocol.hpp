@@ -4,13 +4,13 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_suite {
 
 /// Knows the frames of all shipped definitions, and has no probe.
-const Protocol& protocol();
+const harness::Protocol& protocol();
 
 /// Knows the frames of one model alone, with its probe and what its frames write; `protocol()`
 /// where it cannot be read.
-const Protocol& protocol_of(std::string_view model);
+const harness::Protocol& protocol_of(std::string_view model);
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_suite

@@ -7,7 +7,10 @@
 
 #include "suites/user_frames/definition_files.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_suite {
+
+using harness::Field;
+
 namespace {
 
 using testing::Contains;
@@ -69,7 +72,7 @@ TEST(UserFramesProtocol, SaysWhatIsWrongWithAFrame) {
   const std::vector<Field> sum =
       protocol().explain(*from_hex("15 30 31 77 53 42 31 31 33 32 03 30 30"));
   EXPECT_EQ(problem_of(sum, "BCC"), "expected '4C' (byte_sum of NAK to ETX)");
-  const Protocol& px7 = protocol_of("px7");
+  const harness::Protocol& px7 = protocol_of("px7");
   EXPECT_EQ(problem_of(px7.explain(to_bytes("\x02"
                                             "01DRS,OK,0016,02")),
                        "rest"),
@@ -95,7 +98,7 @@ TEST(UserFramesProtocol, EveryPartLiesInsideTheFrame) {
 }
 
 TEST(UserFramesProtocol, AFrameEndsWhereItsDefinitionSays) {
-  const Protocol& px7 = protocol_of("px7");
+  const harness::Protocol& px7 = protocol_of("px7");
   EXPECT_EQ(px7.frame_length(drs_request), drs_request.size());
   EXPECT_EQ(px7.frame_length(ByteView(drs_request).first(15)), std::nullopt);
   Bytes both = drs_request;
@@ -104,7 +107,7 @@ TEST(UserFramesProtocol, AFrameEndsWhereItsDefinitionSays) {
 }
 
 TEST(UserFramesProtocol, OneModelHasItsProbe) {
-  const Protocol& controller = protocol_of("px7_controller");
+  const harness::Protocol& controller = protocol_of("px7_controller");
   EXPECT_EQ(controller.probe(1, {}), drs_request);
   EXPECT_TRUE(controller.is_reply_to_probe(drs_request, drs_reply));
   EXPECT_FALSE(controller.is_reply_to_probe(drs_request, drs_request));
@@ -164,4 +167,4 @@ TEST(UserFramesProtocol, FactsAreCheckedAgainstTheTables) {
 }
 
 }  // namespace
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_suite

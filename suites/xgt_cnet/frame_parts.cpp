@@ -8,7 +8,7 @@
 
 #include "src/base/letters.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
 
 namespace {
 
@@ -64,7 +64,7 @@ class Reader {
     tail_ = static_cast<std::size_t>(found - frame.begin());
   }
 
-  std::vector<Field> read() {
+  std::vector<harness::Field> read() {
     if (frame_.empty()) return {};
     field("header", 1, std::string(header_name(frame_[0])),
           is_header(frame_[0]) ? "" : "a frame begins with ENQ, ACK or NAK");
@@ -241,7 +241,7 @@ class Reader {
   ByteView frame_;
   std::size_t pos_ = 0;
   std::size_t tail_ = 0;
-  std::vector<Field> fields_;
+  std::vector<harness::Field> fields_;
 };
 
 }  // namespace
@@ -268,6 +268,6 @@ std::optional<std::size_t> frame_length(ByteView bytes) {
   return tail + 3 <= bytes.size() ? std::optional(tail + 3) : std::nullopt;
 }
 
-std::vector<Field> explain(ByteView frame) { return Reader(frame).read(); }
+std::vector<harness::Field> explain(ByteView frame) { return Reader(frame).read(); }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

@@ -8,16 +8,16 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
 
 /// Length of the first complete frame: header to tail, and two characters of BCC where the main
 /// command is lower case (000 7.1.2). Bytes before a header count as a piece of their own.
 std::optional<std::size_t> frame_length(ByteView bytes);
 
 /// The parts of a request, ACK or NAK (000 7.1.5), as far as it can be read.
-std::vector<Field> explain(ByteView frame);
+std::vector<harness::Field> explain(ByteView frame);
 
 /// What an error code of Appendix 3.1 means; empty for an unknown one.
 std::string_view error_meaning(std::string_view code);
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

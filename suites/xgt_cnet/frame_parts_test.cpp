@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
 namespace {
 
 using testing::HasSubstr;
@@ -10,7 +10,7 @@ using testing::HasSubstr;
 Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
 std::string part(ByteView frame, std::string_view name) {
-  for (const Field& field : explain(frame))
+  for (const harness::Field& field : explain(frame))
     if (field.name == name)
       return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
   return "absent";
@@ -34,7 +34,7 @@ TEST(Explain, NamesEveryPartOfTheManualsExample) {
 TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
   for (const Bytes& frame : {request, reply}) {
     std::size_t at = 0;
-    for (const Field& field : explain(frame)) {
+    for (const harness::Field& field : explain(frame)) {
       EXPECT_EQ(field.offset, at) << field.name;
       at += field.size;
     }
@@ -105,7 +105,7 @@ TEST(Explain, AnyBytesAreReadWithoutHarm) {
                                         : static_cast<Byte>(state >> 24));
     }
     std::size_t covered = 0;
-    for (const Field& field : explain(frame)) covered += field.size;
+    for (const harness::Field& field : explain(frame)) covered += field.size;
     EXPECT_LE(covered, frame.size());
     if (const auto length = frame_length(frame)) {
       EXPECT_GT(*length, 0u);
@@ -140,4 +140,4 @@ TEST(FrameLength, GarbageAndABrokenFrameEndAtTheNextHeader) {
 }
 
 }  // namespace
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

@@ -10,7 +10,10 @@
 #include "harness/notation/notation.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
+
+using harness::Field;
+using harness::Protocol;
 
 namespace {
 
@@ -62,10 +65,11 @@ std::optional<Words> words_of(const Name& name, std::uint32_t count) {
   return Words{*index * bytes / 2, ((*index + count) * bytes - 1) / 2};
 }
 
-Protocol::Written written(const std::string& address, std::uint32_t count, const PlcModel* model) {
+Protocol::Written written(const std::string& address, std::uint32_t count,
+                          const plc::PlcModel* model) {
   if (model && count > 0)
-    if (const ParsedAddress parsed = parse_address(*model, address))
-      return memory_of(*model, parsed.address, count, address);
+    if (const plc::ParsedAddress parsed = plc::parse_address(*model, address))
+      return harness::memory_of(*model, parsed.address, count, address);
   const std::optional<Name> name = read_name(address);
   const std::optional<Words> words = name ? words_of(*name, count) : std::nullopt;
   if (!words)
@@ -130,7 +134,7 @@ std::optional<std::string> refusal(ByteView reply) {
       if (field.name == "error code") return "the device answers NAK " + field.text;
     return "the device answers NAK";
   }
-  if (reply[0] != 0x06) return "the answer is neither ACK nor NAK: " + print_bytes(reply);
+  if (reply[0] != 0x06) return "the answer is neither ACK nor NAK: " + notation::print_bytes(reply);
   return std::nullopt;
 }
 
@@ -204,7 +208,7 @@ std::uint32_t elements_a_name(const std::vector<Field>& fields) {
 
 }  // namespace
 
-std::vector<Protocol::Written> written_by(ByteView frame, const PlcModel* model) {
+std::vector<Protocol::Written> written_by(ByteView frame, const plc::PlcModel* model) {
   if (frame.size() < 4 || frame[0] != 0x05 || std::toupper(frame[3]) != 'W') return {};
   std::vector<Protocol::Written> result;
   const std::vector<Field> fields = explain(frame);
@@ -215,18 +219,19 @@ std::vector<Protocol::Written> written_by(ByteView frame, const PlcModel* model)
   return result;
 }
 
-std::vector<Protocol::AddressField> address_fields(ByteView request, const PlcModel& model) {
+std::vector<Protocol::AddressField> address_fields(ByteView request, const plc::PlcModel& model) {
   std::vector<Protocol::AddressField> result;
   const std::vector<Field> fields = explain(request);
   const std::uint32_t count = elements_a_name(fields);
   for (const Field& field : fields) {
-    const ParsedAddress parsed =
-        is_name(field) ? parse_address(model, field.text) : ParsedAddress{AddressFault::form, {}};
+    const plc::ParsedAddress parsed = is_name(field)
+                                          ? plc::parse_address(model, field.text)
+                                          : plc::ParsedAddress{plc::AddressFault::form, {}};
     if (parsed)
       result.push_back(
-          {field.offset, field.size, memory_of(model, parsed.address, count, field.text)});
+          {field.offset, field.size, harness::memory_of(model, parsed.address, count, field.text)});
   }
   return result;
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

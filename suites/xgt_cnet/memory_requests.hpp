@@ -9,7 +9,7 @@
 #include "harness/protocol.hpp"
 #include "src/plc/model.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
 
 /// WSS for one element, WSB (at most 60 words each, 000 7.1.5 (4)) for more. F and N are read only
 /// (000 7.1.4).
@@ -23,9 +23,11 @@ Result<std::string> read_reply(ByteView reply);
 
 /// What a request frame would write. Without a model device names are read leniently: what a name
 /// could touch on any model counts as touched.
-std::vector<Protocol::Written> written_by(ByteView request, const PlcModel* model = nullptr);
+std::vector<harness::Protocol::Written> written_by(ByteView request,
+                                                   const plc::PlcModel* model = nullptr);
 
 /// The names in a request, as far as the model has them.
-std::vector<Protocol::AddressField> address_fields(ByteView request, const PlcModel& model);
+std::vector<harness::Protocol::AddressField> address_fields(ByteView request,
+                                                            const plc::PlcModel& model);
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

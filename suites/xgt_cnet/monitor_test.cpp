@@ -9,24 +9,25 @@
 #include "src/line/faults.hpp"
 #include "suites/xgt_cnet/protocol.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
 namespace {
 
 using nlohmann::json;
 
 constexpr Duration character = 1041667ns;  // 9600-8N1
 
-std::unique_ptr<EmulatedDevice> make(const json& config, const FrameMonitor::Record& record = {}) {
-  auto made = make_monitored_device(protocol(), "xbc-h", config, record);
+std::unique_ptr<plc::EmulatedDevice> make(const json& config,
+                                          const plc::FrameMonitor::Record& record = {}) {
+  auto made = harness::make_monitored_device(protocol(), "xbc-h", config, record);
   if (!made) throw std::runtime_error(made.error().message);
   return std::move(*made);
 }
 
 /// Two devices on a full duplex line, until nothing happens before `until`.
-void connect(Device& a, Device& b, Time until) {
+void connect(line::Device& a, line::Device& b, Time until) {
   for (;;) {
-    Device* next = nullptr;
-    for (Device* one : {&a, &b})
+    line::Device* next = nullptr;
+    for (line::Device* one : {&a, &b})
       if (one->wake_at() && (!next || *one->wake_at() < *next->wake_at())) next = one;
     if (!next || *next->wake_at() > until) return;
     const Time now = *next->wake_at();
@@ -36,20 +37,21 @@ void connect(Device& a, Device& b, Time until) {
 }
 
 /// What a client that reads one word monitors, where its partner's line has these faults.
-std::vector<std::string> monitored(const LineFaults& faults, json partner = {{"station", 1}}) {
+std::vector<std::string> monitored(const line::LineFaults& faults,
+                                   json partner = {{"station", 1}}) {
   std::vector<std::string> seen;
-  const auto client =
-      make({{"station", 0},
-            {"role", "client"},
-            {"p2p",
-             {{"blocks",
-               {{{"flag", "%MX00000"}, {"read", "%MW0"}, {"save", "%MW200"}, {"station", 1}}}}}}},
-           [&](const MonitoredFrame& frame) {
-             seen.push_back((frame.sent ? "Transmission " : "Reception ") +
-                            std::string(to_string(frame.result)) + ' ' + ascii_view(frame));
-           });
+  const auto client = make(
+      {{"station", 0},
+       {"role", "client"},
+       {"p2p",
+        {{"blocks",
+          {{{"flag", "%MX00000"}, {"read", "%MW0"}, {"save", "%MW200"}, {"station", 1}}}}}}},
+      [&](const plc::MonitoredFrame& frame) {
+        seen.push_back((frame.sent ? "Transmission " : "Reception ") +
+                       std::string(plc::to_string(frame.result)) + ' ' + plc::ascii_view(frame));
+      });
   const auto server = make(partner);
-  FaultyDevice line(*server, faults, character);
+  line::FaultyDevice line(*server, faults, character);
   connect(*client, line, 10ms);
   if (!client->set("%MX00000", "01")) throw std::runtime_error("no flag");
   connect(*client, line, 2s);
@@ -63,7 +65,7 @@ TEST(XgtMonitor, ShowsRequestAndReply) {
 }
 
 TEST(XgtMonitor, TheEchoOfAClientIsUnknown) {
-  LineFaults wired_as_485;
+  line::LineFaults wired_as_485;
   wired_as_485.echo = true;
   EXPECT_EQ(monitored(wired_as_485),
             (std::vector<std::string>{"Transmission XGT client [ENQ]01rSS0104%MW0[EOT]40",
@@ -72,7 +74,7 @@ TEST(XgtMonitor, TheEchoOfAClientIsUnknown) {
 }
 
 TEST(XgtMonitor, ADamagedReplyIsUnknown) {
-  LineFaults faults;
+  line::LineFaults faults;
   faults.reply.flip = 5;
   EXPECT_EQ(monitored(faults).back(), "Reception Unknown [ACK]01rSR01020000[ETX]05");
 }
@@ -95,4 +97,4 @@ TEST(XgtMonitor, AServerKnowsRequests) {
 }
 
 }  // namespace
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

@@ -9,7 +9,9 @@
 #include "src/p2p/registers.hpp"
 #include "src/plc/config_reader.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
+
+using plc::DeviceAddress;
 
 namespace {
 
@@ -40,7 +42,7 @@ std::string normal(std::string text) {
   return without_zeros(text.substr(0, to)) + '~' + without_zeros(last);
 }
 
-std::string printed(const PlcModel& model, const Place& place) {
+std::string printed(const plc::PlcModel& model, const Place& place) {
   const char area = model.areas[place.first.area].letter;
   const std::uint32_t words = place.first.type == 'D' ? 2 : 1;
   if (!model.iec) {
@@ -67,9 +69,9 @@ DeviceAddress word_of(DeviceAddress address) {
   return address;
 }
 
-std::optional<Place> flag_place(const PlcModel& model, std::string_view name, unsigned parameter,
-                                unsigned block, unsigned last_block) {
-  const P2pResultFlags flags = p2p_result_flags(model, parameter, block);
+std::optional<Place> flag_place(const plc::PlcModel& model, std::string_view name,
+                                unsigned parameter, unsigned block, unsigned last_block) {
+  const p2p::P2pResultFlags flags = p2p::p2p_result_flags(model, parameter, block);
   const auto one = [](const DeviceAddress& a) { return Place{a, a}; };
   if (name == "ndr") return one(flags.ndr);
   if (name == "err") return one(flags.err);
@@ -78,18 +80,19 @@ std::optional<Place> flag_place(const PlcModel& model, std::string_view name, un
   if (name == "errors") return one(flags.errors);
   if (name != "all") return std::nullopt;
   return Place{word_of(flags.ndr),
-               word_of(p2p_result_flags(model, parameter, last_block).errors) + 1};
+               word_of(p2p::p2p_result_flags(model, parameter, last_block).errors) + 1};
 }
 
-std::optional<Place> register_place(const PlcModel& model, std::string_view name,
+std::optional<Place> register_place(const plc::PlcModel& model, std::string_view name,
                                     unsigned parameter, unsigned block, unsigned last_block) {
-  const P2pRegisters registers = p2p_registers(model, parameter, block);
+  const p2p::P2pRegisters registers = p2p::p2p_registers(model, parameter, block);
   if (name == "station") return Place{registers.station, registers.station};
   if (name == "all")
-    return Place{registers.station, p2p_registers(model, parameter, last_block).save.back().size};
+    return Place{registers.station,
+                 p2p::p2p_registers(model, parameter, last_block).save.back().size};
   for (const auto& [which, areas] : {std::pair{"read", &registers.read}, {"save", &registers.save}})
     for (std::size_t i = 0; i < areas->size(); ++i) {
-      const P2pRegisters::Area& area = (*areas)[i];
+      const p2p::P2pRegisters::Area& area = (*areas)[i];
       if (name == fmt::format("{} {}", which, i + 1))
         return Place{area.name, word_before(area.size)};
       if (name == fmt::format("{} {} size", which, i + 1)) return Place{area.size, area.size};
@@ -100,15 +103,15 @@ std::optional<Place> register_place(const PlcModel& model, std::string_view name
 }  // namespace
 
 Status check_p2p_fact(const json& facts) {
-  if (const Status known = known_keys(facts, "a fact of the P2P service", keys); !known)
+  if (const Status known = plc::known_keys(facts, "a fact of the P2P service", keys); !known)
     return known;
   unsigned parameter = 1, block = 0;
   std::string flag, registers;
-  ConfigReader reader(facts, "a fact of the P2P service");
-  reader.whole("p2p", p2p_parameters, parameter);
-  reader.whole("block", p2p_blocks - 1, block);
+  plc::ConfigReader reader(facts, "a fact of the P2P service");
+  reader.whole("p2p", p2p::p2p_parameters, parameter);
+  reader.whole("block", p2p::p2p_blocks - 1, block);
   unsigned last_block = block;
-  reader.whole("last_block", p2p_blocks - 1, last_block);
+  reader.whole("last_block", p2p::p2p_blocks - 1, last_block);
   reader.text("flag", flag);
   reader.text("register", registers);
   if (reader.error()) return *reader.error();
@@ -118,7 +121,7 @@ Status check_p2p_fact(const json& facts) {
         "a fact of the P2P service has p2p (1 to 3), block, flag or register, and mk or iec");
   for (const auto& [key, name] : {std::pair{"mk", "xbc-h"}, {"iec", "xec-h"}}) {
     if (!facts.contains(key)) continue;
-    const PlcModel& model = *find_plc_model(name);
+    const plc::PlcModel& model = *plc::find_plc_model(name);
     const std::optional<Place> place =
         flag.empty() ? register_place(model, registers, parameter, block, last_block)
                      : flag_place(model, flag, parameter, block, last_block);
@@ -133,4 +136,4 @@ Status check_p2p_fact(const json& facts) {
   return ok();
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

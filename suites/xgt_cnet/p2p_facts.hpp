@@ -14,8 +14,8 @@
 
 #include "src/base/result.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
 
 Status check_p2p_fact(const nlohmann::json& facts);
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

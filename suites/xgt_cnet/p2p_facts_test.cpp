@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
 namespace {
 
 using nlohmann::json;
@@ -61,4 +61,4 @@ TEST(P2pFacts, WhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

@@ -13,13 +13,15 @@
 #include "suites/xgt_cnet/memory_requests.hpp"
 #include "suites/xgt_cnet/p2p_facts.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
+
+using plc::PlcModel;
 
 namespace {
 
 std::string station_text(int station) { return hex_number(static_cast<unsigned>(station), 2); }
 
-class XgtCnet : public Protocol {
+class XgtCnet : public harness::Protocol {
  public:
   /// nullptr: of no model in particular.
   explicit XgtCnet(const PlcModel* model = nullptr) : model_(model) {}
@@ -28,38 +30,40 @@ class XgtCnet : public Protocol {
 
   std::vector<std::string> models() const override {
     std::vector<std::string> names;
-    for (const PlcModel& model : plc_models()) names.emplace_back(model.name);
+    for (const PlcModel& model : plc::plc_models()) names.emplace_back(model.name);
     return names;
   }
 
-  Result<std::unique_ptr<EmulatedDevice>> make_device(std::string_view model,
-                                                      const nlohmann::json& config) const override {
-    if (is_p2p_client(config)) {
-      Result<std::unique_ptr<P2pPlc>> client = make_p2p_plc(
-          model, config,
-          [](const PortConfig& port) { return std::make_unique<XgtP2pDriver>(port.gap()); });
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
+      std::string_view model, const nlohmann::json& config) const override {
+    if (p2p::is_p2p_client(config)) {
+      Result<std::unique_ptr<p2p::P2pPlc>> client =
+          p2p::make_p2p_plc(model, config, [](const plc::PortConfig& port) {
+            return std::make_unique<xgt_cnet::XgtP2pDriver>(port.gap());
+          });
       if (!client) return client.error();
-      return std::unique_ptr<EmulatedDevice>(std::move(*client));
+      return std::unique_ptr<plc::EmulatedDevice>(std::move(*client));
     }
-    Result<PortConfig> parsed = parse_plc_config(model, config);
+    Result<plc::PortConfig> parsed = xgt_cnet::parse_plc_config(model, config);
     if (!parsed) return parsed.error();
-    Result<std::unique_ptr<Plc>> plc = make_plc(*parsed);
+    Result<std::unique_ptr<xgt_cnet::Plc>> plc = xgt_cnet::make_plc(*parsed);
     if (!plc) return plc.error();
-    return std::unique_ptr<EmulatedDevice>(std::move(*plc));
+    return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));
   }
 
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
-    return xgt_cnet::frame_length(bytes);
+    return frame_length(bytes);
   }
-  std::vector<Field> explain(ByteView frame) const override { return xgt_cnet::explain(frame); }
+  std::vector<harness::Field> explain(ByteView frame) const override { return explain(frame); }
 
   /// Requests go from the client to the server.
-  FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
+  plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     constexpr Byte enq = 0x05;
     const bool request = !frame.empty() && frame[0] == enq;
-    if (request != (client == sent) || !faultless(explain(frame))) return FrameResult::unknown;
-    return client ? FrameResult::xgt_client : FrameResult::xgt_server;
+    if (request != (client == sent) || !harness::faultless(explain(frame)))
+      return plc::FrameResult::unknown;
+    return client ? plc::FrameResult::xgt_client : plc::FrameResult::xgt_server;
   }
 
   /// The first word of M, which every model has, in the other case than the tested command: the
@@ -84,38 +88,37 @@ class XgtCnet : public Protocol {
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
                                             std::string_view hex) const override {
-    return xgt_cnet::write_requests(station_text(station), address, hex);
+    return write_requests(station_text(station), address, hex);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
                                            std::size_t digits) const override {
-    return xgt_cnet::read_requests(station_text(station), address, digits);
+    return read_requests(station_text(station), address, digits);
   }
-  Status write_reply(ByteView reply) const override { return xgt_cnet::write_reply(reply); }
-  Result<std::string> read_reply(ByteView reply) const override {
-    return xgt_cnet::read_reply(reply);
-  }
+  Status write_reply(ByteView reply) const override { return write_reply(reply); }
+  Result<std::string> read_reply(ByteView reply) const override { return read_reply(reply); }
   std::vector<Written> written_by(ByteView request) const override {
-    return xgt_cnet::written_by(request, model_);
+    return written_by(request, model_);
   }
 
-  Result<std::unique_ptr<Protocol>> configured(std::string_view model,
-                                               const nlohmann::json&) const override {
-    return std::unique_ptr<Protocol>(std::make_unique<XgtCnet>(find_plc_model(model)));
+  Result<std::unique_ptr<harness::Protocol>> configured(std::string_view model,
+                                                        const nlohmann::json&) const override {
+    return std::unique_ptr<harness::Protocol>(
+        std::make_unique<XgtCnet>(plc::find_plc_model(model)));
   }
   std::vector<Place> places(const Written& written) const override {
-    return places_on(model(), written);
+    return harness::places_on(model(), written);
   }
   std::optional<Written> named(std::string_view address, std::size_t digits) const override {
-    return named_memory(model(), address, digits);
+    return harness::named_memory(model(), address, digits);
   }
   std::optional<std::string> moved(std::string_view address, int words) const override {
-    return moved_name(model(), address, words);
+    return harness::moved_name(model(), address, words);
   }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
-    return reply ? std::vector<AddressField>() : xgt_cnet::address_fields(frame, model());
+    return reply ? std::vector<AddressField>() : address_fields(frame, model());
   }
   std::uint32_t words_of(std::string_view area) const override {
-    const DeviceArea* found = area.size() == 1 ? model().area(area[0]) : nullptr;
+    const plc::DeviceArea* found = area.size() == 1 ? model().area(area[0]) : nullptr;
     return found ? found->words : 0;
   }
   std::string_view output_areas() const override { return "PQU"; }
@@ -123,18 +126,18 @@ class XgtCnet : public Protocol {
   std::vector<Area> areas() const override {
     std::vector<Area> areas;
     for (char letter = 'A'; letter <= 'Z'; ++letter)
-      if (std::vector<std::uint32_t> ends = last_words_of(letter); !ends.empty())
+      if (std::vector<std::uint32_t> ends = plc::last_words_of(letter); !ends.empty())
         areas.push_back({std::string(1, letter), std::move(ends)});
     return areas;
   }
 
   Status check_fact(const nlohmann::json& facts) const override {
     if (facts.contains("p2p")) return check_p2p_fact(facts);
-    const PlcModel* model = find_plc_model(facts.value("model", ""));
+    const PlcModel* model = plc::find_plc_model(facts.value("model", ""));
     const std::string letter = facts.value("area", "");
     if (!model || letter.size() != 1)
-      return fail("a fact has model (" + plc_model_names() + ") and area (one letter)");
-    const DeviceArea* area = model->area(letter[0]);
+      return fail("a fact has model (" + plc::plc_model_names() + ") and area (one letter)");
+    const plc::DeviceArea* area = model->area(letter[0]);
     const std::uint32_t words = area ? area->words : 0;
     if (const std::uint32_t due = facts.value("words", words); due != words)
       return fail(fmt::format("{} of {}: the table has {} words, the manual {}", letter,
@@ -149,16 +152,16 @@ class XgtCnet : public Protocol {
   }
 
  private:
-  const PlcModel& model() const { return model_ ? *model_ : plc_models().front(); }
+  const PlcModel& model() const { return model_ ? *model_ : plc::plc_models().front(); }
 
   const PlcModel* model_;
 };
 
 }  // namespace
 
-const Protocol& protocol() {
+const harness::Protocol& protocol() {
   static const XgtCnet xgt_cnet;
   return xgt_cnet;
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

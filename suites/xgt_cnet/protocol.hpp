@@ -3,8 +3,8 @@
 
 #include "harness/protocol.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_suite {
 
-const Protocol& protocol();
+const harness::Protocol& protocol();
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_suite

@@ -2,7 +2,7 @@
 // writes.
 #include "suites/ls_bus/broken/faults.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 namespace {
 
@@ -80,4 +80,4 @@ const std::vector<Fault>& back_door_faults() {
   return table;
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

@@ -6,16 +6,16 @@
 #include "src/ls_bus/inverter.hpp"
 #include "suites/ls_bus/broken/faults.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 namespace {
 
-class BrokenInverter : public EmulatedDevice {
+class BrokenInverter : public plc::EmulatedDevice {
  public:
   BrokenInverter(Behaviour behaviour, GoodInverter inverter)
       : behaviour_(std::move(behaviour)), inverter_(std::move(inverter)) {}
 
-  void receive(const Burst& burst) override {
+  void receive(const line::Burst& burst) override {
     Bytes heard = burst.bytes;
     if (behaviour_.hear) behaviour_.hear(heard);
     bool together = false;
@@ -23,7 +23,7 @@ class BrokenInverter : public EmulatedDevice {
       if (!receiver_.take(b)) continue;
       const Bytes frame(receiver_.frame().begin(), receiver_.frame().end());
       pending_.put(behaviour_.answer ? behaviour_.answer(frame, together, inverter_)
-                                     : Sendings{{inverter_.answer(frame)}},
+                                     : broken::Sendings{{inverter_.answer(frame)}},
                    burst.end());
       together = true;
     }
@@ -48,8 +48,8 @@ class BrokenInverter : public EmulatedDevice {
  private:
   Behaviour behaviour_;
   GoodInverter inverter_;
-  LsReceiver receiver_;
-  SendQueue pending_;
+  ls_bus::LsReceiver receiver_;
+  broken::SendQueue pending_;
 };
 
 Error unknown(std::string_view fault) {
@@ -63,15 +63,15 @@ Error unknown(std::string_view fault) {
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_inverter(std::string_view fault,
-                                                             const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_inverter(std::string_view fault,
+                                                                  const nlohmann::json& config) {
   const Fault* known = find_fault(fault);
   if (!known && fault != "none") return unknown(fault);
-  const Result<InverterConfig> parsed = parse_inverter_config(config);
+  const Result<ls_bus::InverterConfig> parsed = ls_bus::parse_inverter_config(config);
   if (!parsed) return parsed.error();
-  GoodInverter good(std::make_unique<Inverter>(*parsed), parsed->station);
-  return std::unique_ptr<EmulatedDevice>(
+  GoodInverter good(std::make_unique<ls_bus::Inverter>(*parsed), parsed->station);
+  return std::unique_ptr<plc::EmulatedDevice>(
       std::make_unique<BrokenInverter>(known ? known->make() : Behaviour{}, std::move(good)));
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

@@ -7,11 +7,11 @@
 
 #include "src/plc/emulated_device.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 /// An inverter with the fault of that name, or without ("none"). `config` as of make_inverter.
 /// Errors name the fault or the key.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_inverter(std::string_view fault,
-                                                             const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_inverter(std::string_view fault,
+                                                                  const nlohmann::json& config);
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

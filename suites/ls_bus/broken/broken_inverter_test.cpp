@@ -14,7 +14,7 @@
 #include "suites/ls_bus/broken/faults.hpp"
 #include "suites/ls_bus/protocol.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
@@ -34,66 +34,68 @@ std::string vectors_of(const Fault& fault) {
 }
 
 std::string device(std::string_view fault, unsigned station) {
-  return fmt::format("{} {} {{tty}} {}?station={}&protocol=ls-bus", quoted(BROKEN_SERVER), fault,
-                     station, station);
+  return fmt::format("{} {} {{tty}} {}?station={}&protocol=ls-bus",
+                     tool_tests::quoted(BROKEN_SERVER), fault, station, station);
 }
 
-std::optional<Trial> trial_of(const std::string& test) {
+std::optional<broken::Trial> trial_of(const std::string& test) {
   if (test == "PassesTheWholeSuite")
-    return Trial{healthy, device(healthy, 1), "inverter", {}, "ls_bus/*"};
+    return broken::Trial{healthy, device(healthy, 1), "inverter", {}, "ls_bus/*"};
   const Fault* fault =
-      test.starts_with("CatchesOnThePort/") ? find_fault(parameter_of(test)) : nullptr;
+      test.starts_with("CatchesOnThePort/") ? find_fault(broken::parameter_of(test)) : nullptr;
   if (!fault) return std::nullopt;
   const std::string id = case_id(*fault);
-  return Trial{std::string(fault->name), device(fault->name, fault->station), "inverter",
-               vectors_of(*fault), fault->neighbours == alone ? id : neighbours_of(id)};
+  return broken::Trial{std::string(fault->name), device(fault->name, fault->station), "inverter",
+                       vectors_of(*fault),
+                       fault->neighbours == broken::alone ? id : broken::neighbours_of(id)};
 }
 
-SuiteRuns& runs() {
-  static auto* const environment =
-      static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+broken::SuiteRuns& runs() {
+  static auto* const environment = static_cast<broken::SuiteRuns*>(
+      testing::AddGlobalTestEnvironment(new broken::SuiteRuns(trial_of)));
   return *environment;
 }
-[[maybe_unused]] const SuiteRuns& registered_before_main = runs();
+[[maybe_unused]] const broken::SuiteRuns& registered_before_main = runs();
 
 class TheSuite : public testing::TestWithParam<Fault> {};
 
 TEST_P(TheSuite, CatchesOnThePort) {
   const Fault& fault = GetParam();
-  const SuiteRun run = runs().take(std::string(fault.name));
-  expect_caught(run, case_id(fault), fault.message);
+  const broken::SuiteRun run = runs().take(std::string(fault.name));
+  broken::expect_caught(run, case_id(fault), fault.message);
   runs().report(fmt::format("{:<32} {:<50} {:>4.1f} s", fault.name, fault.caught_by, run.seconds));
 }
 
 /// The case that must catch `fault`, against the inverter of the name `device`.
-CaseResult run_in_process(const Fault& fault, std::string_view device) {
-  const VectorSet set = load_vectors(vectors_of(fault), sources + "/vectors/schema.json");
-  const auto source = std::ranges::find(set.cases, case_id(fault), &Case::id);
+results::CaseResult run_in_process(const Fault& fault, std::string_view device) {
+  const vectors::VectorSet set =
+      vectors::load_vectors(vectors_of(fault), sources + "/vectors/schema.json");
+  const auto source = std::ranges::find(set.cases, case_id(fault), &vectors::Case::id);
   if (source == set.cases.end()) {
     ADD_FAILURE() << "there is no case " << case_id(fault);
     return {};
   }
-  EmulatorEndpoint endpoint({"emulator", "inverter", {}},
-                            [device](std::string_view, const nlohmann::json& config) {
-                              return make_broken_inverter(device, config);
-                            });
-  BenchOptions options;
-  options.profile = *load_profile("inverter", sources + "/suites/profiles");
-  return Bench(endpoint, protocol(), options).run(*source);
+  endpoints::EmulatorEndpoint endpoint({"emulator", "inverter", {}},
+                                       [device](std::string_view, const nlohmann::json& config) {
+                                         return make_broken_inverter(device, config);
+                                       });
+  bench::BenchOptions options;
+  options.profile = *bench::load_profile("inverter", sources + "/suites/profiles");
+  return bench::Bench(endpoint, ls_bus_suite::protocol(), options).run(*source);
 }
 
 class BehindTheBackDoor : public testing::TestWithParam<Fault> {};
 
 TEST_P(BehindTheBackDoor, IsCaughtInProcess) {
-  const CaseResult result = run_in_process(GetParam(), GetParam().name);
-  EXPECT_EQ(result.verdict, Verdict::fail) << result.message;
-  EXPECT_TRUE(names(result, GetParam().message))
+  const results::CaseResult result = run_in_process(GetParam(), GetParam().name);
+  EXPECT_EQ(result.verdict, results::Verdict::fail) << result.message;
+  EXPECT_TRUE(broken::names(result, GetParam().message))
       << "the message does not name '" << GetParam().message << "': " << result.message;
 }
 
 TEST_P(BehindTheBackDoor, IsNotSeenInTheHealthyInverter) {
-  const CaseResult result = run_in_process(GetParam(), healthy);
-  EXPECT_EQ(result.verdict, Verdict::pass) << result.message;
+  const results::CaseResult result = run_in_process(GetParam(), healthy);
+  EXPECT_EQ(result.verdict, results::Verdict::pass) << result.message;
 }
 
 constexpr auto name_of = [](const auto& test) { return std::string(test.param.name); };
@@ -101,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()), name_of)
 INSTANTIATE_TEST_SUITE_P(Broken, BehindTheBackDoor, testing::ValuesIn(back_door_faults()), name_of);
 
 TEST(HealthyInverter, PassesTheWholeSuite) {
-  const SuiteRun run = runs().take(healthy);
-  const std::size_t passed = expect_healthy(run, 200);
+  const broken::SuiteRun run = runs().take(healthy);
+  const std::size_t passed = broken::expect_healthy(run, 200);
   runs().report(fmt::format("{:<32} {} of {} cases pass, {:.1f} s", healthy, passed,
                             run.results.size(), run.seconds));
 }
@@ -115,17 +117,18 @@ TEST(InverterFaults, NamesAreUnique) {
 }
 
 TEST(BrokenInverter, ListsItsFaults) {
-  const Finished list = run_program({BROKEN_SERVER, "--list"});
+  const tool_tests::Finished list = tool_tests::run_program({BROKEN_SERVER, "--list"});
   EXPECT_EQ(list.code, 0) << list.err;
   for (const Fault& fault : faults()) EXPECT_THAT(list.out, HasSubstr(fault.name));
 }
 
 TEST(BrokenInverter, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
-  const TestFolder folder;
-  const Finished ended = run_program({BROKEN_SERVER, "sum_off_by_on", folder / "tty"});
+  const tool_tests::TestFolder folder;
+  const tool_tests::Finished ended =
+      tool_tests::run_program({BROKEN_SERVER, "sum_off_by_on", folder / "tty"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("sum_off_by_one"));
 }
 
 }  // namespace
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

@@ -5,7 +5,7 @@
 
 #include "suites/ls_bus/broken/faults.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 namespace {
 
@@ -47,13 +47,13 @@ MakeBehaviour answers_for(bool (*takes)(std::string_view asked, unsigned own), b
       FrameText request = take_apart(frame);
       const std::string asked = request.body.substr(0, 2);
       if (!request.is_sealed() || asked.size() < 2 || !takes(asked, inverter.station()))
-        return Sendings{{inverter.answer(frame)}};
+        return broken::Sendings{{inverter.answer(frame)}};
       request.body.replace(0, 2, hex_number(inverter.station(), 2));
       request.seal();
       FrameText reply = take_apart(inverter.answer(request.bytes()));
       if (!as_own) reply.body.replace(0, 2, asked);
       reply.seal();
-      return Sendings{{reply.bytes()}};
+      return broken::Sendings{{reply.bytes()}};
     };
     return behaviour;
   };
@@ -66,8 +66,9 @@ Behaviour refuses_for_others() {
   Behaviour behaviour;
   behaviour.answer = [](const Bytes& frame, bool, GoodInverter& inverter) {
     const FrameText request = take_apart(frame);
-    if (request.body.size() < 3 || request.is_sealed()) return Sendings{{inverter.answer(frame)}};
-    return Sendings{{nak_to(request, "FE").bytes()}};
+    if (request.body.size() < 3 || request.is_sealed())
+      return broken::Sendings{{inverter.answer(frame)}};
+    return broken::Sendings{{nak_to(request, "FE").bytes()}};
   };
   return behaviour;
 }
@@ -154,4 +155,4 @@ std::vector<Fault> check_faults() {
   };
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

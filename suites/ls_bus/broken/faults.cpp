@@ -1,13 +1,13 @@
 #include "suites/ls_bus/broken/faults.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 namespace {
 MakeBehaviour answering(std::function<Bytes(const Bytes& frame, GoodInverter& inverter)> answer) {
   return [answer = std::move(answer)] {
     Behaviour behaviour;
     behaviour.answer = [answer](const Bytes& frame, bool, GoodInverter& inverter) {
-      return Sendings{{answer(frame, inverter)}};
+      return broken::Sendings{{answer(frame, inverter)}};
     };
     return behaviour;
   };
@@ -16,13 +16,13 @@ MakeBehaviour answering(std::function<Bytes(const Bytes& frame, GoodInverter& in
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table =
-      gather<Fault>({check_faults, reply_faults, request_faults, line_faults});
+      broken::gather<Fault>({check_faults, reply_faults, request_faults, line_faults});
   return table;
 }
 
 const Fault* find_fault(std::string_view name) {
-  const Fault* fault = find_by_name(faults(), name);
-  return fault ? fault : find_by_name(back_door_faults(), name);
+  const Fault* fault = broken::find_by_name(faults(), name);
+  return fault ? fault : broken::find_by_name(back_door_faults(), name);
 }
 
 MakeBehaviour spoil_frame(std::function<void(FrameText& reply, const FrameText& request)> edit) {
@@ -63,15 +63,15 @@ MakeBehaviour answer_with(std::function<FrameText(const FrameText& request, cons
   });
 }
 
-MakeBehaviour send_with(std::function<Sendings(const Bytes& request, Bytes reply)> send) {
+MakeBehaviour send_with(std::function<broken::Sendings(const Bytes& request, Bytes reply)> send) {
   return [send = std::move(send)] {
     Behaviour behaviour;
     behaviour.answer = [send](const Bytes& frame, bool, GoodInverter& inverter) {
       Bytes reply = inverter.answer(frame);
-      return reply.empty() ? Sendings{} : send(frame, std::move(reply));
+      return reply.empty() ? broken::Sendings{} : send(frame, std::move(reply));
     };
     return behaviour;
   };
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

@@ -10,19 +10,19 @@
 #include "suites/broken/sendings.hpp"
 #include "suites/ls_bus/broken/good_inverter.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 /// One fault at work. Each function may be empty: then the device does the right thing there.
 struct Behaviour {
   /// Bytes as they arrive, before frames are looked for.
   std::function<void(Bytes&)> hear;
   /// A complete frame. `together`: it came in one piece with the frame before it.
-  std::function<Sendings(const Bytes& frame, bool together, GoodInverter& inverter)> answer;
+  std::function<broken::Sendings(const Bytes& frame, bool together, GoodInverter& inverter)> answer;
 };
 
 using MakeBehaviour = std::function<Behaviour()>;
 /// `caught_by` stands without "ls_bus/".
-using Fault = FaultOf<MakeBehaviour>;
+using Fault = broken::FaultOf<MakeBehaviour>;
 
 /// All of them but those of `back_door_faults`. "none" is no fault and not among them.
 const std::vector<Fault>& faults();
@@ -50,6 +50,6 @@ MakeBehaviour answer_with(std::function<FrameText(const FrameText& request, cons
                                                   GoodInverter& inverter)>
                               answer);
 /// Sends the right reply in its own way; is not asked where the good inverter is silent.
-MakeBehaviour send_with(std::function<Sendings(const Bytes& request, Bytes reply)> send);
+MakeBehaviour send_with(std::function<broken::Sendings(const Bytes& request, Bytes reply)> send);
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

@@ -1,6 +1,6 @@
 #include "suites/ls_bus/broken/good_inverter.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 std::string sum_of(std::string_view text) {
   unsigned sum = 0;
@@ -15,7 +15,7 @@ bool FrameText::is_sealed() const { return sum == sum_of(body); }
 FrameText take_apart(ByteView frame) {
   constexpr std::size_t head_and_tail = 2, sum_size = 2;
   FrameText parts;
-  if (frame.size() < head_and_tail || frame.back() != ls_eot) return parts;
+  if (frame.size() < head_and_tail || frame.back() != ls_bus::ls_eot) return parts;
   const std::string text = to_text(frame.subspan(1, frame.size() - head_and_tail));
   const std::size_t body = text.size() < sum_size ? text.size() : text.size() - sum_size;
   parts.head = static_cast<char>(frame[0]);
@@ -34,10 +34,10 @@ FrameText reply_to(const FrameText& request, Byte head, std::string_view content
 }  // namespace
 
 FrameText ack_to(const FrameText& request, std::string_view content) {
-  return reply_to(request, ls_ack, content);
+  return reply_to(request, ls_bus::ls_ack, content);
 }
 FrameText nak_to(const FrameText& request, std::string_view code) {
-  return reply_to(request, ls_nak, code);
+  return reply_to(request, ls_bus::ls_nak, code);
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

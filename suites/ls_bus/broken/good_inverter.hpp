@@ -7,12 +7,12 @@
 #include "src/ls_bus/codec.hpp"
 #include "suites/broken/good_device.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
-class GoodInverter : public GoodDevice {
+class GoodInverter : public broken::GoodDevice {
  public:
-  GoodInverter(std::unique_ptr<EmulatedDevice> device, unsigned station)
-      : GoodDevice(std::move(device)), station_(station) {}
+  GoodInverter(std::unique_ptr<plc::EmulatedDevice> device, unsigned station)
+      : broken::GoodDevice(std::move(device)), station_(station) {}
   unsigned station() const { return station_; }
 
  private:
@@ -29,8 +29,8 @@ struct FrameText {
   char command() const { return body.size() > 2 ? body[2] : '\0'; }
   std::string content() const { return body.size() > 3 ? body.substr(3) : std::string(); }
   void set_content(std::string_view text) { body = body.substr(0, 3) + std::string(text); }
-  bool is_ack() const { return head == static_cast<char>(ls_ack); }
-  bool is_nak() const { return head == static_cast<char>(ls_nak); }
+  bool is_ack() const { return head == static_cast<char>(ls_bus::ls_ack); }
+  bool is_nak() const { return head == static_cast<char>(ls_bus::ls_nak); }
   /// The right sum.
   void seal();
   bool is_sealed() const;
@@ -47,4 +47,4 @@ std::string sum_of(std::string_view text);
 FrameText ack_to(const FrameText& request, std::string_view content);
 FrameText nak_to(const FrameText& request, std::string_view code);
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

@@ -5,7 +5,9 @@
 
 #include "suites/ls_bus/broken/faults.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
+
+using broken::Sendings;
 
 namespace {
 
@@ -25,8 +27,8 @@ Behaviour no_restart_at_enq() {
   behaviour.hear = [](Bytes& bytes) {
     bool inside = false;
     for (Byte& b : bytes) {
-      if (b == ls_enq && inside) b = '?';
-      inside = b == ls_enq || (inside && b != ls_eot);
+      if (b == ls_bus::ls_enq && inside) b = '?';
+      inside = b == ls_bus::ls_enq || (inside && b != ls_bus::ls_eot);
     }
   };
   return behaviour;
@@ -36,8 +38,8 @@ Behaviour no_restart_at_enq() {
 Behaviour needs_no_eot() {
   Behaviour behaviour;
   behaviour.hear = [](Bytes& bytes) {
-    if (bytes.empty() || bytes.front() != ls_enq || bytes.back() == ls_eot) return;
-    Bytes ended = bytes + Bytes{ls_eot};
+    if (bytes.empty() || bytes.front() != ls_bus::ls_enq || bytes.back() == ls_bus::ls_eot) return;
+    Bytes ended = bytes + Bytes{ls_bus::ls_eot};
     if (take_apart(ended).is_sealed()) bytes = std::move(ended);
   };
   return behaviour;
@@ -54,8 +56,8 @@ MakeBehaviour takes_for(Byte other, Byte right) {
 Behaviour frame_must_begin_the_line() {
   Behaviour behaviour;
   behaviour.hear = [](Bytes& bytes) {
-    if (!bytes.empty() && bytes.front() != ls_enq)
-      std::replace(bytes.begin(), bytes.end(), ls_enq, Byte{'?'});
+    if (!bytes.empty() && bytes.front() != ls_bus::ls_enq)
+      std::replace(bytes.begin(), bytes.end(), ls_bus::ls_enq, Byte{'?'});
   };
   return behaviour;
 }
@@ -65,7 +67,7 @@ Behaviour needs_no_enq() {
   Behaviour behaviour;
   behaviour.hear = [](Bytes& bytes) {
     if (!bytes.empty() && bytes.front() >= '0' && bytes.front() <= '9')
-      bytes.insert(bytes.begin(), ls_enq);
+      bytes.insert(bytes.begin(), ls_bus::ls_enq);
   };
   return behaviour;
 }
@@ -95,7 +97,7 @@ Behaviour deaf_after_nak() {
   behaviour.answer = [deaf = false](const Bytes& frame, bool, GoodInverter& inverter) mutable {
     Bytes reply = inverter.answer(frame);
     if (std::exchange(deaf, false)) return Sendings{};
-    deaf = !reply.empty() && reply[0] == ls_nak;
+    deaf = !reply.empty() && reply[0] == ls_bus::ls_nak;
     return Sendings{{std::move(reply)}};
   };
   return behaviour;
@@ -117,8 +119,8 @@ Behaviour dies_of_a_long_frame() {
   Behaviour behaviour;
   behaviour.hear = [held = std::size_t{0}, dead = false](Bytes& bytes) mutable {
     for (const Byte b : bytes) {
-      held = b == ls_enq || b == ls_eot ? 0 : held + 1;
-      dead = dead || held > ls_max_frame;
+      held = b == ls_bus::ls_enq || b == ls_bus::ls_eot ? 0 : held + 1;
+      dead = dead || held > ls_bus::ls_max_frame;
     }
     if (dead) bytes.clear();
   };
@@ -150,29 +152,30 @@ std::vector<Fault> line_faults() {
       {"reply_one_behind", "each reply is that to the request before", one_behind,
        "errors/format_of_the_nak_r", "header"},
       {"no_restart_at_enq", "ENQ inside a frame does not begin a new one", no_restart_at_enq,
-       "frame_structure/enq_inside_a_frame/command", "header", alone},
-      {"etx_ends_a_request", "ETX ends a request as EOT does", takes_for(0x03, ls_eot),
+       "frame_structure/enq_inside_a_frame/command", "header", broken::alone},
+      {"etx_ends_a_request", "ETX ends a request as EOT does", takes_for(0x03, ls_bus::ls_eot),
        "frame_structure/etx_for_eot", "silence"},
-      {"stx_begins_a_request", "STX begins a request as ENQ does", takes_for(0x02, ls_enq),
+      {"stx_begins_a_request", "STX begins a request as ENQ does", takes_for(0x02, ls_bus::ls_enq),
        "frame_structure/reply_of_another/stx", "silence"},
-      {"ack_begins_a_request", "ACK begins a request as ENQ does", takes_for(ls_ack, ls_enq),
-       "frame_structure/reply_of_another/ack_of_one", "silence"},
+      {"ack_begins_a_request", "ACK begins a request as ENQ does",
+       takes_for(ls_bus::ls_ack, ls_bus::ls_enq), "frame_structure/reply_of_another/ack_of_one",
+       "silence"},
       {"needs_no_eot", "a frame without EOT is executed when its sum is right", needs_no_eot,
-       "frame_structure/cut_off/sum", "silence", alone},
+       "frame_structure/cut_off/sum", "silence", broken::alone},
       {"needs_no_enq", "a frame without ENQ is executed", needs_no_enq,
-       "frame_structure/headless_before_enq", "data", alone},
+       "frame_structure/headless_before_enq", "data", broken::alone},
       {"noise_spoils_the_frame", "a frame right after other bytes is not heard",
-       frame_must_begin_the_line, "frame_structure/before_enq/zeros", "no answer", alone},
+       frame_must_begin_the_line, "frame_structure/before_enq/zeros", "no answer", broken::alone},
       {"first_of_two_requests",
        "of two requests without a pause between them the first is answered", deaf_while_busy,
-       "frame_structure/two_requests", "no answer", alone},
+       "frame_structure/two_requests", "no answer", broken::alone},
       {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak,
-       "errors/count_read/9", "no answer", alone},
+       "errors/count_read/9", "no answer", broken::alone},
       {"dies_of_another_station", "silent for ever after a request to another station",
-       dies_of_silence, "stations/other_station_read", "no answer", alone},
+       dies_of_silence, "stations/other_station_read", "no answer", broken::alone},
       {"dies_of_a_long_frame", "silent for ever after more than 44 bytes without EOT",
-       dies_of_a_long_frame, "frame_structure/endless_frame", "no answer", alone},
+       dies_of_a_long_frame, "frame_structure/endless_frame", "no answer", broken::alone},
   };
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

@@ -25,8 +25,9 @@ int usage() {
 }
 
 int list() {
-  for (const auto* table : {&ls_bus::faults(), &ls_bus::back_door_faults()})
-    for (const ls_bus::Fault& fault : *table) fmt::print("{:<32} {}\n", fault.name, fault.what);
+  for (const auto* table : {&ls_bus_broken::faults(), &ls_bus_broken::back_door_faults()})
+    for (const ls_bus_broken::Fault& fault : *table)
+      fmt::print("{:<32} {}\n", fault.name, fault.what);
   return 0;
 }
 
@@ -36,11 +37,11 @@ int main(int count, char** arguments) {
   const std::vector<std::string> given(arguments + 1, arguments + count);
   if (given.size() == 1 && given[0] == "--list") return list();
   if (given.size() < 2 || given.size() > 3) return usage();
-  HostOptions host;
+  hosting::HostOptions host;
   host.tty = given[1];
   host.config["station"] = given.size() > 2 ? given[2] : "1";
   host.make_device = [&](const nlohmann::json& config) {
-    return ls_bus::make_broken_inverter(given[0], config);
+    return ls_bus_broken::make_broken_inverter(given[0], config);
   };
-  return host_device(host);
+  return hosting::host_device(host);
 }

@@ -4,7 +4,7 @@
 
 #include "suites/ls_bus/broken/faults.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 namespace {
 
@@ -169,4 +169,4 @@ std::vector<Fault> reply_faults() {
   };
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

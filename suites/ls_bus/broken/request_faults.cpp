@@ -5,7 +5,7 @@
 
 #include "suites/ls_bus/broken/faults.hpp"
 
-namespace fieldproof::ls_bus {
+namespace fieldproof::ls_bus_broken {
 
 namespace {
 
@@ -240,9 +240,9 @@ std::vector<Fault> request_faults() {
          behaviour.answer = [write = first().answer](const Bytes& frame, bool together,
                                                      GoodInverter& inverter) {
            const FrameText request = take_apart(frame);
-           Sendings sendings = write(frame, together, inverter);
+           broken::Sendings sendings = write(frame, together, inverter);
            if (is_write(request) && !sendings.front().bytes.empty() &&
-               sendings.front().bytes[0] == ls_ack)
+               sendings.front().bytes[0] == ls_bus::ls_ack)
              sendings.front().bytes = ack_to(request, data(request)).bytes();
            return sendings;
          };
@@ -255,8 +255,8 @@ std::vector<Fault> request_faults() {
          behaviour.answer = [](const Bytes& frame, bool, GoodInverter& inverter) {
            const FrameText request = take_apart(frame);
            if (!is_write(request) || data(request).size() % word_size != 0)
-             return Sendings{{inverter.answer(frame)}};
-           return Sendings{{ack_to(request, data(request)).bytes()}};
+             return broken::Sendings{{inverter.answer(frame)}};
+           return broken::Sendings{{ack_to(request, data(request)).bytes()}};
          };
          return behaviour;
        },
@@ -285,4 +285,4 @@ std::vector<Fault> request_faults() {
   };
 }
 
-}  // namespace fieldproof::ls_bus
+}  // namespace fieldproof::ls_bus_broken

@@ -8,20 +8,20 @@
 #include "src/plc/port_config.hpp"
 #include "suites/modbus/broken/faults.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 namespace {
 
-class BrokenServer : public EmulatedDevice, private FrameSink {
+class BrokenServer : public plc::EmulatedDevice, private plc::FrameSink {
  public:
   BrokenServer(Behaviour behaviour, GoodModbus plc, Duration gap)
       : behaviour_(std::move(behaviour)),
         plc_(std::move(plc)),
         receiver_(behaviour_.receiver ? behaviour_.receiver(plc_.mode(), gap)
-                                      : make_modbus_receiver(plc_.mode(), gap)) {}
+                                      : modbus::make_modbus_receiver(plc_.mode(), gap)) {}
 
-  void receive(const Burst& burst) override {
-    Burst heard = burst;
+  void receive(const line::Burst& burst) override {
+    line::Burst heard = burst;
     if (behaviour_.hear) behaviour_.hear(heard.bytes);
     receiver_->receive(heard, *this);
   }
@@ -49,21 +49,22 @@ class BrokenServer : public EmulatedDevice, private FrameSink {
   void on_frame(ByteView bytes, Time end) override {
     const Bytes frame(bytes.begin(), bytes.end());
     pending_.put(
-        behaviour_.answer ? behaviour_.answer(frame, plc_) : Sendings{{plc_.answer(frame)}}, end);
+        behaviour_.answer ? behaviour_.answer(frame, plc_) : broken::Sendings{{plc_.answer(frame)}},
+        end);
   }
   void on_broken_frame(std::uint16_t) override {}
 
   Behaviour behaviour_;
   GoodModbus plc_;
-  std::unique_ptr<ModbusReceiver> receiver_;
-  SendQueue pending_;
+  std::unique_ptr<modbus::ModbusReceiver> receiver_;
+  broken::SendQueue pending_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_server(std::string_view mode,
-                                                           std::string_view fault,
-                                                           const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(std::string_view mode,
+                                                                std::string_view fault,
+                                                                const nlohmann::json& config) {
   if (mode != "rtu" && mode != "ascii")
     return fail(fmt::format("cannot serve Modbus '{}': the modes are rtu and ascii", mode));
   const Fault* known = find_fault(fault);
@@ -74,17 +75,18 @@ Result<std::unique_ptr<EmulatedDevice>> make_broken_server(std::string_view mode
         fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}",
                     fault, suggestion(fault, names)));
   }
-  const ModbusMode modbus_mode = mode == "rtu" ? ModbusMode::rtu : ModbusMode::ascii;
-  Result<std::unique_ptr<EmulatedDevice>> device =
-      make_modbus_plc(modbus_mode, config.at("model").get<std::string>(), config);
+  const modbus::ModbusMode modbus_mode =
+      mode == "rtu" ? modbus::ModbusMode::rtu : modbus::ModbusMode::ascii;
+  Result<std::unique_ptr<plc::EmulatedDevice>> device =
+      modbus::make_modbus_plc(modbus_mode, config.at("model").get<std::string>(), config);
   if (!device) return device.error();
-  ConfigReader reader(config, "the broken server's configuration");
-  PortConfig port;
-  read_port_config(reader, port);
+  plc::ConfigReader reader(config, "the broken server's configuration");
+  plc::PortConfig port;
+  plc::read_port_config(reader, port);
   if (reader.error()) return *reader.error();
   GoodModbus good(modbus_mode, std::move(*device), static_cast<Byte>(port.station));
-  return std::unique_ptr<EmulatedDevice>(
+  return std::unique_ptr<plc::EmulatedDevice>(
       new BrokenServer(known ? known->make() : Behaviour{}, std::move(good), port.gap()));
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

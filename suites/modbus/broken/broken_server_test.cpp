@@ -5,7 +5,7 @@
 #include "suites/broken/suite_runs.hpp"
 #include "suites/modbus/broken/faults.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
@@ -21,46 +21,47 @@ std::string mode_of(std::string_view id) {
 }
 
 std::string device(std::string_view mode, std::string_view fault, unsigned station) {
-  return fmt::format("{} {} {} {{tty}} {}?station={}&protocol=modbus-{}", quoted(BROKEN_SERVER),
-                     mode, fault, station, station, mode);
+  return fmt::format("{} {} {} {{tty}} {}?station={}&protocol=modbus-{}",
+                     tool_tests::quoted(BROKEN_SERVER), mode, fault, station, station, mode);
 }
 
-Trial trial_for(const Fault& fault) {
+broken::Trial trial_for(const Fault& fault) {
   const std::string id(fault.caught_by);
   const std::string file = id.substr(
       0, id.find('/', id.find('/') + 1));  // one file a topic, which loads faster than all
   return {std::string(fault.name), device(mode_of(id), fault.name, fault.station), profile,
           fmt::format("{}/vectors/{}.json", FIELDPROOF_SOURCE_DIR, file),
-          fault.neighbours == alone  ? id
-          : fault.neighbours.empty() ? neighbours_of(id)
-                                     : std::string(fault.neighbours)};
+          fault.neighbours == broken::alone ? id
+          : fault.neighbours.empty()        ? broken::neighbours_of(id)
+                                            : std::string(fault.neighbours)};
 }
 
-Trial whole_suite(const std::string& mode) {
+broken::Trial whole_suite(const std::string& mode) {
   return {
       "healthy_" + mode, device(mode, "none", 1), profile, {}, fmt::format("modbus_{}/*", mode)};
 }
 
-std::optional<Trial> trial_of(const std::string& test) {
-  const std::string parameter = parameter_of(test);
+std::optional<broken::Trial> trial_of(const std::string& test) {
+  const std::string parameter = broken::parameter_of(test);
   if (test.starts_with("PassesTheWholeSuite")) return whole_suite(parameter);
   const Fault* fault = find_fault(parameter);
   return fault ? std::optional(trial_for(*fault)) : std::nullopt;
 }
 
-SuiteRuns& runs() {
-  static auto* const environment =
-      static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+broken::SuiteRuns& runs() {
+  static auto* const environment = static_cast<broken::SuiteRuns*>(
+      testing::AddGlobalTestEnvironment(new broken::SuiteRuns(trial_of)));
   return *environment;
 }
-[[maybe_unused]] const SuiteRuns& registered_before_main = runs();
+[[maybe_unused]] const broken::SuiteRuns& registered_before_main = runs();
 
 class TheSuite : public testing::TestWithParam<Fault> {};
 
 TEST_P(TheSuite, Catches) {
   const Fault& fault = GetParam();
-  const SuiteRun run = runs().take(std::string(fault.name));
-  const std::string message = expect_caught(run, std::string(fault.caught_by), fault.message);
+  const broken::SuiteRun run = runs().take(std::string(fault.name));
+  const std::string message =
+      broken::expect_caught(run, std::string(fault.caught_by), fault.message);
   runs().report(fmt::format("{:<40} {:<60} {:>4.1f} s  {}", fault.name, fault.caught_by,
                             run.seconds, message));
 }
@@ -71,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
 class HealthyServer : public testing::TestWithParam<std::string> {};
 
 TEST_P(HealthyServer, PassesTheWholeSuite) {
-  const SuiteRun run = runs().take("healthy_" + GetParam());
-  const std::size_t passed = expect_healthy(run, 100);
+  const broken::SuiteRun run = runs().take("healthy_" + GetParam());
+  const std::size_t passed = broken::expect_healthy(run, 100);
   runs().report(fmt::format("healthy_{:<32} {} of {} cases pass, {:.1f} s", GetParam(), passed,
                             run.results.size(), run.seconds));
 }
@@ -87,14 +88,15 @@ TEST(FaultTable, NamesAreUnique) {
 }
 
 TEST(BrokenServer, ListsItsFaults) {
-  const Finished list = run_program({BROKEN_SERVER, "--list"});
+  const tool_tests::Finished list = tool_tests::run_program({BROKEN_SERVER, "--list"});
   EXPECT_EQ(list.code, 0) << list.err;
   for (const Fault& fault : faults()) EXPECT_THAT(list.out, HasSubstr(fault.name));
 }
 
 TEST(BrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
-  const TestFolder folder;
-  const Finished ended = run_program({BROKEN_SERVER, "rtu", "crc_ignore", folder / "tty"});
+  const tool_tests::TestFolder folder;
+  const tool_tests::Finished ended =
+      tool_tests::run_program({BROKEN_SERVER, "rtu", "crc_ignore", folder / "tty"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("crc_ignored"));
 }
@@ -102,17 +104,17 @@ TEST(BrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
 /// The words of M that requests would write are known: the fence holds for Modbus as for device
 /// names.
 TEST(WriteFence, HoldsForTheWordsOfTheDefaultBases) {
-  const TestFolder folder;
+  const tool_tests::TestFolder folder;
   const auto run_with = [&](const std::string& allowed) {
-    return run_tool({"run", "--endpoint", "exec:" + device("rtu", "none", 1), "--profile", profile,
-                     "--allow-write", allowed, "--filter", "modbus_rtu/writes/one_word/v1234",
-                     "--out", folder / "out"});
+    return tool_tests::run_tool({"run", "--endpoint", "exec:" + device("rtu", "none", 1),
+                                 "--profile", profile, "--allow-write", allowed, "--filter",
+                                 "modbus_rtu/writes/one_word/v1234", "--out", folder / "out"});
   };
   EXPECT_EQ(run_with("M99-M101").code, 0);
-  const Finished outside = run_with("M99-M100");
+  const tool_tests::Finished outside = run_with("M99-M100");
   EXPECT_EQ(outside.code, 4) << outside.out << outside.err;
   EXPECT_THAT(outside.out, HasSubstr("BLOCKED"));
 }
 
 }  // namespace
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

@@ -5,7 +5,7 @@
 
 #include "suites/modbus/broken/faults.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 namespace {
 
@@ -167,7 +167,7 @@ std::vector<Fault> data_faults() {
          Behaviour behaviour;
          behaviour.answer = [](const Bytes& frame, GoodModbus& plc) {
            const Bytes request = plc.message(frame);
-           if (request.empty()) return Sendings{};
+           if (request.empty()) return broken::Sendings{};
            Bytes reply = plc.ask(write_words_swapped(request));
            if (function_of(reply) == 0x03) {
              Bytes data = data_of_read(reply);
@@ -175,7 +175,7 @@ std::vector<Fault> data_faults() {
              reply = read_reply(request, data);
            }
            if (function_of(reply) == 0x06) reply = request;
-           return reply.empty() ? Sendings{} : Sendings{{plc.frame(reply)}};
+           return reply.empty() ? broken::Sendings{} : broken::Sendings{{plc.frame(reply)}};
          };
          return behaviour;
        },
@@ -233,4 +233,4 @@ std::vector<Fault> data_faults() {
   };
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

@@ -1,7 +1,7 @@
 // Faults of exceptions: which code, which form (000 9.2.2, Appendix 3.2).
 #include "suites/modbus/broken/faults.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 namespace {
 
@@ -43,7 +43,7 @@ std::vector<Fault> exception_faults() {
          const Bytes reply = plc.ask(request);
          return exception_of(reply) == function_error ? Bytes{} : reply;
        }),
-       "modbus_rtu/exceptions/function_unknown/f07", "no answer", alone},
+       "modbus_rtu/exceptions/function_unknown/f07", "no answer", broken::alone},
       {"address_error_03", "an address past the end draws exception 03",
        other_code(address_error, value_error), "modbus_rtu/exceptions/address_read/f03/affff",
        "exception code"},
@@ -57,8 +57,8 @@ std::vector<Fault> exception_faults() {
          const Bytes reply = plc.ask(request);
          return exception_of(reply) ? Bytes{} : reply;
        }),
-       "modbus_rtu/exceptions/address_read/f03/affff", "no answer", alone},
+       "modbus_rtu/exceptions/address_read/f03/affff", "no answer", broken::alone},
   };
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

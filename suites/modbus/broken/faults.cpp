@@ -1,20 +1,20 @@
 #include "suites/modbus/broken/faults.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table =
-      gather<Fault>({frame_faults, exception_faults, limit_faults, data_faults, line_faults});
+  static const std::vector<Fault> table = broken::gather<Fault>(
+      {frame_faults, exception_faults, limit_faults, data_faults, line_faults});
   return table;
 }
 
-const Fault* find_fault(std::string_view name) { return find_by_name(faults(), name); }
+const Fault* find_fault(std::string_view name) { return broken::find_by_name(faults(), name); }
 
 MakeBehaviour answer_frame(std::function<Bytes(const Bytes& frame, GoodModbus& plc)> answer) {
   return [answer = std::move(answer)] {
     Behaviour behaviour;
     behaviour.answer = [answer](const Bytes& frame, GoodModbus& plc) {
-      return Sendings{{answer(frame, plc)}};
+      return broken::Sendings{{answer(frame, plc)}};
     };
     return behaviour;
   };
@@ -50,15 +50,15 @@ MakeBehaviour misread(std::function<Bytes(Bytes request)> read) {
   });
 }
 
-MakeBehaviour send_with(std::function<Sendings(const Bytes& frame, Bytes reply)> send) {
+MakeBehaviour send_with(std::function<broken::Sendings(const Bytes& frame, Bytes reply)> send) {
   return [send = std::move(send)] {
     Behaviour behaviour;
     behaviour.answer = [send](const Bytes& frame, GoodModbus& plc) {
       Bytes reply = plc.answer(frame);
-      return reply.empty() ? Sendings{} : send(frame, std::move(reply));
+      return reply.empty() ? broken::Sendings{} : send(frame, std::move(reply));
     };
     return behaviour;
   };
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

@@ -10,21 +10,22 @@
 #include "suites/broken/sendings.hpp"
 #include "suites/modbus/broken/good_modbus.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 /// One fault at work. Each function may be empty: then the device does the right thing there.
 struct Behaviour {
   /// Bytes as they arrive, before frames are looked for.
   std::function<void(Bytes&)> hear;
   /// How frames are found.
-  std::function<std::unique_ptr<ModbusReceiver>(ModbusMode mode, Duration gap)> receiver;
+  std::function<std::unique_ptr<modbus::ModbusReceiver>(modbus::ModbusMode mode, Duration gap)>
+      receiver;
   /// A frame as it was found, damaged ones too.
-  std::function<Sendings(const Bytes& frame, GoodModbus& plc)> answer;
+  std::function<broken::Sendings(const Bytes& frame, GoodModbus& plc)> answer;
 };
 
 using MakeBehaviour = std::function<Behaviour()>;
 /// `caught_by` begins with the folder of its protocol, which is also the mode it is tried in.
-using Fault = FaultOf<MakeBehaviour>;
+using Fault = broken::FaultOf<MakeBehaviour>;
 
 /// All of them. "none" is no fault and not among them.
 const std::vector<Fault>& faults();
@@ -49,6 +50,6 @@ MakeBehaviour spoil_frame(std::function<void(Bytes& frame)> spoil);
 /// Understands another request than was sent.
 MakeBehaviour misread(std::function<Bytes(Bytes request)> read);
 /// Sends the right reply in its own way; is not asked where the good server is silent.
-MakeBehaviour send_with(std::function<Sendings(const Bytes& frame, Bytes reply)> send);
+MakeBehaviour send_with(std::function<broken::Sendings(const Bytes& frame, Bytes reply)> send);
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

@@ -6,7 +6,7 @@
 #include "src/modbus/checks.hpp"
 #include "suites/modbus/broken/faults.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 namespace {
 
@@ -54,15 +54,15 @@ Byte lrc_as_ones_complement(ByteView characters) {
   return static_cast<Byte>(~sum_of_pairs(characters));
 }
 /// The LRC of the characters that travel, not of the bytes that they stand for.
-Byte lrc_of_characters(ByteView characters) { return modbus_lrc(characters.subspan(1)); }
+Byte lrc_of_characters(ByteView characters) { return modbus::modbus_lrc(characters.subspan(1)); }
 
 void lower_case(Bytes& frame, std::size_t from, std::size_t to) {
   for (std::size_t i = from; i < to; ++i) frame[i] = static_cast<Byte>(std::tolower(frame[i]));
 }
 
 /// What a frame says, its check unseen; empty where it is too short.
-Bytes without_check(const Bytes& frame, ModbusMode mode) {
-  if (mode == ModbusMode::rtu)
+Bytes without_check(const Bytes& frame, modbus::ModbusMode mode) {
+  if (mode == modbus::ModbusMode::rtu)
     return frame.size() < 4 ? Bytes{} : Bytes(frame.begin(), frame.end() - check_size);
   if (frame.size() < 9) return {};
   Bytes bytes = from_hex(to_text(ByteView(frame).subspan(1, frame.size() - 3))).value_or(Bytes{});
@@ -118,7 +118,7 @@ std::vector<Fault> frame_faults() {
       {"crc_from_zero", "the CRC of replies starts from 0000", another_crc(crc_from_zero),
        "modbus_rtu/modes/serves", "CRC"},
       {"crc_without_station", "the CRC of replies leaves the station out",
-       another_crc([](ByteView message) { return modbus_crc(message.subspan(1)); }),
+       another_crc([](ByteView message) { return modbus::modbus_crc(message.subspan(1)); }),
        "modbus_rtu/modes/serves", "CRC"},
       {"crc_missing_on_exceptions", "an exception has no CRC", spoil_frame([](Bytes& frame) {
          if (frame[1] & 0x80) frame.resize(frame.size() - check_size);
@@ -173,4 +173,4 @@ std::vector<Fault> frame_faults() {
   };
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

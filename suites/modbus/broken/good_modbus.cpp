@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 Bytes GoodModbus::message(ByteView frame) const {
-  const ModbusFrame decoded = decode_modbus_frame(mode_, frame);
+  const modbus::ModbusFrame decoded = modbus::decode_modbus_frame(mode_, frame);
   if (decoded.fault != 0) return {};
   Bytes message{decoded.station};
   message.insert(message.end(), decoded.pdu.begin(), decoded.pdu.end());
@@ -66,4 +66,4 @@ Bytes write_many(const Bytes& request, unsigned address, unsigned count, const B
   return message;
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

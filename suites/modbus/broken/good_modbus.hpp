@@ -5,19 +5,19 @@
 #include "src/modbus/frame.hpp"
 #include "suites/broken/good_device.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
-class GoodModbus : public GoodDevice {
+class GoodModbus : public broken::GoodDevice {
  public:
-  GoodModbus(ModbusMode mode, std::unique_ptr<EmulatedDevice> device, Byte station)
-      : GoodDevice(std::move(device)), mode_(mode), station_(station) {}
+  GoodModbus(modbus::ModbusMode mode, std::unique_ptr<plc::EmulatedDevice> device, Byte station)
+      : broken::GoodDevice(std::move(device)), mode_(mode), station_(station) {}
 
-  ModbusMode mode() const { return mode_; }
+  modbus::ModbusMode mode() const { return mode_; }
   Byte station() const { return station_; }
 
   /// A message with its right check, and in ASCII with head and tail.
   Bytes frame(ByteView message) const {
-    return encode_modbus_frame(mode_, message[0], message.subspan(1));
+    return modbus::encode_modbus_frame(mode_, message[0], message.subspan(1));
   }
   /// The message of a frame; empty where the frame is damaged.
   Bytes message(ByteView frame) const;
@@ -28,7 +28,7 @@ class GoodModbus : public GoodDevice {
   Bytes ask_as_own(Bytes message);
 
  private:
-  ModbusMode mode_;
+  modbus::ModbusMode mode_;
   Byte station_;
 };
 
@@ -50,4 +50,4 @@ Bytes data_of_write(const Bytes& request);
 Bytes read_reply(const Bytes& request, const Bytes& data);
 Bytes write_many(const Bytes& request, unsigned address, unsigned count, const Bytes& data);
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

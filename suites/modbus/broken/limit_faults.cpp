@@ -3,7 +3,7 @@
 
 #include "suites/modbus/broken/faults.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
 
 namespace {
 
@@ -179,4 +179,4 @@ std::vector<Fault> limit_faults() {
   };
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

@@ -5,7 +5,11 @@
 
 #include "suites/modbus/broken/faults.hpp"
 
-namespace fieldproof::modbus {
+namespace fieldproof::modbus_broken {
+
+using broken::Sendings;
+using modbus::ModbusReceiver;
+using plc::FrameSink;
 
 namespace {
 
@@ -18,7 +22,7 @@ Bytes operator+(Bytes a, const Bytes& b) {
 /// for more.
 class ByLength : public ModbusReceiver {
  public:
-  void receive(const Burst& burst, FrameSink& sink) override {
+  void receive(const line::Burst& burst, FrameSink& sink) override {
     heard_.insert(heard_.end(), burst.bytes.begin(), burst.bytes.end());
     while (heard_.size() >= length()) {
       const Bytes frame(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(length()));
@@ -41,7 +45,7 @@ class ByLength : public ModbusReceiver {
 
 Behaviour end_by_length() {
   Behaviour behaviour;
-  behaviour.receiver = [](ModbusMode, Duration) {
+  behaviour.receiver = [](modbus::ModbusMode, Duration) {
     return std::unique_ptr<ModbusReceiver>(new ByLength);
   };
   return behaviour;
@@ -53,8 +57,8 @@ class OtherClock : public ModbusReceiver, private FrameSink {
   OtherClock(std::unique_ptr<ModbusReceiver> receiver, double times)
       : receiver_(std::move(receiver)), times_(times) {}
 
-  void receive(const Burst& burst, FrameSink& sink) override {
-    Burst other = burst;
+  void receive(const line::Burst& burst, FrameSink& sink) override {
+    line::Burst other = burst;
     other.start = slowed(burst.start);
     sink_ = &sink;
     real_end_ = burst.end();
@@ -80,9 +84,9 @@ class OtherClock : public ModbusReceiver, private FrameSink {
 MakeBehaviour ascii_second_lasts(double times) {
   return [times] {
     Behaviour behaviour;
-    behaviour.receiver = [times](ModbusMode mode, Duration gap) {
+    behaviour.receiver = [times](modbus::ModbusMode mode, Duration gap) {
       return std::unique_ptr<ModbusReceiver>(
-          new OtherClock(make_modbus_receiver(mode, gap), times));
+          new OtherClock(modbus::make_modbus_receiver(mode, gap), times));
     };
     return behaviour;
   };
@@ -188,10 +192,11 @@ std::vector<Fault> line_faults() {
       {"reply_one_behind", "each reply is that to the request before", one_behind,
        "modbus_rtu/modes/serves", ""},
       {"dies_of_a_wrong_check", "silent for ever after a wrong CRC or LRC", die_of_a_wrong_check,
-       "modbus_rtu/line/wrong_check/f03", "no answer", alone},
+       "modbus_rtu/line/wrong_check/f03", "no answer", broken::alone},
       {"deaf_after_exception", "the request after an exception is not answered",
-       deaf_after_exception, "modbus_rtu/exceptions/address_read/f03/affff", "no answer", alone},
+       deaf_after_exception, "modbus_rtu/exceptions/address_read/f03/affff", "no answer",
+       broken::alone},
   };
 }
 
-}  // namespace fieldproof::modbus
+}  // namespace fieldproof::modbus_broken

@@ -27,7 +27,7 @@ int usage() {
 }
 
 int list() {
-  for (const modbus::Fault& fault : modbus::faults())
+  for (const modbus_broken::Fault& fault : modbus_broken::faults())
     fmt::print("{:<38} {}\n", fault.name, fault.what);
   return 0;
 }
@@ -38,7 +38,7 @@ int main(int count, char** arguments) {
   const std::vector<std::string> given(arguments + 1, arguments + count);
   if (given.size() == 1 && given[0] == "--list") return list();
   if (given.size() < 3) return usage();
-  HostOptions host;
+  hosting::HostOptions host;
   host.tty = given[2];
   host.model = "xbc-h";
   host.config["station"] = given.size() > 3 ? given[3] : "1";
@@ -48,7 +48,7 @@ int main(int count, char** arguments) {
     host.config[given[i].substr(0, equals)] = given[i].substr(equals + 1);
   }
   host.make_device = [&](const nlohmann::json& config) {
-    return modbus::make_broken_server(given[0], given[1], config);
+    return modbus_broken::make_broken_server(given[0], given[1], config);
   };
-  return host_device(host);
+  return hosting::host_device(host);
 }

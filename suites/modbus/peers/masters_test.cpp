@@ -7,7 +7,10 @@
 
 #include "suites/tool/tool.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus_peers {
+
+using tool_tests::Finished;
+
 namespace {
 
 using testing::HasSubstr;
@@ -19,18 +22,19 @@ class EmulatedPlc {
  public:
   explicit EmulatedPlc(const std::string& mode)
       : tty(folder_ / "plc"),
-        emulator_(tool_arguments({"emulate", "xbc-h?protocol=modbus-" + mode, "--pty", tty})) {
+        emulator_(tool_tests::tool_arguments(
+            {"emulate", "xbc-h?protocol=modbus-" + mode, "--pty", tty})) {
     EXPECT_TRUE(emulator_.wait_for(tty));
   }
 
  private:
-  TestFolder folder_;
+  tool_tests::TestFolder folder_;
 
  public:
   const std::string tty;
 
  private:
-  Process emulator_;
+  tool_tests::Process emulator_;
 };
 
 void expect_no_complaint(const Finished& master) {
@@ -57,7 +61,7 @@ Finished mbpoll(const std::string& tty, std::vector<std::string> what,
   arguments.insert(arguments.end(), what.begin(), what.end());
   arguments.push_back(tty);
   arguments.insert(arguments.end(), written.begin(), written.end());
-  return run_program(arguments);
+  return tool_tests::run_program(arguments);
 }
 
 TEST(Mbpoll, ReadsBitsOfTheWordsThatItWrote) {
@@ -88,14 +92,14 @@ TEST(Mbpoll, IsToldOfAnAddressPastTheEnd) {
 
 TEST(Libmodbus, WritesOneWayAndReadsAnother) {
   const EmulatedPlc plc("rtu");
-  expect_no_complaint(run_program({LIBMODBUS_CLIENT, plc.tty}));
+  expect_no_complaint(tool_tests::run_program({LIBMODBUS_CLIENT, plc.tty}));
 }
 
 class Pymodbus : public testing::TestWithParam<std::string> {};
 
 TEST_P(Pymodbus, WritesOneWayAndReadsAnother) {
   const EmulatedPlc plc(GetParam());
-  expect_no_complaint(run_program(
+  expect_no_complaint(tool_tests::run_program(
       {"/usr/bin/python3", folder_of_peers + "pymodbus_client.py", GetParam(), plc.tty}));
 }
 
@@ -103,4 +107,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, Pymodbus, testing::Values("rtu", "ascii"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus_peers

@@ -7,7 +7,7 @@
 
 #include "suites/tool/tool.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus_peers {
 namespace {
 
 using nlohmann::json;
@@ -105,7 +105,7 @@ class P2pMaster : public testing::TestWithParam<Server> {
            plc.get("%LW" + std::to_string(513 + 6 * number), 4);
   }
 
-  TestFolder folder;
+  tool_tests::TestFolder folder;
   BackDoor plc;
 };
 
@@ -114,8 +114,9 @@ INSTANTIATE_TEST_SUITE_P(Servers, P2pMaster, testing::ValuesIn(servers),
 
 TEST_P(P2pMaster, IsAnsweredByAServerOfOthers) {
   const std::string tty = folder / "plc", file = folder.write("p2p.json", parameters().dump());
-  Process master(tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--p2p",
-                                 file, "--pty", tty, "--control", plc.far_end(), "-v"}));
+  tool_tests::Process master(
+      tool_tests::tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--p2p",
+                                  file, "--pty", tty, "--control", plc.far_end(), "-v"}));
   plc.given_away();
   ASSERT_NE(plc.get("%MW0"), "") << master.wait().err;  // an answer: the terminal is there
   plc.set("%MW100", "9ABC");
@@ -124,7 +125,7 @@ TEST_P(P2pMaster, IsAnsweredByAServerOfOthers) {
   plc.set("%MW101", "81CD0005");
   std::vector<std::string> command = GetParam().command;
   command.push_back(tty);
-  const Process server(command);
+  const tool_tests::Process server(command);
   ASSERT_TRUE(master.wait_for("received")) << "nobody answers the first block";
   plc.set("%MX00000", "01");
   const bool rtu = GetParam().mode == "rtu";
@@ -143,4 +144,4 @@ TEST_P(P2pMaster, IsAnsweredByAServerOfOthers) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus_peers

@@ -5,7 +5,10 @@
 
 #include "suites/broken/suite_runs.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus_peers {
+
+using results::Verdict;
+
 namespace {
 
 struct Peer {
@@ -20,9 +23,10 @@ void PrintTo(const Peer& peer, std::ostream* out) { *out << peer.name; }
 const std::string folder = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/";
 
 std::vector<Peer> peers() {
-  const std::string pymodbus = "/usr/bin/python3 " + quoted(folder + "pymodbus_server.py");
+  const std::string pymodbus =
+      "/usr/bin/python3 " + tool_tests::quoted(folder + "pymodbus_server.py");
   return {
-      {"peer-libmodbus", quoted(LIBMODBUS_SERVER) + " {tty}", "rtu", 200},
+      {"peer-libmodbus", tool_tests::quoted(LIBMODBUS_SERVER) + " {tty}", "rtu", 200},
       {"peer-pymodbus-rtu", pymodbus + " rtu {tty}", "rtu", 200},
       {"peer-pymodbus-ascii", pymodbus + " ascii {tty}", "ascii", 200},
   };
@@ -35,30 +39,30 @@ std::string test_name(const Peer& peer) {
   return name;
 }
 
-std::optional<Trial> trial_of(const std::string& test) {
+std::optional<broken::Trial> trial_of(const std::string& test) {
   for (const Peer& peer : peers())
-    if (test_name(peer) == parameter_of(test))
-      return Trial{peer.name,
-                   fmt::format("{}?station=1&protocol=modbus-{}", peer.command, peer.mode),
-                   peer.name,
-                   {},
-                   fmt::format("modbus_{}/*", peer.mode),
-                   folder + peer.name + ".waivers.json"};
+    if (test_name(peer) == broken::parameter_of(test))
+      return broken::Trial{peer.name,
+                           fmt::format("{}?station=1&protocol=modbus-{}", peer.command, peer.mode),
+                           peer.name,
+                           {},
+                           fmt::format("modbus_{}/*", peer.mode),
+                           folder + peer.name + ".waivers.json"};
   return std::nullopt;
 }
 
-SuiteRuns& runs() {
-  static auto* const environment =
-      static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+broken::SuiteRuns& runs() {
+  static auto* const environment = static_cast<broken::SuiteRuns*>(
+      testing::AddGlobalTestEnvironment(new broken::SuiteRuns(trial_of)));
   return *environment;
 }
-[[maybe_unused]] const SuiteRuns& registered_before_main = runs();
+[[maybe_unused]] const broken::SuiteRuns& registered_before_main = runs();
 
 class ServerOfOthers : public testing::TestWithParam<Peer> {};
 
 TEST_P(ServerOfOthers, DeviatesAsItsWaiversSayAndNowhereElse) {
   const Peer& peer = GetParam();
-  const SuiteRun run = runs().take(peer.name);
+  const broken::SuiteRun run = runs().take(peer.name);
   EXPECT_EQ(run.tool.code, 0) << run.tool.out << run.tool.err;
   std::map<Verdict, std::size_t> count;
   for (const auto& [id, result] : run.results) ++count[result.verdict];
@@ -73,4 +77,4 @@ INSTANTIATE_TEST_SUITE_P(Peers, ServerOfOthers, testing::ValuesIn(peers()),
                          [](const auto& test) { return test_name(test.param); });
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus_peers

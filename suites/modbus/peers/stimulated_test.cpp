@@ -6,7 +6,7 @@
 
 #include "suites/tool/tool.hpp"
 
-namespace fieldproof {
+namespace fieldproof::modbus_peers {
 namespace {
 
 using testing::HasSubstr;
@@ -17,10 +17,11 @@ struct Master {
 
 const std::string python =
     "/usr/bin/python3 " +
-    quoted(FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/pymodbus_stimulated.py");
-const std::vector<Master> masters{{"libmodbus_rtu", "rtu", quoted(LIBMODBUS_STIMULATED)},
-                                  {"pymodbus_rtu", "rtu", python + " rtu"},
-                                  {"pymodbus_ascii", "ascii", python + " ascii"}};
+    tool_tests::quoted(FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/pymodbus_stimulated.py");
+const std::vector<Master> masters{
+    {"libmodbus_rtu", "rtu", tool_tests::quoted(LIBMODBUS_STIMULATED)},
+    {"pymodbus_rtu", "rtu", python + " rtu"},
+    {"pymodbus_ascii", "ascii", python + " ascii"}};
 
 void PrintTo(const Master& master, std::ostream* out) { *out << master.name; }
 
@@ -61,10 +62,10 @@ std::string line_of(const std::string& block, const std::string& values, const s
 
 class StimulatedMaster : public testing::TestWithParam<Master> {
  protected:
-  TestFolder folder;
+  tool_tests::TestFolder folder;
   const std::string tty = folder / "plc";
-  Process plc{
-      tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--pty", tty, "-v"})};
+  tool_tests::Process plc{tool_tests::tool_arguments(
+      {"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--pty", tty, "-v"})};
 };
 
 INSTANTIATE_TEST_SUITE_P(Masters, StimulatedMaster, testing::ValuesIn(masters),
@@ -75,12 +76,14 @@ TEST_P(StimulatedMaster, AsksWhatTheLinesSay) {
   std::string text;
   for (const Line& line : lines) text += line_of(line.block, line.values, "%MX00000");
   const std::string input = folder.write("lines.json", text);
-  const Finished master = run_program(
-      {"/bin/sh", "-c", "exec " + GetParam().command + ' ' + quoted(tty) + " < " + quoted(input)});
+  const tool_tests::Finished master =
+      tool_tests::run_program({"/bin/sh", "-c",
+                               "exec " + GetParam().command + ' ' + tool_tests::quoted(tty) +
+                                   " < " + tool_tests::quoted(input)});
   EXPECT_EQ(master.code, 0);
   EXPECT_EQ(master.err, "") << "every request was answered";
   plc.signal(SIGTERM);
-  const Finished heard = plc.wait();
+  const tool_tests::Finished heard = plc.wait();
   for (const Line& line : lines)
     EXPECT_THAT(heard.out, HasSubstr(on_the_wire(GetParam().mode, line.pdu))) << line.block;
 }
@@ -93,8 +96,9 @@ TEST_P(StimulatedMaster, AsksAtThePaceOfAClockUntilItIsOver) {
                            "\n";
   const std::string pipe = folder / "lines";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  Process master(
-      {"/bin/sh", "-c", "exec " + GetParam().command + ' ' + quoted(tty) + " < " + quoted(pipe)});
+  tool_tests::Process master({"/bin/sh", "-c",
+                              "exec " + GetParam().command + ' ' + tool_tests::quoted(tty) + " < " +
+                                  tool_tests::quoted(pipe)});
   const int lines_in = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
   const auto tell = [lines_in](const std::string& line) {
     return ::write(lines_in, line.data(), line.size()) == static_cast<ssize_t>(line.size());
@@ -111,7 +115,7 @@ TEST_P(StimulatedMaster, AsksAtThePaceOfAClockUntilItIsOver) {
 /// standard input what to ask.
 TEST_P(StimulatedMaster, IsJudgedByTheBench) {
   const std::string vectors = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/stimulated_vectors.json";
-  const Finished run = run_tool(
+  const tool_tests::Finished run = tool_tests::run_tool(
       {"run", "--role", "client", "--vectors", vectors, "--filter",
        "modbus_" + GetParam().mode + "/*", "--stimulus", "-", "--endpoint",
        "exec:" + GetParam().command + " {tty}?station=0&protocol=modbus-" + GetParam().mode,
@@ -121,4 +125,4 @@ TEST_P(StimulatedMaster, IsJudgedByTheBench) {
 }
 
 }  // namespace
-}  // namespace fieldproof
+}  // namespace fieldproof::modbus_peers

@@ -9,38 +9,42 @@
 #include "suites/p2p/broken/broken_driver.hpp"
 #include "suites/p2p/broken/drivers.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using p2p::P2pClient;
+using p2p::P2pParameters;
 
 namespace {
 
-class BrokenClient : public EmulatedDevice {
+class BrokenClient : public plc::EmulatedDevice {
  public:
-  using DriverFactory = std::function<std::unique_ptr<P2pDriver>(BrokenDriver::Asked asked)>;
+  using DriverFactory = std::function<std::unique_ptr<p2p::P2pDriver>(BrokenDriver::Asked asked)>;
 
-  BrokenClient(const PlcModel& model, const P2pParameters& parameters, bool run,
+  BrokenClient(const plc::PlcModel& model, const P2pParameters& parameters, bool run,
                P2pClient::Timing timing, const Behaviour& behaviour, const DriverFactory& driver);
 
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
   Status set(std::string_view address, std::string_view hex) override {
-    const Status status = set_by_name(memory_, address, hex);
+    const Status status = plc::set_by_name(memory_, address, hex);
     if (status) look_at_flags();
     return status;
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
-    if (address.starts_with('@')) return get_counter(engines_.front()->counters(), address, digits);
-    return get_by_name(memory_, address, digits);
+    if (address.starts_with('@'))
+      return plc::get_counter(engines_.front()->counters(), address, digits);
+    return plc::get_by_name(memory_, address, digits);
   }
   Status act(std::string_view action) override;
 
  private:
   struct Block {
     unsigned number = 0;
-    P2pResultFlags flags{};
+    p2p::P2pResultFlags flags{};
     Outcome outcome{};
-    std::optional<DeviceAddress> condition{};
+    std::optional<plc::DeviceAddress> condition{};
     bool on = false, under_way = false, again = false;
     unsigned edges = 0;
   };
@@ -56,15 +60,15 @@ class BrokenClient : public EmulatedDevice {
   void show(const Block& block, const Outcome& outcome);
   void saved();
 
-  PlcMemory memory_;
+  plc::PlcMemory memory_;
   Behaviour behaviour_;
   bool run_, link_;
   std::vector<Block> blocks_;
   std::vector<std::unique_ptr<P2pClient>> engines_;  // one, unless all blocks are asked at once
-  std::vector<Burst> late_;
+  std::vector<line::Burst> late_;
 };
 
-BrokenClient::BrokenClient(const PlcModel& model, const P2pParameters& parameters, bool run,
+BrokenClient::BrokenClient(const plc::PlcModel& model, const P2pParameters& parameters, bool run,
                            P2pClient::Timing timing, const Behaviour& behaviour,
                            const DriverFactory& driver)
     : memory_(model),
@@ -73,7 +77,7 @@ BrokenClient::BrokenClient(const PlcModel& model, const P2pParameters& parameter
       link_(parameters.link || behaviour.deaf_to == "link off") {
   P2pParameters shown = parameters, worked_with = parameters;
   if (behaviour_.shows) behaviour_.shows(shown);
-  write_p2p_registers(memory_, shown);
+  p2p::write_p2p_registers(memory_, shown);
   if (behaviour_.works_with) behaviour_.works_with(worked_with);
   if (behaviour_.timing) behaviour_.timing(timing);
   make_engines(worked_with, timing, driver);
@@ -82,7 +86,7 @@ BrokenClient::BrokenClient(const PlcModel& model, const P2pParameters& parameter
 
 void BrokenClient::make_engines(const P2pParameters& parameters, const P2pClient::Timing& timing,
                                 const DriverFactory& driver) {
-  const auto asked = [this](const P2pBlock& of) {
+  const auto asked = [this](const p2p::P2pBlock& of) {
     Block& block = *std::ranges::find(blocks_, of.number, &Block::number);
     block.under_way = true;
     if (behaviour_.clears_results)
@@ -93,10 +97,10 @@ void BrokenClient::make_engines(const P2pParameters& parameters, const P2pClient
                                                    [this] { saved(); }));
   };
   P2pParameters one = parameters;
-  for (const P2pBlock& block : parameters.blocks) {
+  for (const p2p::P2pBlock& block : parameters.blocks) {
     blocks_.push_back(
         {.number = block.number,
-         .flags = p2p_result_flags(memory_.model(), parameters.parameter, block.number),
+         .flags = p2p::p2p_result_flags(memory_.model(), parameters.parameter, block.number),
          .condition = block.condition.flag});
     one.blocks = {block};
     if (behaviour_.all_at_once) make(one);
@@ -104,7 +108,7 @@ void BrokenClient::make_engines(const P2pParameters& parameters, const P2pClient
   if (!behaviour_.all_at_once) make(parameters);
 }
 
-void BrokenClient::receive(const Burst& burst) {
+void BrokenClient::receive(const line::Burst& burst) {
   for (Block& block : blocks_) block.outcome = outcome(block);
   const bool asked = std::ranges::any_of(blocks_, &Block::under_way);
   if (behaviour_.keeps_late_replies && !asked) late_.push_back(burst);
@@ -128,7 +132,7 @@ Bytes BrokenClient::advance(Time now) {
     bytes.insert(bytes.end(), more.begin(), more.end());
   }
   if (bytes.empty()) return bytes;
-  for (Burst& burst : std::exchange(late_, {})) {
+  for (line::Burst& burst : std::exchange(late_, {})) {
     burst.start = now;
     for (const auto& engine : engines_) engine->receive(burst);
   }
@@ -188,7 +192,7 @@ bool BrokenClient::fires(Block& block, bool on) {
 
 /// The engine sees a rising edge of this block's flag alone; the other flags it sees off.
 void BrokenClient::fire(const Block& block) {
-  std::vector<std::pair<DeviceAddress, std::uint64_t>> kept;
+  std::vector<std::pair<plc::DeviceAddress, std::uint64_t>> kept;
   for (const Block& other : blocks_) {
     if (!other.condition) continue;
     kept.emplace_back(*other.condition, memory_.read(*other.condition));
@@ -206,7 +210,7 @@ void BrokenClient::fire(const Block& block) {
 }
 
 Outcome BrokenClient::outcome(const Block& block) const {
-  const auto read = [this](const DeviceAddress& at) { return memory_.read(at); };
+  const auto read = [this](const plc::DeviceAddress& at) { return memory_.read(at); };
   return {.ndr = read(block.flags.ndr) != 0,
           .err = read(block.flags.err) != 0,
           .status = static_cast<std::uint16_t>(read(block.flags.status)),
@@ -239,30 +243,30 @@ void BrokenClient::saved() {
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& behaviour,
-                                                           std::string_view protocol,
-                                                           std::string_view model,
-                                                           const nlohmann::json& config) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_client(const Behaviour& behaviour,
+                                                                std::string_view protocol,
+                                                                std::string_view model,
+                                                                const nlohmann::json& config) {
   if (protocol == "udata") return make_broken_udata_port(behaviour, model, config);
-  PortConfig port;
-  if (find_plc_model(model)) port.model = model;
+  plc::PortConfig port;
+  if (plc::find_plc_model(model)) port.model = model;
   unsigned time_out = 1;
-  ConfigReader reader(config, "the P2P client's configuration");
-  read_port_config(reader, port);
+  plc::ConfigReader reader(config, "the P2P client's configuration");
+  plc::read_port_config(reader, port);
   reader.whole("time_out", 50, time_out);
   if (reader.error()) return *reader.error();
-  const Result<const PlcModel*> plc = check_port_config(port);
+  const Result<const plc::PlcModel*> plc = plc::check_port_config(port);
   if (!plc) return plc.error();
-  const Result<P2pParameters> parameters = parse_p2p_parameters(config.at("p2p"), **plc);
+  const Result<P2pParameters> parameters = p2p::parse_p2p_parameters(config.at("p2p"), **plc);
   if (!parameters) return parameters.error();
   const auto good = [&] { return make_driver(protocol, port, config, model, *parameters); };
   if (const auto first = good(); !first) return first.error();
   const P2pClient::Timing timing{100ms * (time_out + 1), port.reply_delay(),
                                  port.line.character_time()};
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<BrokenClient>(
+  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<BrokenClient>(
       **plc, *parameters, port.run, timing, behaviour, [&](BrokenDriver::Asked asked) {
         return std::make_unique<BrokenDriver>(std::move(*good()), behaviour, std::move(asked));
       }));
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

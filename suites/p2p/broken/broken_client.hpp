@@ -13,7 +13,7 @@
 #include "src/plc/emulated_device.hpp"
 #include "src/udata/config.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
 
 /// What a block shows of its services.
 struct Outcome {
@@ -39,16 +39,16 @@ enum class Trigger {
 /// One fault at work. What is empty is done right.
 struct Behaviour {
   /// What the engine works with, and what is shown in N.
-  std::function<void(P2pParameters& parameters)> works_with{};
-  std::function<void(P2pParameters& parameters)> shows{};
-  std::function<void(P2pClient::Timing& timing)> timing{};
+  std::function<void(p2p::P2pParameters& parameters)> works_with{};
+  std::function<void(p2p::P2pParameters& parameters)> shows{};
+  std::function<void(p2p::P2pClient::Timing& timing)> timing{};
   Trigger trigger = Trigger::rising_edge;
   /// The request of a block, and the judgement of its reply, in its own way.
-  std::function<Result<Bytes>(const P2pDriver& good, const P2pBlock& block,
-                              const PlcMemory& memory)>
+  std::function<Result<Bytes>(const p2p::P2pDriver& good, const p2p::P2pBlock& block,
+                              const plc::PlcMemory& memory)>
       asks{};
-  std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block,
-                                             Bytes frame, PlcMemory& memory)>
+  std::function<std::optional<std::uint16_t>(const p2p::P2pDriver& good, const p2p::P2pBlock& block,
+                                             Bytes frame, plc::PlcMemory& memory)>
       takes{};
   /// Changes what a block shows when it ends. True: the block is asked once more.
   std::function<bool(const Outcome& before, Outcome& now)> ends{};
@@ -58,18 +58,18 @@ struct Behaviour {
   std::string deaf_to{};            // an action that changes nothing: "stop", "link off"
 
   // Of a port that works with UDATA instructions.
-  std::function<void(UdataConfig& config)> works_with_udata{};
+  std::function<void(udata::UdataConfig& config)> works_with_udata{};
   std::function<void(Bytes&bytes)> says{}, hears{};
 };
 
 /// The client of a protocol ("xgt-cnet", ...) with a fault; of "udata" the port. `config` is that
 /// of the good device, and so are the errors.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_client(const Behaviour& behaviour,
-                                                           std::string_view protocol,
-                                                           std::string_view model,
-                                                           const nlohmann::json& config);
-Result<std::unique_ptr<EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour,
-                                                               std::string_view model,
-                                                               const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_client(const Behaviour& behaviour,
+                                                                std::string_view protocol,
+                                                                std::string_view model,
+                                                                const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour,
+                                                                    std::string_view model,
+                                                                    const nlohmann::json& config);
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

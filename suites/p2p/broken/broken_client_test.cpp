@@ -12,7 +12,11 @@
 #include "suites/p2p/broken/faults.hpp"
 #include "suites/protocols.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using results::CaseResult;
+using results::Verdict;
+using vectors::Case;
 
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
@@ -27,7 +31,7 @@ std::string folder_of(std::string_view id) { return std::string(id.substr(0, id.
 bool concerns(const Case& one) {
   if (one.protocol == "udata")
     return one.config.contains("instructions") && !one.config.value("monitor", false);
-  return is_client_case(one) && !one.config.value("monitor", false);
+  return vectors::is_client_case(one) && !one.config.value("monitor", false);
 }
 
 /// The cases of a folder that concern the faults here.
@@ -35,8 +39,8 @@ const Cases& cases(const std::string& folder) {
   static std::map<std::string, Cases> known;
   const auto [found, is_new] = known.try_emplace(folder);
   if (!is_new) return found->second;
-  const VectorSet set = load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/" + folder,
-                                     FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
+  const vectors::VectorSet set = vectors::load_vectors(
+      FIELDPROOF_SOURCE_DIR "/vectors/" + folder, FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
   EXPECT_THAT(set.problems, testing::IsEmpty());
   std::ranges::copy_if(set.cases, std::back_inserter(found->second), concerns);
   return found->second;
@@ -50,22 +54,23 @@ std::string model_of(const Case& one) {
 }
 
 CaseResult run(const Case& source, const Behaviour& behaviour) {
-  const Protocol& protocol = *protocols().find(source.protocol);
-  EmulatorEndpoint endpoint({"emulator", model_of(source), {}},
-                            [&](std::string_view model, const nlohmann::json& config) {
-                              return make_broken_client(behaviour, source.protocol, model, config);
-                            });
-  BenchOptions options;
+  const harness::Protocol& protocol = *suites::protocols().find(source.protocol);
+  endpoints::EmulatorEndpoint endpoint({"emulator", model_of(source), {}},
+                                       [&](std::string_view model, const nlohmann::json& config) {
+                                         return make_broken_client(behaviour, source.protocol,
+                                                                   model, config);
+                                       });
+  bench::BenchOptions options;
   options.profile.name = "emulator";
   options.profile.protocols = {source.protocol};
-  Bench bench(endpoint, protocol, options);
+  bench::Bench bench(endpoint, protocol, options);
   return bench.run(source);
 }
 
 /// The message, and the fields that differ.
 std::string report(const CaseResult& result) {
   std::string text = result.id + ": " + result.message;
-  for (const Difference& one : result.differences) text += "; " + one.field;
+  for (const results::Difference& one : result.differences) text += "; " + one.field;
   return text;
 }
 
@@ -118,4 +123,4 @@ TEST(FaultTable, NamesAreUnique) {
 }
 
 }  // namespace
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

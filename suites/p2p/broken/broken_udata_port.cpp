@@ -3,18 +3,18 @@
 #include "src/udata/port.hpp"
 #include "suites/p2p/broken/broken_client.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
 
 namespace {
 
 /// The good port, which hears or says other bytes.
-class BrokenUdataPort : public EmulatedDevice {
+class BrokenUdataPort : public plc::EmulatedDevice {
  public:
-  BrokenUdataPort(const UdataConfig& config, Behaviour behaviour)
+  BrokenUdataPort(const udata::UdataConfig& config, Behaviour behaviour)
       : port_(config), behaviour_(std::move(behaviour)) {}
 
-  void receive(const Burst& burst) override {
-    Burst heard = burst;
+  void receive(const line::Burst& burst) override {
+    line::Burst heard = burst;
     if (behaviour_.hears) behaviour_.hears(heard.bytes);
     port_.receive(heard);
   }
@@ -35,20 +35,21 @@ class BrokenUdataPort : public EmulatedDevice {
   }
 
  private:
-  UdataPort port_;
+  udata::UdataPort port_;
   Behaviour behaviour_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour,
-                                                               std::string_view model,
-                                                               const nlohmann::json& config) {
-  Result<UdataConfig> parsed = parse_udata_config(model, config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour,
+                                                                    std::string_view model,
+                                                                    const nlohmann::json& config) {
+  Result<udata::UdataConfig> parsed = udata::parse_udata_config(model, config);
   if (!parsed) return parsed.error();
   if (behaviour.deaf_to == "stop") parsed->port.run = true;
   if (behaviour.works_with_udata) behaviour.works_with_udata(*parsed);
-  return std::unique_ptr<EmulatedDevice>(std::make_unique<BrokenUdataPort>(*parsed, behaviour));
+  return std::unique_ptr<plc::EmulatedDevice>(
+      std::make_unique<BrokenUdataPort>(*parsed, behaviour));
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

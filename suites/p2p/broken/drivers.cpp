@@ -8,24 +8,29 @@
 #include "src/xgt_cnet/p2p_driver.hpp"
 #include "suites/user_frames/definition_files.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
 
-Result<std::unique_ptr<P2pDriver>> make_driver(std::string_view protocol, const PortConfig& port,
-                                               const nlohmann::json& config, std::string_view model,
-                                               const P2pParameters& parameters) {
+Result<std::unique_ptr<p2p::P2pDriver>> make_driver(std::string_view protocol,
+                                                    const plc::PortConfig& port,
+                                                    const nlohmann::json& config,
+                                                    std::string_view model,
+                                                    const p2p::P2pParameters& parameters) {
   if (protocol == "xgt-cnet")
-    return std::unique_ptr<P2pDriver>(std::make_unique<XgtP2pDriver>(port.gap()));
-  if (protocol == "modbus-rtu") return make_modbus_p2p_driver(ModbusMode::rtu, port.gap());
-  if (protocol == "modbus-ascii") return make_modbus_p2p_driver(ModbusMode::ascii, port.gap());
+    return std::unique_ptr<p2p::P2pDriver>(std::make_unique<xgt_cnet::XgtP2pDriver>(port.gap()));
+  if (protocol == "modbus-rtu")
+    return modbus::make_modbus_p2p_driver(modbus::ModbusMode::rtu, port.gap());
+  if (protocol == "modbus-ascii")
+    return modbus::make_modbus_p2p_driver(modbus::ModbusMode::ascii, port.gap());
   if (protocol == "ls-bus") {
     const bool count_first = config.value("write_order", "") == "count_first";
-    return make_ls_bus_p2p_driver(
-        count_first ? LsWriteOrder::count_first : LsWriteOrder::address_first, port.gap());
+    return ls_bus::make_ls_bus_p2p_driver(
+        count_first ? ls_bus::LsWriteOrder::count_first : ls_bus::LsWriteOrder::address_first,
+        port.gap());
   }
-  const Result<user_frames::NamedDefinition> frames = user_frames::load_definition(
-      config.value("definition", std::string(model)), user_frames::definitions_folder());
+  const Result<user_frames_suite::NamedDefinition> frames = user_frames_suite::load_definition(
+      config.value("definition", std::string(model)), user_frames_suite::definitions_folder());
   if (!frames) return frames.error();
-  return make_user_frame_p2p_driver(frames->definition, parameters.blocks, port.gap());
+  return user_frames::make_user_frame_p2p_driver(frames->definition, parameters.blocks, port.gap());
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

@@ -2,12 +2,16 @@
 
 #include <utility>
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using p2p::P2pBlock;
+using p2p::P2pDriver;
+using plc::PlcMemory;
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table =
-      gather<Fault>({trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults,
-                     modbus_faults, ls_bus_faults, user_frame_faults, udata_faults});
+      broken::gather<Fault>({trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults,
+                             modbus_faults, ls_bus_faults, user_frame_faults, udata_faults});
   return table;
 }
 
@@ -15,7 +19,7 @@ MakeBehaviour trigger(Trigger trigger) {
   return [=] { return Behaviour{.trigger = trigger}; };
 }
 
-MakeBehaviour timing(std::function<void(P2pClient::Timing& timing)> edit) {
+MakeBehaviour timing(std::function<void(p2p::P2pClient::Timing& timing)> edit) {
   return [=] { return Behaviour{.timing = edit}; };
 }
 
@@ -23,16 +27,16 @@ MakeBehaviour deaf_to(std::string action) {
   return [=] { return Behaviour{.deaf_to = action}; };
 }
 
-MakeBehaviour works_with(std::function<void(P2pParameters& parameters)> edit) {
+MakeBehaviour works_with(std::function<void(p2p::P2pParameters& parameters)> edit) {
   return [=] { return Behaviour{.works_with = edit}; };
 }
 
 MakeBehaviour each_block(std::function<void(P2pBlock& block)> edit) {
   return works_with(
-      [=](P2pParameters& parameters) { std::ranges::for_each(parameters.blocks, edit); });
+      [=](p2p::P2pParameters& parameters) { std::ranges::for_each(parameters.blocks, edit); });
 }
 
-MakeBehaviour shows(std::function<void(P2pParameters& parameters)> edit) {
+MakeBehaviour shows(std::function<void(p2p::P2pParameters& parameters)> edit) {
   return [=] { return Behaviour{.shows = edit}; };
 }
 
@@ -83,10 +87,10 @@ MakeBehaviour after_saving(std::function<void(const P2pBlock& block, PlcMemory& 
   return takes(
       [=](const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
         const auto error = good.take(block, frame, memory);
-        if (error == p2p_error::none && block.function != P2pBlock::Function::write)
+        if (error == p2p::p2p_error::none && block.function != P2pBlock::Function::write)
           edit(block, memory);
         return error;
       });
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

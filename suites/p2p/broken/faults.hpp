@@ -8,11 +8,11 @@
 #include "suites/broken/fault.hpp"
 #include "suites/p2p/broken/broken_client.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
 
 using MakeBehaviour = std::function<Behaviour()>;
 /// `caught_by` is the id of a case; its protocol is the one that the fault is tried with.
-using Fault = FaultOf<MakeBehaviour>;
+using Fault = broken::FaultOf<MakeBehaviour>;
 
 /// All of them. "none" is no fault and not among them.
 const std::vector<Fault>& faults();
@@ -29,26 +29,27 @@ std::vector<Fault> udata_faults();
 
 // How their rows are made.
 MakeBehaviour trigger(Trigger trigger);
-MakeBehaviour timing(std::function<void(P2pClient::Timing& timing)> edit);
+MakeBehaviour timing(std::function<void(p2p::P2pClient::Timing& timing)> edit);
 MakeBehaviour deaf_to(std::string action);
 /// The engine works with other parameters, or N shows others.
-MakeBehaviour works_with(std::function<void(P2pParameters& parameters)> edit);
-MakeBehaviour each_block(std::function<void(P2pBlock& block)> edit);
-MakeBehaviour shows(std::function<void(P2pParameters& parameters)> edit);
+MakeBehaviour works_with(std::function<void(p2p::P2pParameters& parameters)> edit);
+MakeBehaviour each_block(std::function<void(p2p::P2pBlock& block)> edit);
+MakeBehaviour shows(std::function<void(p2p::P2pParameters& parameters)> edit);
 /// Changes what a block shows.
 MakeBehaviour ends(std::function<void(const Outcome& before, Outcome& now)> edit);
 /// Asks for another block than it should; the reply is judged against the right one.
-MakeBehaviour asks_for(std::function<void(P2pBlock& block)> edit);
+MakeBehaviour asks_for(std::function<void(p2p::P2pBlock& block)> edit);
 /// Spoils the request.
 MakeBehaviour spoils(std::function<void(Bytes& request)> edit);
 /// Changes the reply before it is judged.
-MakeBehaviour hears(std::function<void(Bytes& reply, const P2pBlock& block)> edit);
+MakeBehaviour hears(std::function<void(Bytes& reply, const p2p::P2pBlock& block)> edit);
 /// Judges, and saves, in its own way; `good` does it right.
-MakeBehaviour takes(
-    std::function<std::optional<std::uint16_t>(const P2pDriver& good, const P2pBlock& block,
-                                               Bytes frame, PlcMemory& memory)>
-        own);
+MakeBehaviour takes(std::function<std::optional<std::uint16_t>(const p2p::P2pDriver& good,
+                                                               const p2p::P2pBlock& block,
+                                                               Bytes frame, plc::PlcMemory& memory)>
+                        own);
 /// After the good driver has saved what was read.
-MakeBehaviour after_saving(std::function<void(const P2pBlock& block, PlcMemory& memory)> edit);
+MakeBehaviour after_saving(
+    std::function<void(const p2p::P2pBlock& block, plc::PlcMemory& memory)> edit);
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

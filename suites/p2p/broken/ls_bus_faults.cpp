@@ -2,13 +2,15 @@
 #include "src/ls_bus/codec.hpp"
 #include "suites/p2p/broken/faults.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using p2p::P2pBlock;
 
 namespace {
 
 void set_sum(Bytes& frame) {
   const std::size_t sum = frame.size() - 3;
-  std::ranges::copy(hex_number(ls_sum(ByteView(frame).subspan(1, sum - 1)), 2),
+  std::ranges::copy(hex_number(ls_bus::ls_sum(ByteView(frame).subspan(1, sum - 1)), 2),
                     frame.begin() + static_cast<std::ptrdiff_t>(sum));
 }
 
@@ -23,21 +25,22 @@ void accept_any_sum(Bytes& frame, const P2pBlock&) {
   if (frame.size() >= 7) set_sum(frame);
 }
 
-std::optional<std::uint16_t> nak_is_normal(const P2pDriver& good, const P2pBlock& block,
-                                           const Bytes& frame, PlcMemory& memory) {
+std::optional<std::uint16_t> nak_is_normal(const p2p::P2pDriver& good, const P2pBlock& block,
+                                           const Bytes& frame, plc::PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
-  return error == p2p_error::nak ? p2p_error::none : error;
+  return error == p2p::p2p_error::nak ? p2p::p2p_error::none : error;
 }
 
-std::optional<std::uint16_t> echo_not_compared(const P2pDriver& good, const P2pBlock& block,
-                                               const Bytes& frame, PlcMemory& memory) {
+std::optional<std::uint16_t> echo_not_compared(const p2p::P2pDriver& good, const P2pBlock& block,
+                                               const Bytes& frame, plc::PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
-  return error == p2p_error::driver && parse_ls_reply(frame).command == 'W' ? p2p_error::none
-                                                                            : error;
+  return error == p2p::p2p_error::driver && ls_bus::parse_ls_reply(frame).command == 'W'
+             ? p2p::p2p_error::none
+             : error;
 }
 
 void set_station(Bytes& frame, const P2pBlock& block) {
-  if (!parse_ls_reply(frame).station) return;
+  if (!ls_bus::parse_ls_reply(frame).station) return;
   std::ranges::copy(hex_number(block.station, 2), frame.begin() + 1);
   set_sum(frame);
 }
@@ -52,7 +55,7 @@ std::vector<Fault> ls_bus_faults() {
        "ls_bus/client/example/read", "address: expected 1230, got 123"},
       {"sum_with_header", "ENQ is in the sum", spoils([](Bytes& request) {
          const std::size_t sum = request.size() - 3;
-         std::ranges::copy(hex_number(ls_sum(ByteView(request).first(sum)), 2),
+         std::ranges::copy(hex_number(ls_bus::ls_sum(ByteView(request).first(sum)), 2),
                            request.begin() + static_cast<std::ptrdiff_t>(sum));
        }),
        "ls_bus/client/example/read", "SUM: expected AA, got AF"},
@@ -69,7 +72,7 @@ std::vector<Fault> ls_bus_faults() {
       {"ls_address_plus_one", "the address that goes out is one too high",
        asks_for([](P2pBlock& block) {
          std::string& address = block.variables[0].partner;
-         address = hex_number(*parse_ls_address(address) + 1, 4);
+         address = hex_number(*ls_bus::parse_ls_address(address) + 1, 4);
        }),
        "ls_bus/client/example/read", "address: expected 1230, got 1231"},
       {"ls_station_of_own", "the request goes to station 00",
@@ -86,4 +89,4 @@ std::vector<Fault> ls_bus_faults() {
   };
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

@@ -1,7 +1,11 @@
 // Modbus clients, RTU and ASCII (000 10.3, 003 6.4, 11.3).
 #include "suites/p2p/broken/faults.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using modbus::ModbusFrame;
+using modbus::ModbusMode;
+using p2p::P2pBlock;
 
 namespace {
 
@@ -27,9 +31,9 @@ bool reads_bits(const P2pBlock& block) {
 /// Sends another PDU than the good one.
 MakeBehaviour sends(std::function<void(Bytes& pdu)> edit) {
   return spoils([=](Bytes& frame) {
-    ModbusFrame right = decode_modbus_frame(mode_of(frame), frame);
+    ModbusFrame right = modbus::decode_modbus_frame(mode_of(frame), frame);
     edit(right.pdu);
-    frame = encode_modbus_frame(mode_of(frame), right.station, right.pdu);
+    frame = modbus::encode_modbus_frame(mode_of(frame), right.station, right.pdu);
   });
 }
 
@@ -84,17 +88,17 @@ Byte bits_reversed(Byte byte) {
 MakeBehaviour understands(std::function<void(ModbusFrame& reply, const P2pBlock& block)> edit) {
   return hears([=](Bytes& frame, const P2pBlock& block) {
     const ModbusMode mode = mode_of(frame);
-    ModbusFrame reply = decode_modbus_frame(mode, frame);
+    ModbusFrame reply = modbus::decode_modbus_frame(mode, frame);
     if (reply.fault != 0 || reply.pdu.size() < 2) return;
     edit(reply, block);
-    frame = encode_modbus_frame(mode, reply.station, reply.pdu);
+    frame = modbus::encode_modbus_frame(mode, reply.station, reply.pdu);
   });
 }
 
 void accept_any_crc(Bytes& frame, const P2pBlock&) {
   if (mode_of(frame) == ModbusMode::ascii || frame.size() < 4) return;
-  frame =
-      encode_modbus_frame(ModbusMode::rtu, frame[0], ByteView(frame).subspan(1, frame.size() - 3));
+  frame = modbus::encode_modbus_frame(ModbusMode::rtu, frame[0],
+                                      ByteView(frame).subspan(1, frame.size() - 3));
 }
 
 void accept_any_lrc(Bytes& frame, const P2pBlock&) {
@@ -102,24 +106,26 @@ void accept_any_lrc(Bytes& frame, const P2pBlock&) {
                          ? std::nullopt
                          : from_hex(to_text(ByteView(frame).subspan(1, frame.size() - 5)));
   if (bytes)
-    frame = encode_modbus_frame(ModbusMode::ascii, bytes->at(0), ByteView(*bytes).subspan(1));
+    frame =
+        modbus::encode_modbus_frame(ModbusMode::ascii, bytes->at(0), ByteView(*bytes).subspan(1));
 }
 
-std::optional<std::uint16_t> exception_is_normal(const P2pDriver& good, const P2pBlock& block,
-                                                 const Bytes& frame, PlcMemory& memory) {
+std::optional<std::uint16_t> exception_is_normal(const p2p::P2pDriver& good, const P2pBlock& block,
+                                                 const Bytes& frame, plc::PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
-  return error == p2p_error::nak ? p2p_error::none : error;
+  return error == p2p::p2p_error::nak ? p2p::p2p_error::none : error;
 }
 
-std::optional<std::uint16_t> echo_not_compared(const P2pDriver& good, const P2pBlock& block,
-                                               const Bytes& frame, PlcMemory& memory) {
+std::optional<std::uint16_t> echo_not_compared(const p2p::P2pDriver& good, const P2pBlock& block,
+                                               const Bytes& frame, plc::PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
-  return block.function == P2pBlock::Function::write && error == p2p_error::driver ? p2p_error::none
-                                                                                   : error;
+  return block.function == P2pBlock::Function::write && error == p2p::p2p_error::driver
+             ? p2p::p2p_error::none
+             : error;
 }
 
 /// Whole bytes of bits are saved, padding and all.
-void save_padding(const P2pBlock& block, PlcMemory& memory) {
+void save_padding(const P2pBlock& block, plc::PlcMemory& memory) {
   if (block.type != 'X') return;
   for (unsigned i = block.elements(); i % 8 != 0; ++i) memory.write(block.variables[0].own + i, 0);
 }
@@ -231,4 +237,4 @@ std::vector<Fault> modbus_faults() {
   };
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

@@ -2,11 +2,13 @@
 // (3), 2.2).
 #include "suites/p2p/broken/faults.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using p2p::P2pBlock;
 
 namespace {
 
-bool ended_well(const Outcome& now) { return now.status == p2p_error::none; }
+bool ended_well(const Outcome& now) { return now.status == p2p::p2p_error::none; }
 
 std::uint32_t low_word_only(std::uint32_t before, std::uint32_t now) {
   return (before & 0xFFFF0000) | (now & 0xFFFF);
@@ -23,7 +25,8 @@ void exchange_function(P2pBlock& block) {
 }
 
 MakeBehaviour shows_blocks(std::function<void(P2pBlock& block)> edit) {
-  return shows([=](P2pParameters& parameters) { std::ranges::for_each(parameters.blocks, edit); });
+  return shows(
+      [=](p2p::P2pParameters& parameters) { std::ranges::for_each(parameters.blocks, edit); });
 }
 
 }  // namespace
@@ -104,12 +107,12 @@ std::vector<Fault> result_faults() {
        "xgt_cnet/client/error/nak/range", "%LW513 holds 0F00"},
       {"every_error_is_a_time_out", "STATUS is 0A whatever is wrong",
        ends([](const Outcome&, Outcome& now) {
-         if (!ended_well(now)) now.status = p2p_error::time_out;
+         if (!ended_well(now)) now.status = p2p::p2p_error::time_out;
        }),
        "xgt_cnet/client/error/wrong_bcc/absent", "%LW513 holds 000A"},
       {"time_out_not_shown", "a request without an answer leaves no trace",
        ends([](const Outcome& before, Outcome& now) {
-         if (now.status == p2p_error::time_out) now = before;
+         if (now.status == p2p::p2p_error::time_out) now = before;
        }),
        "xgt_cnet/client/time_out", "%LW512 holds 0000"},
       {"flags_of_next_block", "the result of a block stands in that of the next",
@@ -119,10 +122,10 @@ std::vector<Fault> result_faults() {
        all_flags_of([](unsigned) { return 0; }), "xgt_cnet/client/flags/each_block_its_own",
        "%LW512 holds 0002"},
       {"flags_of_parameter_1", "the results of P2P 2 and 3 stand in those of P2P 1",
-       works_with([](P2pParameters& parameters) { parameters.parameter = 1; }),
+       works_with([](p2p::P2pParameters& parameters) { parameters.parameter = 1; }),
        "xgt_cnet/client/flags/address/p2b1", "%LW710 holds 0000"},
       {"registers_of_parameter_1", "the parameters of P2P 2 and 3 are shown in those of P2P 1",
-       shows([](P2pParameters& parameters) { parameters.parameter = 1; }),
+       shows([](p2p::P2pParameters& parameters) { parameters.parameter = 1; }),
        "xgt_cnet/client/registers/station/p2b0", "%NW1312 holds 0000"},
       {"registers_of_next_block", "the parameters of a block are shown in those of the next",
        shows_blocks([](P2pBlock& block) { block.number = (block.number + 1) % 32; }),
@@ -135,4 +138,4 @@ std::vector<Fault> result_faults() {
   };
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

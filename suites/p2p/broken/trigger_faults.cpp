@@ -1,11 +1,13 @@
 // When a block is asked: edges, clocks, order, RUN and link, time-out (000 and 003 6.2.4, 4.3).
 #include "suites/p2p/broken/faults.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using p2p::P2pBlock;
 
 namespace {
 
-using Timing = P2pClient::Timing;
+using Timing = p2p::P2pClient::Timing;
 
 MakeBehaviour clocks(std::function<Duration(Duration right)> period) {
   return each_block([=](P2pBlock& block) {
@@ -17,7 +19,7 @@ MakeBehaviour clocks(std::function<Duration(Duration right)> period) {
 /// Asks once more after the first time-out, and shows only the second.
 Behaviour retry() {
   return {.ends = [retried = false](const Outcome& before, Outcome& now) mutable {
-    retried = now.status == p2p_error::time_out && !retried;
+    retried = now.status == p2p::p2p_error::time_out && !retried;
     if (retried) now = before;
     return retried;
   }};
@@ -26,19 +28,19 @@ Behaviour retry() {
 /// Asks nothing after three time-outs in a row.
 Behaviour gives_up() {
   const auto time_outs = std::make_shared<int>(0);
-  return {.asks = [=](const P2pDriver& good, const P2pBlock& block,
-                      const PlcMemory& memory) -> Result<Bytes> {
+  return {.asks = [=](const p2p::P2pDriver& good, const P2pBlock& block,
+                      const plc::PlcMemory& memory) -> Result<Bytes> {
             if (*time_outs >= 3) return fail("the partner is taken for dead");
             return good.request(block, memory);
           },
           .ends =
               [=](const Outcome&, Outcome& now) {
-                *time_outs = now.status == p2p_error::time_out ? *time_outs + 1 : 0;
+                *time_outs = now.status == p2p::p2p_error::time_out ? *time_outs + 1 : 0;
                 return false;
               }};
 }
 
-void one_block_a_flag(P2pParameters& parameters) {
+void one_block_a_flag(p2p::P2pParameters& parameters) {
   std::vector<P2pBlock> first;
   for (const P2pBlock& block : parameters.blocks) {
     const auto same = [&](const P2pBlock& other) {
@@ -80,7 +82,7 @@ std::vector<Fault> trigger_faults() {
        clocks([](Duration right) { return std::min<Duration>(right, 200ms); }),
        "xgt_cnet/client/schedule/f93", "came after 200.0 ms instead of every 1000.0 ms"},
       {"blocks_in_reverse", "of the blocks that have fired the last is asked first",
-       works_with([](P2pParameters& parameters) { std::ranges::reverse(parameters.blocks); }),
+       works_with([](p2p::P2pParameters& parameters) { std::ranges::reverse(parameters.blocks); }),
        "xgt_cnet/client/schedule/block_order", "station: expected 03, got 07"},
       {"one_block_a_flag", "of several blocks on one flag only the first is asked",
        works_with(one_block_a_flag), "xgt_cnet/client/schedule/block_order", "no request within"},
@@ -133,4 +135,4 @@ std::vector<Fault> trigger_faults() {
   };
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

@@ -1,7 +1,10 @@
 // The UDATA instructions (003 6.6).
 #include "suites/p2p/broken/faults.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using udata::UdataConfig;
+using udata::UdataInstruction;
 
 namespace {
 
@@ -77,4 +80,4 @@ std::vector<Fault> udata_faults() {
   };
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

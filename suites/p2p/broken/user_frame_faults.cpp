@@ -1,13 +1,16 @@
 // SEND and RECEIVE blocks of user-defined frames (000 6.2.4, 10.4; 003 6.5, 11.4).
 #include "suites/p2p/broken/faults.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using p2p::P2pBlock;
+using plc::PlcMemory;
 
 namespace {
 
 using Function = P2pBlock::Function;
 
-void without_receive(P2pParameters& parameters) {
+void without_receive(p2p::P2pParameters& parameters) {
   std::erase_if(parameters.blocks,
                 [](const P2pBlock& block) { return block.function == Function::receive; });
 }
@@ -16,11 +19,11 @@ void without_receive(P2pParameters& parameters) {
 Behaviour only_when_asked() {
   const auto asked = std::make_shared<bool>(false);
   return {.asks =
-              [=](const P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
+              [=](const p2p::P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
                 *asked = true;
                 return good.request(block, memory);
               },
-          .takes = [=](const P2pDriver& good, const P2pBlock& block, const Bytes& frame,
+          .takes = [=](const p2p::P2pDriver& good, const P2pBlock& block, const Bytes& frame,
                        PlcMemory& memory) -> std::optional<std::uint16_t> {
             if (!*asked) return std::nullopt;
             const auto error = good.take(block, frame, memory);
@@ -32,7 +35,7 @@ Behaviour only_when_asked() {
 /// RECEIVE takes one frame, then no other.
 Behaviour only_once() {
   return {.takes = [done = std::make_shared<std::vector<unsigned>>()](
-                       const P2pDriver& good, const P2pBlock& block, const Bytes& frame,
+                       const p2p::P2pDriver& good, const P2pBlock& block, const Bytes& frame,
                        PlcMemory& memory) -> std::optional<std::uint16_t> {
     if (std::ranges::find(*done, block.number) != done->end()) return std::nullopt;
     const auto error = good.take(block, frame, memory);
@@ -44,13 +47,13 @@ Behaviour only_once() {
 /// The data land in the places of the next variable.
 void rotate_places(P2pBlock& block) {
   if (block.function != Function::receive || block.variables.size() < 2) return;
-  const DeviceAddress first = block.variables.front().own;
+  const plc::DeviceAddress first = block.variables.front().own;
   for (std::size_t i = 0; i + 1 < block.variables.size(); ++i)
     block.variables[i].own = block.variables[i + 1].own;
   block.variables.back().own = first;
 }
 
-std::optional<std::uint16_t> count_only(const P2pDriver& good, const P2pBlock& block,
+std::optional<std::uint16_t> count_only(const p2p::P2pDriver& good, const P2pBlock& block,
                                         const Bytes& frame, PlcMemory& memory) {
   PlcMemory elsewhere = memory;
   return good.take(block, frame, elsewhere);
@@ -92,9 +95,9 @@ std::vector<Fault> user_frame_faults() {
        each_block([](P2pBlock& block) { block.number = (block.number + 1) % 32; }),
        "user_frames/client_xgt_write/ack", "%LW512 holds 0000"},
       {"sends_in_reverse", "of two SEND blocks on one flag the last goes first",
-       works_with([](P2pParameters& parameters) { std::ranges::reverse(parameters.blocks); }),
+       works_with([](p2p::P2pParameters& parameters) { std::ranges::reverse(parameters.blocks); }),
        "user_frames/client_xgt_write/two_sends", "station: expected '00', got '01'"},
   };
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

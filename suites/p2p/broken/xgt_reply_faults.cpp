@@ -1,7 +1,12 @@
 // What the XGT client makes of a reply (000 and 003 6.3, 7.1, Appendix 3.3).
 #include "suites/p2p/broken/faults.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using p2p::P2pBlock;
+using p2p::P2pDriver;
+using plc::PlcMemory;
+using xgt_cnet::XgtReply;
 
 namespace {
 
@@ -11,17 +16,18 @@ bool reads(const P2pBlock& block) { return block.function == P2pBlock::Function:
 MakeBehaviour understands(std::function<void(XgtReply& reply, const P2pBlock& block)> edit) {
   return hears([=](Bytes& bytes, const P2pBlock& block) {
     const Bytes right = bytes;
-    XgtReply reply = parse_reply(right);
-    if (reply.fault.check < XgtCheck::station) return;
+    XgtReply reply = xgt_cnet::parse_reply(right);
+    if (reply.fault.check < xgt_cnet::XgtCheck::station) return;
     edit(reply, block);
     bytes.clear();
-    encode_reply(reply, bytes);
+    xgt_cnet::encode_reply(reply, bytes);
   });
 }
 
 void accept_any_check(Bytes& frame, const P2pBlock&) {
   if (frame.size() < 4) return;
-  const std::string right = hex_number(xgt_bcc(ByteView(frame).first(frame.size() - 2)), 2);
+  const std::string right =
+      hex_number(xgt_cnet::xgt_bcc(ByteView(frame).first(frame.size() - 2)), 2);
   std::ranges::copy(right, frame.end() - 2);
 }
 
@@ -30,7 +36,7 @@ using Value = std::uint64_t;
 /// Saves another value of each element.
 MakeBehaviour saves(std::function<Value(Value right, char type)> wrong) {
   return after_saving([=](const P2pBlock& block, PlcMemory& memory) {
-    for (const P2pVariable& variable : block.variables)
+    for (const p2p::P2pVariable& variable : block.variables)
       for (unsigned i = 0; i < block.elements(); ++i)
         memory.write(variable.own + i, wrong(memory.read(variable.own + i), variable.own.type));
   });
@@ -38,13 +44,13 @@ MakeBehaviour saves(std::function<Value(Value right, char type)> wrong) {
 
 Value bytes_swapped(Value right, char type) {
   Value wrong = 0;
-  for (unsigned i = 0; i < type_bytes(type); ++i) wrong = wrong << 8 | (right >> 8 * i & 0xFF);
+  for (unsigned i = 0; i < plc::type_bytes(type); ++i) wrong = wrong << 8 | (right >> 8 * i & 0xFF);
   return wrong;
 }
 
 Value halves_swapped(Value right, char type) {
-  if (type_bytes(type) < 4) return right;
-  const unsigned half = 4 * type_bytes(type);
+  if (plc::type_bytes(type) < 4) return right;
+  const unsigned half = 4 * plc::type_bytes(type);
   const Value low = (Value{1} << half) - 1;
   return right << half | (right >> half & low);
 }
@@ -52,9 +58,9 @@ Value halves_swapped(Value right, char type) {
 /// What a reply holds is saved whatever it is, before it is judged.
 std::optional<std::uint16_t> save_first(const P2pDriver& good, const P2pBlock& block,
                                         const Bytes& frame, PlcMemory& memory) {
-  const XgtReply reply = parse_reply(frame);
+  const XgtReply reply = xgt_cnet::parse_reply(frame);
   for (std::size_t i = 0; reads(block) && i < block.variables.size(); ++i) {
-    const std::int64_t value = hex_value(reply.data.at(i).substr(0, 4));
+    const std::int64_t value = xgt_cnet::hex_value(reply.data.at(i).substr(0, 4));
     if (value >= 0) memory.write(block.variables[i].own, static_cast<Value>(value));
   }
   return good.take(block, frame, memory);
@@ -64,8 +70,8 @@ std::optional<std::uint16_t> save_first(const P2pDriver& good, const P2pBlock& b
 std::optional<std::uint16_t> save_nak(const P2pDriver& good, const P2pBlock& block,
                                       const Bytes& frame, PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
-  if (error == p2p_error::nak && reads(block))
-    memory.write(block.variables[0].own, parse_reply(frame).error);
+  if (error == p2p::p2p_error::nak && reads(block))
+    memory.write(block.variables[0].own, xgt_cnet::parse_reply(frame).error);
   return error;
 }
 
@@ -80,15 +86,15 @@ MakeBehaviour instead_of(std::uint16_t right, std::uint16_t wrong) {
 std::optional<std::uint16_t> ignore_wrong(const P2pDriver& good, const P2pBlock& block,
                                           const Bytes& frame, PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
-  return error == p2p_error::station ? std::nullopt : error;
+  return error == p2p::p2p_error::station ? std::nullopt : error;
 }
 
 void save_whole_word(const P2pBlock& block, PlcMemory& memory) {
-  for (const P2pVariable& variable : block.variables) {
+  for (const p2p::P2pVariable& variable : block.variables) {
     if (variable.own.type != 'X' && variable.own.type != 'B') continue;
     const unsigned in_a_word = variable.own.type == 'X' ? 16 : 2;
     const Value value = memory.read(variable.own);
-    DeviceAddress one = variable.own;
+    plc::DeviceAddress one = variable.own;
     for (one.index -= one.index % in_a_word;
          one.index / in_a_word == variable.own.index / in_a_word; ++one.index)
       memory.write(one, 0);
@@ -97,7 +103,7 @@ void save_whole_word(const P2pBlock& block, PlcMemory& memory) {
 }
 
 void move_up(P2pBlock& block) {
-  for (P2pVariable& variable : block.variables)
+  for (p2p::P2pVariable& variable : block.variables)
     if (reads(block)) variable.own = variable.own + 1;
 }
 
@@ -118,7 +124,7 @@ std::vector<Fault> xgt_reply_faults() {
        takes(
            [](const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
              std::vector<Value> kept;
-             for (const P2pVariable& variable : block.variables)
+             for (const p2p::P2pVariable& variable : block.variables)
                kept.push_back(memory.read(variable.own));
              const auto error = good.take(block, frame, memory);
              for (std::size_t i = 1; i < kept.size(); ++i)
@@ -129,7 +135,7 @@ std::vector<Fault> xgt_reply_faults() {
       {"saves_run_one_short", "the last element of a run is not saved",
        takes(
            [](const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
-             const DeviceAddress last = block.variables[0].own + (block.elements() - 1);
+             const plc::DeviceAddress last = block.variables[0].own + (block.elements() - 1);
              const Value kept = memory.read(last);
              const auto error = good.take(block, frame, memory);
              if (block.continuous) memory.write(last, kept);
@@ -147,8 +153,9 @@ std::vector<Fault> xgt_reply_faults() {
        "xgt_cnet/client/error/all_or_nothing/not_hex", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"saves_nak", "the code of a NAK is saved as data", takes(save_nak), "xgt_cnet/client/nak",
        "%MW199 holds 135711329BDF"},
-      {"nak_is_normal", "NAK is a normal end", instead_of(p2p_error::nak, p2p_error::none),
-       "xgt_cnet/client/nak", "%LW512 holds 0001"},
+      {"nak_is_normal", "NAK is a normal end",
+       instead_of(p2p::p2p_error::nak, p2p::p2p_error::none), "xgt_cnet/client/nak",
+       "%LW512 holds 0001"},
       {"foreign_station", "the reply of another station is accepted",
        understands([](XgtReply& reply, const P2pBlock& block) { reply.station = block.station; }),
        "xgt_cnet/client/error/wrong_station/next", "%MW119 holds 13575ABC9BDF86427531FDB9"},
@@ -165,16 +172,16 @@ std::vector<Fault> xgt_reply_faults() {
       {"surplus_ignored", "a reply with too many values is accepted",
        understands([](XgtReply& reply, const P2pBlock& block) {
          for (std::string_view& data : reply.data)
-           data = data.substr(0, std::size_t{2} * type_bytes(block.type) * block.elements());
+           data = data.substr(0, std::size_t{2} * plc::type_bytes(block.type) * block.elements());
        }),
        "xgt_cnet/client/error/length/long", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"not_hex_is_a_wrong_length", "data that are not hex are 0B, not 0D",
-       instead_of(p2p_error::not_hex, p2p_error::length), "xgt_cnet/client/error/not_hex/first",
-       "%LW513 holds 000B"},
+       instead_of(p2p::p2p_error::not_hex, p2p::p2p_error::length),
+       "xgt_cnet/client/error/not_hex/first", "%LW513 holds 000B"},
       {"range_is_a_wrong_length", "what runs over the end of the save area is 0B, not 0E",
-       instead_of(p2p_error::range, p2p_error::length), "xgt_cnet/client/error/range/xbc_m",
-       "%LW513 holds 000B"},
+       instead_of(p2p::p2p_error::range, p2p::p2p_error::length),
+       "xgt_cnet/client/error/range/xbc_m", "%LW513 holds 000B"},
   };
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

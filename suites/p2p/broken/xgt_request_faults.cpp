@@ -7,7 +7,10 @@
 #include "src/base/letters.hpp"
 #include "suites/p2p/broken/faults.hpp"
 
-namespace fieldproof::p2p {
+namespace fieldproof::p2p_broken {
+
+using p2p::P2pBlock;
+using xgt_cnet::XgtRequest;
 
 namespace {
 
@@ -18,12 +21,12 @@ MakeBehaviour sends(
     std::function<void(XgtRequest& request, std::vector<std::string>& texts)> edit) {
   return spoils([=](Bytes& bytes) {
     const Bytes good = bytes;
-    XgtRequest request = parse_request(good);
+    XgtRequest request = xgt_cnet::parse_request(good);
     std::vector<std::string> texts;
-    texts.reserve(2 * xgt_max_blocks);
+    texts.reserve(2 * xgt_cnet::xgt_max_blocks);
     edit(request, texts);
     bytes.clear();
-    encode_request(request, bytes);
+    xgt_cnet::encode_request(request, bytes);
   });
 }
 
@@ -39,7 +42,7 @@ MakeBehaviour digits(std::size_t most, std::function<std::string(std::string dig
   return sends([=](XgtRequest& request, std::vector<std::string>& texts) {
     for (unsigned i = 0; i < request.blocks; ++i) {
       const std::size_t size =
-          std::min(most, std::size_t{2} * type_bytes(request.block.at(i).name[2]));
+          std::min(most, std::size_t{2} * plc::type_bytes(request.block.at(i).name[2]));
       const std::string right(request.block.at(i).data);
       std::string& wrong = texts.emplace_back();
       for (std::size_t at = 0; at < right.size(); at += size) wrong += edit(right.substr(at, size));
@@ -73,7 +76,7 @@ void upper_case(XgtRequest& request, std::vector<std::string>&) {
 }
 
 void set_bcc(Bytes& frame, int offset = 0) {
-  const int right = xgt_bcc(ByteView(frame).first(frame.size() - 2));
+  const int right = xgt_cnet::xgt_bcc(ByteView(frame).first(frame.size() - 2));
   std::ranges::copy(hex_number(static_cast<Byte>(right + offset), 2), frame.end() - 2);
 }
 
@@ -91,8 +94,8 @@ MakeBehaviour spoils_with_bcc(std::function<void(Bytes& request)> edit) {
 /// Writes what memory held at the first request.
 Behaviour remembers() {
   const auto first = std::make_shared<std::map<unsigned, Bytes>>();
-  return {.asks = [=](const P2pDriver& good, const P2pBlock& block,
-                      const PlcMemory& memory) -> Result<Bytes> {
+  return {.asks = [=](const p2p::P2pDriver& good, const P2pBlock& block,
+                      const plc::PlcMemory& memory) -> Result<Bytes> {
     const Result<Bytes> request = good.request(block, memory);
     return request ? Result<Bytes>(first->try_emplace(block.number, *request).first->second)
                    : request;
@@ -102,7 +105,7 @@ Behaviour remembers() {
 /// All blocks ask the station of the block that was asked first.
 Behaviour one_station() {
   const auto station = std::make_shared<std::optional<unsigned>>();
-  return {.asks = [=](const P2pDriver& good, P2pBlock block, const PlcMemory& memory) {
+  return {.asks = [=](const p2p::P2pDriver& good, P2pBlock block, const plc::PlcMemory& memory) {
     if (!*station) *station = block.station;
     block.station = **station;
     return good.request(block, memory);
@@ -118,10 +121,10 @@ std::vector<Fault> xgt_request_faults() {
        "xgt_cnet/client/read_cycle", "BCC: expected A4, got nothing"},
       {"bcc_off_by_one", "the BCC is one too high", bcc_higher_by(1), "xgt_cnet/client/read_cycle",
        "BCC: expected A4, got A5"},
-      {"bcc_without_header", "ENQ is not in the sum of the BCC", bcc_higher_by(-xgt_enq),
+      {"bcc_without_header", "ENQ is not in the sum of the BCC", bcc_higher_by(-xgt_cnet::xgt_enq),
        "xgt_cnet/client/monitor_capture", "BCC: expected 40, got 3B"},
       {"etx_for_eot", "a request ends with ETX",
-       spoils_with_bcc([](Bytes& request) { request.at(request.size() - 3) = xgt_etx; }),
+       spoils_with_bcc([](Bytes& request) { request.at(request.size() - 3) = xgt_cnet::xgt_etx; }),
        "xgt_cnet/client/read_cycle", "surplus: expected nothing, got <03>A3"},
       {"upper_case_command", "commands go out in upper case, without BCC", sends(upper_case),
        "xgt_cnet/client/read_cycle", "command: expected r, got R"},
@@ -137,7 +140,7 @@ std::vector<Fault> xgt_request_faults() {
        "block count: expected 01, got 02"},
       {"run_in_bytes", "the number of a run is that of its bytes",
        sends([](XgtRequest& request, auto&) {
-         request.count *= type_bytes(request.block[0].name[2]);
+         request.count *= plc::type_bytes(request.block[0].name[2]);
        }),
        "xgt_cnet/client/run/read/words", "number of data: expected 02, got 04"},
       {"run_one_too_long", "the number of a run is one too high",
@@ -147,7 +150,7 @@ std::vector<Fault> xgt_request_faults() {
        "xgt_cnet/client/schedule/block_order", "station: expected 05, got 03"},
       {"station_decimal", "the station goes out as a decimal number",
        spoils_with_bcc([](Bytes& request) {
-         const XgtRequest right = parse_request(request);
+         const XgtRequest right = xgt_cnet::parse_request(request);
          std::ranges::copy(fmt::format("{:02}", right.station % 100), request.begin() + 1);
        }),
        "xgt_cnet/client/write/station/s31", "station: expected 1F, got 31"},
@@ -170,7 +173,7 @@ std::vector<Fault> xgt_request_faults() {
        "xgt_cnet/client/write/single/word", "command type: expected SS, got SB"},
       {"own_area_off_by_one", "a write takes its data one element too high",
        asks_for([](P2pBlock& block) {
-         for (P2pVariable& variable : block.variables)
+         for (p2p::P2pVariable& variable : block.variables)
            if (writes(block)) variable.own = variable.own + 1;
        }),
        "xgt_cnet/client/write/single/word", "data: expected 2468, got 9BDF"},
@@ -192,4 +195,4 @@ std::vector<Fault> xgt_request_faults() {
   };
 }
 
-}  // namespace fieldproof::p2p
+}  // namespace fieldproof::p2p_broken

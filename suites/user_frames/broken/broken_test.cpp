@@ -12,17 +12,21 @@
 #include "suites/user_frames/broken/faults.hpp"
 #include "suites/user_frames/protocol.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_broken {
+
+using results::CaseResult;
+using results::Verdict;
+using vectors::Case;
 
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 namespace {
 
 /// Without the cases of P2P blocks: suites/p2p/broken.
-const VectorSet& vectors() {
-  static const VectorSet set = [] {
-    VectorSet all = load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/user_frames",
-                                 FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
+const vectors::VectorSet& vectors() {
+  static const vectors::VectorSet set = [] {
+    vectors::VectorSet all = vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/user_frames",
+                                                   FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
     std::erase_if(all.cases, [](const Case& one) { return one.config.contains("p2p"); });
     return all;
   }();
@@ -30,21 +34,21 @@ const VectorSet& vectors() {
 }
 
 CaseResult run(const Case& source, const Behaviour& behaviour) {
-  EmulatorEndpoint endpoint({"emulator", "", {}},
-                            [&](std::string_view model, const nlohmann::json& config) {
-                              return make_broken_port(behaviour, model, config);
-                            });
-  BenchOptions options;
+  endpoints::EmulatorEndpoint endpoint({"emulator", "", {}},
+                                       [&](std::string_view model, const nlohmann::json& config) {
+                                         return make_broken_port(behaviour, model, config);
+                                       });
+  bench::BenchOptions options;
   options.profile.name = "emulator";
   options.profile.protocols = {"user-frames"};
-  Bench bench(endpoint, protocol(), options);
+  bench::Bench bench(endpoint, user_frames_suite::protocol(), options);
   return bench.run(source);
 }
 
 /// The message, and the fields that differ.
 std::string report(const CaseResult& result) {
   std::string text = result.id + ": " + result.message;
-  for (const Difference& one : result.differences) text += "; " + one.field;
+  for (const results::Difference& one : result.differences) text += "; " + one.field;
   return text;
 }
 
@@ -84,7 +88,7 @@ TEST(HealthyPort, PassesTheWholeSuite) {
 
 TEST(UserFrameFacts, HoldInTheTables) {
   for (const Case& one : vectors().tables) {
-    const Status fact = protocol().check_fact(one.facts);
+    const Status fact = user_frames_suite::protocol().check_fact(one.facts);
     EXPECT_TRUE(fact) << one.id << ": " << fact.error().message;
   }
 }
@@ -96,4 +100,4 @@ TEST(FaultTable, NamesAreUnique) {
 }
 
 }  // namespace
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_broken

@@ -1,6 +1,10 @@
 #include "suites/user_frames/broken/faults.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_broken {
+
+using user_frames::CheckMethod;
+using user_frames::Segment;
+using user_frames::UserFrame;
 
 namespace {
 
@@ -17,7 +21,7 @@ Behaviour start_of(CheckMethod method, std::uint16_t start) {
 }
 
 /// The frame with a wrong check is stored all the same, and only then dropped.
-void store_first(FrameDefinition& definition) {
+void store_first(user_frames::FrameDefinition& definition) {
   std::vector<UserFrame> without_check;
   for (UserFrame frame : definition.frames) {
     if (frame.sent) continue;
@@ -66,7 +70,7 @@ std::vector<Fault> check_faults() {
        "user_frames/xgt_write/frm_a", "BCC"},
       {"check_not_in_ascii", "the check is not converted", each_check([](Segment& c) {
          c.options.ascii = false;
-         c.size = check_size(c.method, false);
+         c.size = user_frames::check_size(c.method, false);
        }),
        "user_frames/check_options/ascii_byte_sum", "tail 1"},
       {"check_high_byte_first", "16-bit checks are sent high byte first",
@@ -100,4 +104,4 @@ std::vector<Fault> check_faults() {
   };
 }
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_broken

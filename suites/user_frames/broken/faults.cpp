@@ -8,7 +8,11 @@
 #include "src/user_frames/port.hpp"
 #include "suites/user_frames/definition_files.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_broken {
+
+using plc::EmulatedDevice;
+using user_frames::Segment;
+using user_frames::UserFrame;
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table = [] {
@@ -22,7 +26,7 @@ const std::vector<Fault>& faults() {
 
 Behaviour each_frame(std::function<void(UserFrame& frame)> edit) {
   return {.works_with =
-              [edit = std::move(edit)](FrameDefinition& definition) {
+              [edit = std::move(edit)](user_frames::FrameDefinition& definition) {
                 std::ranges::for_each(definition.frames, edit);
               },
           .set_to = {},
@@ -80,7 +84,7 @@ class MisspeakingPort : public EmulatedDevice {
   MisspeakingPort(std::unique_ptr<EmulatedDevice> port, Behaviour behaviour)
       : port_(std::move(port)), behaviour_(std::move(behaviour)) {}
 
-  void receive(const Burst& burst) override { port_->receive(burst); }
+  void receive(const line::Burst& burst) override { port_->receive(burst); }
   std::optional<Time> wake_at() const override { return port_->wake_at(); }
   Bytes advance(Time now) override {
     const Bytes bytes = port_->advance(now);
@@ -106,14 +110,16 @@ class MisspeakingPort : public EmulatedDevice {
 Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour,
                                                          std::string_view model,
                                                          nlohmann::json config) {
-  Result<NamedDefinition> loaded = load_definition(model, definitions_folder());
+  Result<user_frames_suite::NamedDefinition> loaded =
+      user_frames_suite::load_definition(model, user_frames_suite::definitions_folder());
   if (!loaded) return loaded.error();
   if (behaviour.works_with) behaviour.works_with(loaded->definition);
   if (behaviour.set_to) behaviour.set_to(config);
-  Result<std::unique_ptr<EmulatedDevice>> port = make_user_frame_device(loaded->definition, config);
+  Result<std::unique_ptr<EmulatedDevice>> port =
+      user_frames::make_user_frame_device(loaded->definition, config);
   if (!port) return port.error();
   return std::unique_ptr<EmulatedDevice>(
       std::make_unique<MisspeakingPort>(std::move(*port), behaviour));
 }
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_broken

@@ -12,18 +12,18 @@
 #include "src/user_frames/frame.hpp"
 #include "suites/broken/fault.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_broken {
 
 /// One fault at work. What is empty is done right.
 struct Behaviour {
-  std::function<void(FrameDefinition& definition)> works_with;
+  std::function<void(user_frames::FrameDefinition& definition)> works_with;
   std::function<void(nlohmann::json& config)> set_to;
   std::function<Bytes(const Bytes& frame)> says;  // instead of `frame`
   std::string deaf_to;                            // an action that changes nothing: "stop"
 };
 
 /// `caught_by` is the id of a case.
-using Fault = FaultOf<Behaviour>;
+using Fault = broken::FaultOf<Behaviour>;
 
 /// All of them. "none" is no fault and not among them.
 const std::vector<Fault>& faults();
@@ -33,22 +33,23 @@ std::vector<Fault> frame_faults();
 std::vector<Fault> variable_faults();
 
 // How their rows are made.
-Behaviour each_frame(std::function<void(UserFrame& frame)> edit);
-Behaviour each_received(std::function<void(UserFrame& frame)> edit);
-Behaviour each_sent(std::function<void(UserFrame& frame)> edit);
-Behaviour each_segment(std::function<void(Segment& segment)> edit);
-Behaviour each_check(std::function<void(Segment& check)> edit);
+Behaviour each_frame(std::function<void(user_frames::UserFrame& frame)> edit);
+Behaviour each_received(std::function<void(user_frames::UserFrame& frame)> edit);
+Behaviour each_sent(std::function<void(user_frames::UserFrame& frame)> edit);
+Behaviour each_segment(std::function<void(user_frames::Segment& segment)> edit);
+Behaviour each_check(std::function<void(user_frames::Segment& check)> edit);
 
 /// The segment takes any bytes from now on.
-void accept_anything(Segment& segment);
+void accept_anything(user_frames::Segment& segment);
 /// Takes a segment out, or puts one in behind `position`; the check covers the same segments as
 /// before.
-void remove_segment(UserFrame& frame, std::size_t position);
-void insert_behind(UserFrame& frame, std::size_t position, Segment segment);
+void remove_segment(user_frames::UserFrame& frame, std::size_t position);
+void insert_behind(user_frames::UserFrame& frame, std::size_t position,
+                   user_frames::Segment segment);
 
 /// The device of a model's definition with a fault.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour,
-                                                         std::string_view model,
-                                                         nlohmann::json config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_port(const Behaviour& behaviour,
+                                                              std::string_view model,
+                                                              nlohmann::json config);
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_broken

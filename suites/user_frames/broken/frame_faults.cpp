@@ -3,15 +3,18 @@
 
 #include "suites/user_frames/broken/faults.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_broken {
+
+using user_frames::Area;
+using user_frames::UserFrame;
 
 namespace {
 
-using Kind = Segment::Kind;
+using Kind = user_frames::Segment::Kind;
 
 Behaviour not_compared(Area area) {
   return each_received([area](UserFrame& frame) {
-    for (Segment& segment : frame.segments)
+    for (user_frames::Segment& segment : frame.segments)
       if (segment.kind == Kind::constant && segment.area == area) accept_anything(segment);
   });
 }
@@ -26,14 +29,14 @@ Behaviour not_sent(Area area) {
 }
 
 /// Whatever is received is answered with the first frame that can be sent.
-void answer_everything(FrameDefinition& definition) {
+void answer_everything(user_frames::FrameDefinition& definition) {
   const auto first = std::ranges::find(definition.frames, true, &UserFrame::sent);
   if (first == definition.frames.end()) return;
   for (UserFrame& frame : definition.frames)
     if (!frame.sent) frame.answer = first->name;
 }
 
-Behaviour works_with(std::function<void(FrameDefinition&)> edit) {
+Behaviour works_with(std::function<void(user_frames::FrameDefinition&)> edit) {
   return {.works_with = std::move(edit), .set_to = {}, .says = {}, .deaf_to = {}};
 }
 Behaviour says(std::function<Bytes(const Bytes&)> what) {
@@ -102,4 +105,4 @@ std::vector<Fault> frame_faults() {
   };
 }
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_broken

@@ -1,6 +1,10 @@
 #include "suites/user_frames/broken/faults.hpp"
 
-namespace fieldproof::user_frames {
+namespace fieldproof::user_frames_broken {
+
+using user_frames::Convert;
+using user_frames::Segment;
+using user_frames::UserFrame;
 
 namespace {
 
@@ -15,7 +19,7 @@ Behaviour convert_otherwise(Convert hex_to_ascii, Convert ascii_to_hex) {
   return each_frame([=](UserFrame& frame) {
     for (Segment& segment : frame.segments) {
       if (!is_variable(segment) || segment.convert == Convert::none) continue;
-      const std::size_t in_memory = bytes_in_memory(frame, segment, segment.size);
+      const std::size_t in_memory = user_frames::bytes_in_memory(frame, segment, segment.size);
       segment.convert = segment.convert == Convert::hex_to_ascii ? hex_to_ascii : ascii_to_hex;
       if (frame.sent)
         segment.size = segment.convert == Convert::none           ? in_memory
@@ -100,4 +104,4 @@ std::vector<Fault> variable_faults() {
   };
 }
 
-}  // namespace fieldproof::user_frames
+}  // namespace fieldproof::user_frames_broken

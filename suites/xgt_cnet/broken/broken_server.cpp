@@ -6,26 +6,26 @@
 
 #include "src/base/spelling.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
 BrokenPlc::BrokenPlc(Behaviour behaviour, GoodPlc plc, Duration gap)
     : behaviour_(std::move(behaviour)),
       plc_(std::move(plc)),
-      receiver_(FrameReceiver::Side::server, gap) {
+      receiver_(xgt_cnet::FrameReceiver::Side::server, gap) {
   if (behaviour_.power_on) behaviour_.power_on(plc_);
 }
 
-void BrokenPlc::receive(const Burst& burst) {
+void BrokenPlc::receive(const line::Burst& burst) {
   now_ = burst.end();
   frames_in_burst_ = 0;
-  Burst heard = burst;
+  line::Burst heard = burst;
   if (behaviour_.hear) behaviour_.hear(heard.bytes);
   remember(heard.bytes);
   receiver_.receive(heard, *this);
 }
 
 void BrokenPlc::remember(ByteView bytes) {
-  const auto head = std::find(bytes.rbegin(), bytes.rend(), xgt_enq);
+  const auto head = std::find(bytes.rbegin(), bytes.rend(), xgt_cnet::xgt_enq);
   if (head != bytes.rend()) {
     since_head_.clear();
     bytes = bytes.subspan(static_cast<std::size_t>(bytes.rend() - head) - 1);
@@ -47,7 +47,7 @@ void BrokenPlc::on_frame(ByteView frame, Time end) {
   const Bytes request(frame.begin(), frame.end());
   const bool together = frames_in_burst_++ > 0;
   pending_.put(behaviour_.answer ? behaviour_.answer(request, together, plc_)
-                                 : Sendings{{plc_.answer(request)}},
+                                 : broken::Sendings{{plc_.answer(request)}},
                end);
 }
 
@@ -68,9 +68,9 @@ Status BrokenPlc::act(std::string_view action) {
   return done;
 }
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault,
-                                                        const PortConfig& config,
-                                                        Storage& storage) {
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_plc(std::string_view fault,
+                                                             const plc::PortConfig& config,
+                                                             Storage& storage) {
   const Fault* known = find_fault(fault);
   if (!known && fault != "none") {
     std::vector<std::string_view> names{"none"};
@@ -79,13 +79,13 @@ Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault,
         fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}",
                     fault, suggestion(fault, names)));
   }
-  Result<std::unique_ptr<Plc>> plc = make_plc(config);
+  Result<std::unique_ptr<xgt_cnet::Plc>> plc = xgt_cnet::make_plc(config);
   if (!plc) return plc.error();
-  GoodPlc good(std::move(*plc), *find_plc_model(config.model), config.station);
+  GoodPlc good(std::move(*plc), *plc::find_plc_model(config.model), config.station);
   const Duration gap =
-      effective_gap(config.inter_character, config.inter_character_floor, config.line);
-  return std::unique_ptr<EmulatedDevice>(
+      plc::effective_gap(config.inter_character, config.inter_character_floor, config.line);
+  return std::unique_ptr<plc::EmulatedDevice>(
       new BrokenPlc(known ? known->make(storage) : Behaviour{}, std::move(good), gap));
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

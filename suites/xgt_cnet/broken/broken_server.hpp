@@ -8,11 +8,11 @@
 #include "src/xgt_cnet/receiver.hpp"
 #include "suites/xgt_cnet/broken/faults.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
-class BrokenPlc : public EmulatedDevice, private FrameSink {
+class BrokenPlc : public plc::EmulatedDevice, private plc::FrameSink {
  public:
-  void receive(const Burst& burst) override;
+  void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
@@ -23,8 +23,9 @@ class BrokenPlc : public EmulatedDevice, private FrameSink {
   Status act(std::string_view action) override;
 
  private:
-  friend Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view,
-                                                                 const PortConfig&, Storage&);
+  friend Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_plc(std::string_view,
+                                                                      const plc::PortConfig&,
+                                                                      Storage&);
   BrokenPlc(Behaviour behaviour, GoodPlc plc, Duration gap);
 
   void on_frame(ByteView frame, Time end) override;
@@ -33,17 +34,18 @@ class BrokenPlc : public EmulatedDevice, private FrameSink {
 
   Behaviour behaviour_;
   GoodPlc plc_;
-  FrameReceiver receiver_;
+  xgt_cnet::FrameReceiver receiver_;
   Bytes since_head_;  // of the frame that is arriving
   Time now_{};
   bool in_silence_ = false;
   unsigned frames_in_burst_ = 0;
-  SendQueue pending_;
+  broken::SendQueue pending_;
 };
 
 /// A server with the fault of that name, or without ("none"). `storage` outlives it. Errors name
 /// the fault or the parameter.
-Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(std::string_view fault,
-                                                        const PortConfig& config, Storage& storage);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_plc(std::string_view fault,
+                                                             const plc::PortConfig& config,
+                                                             Storage& storage);
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

@@ -5,7 +5,7 @@
 #include "suites/broken/suite_runs.hpp"
 #include "suites/xgt_cnet/broken/faults.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
@@ -18,41 +18,41 @@ constexpr const char* healthy = "none";
 std::string case_id(const Fault& fault) { return fmt::format("xgt_cnet/{}", fault.caught_by); }
 
 std::string device(std::string_view fault, unsigned station) {
-  return fmt::format("{} {} {{tty}} {} '{{folder}}/storage'?station={}", quoted(BROKEN_SERVER),
-                     fault, station, station);
+  return fmt::format("{} {} {{tty}} {} '{{folder}}/storage'?station={}",
+                     tool_tests::quoted(BROKEN_SERVER), fault, station, station);
 }
 
-Trial trial_for(const Fault& fault) {
+broken::Trial trial_for(const Fault& fault) {
   // One file a chapter, which loads faster than all.
   const std::string_view chapter = fault.caught_by.substr(0, fault.caught_by.find('/'));
   const std::string id = case_id(fault);
   return {std::string(fault.name), device(fault.name, fault.station), "xbc-h",
           fmt::format("{}/vectors/xgt_cnet/{}.json", FIELDPROOF_SOURCE_DIR, chapter),
-          fault.neighbours == alone  ? id
-          : fault.neighbours.empty() ? neighbours_of(id)
-                                     : std::string(fault.neighbours)};
+          fault.neighbours == broken::alone ? id
+          : fault.neighbours.empty()        ? broken::neighbours_of(id)
+                                            : std::string(fault.neighbours)};
 }
 
-std::optional<Trial> trial_of(const std::string& test) {
+std::optional<broken::Trial> trial_of(const std::string& test) {
   if (test == "PassesTheWholeSuite")
-    return Trial{healthy, device(healthy, 1), "xbc-h", {}, "xgt_cnet/*"};
-  const Fault* fault = find_fault(parameter_of(test));
+    return broken::Trial{healthy, device(healthy, 1), "xbc-h", {}, "xgt_cnet/*"};
+  const Fault* fault = find_fault(broken::parameter_of(test));
   return fault ? std::optional(trial_for(*fault)) : std::nullopt;
 }
 
-SuiteRuns& runs() {
-  static auto* const environment =
-      static_cast<SuiteRuns*>(testing::AddGlobalTestEnvironment(new SuiteRuns(trial_of)));
+broken::SuiteRuns& runs() {
+  static auto* const environment = static_cast<broken::SuiteRuns*>(
+      testing::AddGlobalTestEnvironment(new broken::SuiteRuns(trial_of)));
   return *environment;
 }
-[[maybe_unused]] const SuiteRuns& registered_before_main = runs();
+[[maybe_unused]] const broken::SuiteRuns& registered_before_main = runs();
 
 class TheSuite : public testing::TestWithParam<Fault> {};
 
 TEST_P(TheSuite, Catches) {
   const Fault& fault = GetParam();
-  const SuiteRun run = runs().take(std::string(fault.name));
-  const std::string message = expect_caught(run, case_id(fault), fault.message);
+  const broken::SuiteRun run = runs().take(std::string(fault.name));
+  const std::string message = broken::expect_caught(run, case_id(fault), fault.message);
   runs().report(fmt::format("{:<40} {:<54} {:>4.1f} s  {}", fault.name, fault.caught_by,
                             run.seconds, message));
 }
@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(HealthyDevice, PassesTheWholeSuite) {
-  const SuiteRun run = runs().take(healthy);
-  const std::size_t passed = expect_healthy(run, 1000);
+  const broken::SuiteRun run = runs().take(healthy);
+  const std::size_t passed = broken::expect_healthy(run, 1000);
   runs().report(fmt::format("{:<40} {} of {} cases pass, {:.1f} s", healthy, passed,
                             run.results.size(), run.seconds));
 }
@@ -74,17 +74,18 @@ TEST(FaultTable, NamesAreUnique) {
 }
 
 TEST(BrokenServer, ListsItsFaults) {
-  const Finished list = run_program({BROKEN_SERVER, "--list"});
+  const tool_tests::Finished list = tool_tests::run_program({BROKEN_SERVER, "--list"});
   EXPECT_EQ(list.code, 0) << list.err;
   for (const Fault& fault : faults()) EXPECT_THAT(list.out, HasSubstr(fault.name));
 }
 
 TEST(BrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
-  const TestFolder folder;
-  const Finished ended = run_program({BROKEN_SERVER, "bcc_off_by_on", folder / "tty"});
+  const tool_tests::TestFolder folder;
+  const tool_tests::Finished ended =
+      tool_tests::run_program({BROKEN_SERVER, "bcc_off_by_on", folder / "tty"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("bcc_off_by_one"));
 }
 
 }  // namespace
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

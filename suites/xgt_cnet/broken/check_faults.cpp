@@ -4,7 +4,7 @@
 
 #include "suites/xgt_cnet/broken/faults.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
 namespace {
 
@@ -57,14 +57,14 @@ MakeBehaviour answers_for(bool (*takes)(std::string_view station), bool as_own) 
 }
 
 Bytes answer_without_check(const Bytes& heard, GoodPlc& plc) {
-  if (heard.empty() || heard.back() != xgt_eot) return {};
+  if (heard.empty() || heard.back() != xgt_cnet::xgt_eot) return {};
   return plc.answer(to_bytes(to_text(heard) + sum_of(to_text(heard))));
 }
 
 Behaviour no_need_of_check(Storage&) {
   Behaviour behaviour;
   behaviour.cut_off = [](const Bytes& heard, GoodPlc& plc) {
-    return Sendings{{answer_without_check(heard, plc)}};
+    return broken::Sendings{{answer_without_check(heard, plc)}};
   };
   return behaviour;
 }
@@ -139,7 +139,7 @@ std::vector<Fault> check_faults() {
       {"station_in_decimal",
        "the station in replies is decimal",
        edit_reply([](FrameText& reply, const FrameText&) {
-         const auto station = static_cast<unsigned>(hex_value(reply.body.substr(0, 2)));
+         const auto station = static_cast<unsigned>(xgt_cnet::hex_value(reply.body.substr(0, 2)));
          reply.body.replace(
              0, 2,
              {static_cast<char>('0' + station / 10 % 10), static_cast<char>('0' + station % 10)});
@@ -156,4 +156,4 @@ std::vector<Fault> check_faults() {
   };
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

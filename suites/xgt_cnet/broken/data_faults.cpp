@@ -6,7 +6,10 @@
 
 #include "suites/xgt_cnet/broken/faults.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
+
+using xgt_cnet::XgtRequest;
+using xgt_cnet::XgtService;
 
 namespace {
 
@@ -33,32 +36,32 @@ struct Order {
 constexpr Order word_bytes{'W', 4, 2}, dword_halves{'D', 8, 4}, lword_quarters{'L', 16, 4};
 
 Bytes reordered_write(const Bytes& frame, const Order& order) {
-  XgtRequest request = parse_request(frame);
+  XgtRequest request = xgt_cnet::parse_request(frame);
   if (request.fault || type_of(request) != order.type || (request.command | 0x20) != 'w')
     return frame;
-  std::array<std::string, xgt_max_blocks> data;
+  std::array<std::string, xgt_cnet::xgt_max_blocks> data;
   for (unsigned i = 0; i < request.blocks; ++i) {
     data[i] = reversed(request.block[i].data, order.group, order.part);
     request.block[i].data = data[i];
   }
   Bytes out;
-  encode_request(request, out);
+  xgt_cnet::encode_request(request, out);
   return out;
 }
 
 Bytes reordered_read(const Bytes& frame, Bytes reply_bytes, const Order& order) {
-  const XgtRequest request = parse_request(frame);
-  XgtReply reply = parse_reply(reply_bytes);
+  const XgtRequest request = xgt_cnet::parse_request(frame);
+  xgt_cnet::XgtReply reply = xgt_cnet::parse_reply(reply_bytes);
   if (reply_bytes.empty() || type_of(request) != order.type || (request.command | 0x20) != 'r' ||
       !reply.ack)
     return reply_bytes;
-  std::array<std::string, xgt_max_blocks> data;
+  std::array<std::string, xgt_cnet::xgt_max_blocks> data;
   for (unsigned i = 0; i < reply.blocks; ++i) {
     data[i] = reversed(reply.data[i], order.group, order.part);
     reply.data[i] = data[i];
   }
   Bytes out;
-  encode_reply(reply, out);
+  xgt_cnet::encode_reply(reply, out);
   return out;
 }
 
@@ -95,10 +98,10 @@ bool is_contact(std::string_view name) {
 
 /// One block: the contact is on where the current value is not 0, and writing it writes the value.
 Bytes contact_of_value(const Bytes& frame, GoodPlc& plc) {
-  const XgtRequest request = parse_request(frame);
+  const XgtRequest request = xgt_cnet::parse_request(frame);
   Bytes reply = plc.answer(frame);
   if (request.blocks != 1 || !is_contact(request.block[0].name) || reply.empty() ||
-      reply[0] != xgt_ack)
+      reply[0] != xgt_cnet::xgt_ack)
     return reply;
   const std::string value =
       fmt::format("%{}W{}", request.block[0].name[1], request.block[0].name.substr(3));
@@ -112,9 +115,9 @@ Bytes contact_of_value(const Bytes& frame, GoodPlc& plc) {
 
 /// Writes what it should refuse with 1132.
 Bytes write_read_only(const Bytes& frame, GoodPlc& plc) {
-  const XgtRequest request = parse_request(frame);
+  const XgtRequest request = xgt_cnet::parse_request(frame);
   Bytes reply = plc.answer(frame);
-  if (refusal(reply) != xgt_error::area || (request.command | 0x20) != 'w') return reply;
+  if (refusal(reply) != xgt_cnet::xgt_error::area || (request.command | 0x20) != 'w') return reply;
   for (unsigned i = 0; i < request.blocks; ++i)
     if (!plc.memory().set(request.block[i].name, request.block[i].data)) return reply;
   return ack_to(request);
@@ -122,7 +125,7 @@ Bytes write_read_only(const Bytes& frame, GoodPlc& plc) {
 
 /// Checks each block as it writes it.
 Bytes write_until_refused(const Bytes& frame, GoodPlc& plc) {
-  const XgtRequest request = parse_request(frame);
+  const XgtRequest request = xgt_cnet::parse_request(frame);
   Bytes reply = plc.answer(frame);
   if (!refusal(reply) || request.service != XgtService::write_blocks) return reply;
   for (unsigned i = 0; i < request.blocks; ++i) {
@@ -130,21 +133,22 @@ Bytes write_until_refused(const Bytes& frame, GoodPlc& plc) {
     one.blocks = 1;
     one.block[0] = request.block[i];
     Bytes single;
-    encode_request(one, single);
+    xgt_cnet::encode_request(one, single);
     if (refusal(plc.answer(single))) return reply;
   }
   return reply;
 }
 
 Bytes write_up_to_the_end(const Bytes& frame, GoodPlc& plc) {
-  XgtRequest request = parse_request(frame);
+  XgtRequest request = xgt_cnet::parse_request(frame);
   Bytes reply = plc.answer(frame);
-  if (refusal(reply) != xgt_error::range || request.service != XgtService::write_run) return reply;
-  const std::size_t digits = 2 * type_bytes(type_of(request));
+  if (refusal(reply) != xgt_cnet::xgt_error::range || request.service != XgtService::write_run)
+    return reply;
+  const std::size_t digits = 2 * plc::type_bytes(type_of(request));
   while (--request.count > 0) {
     request.block[0].data.remove_suffix(digits);
     Bytes shorter;
-    encode_request(request, shorter);
+    xgt_cnet::encode_request(request, shorter);
     if (!refusal(plc.answer(shorter))) break;
   }
   return reply;
@@ -170,7 +174,7 @@ Bytes write_for_others(const Bytes& frame, GoodPlc& plc) {
 
 /// Every write is acknowledged, and nothing happens.
 Bytes acknowledge_only(const Bytes& frame, GoodPlc& plc) {
-  const XgtRequest request = parse_request(frame);
+  const XgtRequest request = xgt_cnet::parse_request(frame);
   if (request.service != XgtService::write_run || request.station != plc.station() || request.fault)
     return plc.answer(frame);
   return ack_to(request);
@@ -178,10 +182,10 @@ Bytes acknowledge_only(const Bytes& frame, GoodPlc& plc) {
 
 /// The neighbour byte is cleared by a write of one byte.
 Bytes clear_other_byte(const Bytes& frame, GoodPlc& plc) {
-  const XgtRequest request = parse_request(frame);
+  const XgtRequest request = xgt_cnet::parse_request(frame);
   Bytes reply = plc.answer(frame);
   if (request.service != XgtService::write_blocks || type_of(request) != 'B' || reply.empty() ||
-      reply[0] != xgt_ack)
+      reply[0] != xgt_cnet::xgt_ack)
     return reply;
   for (unsigned i = 0; i < request.blocks; ++i) {
     const NameParts parts = split_name(request.block[i].name);
@@ -193,7 +197,7 @@ Bytes clear_other_byte(const Bytes& frame, GoodPlc& plc) {
 
 /// Writing one bit clears the other bits of its word. Names of XBM and XBC.
 Bytes clear_other_bits(const Bytes& frame, GoodPlc& plc) {
-  const XgtRequest request = parse_request(frame);
+  const XgtRequest request = xgt_cnet::parse_request(frame);
   if (request.service == XgtService::write_blocks && type_of(request) == 'X' &&
       !refusal(plc.answer(frame))) {
     const std::string_view name = request.block[0].name;
@@ -273,4 +277,4 @@ std::vector<Fault> data_faults() {
   };
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table = gather<Fault>(
+  static const std::vector<Fault> table = broken::gather<Fault>(
       {check_faults, reply_faults, data_faults, limit_faults, monitor_faults, line_faults});
   return table;
 }
 
-const Fault* find_fault(std::string_view name) { return find_by_name(faults(), name); }
+const Fault* find_fault(std::string_view name) { return broken::find_by_name(faults(), name); }
 
 MakeBehaviour answer_with(std::function<Bytes(const Bytes& request, GoodPlc& plc)> answer) {
   return [answer = std::move(answer)](Storage&) {
     Behaviour behaviour;
     behaviour.answer = [answer](const Bytes& request, bool, GoodPlc& plc) {
-      return Sendings{{answer(request, plc)}};
+      return broken::Sendings{{answer(request, plc)}};
     };
     return behaviour;
   };
@@ -45,15 +45,15 @@ MakeBehaviour edit_reply(std::function<void(FrameText& reply, const FrameText& r
   });
 }
 
-MakeBehaviour send_with(std::function<Sendings(const Bytes& request, Bytes reply)> send) {
+MakeBehaviour send_with(std::function<broken::Sendings(const Bytes& request, Bytes reply)> send) {
   return [send = std::move(send)](Storage&) {
     Behaviour behaviour;
     behaviour.answer = [send](const Bytes& request, bool, GoodPlc& plc) {
       Bytes reply = plc.answer(request);
-      return reply.empty() ? Sendings{} : send(request, std::move(reply));
+      return reply.empty() ? broken::Sendings{} : send(request, std::move(reply));
     };
     return behaviour;
   };
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

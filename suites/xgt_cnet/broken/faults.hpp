@@ -11,7 +11,7 @@
 #include "suites/broken/sendings.hpp"
 #include "suites/xgt_cnet/broken/good_plc.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
 /// What survives the loss of power, where a fault keeps something that should be lost.
 struct Storage {
@@ -24,16 +24,16 @@ struct Behaviour {
   /// Bytes as they arrive, before frames are looked for.
   std::function<void(Bytes&)> hear;
   /// A complete frame. `together`: it came in one piece with the frame before it.
-  std::function<Sendings(const Bytes& frame, bool together, GoodPlc& plc)> answer;
+  std::function<broken::Sendings(const Bytes& frame, bool together, GoodPlc& plc)> answer;
   /// A frame that a silence ended before its tail or BCC: what was heard of it, from ENQ on.
-  std::function<Sendings(const Bytes& heard, GoodPlc& plc)> cut_off;
+  std::function<broken::Sendings(const Bytes& heard, GoodPlc& plc)> cut_off;
   /// After power on, before anything is heard.
   std::function<void(GoodPlc& plc)> power_on;
 };
 
 using MakeBehaviour = std::function<Behaviour(Storage&)>;
 /// `caught_by` stands without "xgt_cnet/".
-using Fault = FaultOf<MakeBehaviour>;
+using Fault = broken::FaultOf<MakeBehaviour>;
 
 /// All of them, in the order of the chapters. "none" is no fault and not among them.
 const std::vector<Fault>& faults();
@@ -57,6 +57,6 @@ MakeBehaviour misread(std::function<Bytes(const Bytes& request, GoodPlc& plc)> r
 /// Answers in its own way.
 MakeBehaviour answer_with(std::function<Bytes(const Bytes& request, GoodPlc& plc)> answer);
 /// Sends the right reply in its own way; is not asked where the good PLC is silent.
-MakeBehaviour send_with(std::function<Sendings(const Bytes& request, Bytes reply)> send);
+MakeBehaviour send_with(std::function<broken::Sendings(const Bytes& request, Bytes reply)> send);
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

@@ -6,7 +6,7 @@
 
 #include "src/base/letters.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
 std::string FrameText::service() const {
   return upper(body.substr(std::min<std::size_t>(2, body.size()), 3));
@@ -34,30 +34,30 @@ FrameText take_apart(ByteView frame) {
   return parts;
 }
 
-Bytes ack_to(const XgtRequest& request, std::string_view content) {
+Bytes ack_to(const xgt_cnet::XgtRequest& request, std::string_view content) {
   Bytes bytes;
-  encode_reply({.station = request.station, .command = request.command, .kind = request.kind},
-               bytes);
+  xgt_cnet::encode_reply(
+      {.station = request.station, .command = request.command, .kind = request.kind}, bytes);
   FrameText ack = take_apart(bytes);
   ack.body += content;
   ack.seal();
   return ack.bytes();
 }
 
-Bytes nak_to(const XgtRequest& request, std::uint16_t code) {
+Bytes nak_to(const xgt_cnet::XgtRequest& request, std::uint16_t code) {
   Bytes bytes;
-  encode_reply({.ack = false,
-                .station = request.station,
-                .command = request.command,
-                .kind = request.kind,
-                .error = code},
-               bytes);
+  xgt_cnet::encode_reply({.ack = false,
+                          .station = request.station,
+                          .command = request.command,
+                          .kind = request.kind,
+                          .error = code},
+                         bytes);
   return bytes;
 }
 
 std::optional<unsigned> refusal(ByteView reply) {
-  if (reply.empty() || reply[0] != xgt_nak) return std::nullopt;
-  return parse_reply(reply).error;
+  if (reply.empty() || reply[0] != xgt_cnet::xgt_nak) return std::nullopt;
+  return xgt_cnet::parse_reply(reply).error;
 }
 
 NameParts split_name(std::string_view name) {
@@ -69,4 +69,4 @@ NameParts split_name(std::string_view name) {
   return parts;
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

@@ -12,20 +12,22 @@
 #include "src/xgt_cnet/plc.hpp"
 #include "suites/broken/good_device.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
-class GoodPlc : public GoodDevice {
+class GoodPlc : public broken::GoodDevice {
  public:
-  GoodPlc(std::unique_ptr<Plc> plc, const PlcModel& model, unsigned station)
-      : GoodDevice(std::move(plc)), model_(&model), station_(station) {}
+  GoodPlc(std::unique_ptr<xgt_cnet::Plc> plc, const plc::PlcModel& model, unsigned station)
+      : broken::GoodDevice(std::move(plc)), model_(&model), station_(station) {}
 
   /// What the name means on this model.
-  ParsedAddress address(std::string_view name) const { return parse_address(*model_, name); }
-  const PlcModel& model() const { return *model_; }
+  plc::ParsedAddress address(std::string_view name) const {
+    return plc::parse_address(*model_, name);
+  }
+  const plc::PlcModel& model() const { return *model_; }
   unsigned station() const { return station_; }
 
  private:
-  const PlcModel* model_;
+  const plc::PlcModel* model_;
   unsigned station_;
 };
 
@@ -41,8 +43,8 @@ struct FrameText {
   /// Station, command and type or number; what follows.
   std::string front() const { return body.substr(0, 5); }
   std::string content() const { return body.size() > 5 ? body.substr(5) : std::string(); }
-  bool is_ack() const { return head == static_cast<char>(xgt_ack); }
-  bool is_nak() const { return head == static_cast<char>(xgt_nak); }
+  bool is_ack() const { return head == static_cast<char>(xgt_cnet::xgt_ack); }
+  bool is_nak() const { return head == static_cast<char>(xgt_cnet::xgt_nak); }
   /// "RSS": the command and its type in upper case.
   std::string service() const;
 
@@ -59,8 +61,8 @@ FrameText take_apart(ByteView frame);
 /// The low byte of the sum, as two upper-case hex digits.
 std::string sum_of(std::string_view text);
 
-Bytes ack_to(const XgtRequest& request, std::string_view content = {});
-Bytes nak_to(const XgtRequest& request, std::uint16_t code);
+Bytes ack_to(const xgt_cnet::XgtRequest& request, std::string_view content = {});
+Bytes nak_to(const xgt_cnet::XgtRequest& request, std::uint16_t code);
 
 /// The error code of a NAK; nothing for other replies.
 std::optional<unsigned> refusal(ByteView reply);
@@ -75,16 +77,16 @@ NameParts split_name(std::string_view name);
 /// The same request with other names; requests that cannot be read stay as they are.
 template <typename Rename>
 Bytes with_names(const Bytes& frame, Rename rename) {
-  XgtRequest request = parse_request(frame);
+  xgt_cnet::XgtRequest request = xgt_cnet::parse_request(frame);
   if (request.fault || request.blocks == 0) return frame;
-  std::array<std::string, xgt_max_blocks> names;
+  std::array<std::string, xgt_cnet::xgt_max_blocks> names;
   for (unsigned i = 0; i < request.blocks; ++i) {
     names[i] = rename(std::string(request.block[i].name));
     request.block[i].name = names[i];
   }
   Bytes out;
-  encode_request(request, out);
+  xgt_cnet::encode_request(request, out);
   return out;
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

@@ -6,7 +6,9 @@
 
 #include "suites/xgt_cnet/broken/faults.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
+
+using broken::Sendings;
 
 namespace {
 
@@ -49,7 +51,7 @@ Behaviour swallow_every_tenth(Storage&) {
 }
 
 bool has_wrong_check(const Bytes& request) {
-  return parse_request(request).fault.check == XgtCheck::bcc;
+  return xgt_cnet::parse_request(request).fault.check == xgt_cnet::XgtCheck::bcc;
 }
 
 Behaviour die_of_wrong_check(Storage&) {
@@ -78,7 +80,7 @@ Behaviour die_of_a_broken_frame(Storage&) {
 Behaviour time_for_a_tail(Storage&) {
   Behaviour behaviour;
   behaviour.cut_off = [](const Bytes& heard, GoodPlc& plc) {
-    FrameText text = take_apart(heard + Bytes{xgt_eot});
+    FrameText text = take_apart(heard + Bytes{xgt_cnet::xgt_eot});
     if (text.lower_case()) text.check = sum_of(text.without_check());
     return Sendings{{plc.answer(text.bytes())}};
   };
@@ -91,8 +93,8 @@ Behaviour no_restart_at_enq(Storage&) {
   behaviour.hear = [](Bytes& bytes) {
     bool inside = false;
     for (Byte& b : bytes) {
-      if (b == xgt_enq && inside) b = '?';
-      inside = b == xgt_enq || (inside && b != xgt_eot);
+      if (b == xgt_cnet::xgt_enq && inside) b = '?';
+      inside = b == xgt_cnet::xgt_enq || (inside && b != xgt_cnet::xgt_eot);
     }
   };
   return behaviour;
@@ -142,9 +144,9 @@ MakeBehaviour takes_for(Byte other, Byte right) {
 Behaviour frame_must_begin_the_line(Storage&) {
   Behaviour behaviour;
   behaviour.hear = [](Bytes& bytes) {
-    if (!bytes.empty() && bytes.front() != xgt_enq && bytes.size() > 1)
+    if (!bytes.empty() && bytes.front() != xgt_cnet::xgt_enq && bytes.size() > 1)
       for (Byte& b : bytes)
-        if (b == xgt_enq) b = '?';
+        if (b == xgt_cnet::xgt_enq) b = '?';
   };
   return behaviour;
 }
@@ -198,27 +200,30 @@ std::vector<Fault> line_faults() {
       {"swallows_every_tenth_request", "every tenth request is not answered", swallow_every_tenth,
        "monitor_execute/all_sixteen", "no answer"},
       {"floods", "sends without end after a frame without tail", flood_after_a_broken_frame,
-       "frame_structure/request_ending_with_etx/lower", "floods", alone},
+       "frame_structure/request_ending_with_etx/lower", "floods", broken::alone},
       {"dies_of_a_wrong_bcc", "silent for ever after a wrong BCC", die_of_wrong_check,
-       "frame_structure/other_sums_are_wrong/body", "dead", alone, 32},
+       "frame_structure/other_sums_are_wrong/body", "dead", broken::alone, 32},
       {"dies_of_a_missing_tail", "silent for ever after a frame without tail",
        die_of_a_broken_frame, "frame_structure/request_ending_with_etx/lower", "dead"},
       {"needs_no_tail", "a frame without tail is executed when nothing more comes", time_for_a_tail,
        "frame_structure/no_tail_is_silent/lower/bare", "silence"},
       {"no_restart_at_enq", "ENQ inside a frame does not begin a new one", no_restart_at_enq,
-       "frame_structure/enq_inside_a_frame/head", "no answer", alone},
-      {"etx_ends_a_request", "ETX ends a request as EOT does", takes_for(xgt_etx, xgt_eot),
+       "frame_structure/enq_inside_a_frame/head", "no answer", broken::alone},
+      {"etx_ends_a_request", "ETX ends a request as EOT does",
+       takes_for(xgt_cnet::xgt_etx, xgt_cnet::xgt_eot),
        "frame_structure/request_ending_with_etx/upper", "silence"},
-      {"stx_begins_a_request", "STX begins a request as ENQ does", takes_for(0x02, xgt_enq),
-       "frame_structure/request_with_another_head/upper/stx", "silence"},
+      {"stx_begins_a_request", "STX begins a request as ENQ does",
+       takes_for(0x02, xgt_cnet::xgt_enq), "frame_structure/request_with_another_head/upper/stx",
+       "silence"},
       {"deaf_after_nak", "the request after a refusal is not answered", deaf_after_nak,
        "errors/good_after_refused/lower", "no answer"},
       {"first_of_two_requests",
        "of two requests without a pause between them the first is answered", deaf_while_busy,
-       "frame_structure/back_to_back/continuous", "no answer", alone},
+       "frame_structure/back_to_back/continuous", "no answer", broken::alone},
       {"noise_spoils_the_frame", "a frame right after other bytes is not heard",
-       frame_must_begin_the_line, "frame_structure/noise_before_enq/headless", "no answer", alone},
+       frame_must_begin_the_line, "frame_structure/noise_before_enq/headless", "no answer",
+       broken::alone},
   };
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

@@ -27,14 +27,14 @@ int usage() {
 }
 
 int list() {
-  for (const xgt_cnet::Fault& fault : xgt_cnet::faults())
+  for (const xgt_cnet_broken::Fault& fault : xgt_cnet_broken::faults())
     fmt::print("{:<38} {}\n", fault.name, fault.what);
   return 0;
 }
 
 /// One frame a line, in hex.
-xgt_cnet::Storage storage_in(const std::string& path) {
-  xgt_cnet::Storage storage;
+xgt_cnet_broken::Storage storage_in(const std::string& path) {
+  xgt_cnet_broken::Storage storage;
   if (path.empty()) return storage;
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);)
@@ -52,16 +52,17 @@ int main(int count, char** arguments) {
   const std::vector<std::string> given(arguments + 1, arguments + count);
   if (given.size() == 1 && given[0] == "--list") return list();
   if (given.size() < 2 || given.size() > 4) return usage();
-  xgt_cnet::Storage storage = storage_in(given.size() > 3 ? given[3] : "");
-  HostOptions host;
+  xgt_cnet_broken::Storage storage = storage_in(given.size() > 3 ? given[3] : "");
+  hosting::HostOptions host;
   host.model = "xbc-h";
   host.tty = given[1];
   host.config["station"] = given.size() > 2 ? given[2] : "1";
-  host.make_device = [&](const nlohmann::json& config) -> Result<std::unique_ptr<EmulatedDevice>> {
-    const Result<PortConfig> parsed =
-        parse_plc_config(config.at("model").get<std::string>(), config);
+  host.make_device =
+      [&](const nlohmann::json& config) -> Result<std::unique_ptr<plc::EmulatedDevice>> {
+    const Result<plc::PortConfig> parsed =
+        xgt_cnet::parse_plc_config(config.at("model").get<std::string>(), config);
     if (!parsed) return parsed.error();
-    return xgt_cnet::make_broken_plc(given[0], *parsed, storage);
+    return xgt_cnet_broken::make_broken_plc(given[0], *parsed, storage);
   };
-  return host_device(host);
+  return hosting::host_device(host);
 }

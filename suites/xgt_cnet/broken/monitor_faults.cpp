@@ -3,7 +3,7 @@
 
 #include "suites/xgt_cnet/broken/faults.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
 namespace {
 
@@ -17,7 +17,7 @@ Bytes renumbered(FrameText text, const std::string& number) {
 
 std::string number_of(const FrameText& text) { return text.body.substr(number_at, 2); }
 bool is(const FrameText& text, char service) { return (text.command() | 0x20) == service; }
-bool acknowledged(const Bytes& reply) { return !reply.empty() && reply[0] == xgt_ack; }
+bool acknowledged(const Bytes& reply) { return !reply.empty() && reply[0] == xgt_cnet::xgt_ack; }
 
 /// Asks with another registration number, and answers with the one that was asked for.
 Bytes answer_renumbered(const Bytes& request, const std::string& number, GoodPlc& plc) {
@@ -44,7 +44,7 @@ Bytes seventeen_numbers(const Bytes& request, GoodPlc& plc) {
 
 Bytes one_number(const Bytes& request, GoodPlc& plc) {
   const FrameText text = take_apart(request);
-  const std::int64_t number = hex_value(number_of(text));
+  const std::int64_t number = xgt_cnet::hex_value(number_of(text));
   if ((is(text, 'x') || is(text, 'y')) && number >= 0 && number < 16)
     return answer_renumbered(request, "00", plc);
   return plc.answer(request);
@@ -59,7 +59,7 @@ MakeBehaviour with_memory(Watch watch) {
     Behaviour behaviour;
     behaviour.answer = [watch, registered = Registered()](const Bytes& request, bool,
                                                           GoodPlc& plc) mutable {
-      return Sendings{{watch(request, plc, registered)}};
+      return broken::Sendings{{watch(request, plc, registered)}};
     };
     return behaviour;
   };
@@ -67,7 +67,7 @@ MakeBehaviour with_memory(Watch watch) {
 
 Bytes keep_first(const Bytes& request, GoodPlc& plc, Registered& registered) {
   const FrameText text = take_apart(request);
-  const XgtRequest parsed = parse_request(request);
+  const xgt_cnet::XgtRequest parsed = xgt_cnet::parse_request(request);
   if (is(text, 'x') && !parsed.fault && parsed.station == plc.station() &&
       registered.contains(number_of(text)))
     return ack_to(parsed);
@@ -102,7 +102,7 @@ Bytes forget_when_refused(const Bytes& request, GoodPlc& plc, Registered& forgot
   if (is(text, 'x') && refusal(reply)) forgotten[number_of(text)];
   if (is(text, 'x') && acknowledged(reply)) forgotten.erase(number_of(text));
   return is(text, 'y') && acknowledged(reply) && forgotten.contains(number_of(text))
-             ? nak_to(parse_request(request), xgt_error::not_registered)
+             ? nak_to(xgt_cnet::parse_request(request), xgt_cnet::xgt_error::not_registered)
              : reply;
 }
 
@@ -114,7 +114,7 @@ Bytes serve_once(const Bytes& request, GoodPlc& plc, Registered& served) {
   if (!is(text, 'y') || !acknowledged(reply)) return reply;
   return served.try_emplace(number_of(text)).second
              ? reply
-             : nak_to(parse_request(request), xgt_error::not_registered);
+             : nak_to(xgt_cnet::parse_request(request), xgt_cnet::xgt_error::not_registered);
 }
 
 /// The case of the command is part of the number.
@@ -125,22 +125,25 @@ Bytes keep_cases_apart(const Bytes& request, GoodPlc& plc, Registered& registere
     registered[number_of(text)] = text.lower_case() ? "lower" : "upper";
   const bool other = is(text, 'y') && acknowledged(reply) &&
                      registered[number_of(text)] != (text.lower_case() ? "lower" : "upper");
-  return other ? nak_to(parse_request(request), xgt_error::not_registered) : reply;
+  return other ? nak_to(xgt_cnet::parse_request(request), xgt_cnet::xgt_error::not_registered)
+               : reply;
 }
 
 /// What is registered is not looked at before it is executed.
 Bytes accept_any_content(const Bytes& request, GoodPlc& plc) {
   const Bytes reply = plc.answer(request);
-  const XgtRequest parsed = parse_request(request);
+  const xgt_cnet::XgtRequest parsed = xgt_cnet::parse_request(request);
   return is(take_apart(request), 'x') && refusal(reply) &&
-                 refusal(reply) != xgt_error::register_number
+                 refusal(reply) != xgt_cnet::xgt_error::register_number
              ? ack_to(parsed)
              : reply;
 }
 
 Bytes empty_for_unregistered(const Bytes& request, GoodPlc& plc) {
   const Bytes reply = plc.answer(request);
-  return refusal(reply) == xgt_error::not_registered ? ack_to(parse_request(request), "00") : reply;
+  return refusal(reply) == xgt_cnet::xgt_error::not_registered
+             ? ack_to(xgt_cnet::parse_request(request), "00")
+             : reply;
 }
 
 Behaviour survive(Storage& storage) {
@@ -151,7 +154,7 @@ Behaviour survive(Storage& storage) {
       storage.frames.push_back(request);
       if (storage.save) storage.save(storage.frames);
     }
-    return Sendings{{reply}};
+    return broken::Sendings{{reply}};
   };
   behaviour.power_on = [&storage](GoodPlc& plc) {
     for (const Bytes& registration : storage.frames) (void)plc.answer(registration);
@@ -191,7 +194,8 @@ std::vector<Fault> monitor_faults() {
       {"monitor_rss_without_block_count",
        "replies to Y of an individual registration have no block count",
        edit_reply([](FrameText& reply, const FrameText& request) {
-         if (is(request, 'y') && reply.is_ack() && parse_reply(reply.bytes()).with_block_count)
+         if (is(request, 'y') && reply.is_ack() &&
+             xgt_cnet::parse_reply(reply.bytes()).with_block_count)
            reply.body.erase(5, 2);
        }),
        "monitor_execute/printed_rss/lower", "block count"},
@@ -201,4 +205,4 @@ std::vector<Fault> monitor_faults() {
   };
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken

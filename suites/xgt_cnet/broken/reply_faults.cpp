@@ -4,7 +4,7 @@
 
 #include "suites/xgt_cnet/broken/faults.hpp"
 
-namespace fieldproof::xgt_cnet {
+namespace fieldproof::xgt_cnet_broken {
 
 namespace {
 
@@ -28,14 +28,14 @@ MakeBehaviour other_code(std::string_view right, std::string_view wrong) {
 }
 
 std::string plus_one(std::string_view digits) {
-  return hex_number(static_cast<std::uint64_t>(hex_value(digits)) + 1, 2);
+  return hex_number(static_cast<std::uint64_t>(xgt_cnet::hex_value(digits)) + 1, 2);
 }
 
 /// Replaces the number of data of each block of RSS and RSB.
 void recount(FrameText& reply, unsigned (*count)(unsigned bytes)) {
   std::size_t at = 7;
   while (at + 2 <= reply.body.size()) {
-    const auto bytes = static_cast<unsigned>(hex_value(reply.body.substr(at, 2)));
+    const auto bytes = static_cast<unsigned>(xgt_cnet::hex_value(reply.body.substr(at, 2)));
     reply.body.replace(at, 2, hex_number(count(bytes), 2));
     at += 2 + 2 * std::size_t{bytes};
   }
@@ -43,7 +43,7 @@ void recount(FrameText& reply, unsigned (*count)(unsigned bytes)) {
 
 void reverse_blocks(FrameText& reply) {
   const Bytes bytes = reply.bytes();
-  const XgtReply parsed = parse_reply(bytes);
+  const xgt_cnet::XgtReply parsed = xgt_cnet::parse_reply(bytes);
   std::string content = hex_number(parsed.blocks, 2);
   for (unsigned i = parsed.blocks; i-- > 0;)
     content += hex_number(parsed.data[i].size() / 2, 2) + std::string(parsed.data[i]);
@@ -79,13 +79,13 @@ std::vector<Fault> reply_faults() {
        "frame_structure/control_codes_nak/lower", "head"},
       {"enq_for_ack", "an acknowledgement begins with ENQ",
        edit_ack("", [](FrameText& r) { r.head = '\x05'; }), "areas/read_word_limits/xbc_h_m",
-       "header", alone},
+       "header", broken::alone},
       {"eot_for_etx", "replies end with EOT",
        edit_reply([](FrameText& r, const FrameText&) { r.tail = '\x04'; }), "errors/code_1132",
        "tail"},
       {"no_tail", "replies have no ETX", answer_with([](const Bytes& request, GoodPlc& plc) {
          Bytes reply = plc.answer(request);
-         std::erase(reply, xgt_etx);
+         std::erase(reply, xgt_cnet::xgt_etx);
          return reply;
        }),
        "errors/code_1132", "tail"},
@@ -162,4 +162,4 @@ std::vector<Fault> reply_faults() {
   };
 }
 
-}  // namespace fieldproof::xgt_cnet
+}  // namespace fieldproof::xgt_cnet_broken
