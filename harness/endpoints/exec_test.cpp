@@ -9,9 +9,9 @@
 namespace fieldproof::endpoints {
 namespace {
 
+using endpoints::test::endpoint_name;
 using os::test::receive_error;
 using os::test::receive_text;
-using test::endpoint_name;
 using testing::HasSubstr;
 
 std::unique_ptr<Endpoint> open(const std::string& command) {

@@ -16,9 +16,9 @@
 namespace fieldproof::endpoints {
 namespace {
 
+using endpoints::test::endpoint_name;
 using os::test::receive_error;
 using os::test::receive_text;
-using test::endpoint_name;
 using test::FakeServer;
 using test::FakeServerOptions;
 using test::Ser2net;

@@ -22,8 +22,8 @@
 namespace fieldproof::endpoints {
 namespace {
 
+using endpoints::test::endpoint_name;
 using os::test::receive_text;
-using test::endpoint_name;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

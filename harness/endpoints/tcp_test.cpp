@@ -17,8 +17,8 @@ using os::FdLink;
 
 namespace {
 
+using endpoints::test::endpoint_name;
 using os::test::receive_text;
-using test::endpoint_name;
 using testing::HasSubstr;
 
 class Tcp : public testing::Test {

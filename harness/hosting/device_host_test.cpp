@@ -38,7 +38,7 @@ class Hosted {
     EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
     control_.emplace(os::UniqueFd(ends[0]), "control");
     options.control = ends[1];
-    if (!options.make_device) options.make_device = test::make_tiny_device;
+    if (!options.make_device) options.make_device = hosting::test::make_tiny_device;
     if (options.model.empty()) options.model = "tiny";
     options.say = [this](std::string_view line) { said_.set_value(std::string(line)); };
     thread_ = std::thread([this, options] { code_ = host_device(options); });
@@ -109,7 +109,7 @@ TEST(DeviceHost, ANewPathBecomesALinkUntilTheEnd) {
 
 TEST(DeviceHost, AFileIsRefusedAndKept) {
   HostOptions options;
-  options.make_device = test::make_tiny_device;
+  options.make_device = hosting::test::make_tiny_device;
   options.tty = new_path("file");
   std::ofstream(options.tty) << "precious";
   EXPECT_EQ(host_on_tty(options), 3);
@@ -146,7 +146,7 @@ TEST(DeviceHost, AVanishedTerminalIsTrouble) {
 
 TEST(DeviceHost, ADeviceThatCannotBeMadeIsAUsageError) {
   HostOptions options;
-  options.make_device = test::make_tiny_device;
+  options.make_device = hosting::test::make_tiny_device;
   options.model = "xgk";
   EXPECT_EQ(host_on_tty(options), 2);
 }

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 /// This test program started as the emulator: `emulate MODEL?options --control FD --tty PATH`.
 int emulate(const std::vector<std::string>& arguments) {
   HostOptions options;
-  options.make_device = test::make_tiny_device;
+  options.make_device = hosting::test::make_tiny_device;
   const std::string& device = arguments.at(2);
   options.model = device.substr(0, device.find('?'));
   if (device.find("station=5") != std::string::npos) options.config["station"] = 5;

@@ -17,7 +17,7 @@ using line::Sent;
 
 namespace {
 
-using test::receive_text;
+using os::test::receive_text;
 using testing::HasSubstr;
 
 struct Sockets {
@@ -77,7 +77,7 @@ TEST(FdLink, SaysThatASocketWasClosed) {
   sockets.far.reset();
   EXPECT_EQ(receive_text(link, "last"), "last");
   EXPECT_FALSE(link.dead());
-  EXPECT_THAT(test::receive_error(link).message,
+  EXPECT_THAT(os::test::receive_error(link).message,
               HasSubstr("cannot receive from tcp:h:1: the far end closed the connection"));
   EXPECT_TRUE(link.dead());
   const Result<Sent> sent = link.send(to_bytes("x"));
@@ -91,7 +91,7 @@ TEST(FdLink, SaysThatTheOtherEndOfAPtyIsGone) {
   ASSERT_TRUE(pty);
   FdLink link(std::move(pty->slave), "serial:/dev/x");
   pty->master.reset();
-  EXPECT_THAT(test::receive_error(link).message,
+  EXPECT_THAT(os::test::receive_error(link).message,
               HasSubstr("cannot receive from serial:/dev/x: the far end is gone"));
   const Result<Sent> sent = link.send(to_bytes("x"));
   ASSERT_FALSE(sent);

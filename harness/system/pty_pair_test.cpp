@@ -59,8 +59,8 @@ TEST(PtyPair, DropsWhatWaitsAndWhatIsOnItsWay) {
     drop_waiting_bytes(master.fd());
     ASSERT_TRUE(master.send(to_bytes("new")));
     ASSERT_TRUE(slave.send(to_bytes("new")));
-    ASSERT_EQ(test::receive_text(slave, "new"), "new");
-    ASSERT_EQ(test::receive_text(master, "new"), "new");
+    ASSERT_EQ(os::test::receive_text(slave, "new"), "new");
+    ASSERT_EQ(os::test::receive_text(master, "new"), "new");
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 /// The frames of RECEIVE blocks, in the order of the definition.
 std::vector<const UserFrame*> armed_frames(const FrameDefinition& definition,
                                            std::span<const P2pBlock> blocks) {
-  std::vector<const UserFrame*> frames = received_frames(definition);
+  std::vector<const UserFrame*> frames = user_frames::received_frames(definition);
   std::erase_if(frames, [blocks](const UserFrame* frame) {
     return std::ranges::none_of(blocks, [frame](const P2pBlock& block) {
       return block.function == P2pBlock::Function::receive && block.frame == frame->name;

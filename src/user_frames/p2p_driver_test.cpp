@@ -54,7 +54,7 @@ class UserFrameP2p : public testing::Test, private plc::FrameSink {
  protected:
   void set_up(std::vector<P2pBlock> of) {
     blocks = std::move(of);
-    const auto definition = parse_frame_definition(frames, "frames.json");
+    const auto definition = user_frames::parse_frame_definition(frames, "frames.json");
     if (!definition) throw std::runtime_error(definition.error().message);
     driver = make_user_frame_p2p_driver(*definition, blocks, gap);
     for (const P2pBlock& one : blocks) EXPECT_EQ(why(one), "accepted");

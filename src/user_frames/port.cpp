@@ -20,7 +20,7 @@ UserFramePort::UserFramePort(const FrameDefinition& definition, const plc::PortC
       memory_(*definition.plc),
       delay_(config.reply_delay()),
       run_(config.run),
-      finder_(received_frames(definition_), config.gap()) {}
+      finder_(user_frames::received_frames(definition_), config.gap()) {}
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(
     const FrameDefinition& definition, const nlohmann::json& config) {

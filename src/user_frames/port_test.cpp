@@ -29,7 +29,7 @@ constexpr const char* talker = R"j({
 class Port {
  public:
   explicit Port(const char* text = talker, nlohmann::json config = nlohmann::json::object()) {
-    const auto definition = parse_frame_definition(text, "talker.json");
+    const auto definition = user_frames::parse_frame_definition(text, "talker.json");
     if (!definition) throw std::runtime_error(definition.error().message);
     auto made = make_user_frame_device(*definition, config);
     if (!made) throw std::runtime_error(made.error().message);
@@ -249,7 +249,7 @@ TEST(UserFramePort, TheDelayIsThatOfTheAnswer) {
 }
 
 TEST(UserFramePort, AnUnknownConfigurationKeyIsAnError) {
-  const auto definition = parse_frame_definition(talker, "talker.json");
+  const auto definition = user_frames::parse_frame_definition(talker, "talker.json");
   ASSERT_TRUE(definition);
   const auto made = make_user_frame_device(*definition, {{"mod", "run"}});
   ASSERT_FALSE(made);

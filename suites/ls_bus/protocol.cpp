@@ -78,9 +78,11 @@ class LsBus : public Protocol {
 
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
-    return frame_length(bytes);
+    return ls_bus_suite::frame_length(bytes);
   }
-  std::vector<harness::Field> explain(ByteView frame) const override { return explain(frame); }
+  std::vector<harness::Field> explain(ByteView frame) const override {
+    return ls_bus_suite::explain(frame);
+  }
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = !frame.empty() && frame[0] == enq;
     return request == (client == sent) && harness::faultless(explain(frame))
@@ -102,16 +104,18 @@ class LsBus : public Protocol {
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
                                             std::string_view hex) const override {
-    return write_requests(station_text(station), address, hex, count_first_);
+    return ls_bus_suite::write_requests(station_text(station), address, hex, count_first_);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
                                            std::size_t digits) const override {
-    return read_requests(station_text(station), address, digits);
+    return ls_bus_suite::read_requests(station_text(station), address, digits);
   }
-  Status write_reply(ByteView reply) const override { return write_reply(reply); }
-  Result<std::string> read_reply(ByteView reply) const override { return read_reply(reply); }
+  Status write_reply(ByteView reply) const override { return ls_bus_suite::write_reply(reply); }
+  Result<std::string> read_reply(ByteView reply) const override {
+    return ls_bus_suite::read_reply(reply);
+  }
   std::vector<Written> written_by(ByteView request) const override {
-    return written_by(request, order_);
+    return ls_bus_suite::written_by(request, order_);
   }
 
   Result<std::unique_ptr<Protocol>> configured(std::string_view,
@@ -127,20 +131,24 @@ class LsBus : public Protocol {
   std::string spell(std::string_view, std::uint32_t word) const override {
     return "h" + hex_number(word, 4);
   }
-  std::vector<Place> places(const Written& written) const override { return places(written); }
+  std::vector<Place> places(const Written& written) const override {
+    return ls_bus_suite::places(written);
+  }
   std::optional<Written> named(std::string_view address, std::size_t digits) const override {
-    return named(address, digits);
+    return ls_bus_suite::named(address, digits);
   }
   std::optional<std::string> moved(std::string_view address, int words) const override {
-    return moved(address, words);
+    return ls_bus_suite::moved(address, words);
   }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
-    return reply ? std::vector<AddressField>() : address_fields(frame, count_first_);
+    return reply ? std::vector<AddressField>() : ls_bus_suite::address_fields(frame, count_first_);
   }
   /// A parameter may be the run command: a motor turns.
   std::string_view output_areas() const override { return parameter_area; }
 
-  Status check_fact(const nlohmann::json& facts) const override { return check_fact(facts); }
+  Status check_fact(const nlohmann::json& facts) const override {
+    return ls_bus_suite::check_fact(facts);
+  }
 
  private:
   std::optional<bool> order_;

@@ -81,18 +81,20 @@ class Modbus : public Protocol {
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
                                             std::string_view hex) const override {
-    return write_requests(framing_, bases_, station, address, hex);
+    return modbus_suite::write_requests(framing_, bases_, station, address, hex);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
                                            std::size_t digits) const override {
-    return read_requests(framing_, bases_, station, address, digits);
+    return modbus_suite::read_requests(framing_, bases_, station, address, digits);
   }
-  Status write_reply(ByteView reply) const override { return write_reply(framing_, reply); }
+  Status write_reply(ByteView reply) const override {
+    return modbus_suite::write_reply(framing_, reply);
+  }
   Result<std::string> read_reply(ByteView reply) const override {
-    return read_reply(framing_, reply);
+    return modbus_suite::read_reply(framing_, reply);
   }
   std::vector<Written> written_by(ByteView request) const override {
-    return written_by(framing_, bases_, request);
+    return modbus_suite::written_by(framing_, bases_, request);
   }
 
   Result<std::unique_ptr<Protocol>> configured(std::string_view model,
@@ -102,7 +104,7 @@ class Modbus : public Protocol {
     return std::unique_ptr<Protocol>(std::make_unique<Modbus>(mode_, framing_, std::move(*bases)));
   }
   std::vector<Place> places(const Written& written) const override {
-    return places(bases_, written);
+    return modbus_suite::places(bases_, written);
   }
   std::optional<Written> named(std::string_view address, std::size_t digits) const override {
     return harness::named_memory(*bases_.model, address, digits);
@@ -111,11 +113,11 @@ class Modbus : public Protocol {
     return harness::moved_name(*bases_.model, address, words);
   }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
-    return address_fields(framing_, bases_, frame, reply);
+    return modbus_suite::address_fields(framing_, bases_, frame, reply);
   }
   std::optional<Bytes> moved_field(ByteView frame, const AddressField& field,
                                    int words) const override {
-    return moved_field(framing_, frame, field, words);
+    return modbus_suite::moved_field(framing_, frame, field, words);
   }
   std::uint32_t words_of(std::string_view area) const override {
     const plc::DeviceArea* found = area.size() == 1 ? bases_.model->area(area[0]) : nullptr;
@@ -127,7 +129,9 @@ class Modbus : public Protocol {
   /// What the default base of the holding registers reaches.
   std::vector<Area> areas() const override { return {{"M", plc::last_words_of('M')}}; }
 
-  Status check_fact(const nlohmann::json& facts) const override { return check_fact(facts); }
+  Status check_fact(const nlohmann::json& facts) const override {
+    return modbus_suite::check_fact(facts);
+  }
 
  private:
   modbus::ModbusMode mode_;

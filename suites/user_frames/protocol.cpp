@@ -54,10 +54,10 @@ class UserFrames : public Protocol {
     return to_bytes(hex_number(static_cast<unsigned>(station), 2));
   }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
-    return frame_length(definitions_, bytes);
+    return user_frames_suite::frame_length(definitions_, bytes);
   }
   std::vector<harness::Field> explain(ByteView frame) const override {
-    return explain(definitions_, frame);
+    return user_frames_suite::explain(definitions_, frame);
   }
 
   /// None after a frame that has the probe's own reply.
@@ -101,10 +101,12 @@ class UserFrames : public Protocol {
   /// Without the device's definition nobody can tell what a frame does there.
   std::vector<Written> written_by(ByteView request) const override {
     if (!own()) return {{"?", 0, 0, "what its definition says"}};
-    return written_by(definitions_.front(), request);
+    return user_frames_suite::written_by(definitions_.front(), request);
   }
   std::string_view output_areas() const override { return "PQU"; }
-  Status check_fact(const nlohmann::json& facts) const override { return check_fact(facts); }
+  Status check_fact(const nlohmann::json& facts) const override {
+    return user_frames_suite::check_fact(facts);
+  }
 
  private:
   /// Where this is the protocol of one model.

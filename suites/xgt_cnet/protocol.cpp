@@ -53,9 +53,11 @@ class XgtCnet : public harness::Protocol {
 
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
-    return frame_length(bytes);
+    return xgt_cnet_suite::frame_length(bytes);
   }
-  std::vector<harness::Field> explain(ByteView frame) const override { return explain(frame); }
+  std::vector<harness::Field> explain(ByteView frame) const override {
+    return xgt_cnet_suite::explain(frame);
+  }
 
   /// Requests go from the client to the server.
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
@@ -88,16 +90,18 @@ class XgtCnet : public harness::Protocol {
 
   Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
                                             std::string_view hex) const override {
-    return write_requests(station_text(station), address, hex);
+    return xgt_cnet_suite::write_requests(station_text(station), address, hex);
   }
   Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
                                            std::size_t digits) const override {
-    return read_requests(station_text(station), address, digits);
+    return xgt_cnet_suite::read_requests(station_text(station), address, digits);
   }
-  Status write_reply(ByteView reply) const override { return write_reply(reply); }
-  Result<std::string> read_reply(ByteView reply) const override { return read_reply(reply); }
+  Status write_reply(ByteView reply) const override { return xgt_cnet_suite::write_reply(reply); }
+  Result<std::string> read_reply(ByteView reply) const override {
+    return xgt_cnet_suite::read_reply(reply);
+  }
   std::vector<Written> written_by(ByteView request) const override {
-    return written_by(request, model_);
+    return xgt_cnet_suite::written_by(request, model_);
   }
 
   Result<std::unique_ptr<harness::Protocol>> configured(std::string_view model,
@@ -115,7 +119,7 @@ class XgtCnet : public harness::Protocol {
     return harness::moved_name(model(), address, words);
   }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
-    return reply ? std::vector<AddressField>() : address_fields(frame, model());
+    return reply ? std::vector<AddressField>() : xgt_cnet_suite::address_fields(frame, model());
   }
   std::uint32_t words_of(std::string_view area) const override {
     const plc::DeviceArea* found = area.size() == 1 ? model().area(area[0]) : nullptr;
