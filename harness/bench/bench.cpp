@@ -81,7 +81,7 @@ judging::JudgeRules Bench::rules() const {
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
   // Simulated time is exact, but for the moment at which a character counts as come.
   if (can.simulated) rules.period_tolerance = endpoint_.character_time();
-  // 003 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
+  // Cnet KO 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
   rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap
                   : can.wire                     ? std::max(wire_gap, rules.link_floor)
@@ -105,7 +105,7 @@ Status Bench::start() {
   if (listens)
     return fail(
         fmt::format("nothing is asked on {}: check that the PLC is in RUN, that P2P has its link "
-                    "enable (000 11.2.2), that the block's condition "
+                    "enable (Cnet EN 11.2.2), that the block's condition "
                     "flag rises, that speed, data bits, parity and stop bits are the same on both "
                     "sides and that A and B are not swapped",
                     endpoint_.describe()));

@@ -27,7 +27,7 @@ struct Profile {
   std::vector<std::pair<std::string, std::string>> exclude;  // glob and reason: SKIP
   std::string notes;  // what the manuals do not print of this device, and what follows from it
 
-  Duration response_max = 500ms;  // the manuals print none (PROTOCOLS: basis decision)
+  Duration response_max = 500ms;  // the manuals print none (DECISIONS.md server/reply-time)
   Duration turnaround_min{};  // no reply begins sooner; 0: no such limit (the manuals print none)
   double guard_band = 0.1;    // the last tenth of a limit is MARGINAL
   Duration floor{};           // the link's own uncertainty; 0: the endpoint's

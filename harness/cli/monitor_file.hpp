@@ -1,4 +1,4 @@
-// The frame monitor's CSV file (003 10.1.3).
+// The frame monitor's CSV file (Cnet KO 10.1.3).
 #pragma once
 
 #include <string>

@@ -33,7 +33,8 @@ struct PreparedCase {
   bool runs_by_clock() const;
   /// A device that asks, or one whose line settings differ from the bench's, answers no probe.
   bool answers_probes() const;
-  /// What the client under test waits for an answer: (time_out + 1) x 100 ms (000 and 003 4.3.1).
+  /// What the client under test waits for an answer: (time_out + 1) x 100 ms (Cnet EN and
+  /// KO 4.3.1).
   Duration client_time_out() const;
   /// The configured delay of every reply (delay_ms).
   Duration reply_delay() const;

@@ -17,7 +17,7 @@ struct JudgeRules {
   Duration turnaround_min{};  // a reply that begins sooner collides with a partner that still
                               // drives the line
   Duration max_gap =
-      4010417ns;  // silence allowed inside a reply (003 4.3.1: 3.5 characters of 11 bits)
+      4010417ns;  // silence allowed inside a reply (Cnet KO 4.3.1: 3.5 characters of 11 bits)
   Duration period_tolerance{};  // of `every`; 0: a twentieth of it, or the timing floor where that
                                 // is more
   bool binding_decisions = true;  // a missed `decision` is FAIL, else NON-STRICT

@@ -9,10 +9,11 @@
 namespace fieldproof::notation {
 
 enum class CheckKind {
-  bcc,  // XGT (000 7.1.5): low byte of the sum from header to tail, two hex digits
-  sum,  // LS Bus (000 8): low byte of the sum between header and sum, two hex digits
-  crc,  // Modbus RTU (000 9.3): CRC-16, polynomial A001, start FFFF, low byte first
-  lrc   // Modbus ASCII (000 9.3): two's complement of the sum of the bytes that the hex pairs after
+  bcc,  // XGT (Cnet EN 7.1.5): low byte of the sum from header to tail, two hex digits
+  sum,  // LS Bus (Cnet EN 8): low byte of the sum between header and sum, two hex digits
+  crc,  // Modbus RTU (Cnet EN 9.3): CRC-16, polynomial A001, start FFFF, low byte first
+  lrc   // Modbus ASCII (Cnet EN 9.3): two's complement of the sum of the bytes that the hex pairs
+        // after
         // ':' stand for
 };
 

@@ -5,14 +5,14 @@
 namespace fieldproof::notation {
 namespace {
 
-// 000 7.1.5 (1)(b): H05+H32+...+H04 = H03A4, therefore the BCC is A4.
+// Cnet EN 7.1.5 (1)(b): H05+H32+...+H04 = H03A4, therefore the BCC is A4.
 TEST(Checks, BccIsTheManualsWorkedSum) {
   EXPECT_EQ(compute_check(CheckKind::bcc,
                           *from_hex("05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04")),
             to_bytes("A4"));
 }
 
-// 000 11.2.4: the frame monitor shows ENQ 01rSS0104%MW0 EOT 40.
+// Cnet EN 11.2.4: the frame monitor shows ENQ 01rSS0104%MW0 EOT 40.
 TEST(Checks, BccIsTheCapturedOne) {
   EXPECT_EQ(compute_check(CheckKind::bcc, to_bytes("\x05"
                                                    "01rSS0104%MW0"

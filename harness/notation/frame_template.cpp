@@ -10,7 +10,7 @@ namespace {
 using Cell = FrameTemplate::Cell;
 
 /// XGT: byte 3 of the bracket (after header and station) is the main command; upper case has no
-/// check (000 7.1.2 Note 5).
+/// check (Cnet EN 7.1.2 Note 5).
 bool check_vanishes(const FrameTemplate& frame, std::size_t begin) {
   const std::size_t command = begin + 3;
   return command < frame.bytes.size() && frame.cells[command].kind == Cell::Kind::literal &&

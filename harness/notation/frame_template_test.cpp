@@ -17,7 +17,7 @@ std::vector<FrameTemplate> templates(std::string_view text) {
 
 std::string hex(std::string_view text) { return to_hex_with_holes(templates(text).at(0)); }
 
-// 000 7.1.5 (1)(e): the manual's own bytes.
+// Cnet EN 7.1.5 (1)(e): the manual's own bytes.
 TEST(FrameTemplate, IsTheManualsFrame) {
   EXPECT_EQ(hex("[ENQ st 'rSS' '02' name(%MW020) name(%PW001) EOT BCC]"),
             "05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38");

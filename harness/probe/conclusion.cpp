@@ -32,9 +32,10 @@ constexpr const char* echo_text = "our own question comes back";
 constexpr const char* echo_advice =
     "a two-wire RS-485 line hears itself: set the adapter to two-wire mode without echo (rs485=1, "
     "or rs485=rts), "
-    "and the module to RS-485, not RS-422 (000 11.2.4); see also that TX and RX are not joined";
+    "and the module to RS-485, not RS-422 (Cnet EN 11.2.4); see also that TX and RX are not joined";
 constexpr const char* two_devices_advice =
-    "two devices have this station number: disconnect one, or give it another number (000 11.2.5)";
+    "two devices have this station number: disconnect one, or give it another number (Cnet EN "
+    "11.2.5)";
 
 std::string times_of(const Observations& replies) {
   Duration fastest = Duration::max(), slowest{};
@@ -90,7 +91,7 @@ void add_device(const Search& search, const Trial& trial, std::vector<Finding>& 
         {Kind::unstable, trial,
          fmt::format("only {} of {} questions are answered right", replies.size(), asked),
          "the line is disturbed, or somebody else talks: check shield, ground, termination and "
-         "other masters (000 11.2.5)"});
+         "other masters (Cnet EN 11.2.5)"});
 }
 
 /// "142 bytes and 3 framing errors at 5 settings, as 00 FF FF"
@@ -143,7 +144,7 @@ void add_troubles(const Search& search, std::vector<Finding>& findings) {
                     seen.size() == 1 ? "" : "s", frame_of(seen)),
         "two devices with one station number answer at once, or the line is disturbed: connect one "
         "device alone; "
-        "check termination and ground (000 11.2.5)");
+        "check termination and ground (Cnet EN 11.2.5)");
   if (const auto seen = those(search, with(Symptom::other_station)); !seen.empty())
     findings.push_back(answers_for_others(seen));
   if (const auto seen = those(search, with(Symptom::foreign_frame)); !seen.empty()) {
@@ -153,7 +154,7 @@ void add_troubles(const Search& search, std::vector<Finding>& findings) {
                     first.protocol->name(), first.station, frame_of(seen)),
         "another master asks on this line, or the device itself is set as client (P2P): disconnect "
         "the master, "
-        "or set the module as server (000 table 4.3.3)");
+        "or set the module as server (Cnet EN table 4.3.3)");
   }
   if (const auto seen = those(search, &Observation::late); !seen.empty())
     add(Kind::unstable, seen,
@@ -170,7 +171,7 @@ void add_troubles(const Search& search, std::vector<Finding>& findings) {
         fmt::format("the device answers with another character format: {} is read, {} is right: {}",
                     line::to_string(seen.front()->trial.line),
                     line::to_string(*seen.front()->diagnosis.right_format), frame_of(seen)),
-        "give both sides the same data bits and parity (000 11.2.5)");
+        "give both sides the same data bits and parity (Cnet EN 11.2.5)");
   const bool named = !findings.empty();
   if (const auto seen = those(search, [](const Observation& one) { return one.diagnosis.echo; });
       !seen.empty())

@@ -24,10 +24,10 @@ std::string to_string(const Trial& trial);
 
 /// What is searched; an empty list means all that is usual.
 struct SearchSpace {
-  std::vector<int> speeds;  // the eight of 000 table 4.3.1
+  std::vector<int> speeds;  // the eight of Cnet EN table 4.3.1
   std::vector<line::LineSettings>
       frames;  // their speed does not count; one stop bit: a second one reads the same
-  std::vector<int> stations;  // 0 to 31: what one line carries (000 9.3); more only when named
+  std::vector<int> stations;  // 0 to 31: what one line carries (Cnet EN 9.3); more only when named
   std::vector<const harness::Protocol*> protocols;  // those known that have a probe
   bool settable =
       true;  // false: a socket or a pty has neither speed nor frame, one setting is tried

@@ -18,7 +18,7 @@ using LineOpener =
 struct ProbeTiming {
   Duration wait = 500ms;   // for the first byte of an answer (the profiles' response_max)
   Duration late = 2600ms;  // instead, once an answer came later: the longest delay time is 2550 ms
-                           // (000 table 4.3.1)
+                           // (Cnet EN table 4.3.1)
   Duration quiet = 100ms;  // no further byte for so long: the answer is over
   Duration listen = 1s;    // before the first question of all
 };

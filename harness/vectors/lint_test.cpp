@@ -41,7 +41,7 @@ std::vector<std::string> wires(const std::string& step) {
   return lint_wires(with_step(step), harness::Protocols(table));
 }
 
-// 000 7.1.5 (1)(b): the worked example whose BCC is A4.
+// Cnet EN 7.1.5 (1)(b): the worked example whose BCC is A4.
 TEST(LintWires, AgreesWithTheManualsBytes) {
   EXPECT_THAT(
       wires(

@@ -1,5 +1,5 @@
-// Speed and character format of a serial line (000 table 4.3.1: 1200 to 115200 bit/s, 7 or 8 data
-// bits, parity none, even or odd, 1 or 2 stop bits).
+// Speed and character format of a serial line (Cnet EN table 4.3.1: 1200 to 115200 bit/s, 7 or 8
+// data bits, parity none, even or odd, 1 or 2 stop bits).
 #pragma once
 
 #include <string>

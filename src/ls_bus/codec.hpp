@@ -1,9 +1,10 @@
-// Frames of the LS Bus between an XGB and an inverter, as values (000 and 003 chapter 8;
-// PROTOCOLS.md 'LS Bus').
+// Frames of the LS Bus between an XGB and an inverter, as values (Cnet EN and KO chapter 8;
+// DECISIONS.md 'LS Bus').
 //
 //   read   ENQ station R address count SUM EOT
 //   write  ENQ station W address count data SUM EOT     address first, as inverter manuals have it
-//          ENQ station W count address data SUM EOT     count first, as 000 and 003 8.2.1 print it
+//          ENQ station W count address data SUM EOT     count first, as Cnet EN and KO 8.2.1 print
+//          it
 //   ACK    ACK station command data SUM EOT             of a write: the data that were written
 //   NAK    NAK station command code SUM EOT
 //
@@ -26,7 +27,7 @@ namespace fieldproof::ls_bus {
 constexpr Byte ls_enq = 0x05, ls_ack = 0x06, ls_nak = 0x15, ls_eot = 0x04;
 
 constexpr unsigned ls_max_words = 8;
-/// 003 8.1.1: the write of eight words.
+/// Cnet KO 8.1.1: the write of eight words.
 constexpr std::size_t ls_max_frame = 1 + 2 + 1 + 4 + 1 + 4 * ls_max_words + 2 + 1;
 static_assert(ls_max_frame == 44);
 
@@ -96,7 +97,7 @@ class LsReceiver {
   enum class Side : std::uint8_t { inverter, client };
   explicit LsReceiver(Side side = Side::inverter) : side_(side) {}
 
-  /// From ENQ on (000 8.1.1: 256 bytes); more without EOT is dropped.
+  /// From ENQ on (Cnet EN 8.1.1: 256 bytes); more without EOT is dropped.
   static constexpr std::size_t buffer_size = 256;
 
   /// True when `b` completes a frame.

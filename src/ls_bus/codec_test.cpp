@@ -9,8 +9,8 @@ constexpr auto address_first = LsWriteOrder::address_first, count_first = LsWrit
 
 Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
-// The examples of 000 and 003 8.2: the manual prints the bytes but for the sum, which is added up
-// by hand here.
+// The examples of Cnet EN and KO 8.2: the manual prints the bytes but for the sum, which is added
+// up by hand here.
 const Bytes read_request = bytes("05 30 31 52 31 32 33 30 31 41 41 04");
 const Bytes read_ack = bytes("06 30 31 52 31 32 33 34 37 44 04");
 const Bytes read_nak = bytes("15 30 31 52 31 32 31 36 04");

@@ -1,7 +1,7 @@
-// An emulated LS inverter on an LS Bus: answers R and W, speaks when asked (000 and 003 chapter 8).
-// It waits for the end of a frame as long as it takes, answers station numbers other than its own
-// with silence, and has no counters: those of 000 11.1.4 belong to the XGB, which is the client
-// here.
+// An emulated LS inverter on an LS Bus: answers R and W, speaks when asked (Cnet EN and KO chapter
+// 8). It waits for the end of a frame as long as it takes, answers station numbers other than its
+// own with silence, and has no counters: those of Cnet EN 11.1.4 belong to the XGB, which is the
+// client here.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 namespace fieldproof::ls_bus {
 
 struct InverterConfig {
-  unsigned station = 1;  // 0-255 (000 4.3.1)
+  unsigned station = 1;  // 0-255 (Cnet EN 4.3.1)
   LsWriteOrder write_order = LsWriteOrder::address_first;
   Duration delay{};  // of a reply
 };

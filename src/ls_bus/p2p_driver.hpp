@@ -1,11 +1,11 @@
-// The P2P driver 'LS Bus client': reads and writes words of an inverter (000 and 003 chapter 8).
+// The P2P driver 'LS Bus client': reads and writes words of an inverter (Cnet EN and KO chapter 8).
 //
 // A block has one variable of type word, single or continuous with 1 to 8 words: R and W know
 // continuous words alone, and eight of them fill the longest frame (44 bytes). The partner's
 // address is four hex digits, "1230".
 //
-// What a reply that is not the one asked for gives (Appendix 3.3; decisions where several codes
-// would fit):
+// What a reply that is not the one asked for gives (Appendix 3.3; where several codes would
+// fit: DECISIONS.md p2p/wrong-driver, p2p/check-first, p2p/reply-length):
 //   01  characters, but neither ACK nor NAK      02  no EOT before the inter-character time is over
 //   03  sum                                      04  another station
 //   05  another command, or other data than written

@@ -1,6 +1,6 @@
 // The parameters of the emulated inverter: words by address. The manuals name one address (1230)
-// and leave the rest to the inverter's own manual; these ranges are this project's decision
-// (PROTOCOLS.md 'LS Bus').
+// and leave the rest to the inverter's own manual; these ranges are this project's
+// (DECISIONS.md ls-bus/addresses).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// ASCII frames: ':' to CR LF, at most one second between two characters (000 and 003 9.3.1 (1)).
+// ASCII frames: ':' to CR LF, at most one second between two characters (Cnet EN and KO 9.3.1 (1)).
 //
 // ':' inside a frame begins a new one. What stands between is not looked at here. The
-// inter-character parameter of 003 4.3.1 does not apply: its default of 3.5 characters would
+// inter-character parameter of Cnet KO 4.3.1 does not apply: its default of 3.5 characters would
 // contradict the second.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Where the four Modbus tables lie in the PLC's memory (000 and 003 6.1.3, 9.3.3).
+// Where the four Modbus tables lie in the PLC's memory (Cnet EN and KO 6.1.3, 9.3.3).
 //
 //   base         table                   functions     a base is entered as
 //   bit_read     1XXXX bit input         02            bit address: P0100 is word 10 bit 0; XEC
@@ -7,8 +7,8 @@
 //   10      word address
 //
 // Data address 0 is the base. A table ends at data address 9998 (Modbus addresses are 1-9999) or
-// with the device area, whichever is first (PROTOCOLS.md; the 1249 bytes of 6.1.3 would be 9992
-// bits). Tables may overlap.
+// with the device area, whichever is first (DECISIONS.md modbus/end-of-tables; the 1249 bytes
+// of 6.1.3 would be 9992 bits). Tables may overlap.
 #pragma once
 
 #include <array>

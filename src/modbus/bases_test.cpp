@@ -51,7 +51,7 @@ TEST(ModbusBases, Defaults) {
     EXPECT_TRUE(place_modbus_tables(m, default_modbus_bases(m))) << m.name;
 }
 
-// Figure 6.1.2 (000), and 003 11.3.1: 'P00110: bit 0 of word P11'.
+// Figure 6.1.2 (Cnet EN), and Cnet KO 11.3.1: 'P00110: bit 0 of word P11'.
 TEST(ModbusBases, AsInTheDialog) {
   EXPECT_EQ(placed("xbc-h", bit_read, "P0000"), (Placed{'P', 0, 9999}));
   EXPECT_EQ(placed("xbc-h", bit_write, "P0100"), (Placed{'P', 10 * 16, 9999}));

@@ -1,4 +1,4 @@
-// The checks of Modbus frames (000 and 003 9.3.1, 9.3.2).
+// The checks of Modbus frames (Cnet EN and KO 9.3.1, 9.3.2).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// One Modbus frame: station and PDU, with the framing of its mode (000 and 003 9.3).
+// One Modbus frame: station and PDU, with the framing of its mode (Cnet EN and KO 9.3).
 //
 //   RTU    station, PDU, CRC low byte, CRC high byte
 //   ASCII  ':', station, PDU and LRC as two hex digits a byte, CR LF; replies in upper case,

@@ -1,4 +1,4 @@
-// The two transmission modes of Modbus (000 and 003 9.2.1).
+// The two transmission modes of Modbus (Cnet EN and KO 9.2.1).
 #pragma once
 
 namespace fieldproof::modbus {

@@ -1,5 +1,5 @@
 // An emulated XGB PLC as Modbus RTU or ASCII server: one model's memory behind one Cnet channel
-// (000 and 003 6.1.3 and chapter 9; PROTOCOLS.md 'Modbus RTU and ASCII').
+// (Cnet EN and KO 6.1.3 and chapter 9; DECISIONS.md 'Modbus RTU and ASCII').
 //
 // It answers in RUN and STOP, and to its own station alone: a request to station 0 draws silence
 // from any other server and changes nothing. What draws silence is counted (service_status in

@@ -1,5 +1,5 @@
 // How a P2P block of a Modbus client names memory of its partner, and the function code that
-// follows from it (000 tables 6.2.2 and 10.3.2, 003 6.4.2):
+// follows from it (Cnet EN tables 6.2.2 and 10.3.2, Cnet KO 6.4.2):
 //
 //   0x40001   the leading digit is the table, the four hex digits behind it the data address,
 //   counted from zero

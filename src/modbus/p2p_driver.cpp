@@ -21,7 +21,7 @@ constexpr Byte exception_bit = 0x80;
 constexpr unsigned coil_on = 0xFF00, coil_off = 0x0000;
 constexpr std::uint32_t data_addresses = 0x10000;
 
-/// 003 6.4.2 '6 data size'.
+/// Cnet KO 6.4.2 '6 data size'.
 unsigned most_elements(ModbusMode mode, bool write, bool bits) {
   const bool rtu = mode == ModbusMode::rtu;
   if (bits) return write ? (rtu ? 1968 : 944) : (rtu ? 2000 : 976);
@@ -138,22 +138,22 @@ class ModbusP2pDriver : public p2p::P2pDriver {
 Status ModbusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
   if (block.function != P2pBlock::Function::read && !writes(block))
     return fail(
-        "function is neither read nor write; a Modbus client has no other (000 11.1.4: FFFE)");
+        "function is neither read nor write; a Modbus client has no other (Cnet EN 11.1.4: FFFE)");
   if (block.type != 'X' && block.type != 'W')
-    return fail("type is neither bit nor word; a Modbus client has no other (003 6.4.2)");
+    return fail("type is neither bit nor word; a Modbus client has no other (Cnet KO 6.4.2)");
   if (block.variables.size() != 1)
-    return fail(fmt::format("there are {} variables; a Modbus block has one (000 table 6.2.4)",
+    return fail(fmt::format("there are {} variables; a Modbus block has one (Cnet EN table 6.2.4)",
                             block.variables.size()));
   const bool bits = block.type == 'X';
   const unsigned most = most_elements(mode_, writes(block), bits);
   if (block.elements() == 0 || block.elements() > most)
-    return fail(fmt::format("size is {}; a {} block {}s 1 to {} {}s (003 6.4.2)", block.size,
+    return fail(fmt::format("size is {}; a {} block {}s 1 to {} {}s (Cnet KO 6.4.2)", block.size,
                             name(), writes(block) ? "write" : "read", most, bits ? "bit" : "word"));
   const char* key = writes(block) ? "save" : "read";
   const std::string& text = block.variables.front().partner;
   const auto wrong = [&](const std::string& what) {
     return fail(
-        fmt::format("{} '{}' {} (000 11.1.4: FFFE, Modbus address error)", key, text, what));
+        fmt::format("{} '{}' {} (Cnet EN 11.1.4: FFFE, Modbus address error)", key, text, what));
   };
   const std::optional<ModbusP2pAddress> partner = parse_modbus_p2p_address(text);
   if (!partner)

@@ -1,5 +1,5 @@
-// The P2P drivers 'Modbus RTU client' and 'Modbus ASCII client' (000 tables 6.2.1 to 6.2.4, 10.3;
-// 003 6.4.2).
+// The P2P drivers 'Modbus RTU client' and 'Modbus ASCII client' (Cnet EN tables 6.2.1
+// to 6.2.4, 10.3; Cnet KO 6.4.2).
 //
 // A block has one variable, of type bit or word, and sends one request: p2p_address.hpp says with
 // which function code. Most elements of a continuous block, so that no ASCII frame has more than
@@ -7,15 +7,15 @@
 //
 //          read bits   read words   write bits   write words
 //   RTU    2000        120          1968         120
-//   ASCII  976         61           944          59 (003 prints 120, which is 499 characters;
-//   PROTOCOLS.md)
+//   ASCII  976         61           944          59 (Cnet KO prints 120, which is 499 characters:
+// DECISIONS.md modbus/ascii-length)
 //
 // Where a parameter is what 11.1.4 calls 'Modbus address error' or 'commands except Read/Write'
 // (status FFFE), `check` refuses it: XG5000 takes the address apart when it is entered. So no block
 // that runs can end with FFFE.
 //
-// What a reply that is not the one asked for gives (Appendix 3.3; decisions where several codes
-// would fit):
+// What a reply that is not the one asked for gives (Appendix 3.3; where several codes would
+// fit: DECISIONS.md p2p/wrong-driver, p2p/check-first, p2p/reply-length):
 //   01  ASCII: characters, but no ':'                          02  ASCII: no CR LF within a second
 //   03  CRC or LRC                                             04  another station
 //   05  another function code, or the echo of another write    0B  byte count, or length of the

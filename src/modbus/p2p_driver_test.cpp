@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, ModbusP2p, testing::Values(ModbusMode::rtu, Modb
                            return mode.param == ModbusMode::rtu ? "rtu" : "ascii";
                          });
 
-/// The eight blocks of 000 10.3.2, with the addresses of both editions.
+/// The eight blocks of Cnet EN 10.3.2, with the addresses of both editions.
 TEST_P(ModbusP2p, AsksAsTheExampleDoes) {
   set("%MW100", "1234");
   set("%DW0", "0001000200030004");
@@ -171,7 +171,7 @@ TEST_P(ModbusP2p, RefusesParametersThatHaveNoFrame) {
   EXPECT_THAT(why(mixed), HasSubstr("save is not a word"));
 }
 
-/// 003 6.4.2, and that the longest frames are as long as a frame may be.
+/// Cnet KO 6.4.2, and that the longest frames are as long as a frame may be.
 TEST_P(ModbusP2p, KeepsTheSizesOfTheManual) {
   const bool in_rtu = GetParam() == ModbusMode::rtu;
   const auto limit = [&](const P2pBlock& at_limit) {

@@ -1,12 +1,9 @@
-// What a Modbus server does with a PDU: function code and data, without station and check (000 and
-// 003 9.2.2, 9.3.3, 9.4, Appendix 3.2). Words high byte first; the lowest bit address is bit 0 of
-// the first byte.
+// What a Modbus server does with a PDU: function code and data, without station and check (Cnet EN
+// and KO 9.2.2, 9.3.3, 9.4, Appendix 3.2). Words high byte first; the lowest bit address is bit 0
+// of the first byte.
 //
-// Order of checks (PROTOCOLS.md): function 01; length, count, byte count and the value of FC 05 03;
-// range 02. Decisions beyond PROTOCOLS.md:
-// - a write to a table in a read-only area (F, N): 02, as the XGT server answers with 'no such
-// area, or not writable';
-// - bits that pad the last byte of FC 0F are not looked at.
+// Order of checks (DECISIONS.md modbus/order-of-checks): function 01; length, count, byte count and
+// the value of FC 05 03; range 02. Further decisions: modbus/read-only-areas, modbus/fc0f-padding.
 #pragma once
 
 #include <cstdint>

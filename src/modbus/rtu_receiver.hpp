@@ -1,7 +1,7 @@
-// RTU frames: silence alone tells one from the next (000 and 003 9.3.2 (1)(d); 003 4.3.1).
+// RTU frames: silence alone tells one from the next (Cnet EN and KO 9.3.2 (1)(d); Cnet KO 4.3.1).
 //
 // A gap shorter than the inter-character time (0: 3.5 characters of 11 bits) keeps a frame
-// together, also between 1.5 characters and that time: there 003 4.3.1 is followed ('characters
+// together, also between 1.5 characters and that time: there Cnet KO 4.3.1 is followed ('characters
 // that come within the time are one frame'), not 9.3.2 ('exceeding 1.5 character time'). A gap
 // equal to the time, or longer, ends it. That is known one character later than the time alone: a
 // character that began within it has arrived by then.

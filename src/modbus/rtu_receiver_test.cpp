@@ -59,7 +59,7 @@ TEST_F(RtuReceiverTest, EqualGapEndsTheFrame) {
   EXPECT_EQ(log.frames, (Frames{hex("01 03"), hex("04")}));
 }
 
-// 9.3.2 (1)(d) would end the frame here; 003 4.3.1 is followed.
+// 9.3.2 (1)(d) would end the frame here; Cnet KO 4.3.1 is followed.
 TEST_F(RtuReceiverTest, BetweenOneAndAHalfCharactersAndTheTimeIsOneFrame) {
   at(0ms, hex("01"));
   at(1ms + 3 * character / 2, hex("02"));

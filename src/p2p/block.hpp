@@ -1,5 +1,5 @@
-// One block of a P2P parameter, checked: what a P2P client does when its condition rises (000 and
-// 003 6.2.4).
+// One block of a P2P parameter, checked: what a P2P client does when its condition rises (Cnet EN
+// and KO 6.2.4).
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 namespace fieldproof::p2p {
 
 constexpr unsigned p2p_parameters =
-    3;  // 1: built-in channels, 2 and 3: communication modules (003 6.2.1)
+    3;  // 1: built-in channels, 2 and 3: communication modules (Cnet KO 6.2.1)
 constexpr unsigned p2p_blocks = 32;           // of a parameter
-constexpr std::size_t p2p_max_variables = 4;  // of a block (000 table 6.2.3)
+constexpr std::size_t p2p_max_variables = 4;  // of a block (Cnet EN table 6.2.3)
 constexpr std::size_t p2p_max_bytes = 120;    // of continuous data
 
-/// Error codes of a block's STATUS (000 and 003 Appendix 3.3).
+/// Error codes of a block's STATUS (Cnet EN and KO Appendix 3.3).
 namespace p2p_error {
 constexpr std::uint16_t none = 0, head = 0x01, tail = 0x02, bcc = 0x03, station = 0x04,
                         driver = 0x05, send = 0x07, no_module = 0x09, time_out = 0x0A,

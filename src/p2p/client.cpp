@@ -11,7 +11,7 @@ std::uint16_t error_of(std::uint16_t status) {
   return status == plc::service_status::not_modbus ? p2p_error::bcc : status;
 }
 
-/// 000 11.1.4 'P2P service'.
+/// Cnet EN 11.1.4 'P2P service'.
 std::uint16_t service_code(std::uint16_t error) {
   constexpr std::uint16_t time_out = 5, no_such_request = 0xFFFE;
   if (error == p2p_error::time_out) return time_out;

@@ -1,4 +1,4 @@
-// The P2P service of one channel (000 and 003 6.2-6.4, Appendix 2.1, 3.3): when which block is
+// The P2P service of one channel (Cnet EN and KO 6.2-6.4, Appendix 2.1, 3.3): when which block is
 // asked, and what comes of it. How a request looks is the driver's affair.
 //
 // A block fires at the rising edge of its flag, or of its clock: clocks count from power-on, the
@@ -28,7 +28,7 @@ class P2pClient : public line::Device, private plc::FrameSink {
  public:
   struct Timing {
     Duration time_out{};  // after the last byte sent
-    Duration delay{};     // silence on the line before a request (000 11.2.3: RS-485 delay time)
+    Duration delay{};  // silence on the line before a request (Cnet EN 11.2.3: RS-485 delay time)
     Duration character_time{};  // of its own line
   };
 
@@ -49,8 +49,8 @@ class P2pClient : public line::Device, private plc::FrameSink {
   void set_active(bool active);
   /// Counters, and what is under way, are lost; clocks begin anew.
   void power_cycle();
-  /// Of all blocks. The status is that of the P2P service, 000 11.1.4: 4 station, 5 time-out, FFFE
-  /// no such request; where it has no code, that of Appendix 3.3.
+  /// Of all blocks. The status is that of the P2P service, Cnet EN 11.1.4: 4 station, 5 time-out,
+  /// FFFE no such request; where it has no code, that of Appendix 3.3.
   const plc::ServiceCounters& counters() const { return counters_; }
 
  private:

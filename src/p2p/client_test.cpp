@@ -169,7 +169,7 @@ TEST(P2pClient, TimesOutAfterTheLastByteSent) {
   EXPECT_EQ(b.result(0), "0 0 00 00 00");
   b.client->advance(deadline);
   EXPECT_EQ(b.result(0), "0 1 0A 00 01");
-  EXPECT_EQ(b.client->counters().status, 5u);  // 000 11.1.4
+  EXPECT_EQ(b.client->counters().status, 5u);  // Cnet EN 11.1.4
   EXPECT_EQ(b.client->counters().errors, 1u);
   b.now = deadline;
   b.reply("ok");  // too late

@@ -1,5 +1,5 @@
-// The condition flag of a P2P block (000 table 6.2.3 'all Bit device', 003 6.3.2): a bit, or a
-// clock.
+// The condition flag of a P2P block (Cnet EN table 6.2.3 'all Bit device', Cnet KO 6.3.2): a bit,
+// or a clock.
 //
 // Clocks are F90 (20 ms), F92 (200 ms) and F93 (1 s), on XEC _T20MS, _T200MS and _T1S. Other forms
 // of the same bits (F0092, %FX0092) mean the clock too.

@@ -1,6 +1,6 @@
-// A P2P driver (000 table 6.2.1): how the client of one channel asks, and reads what is answered.
-// It keeps no schedule, counts nothing and sets no flag: P2pClient does. A protocol makes its
-// emulated client of it with make_p2p_plc (p2p_plc.hpp).
+// A P2P driver (Cnet EN table 6.2.1): how the client of one channel asks, and reads what is
+// answered. It keeps no schedule, counts nothing and sets no flag: P2pClient does. A protocol makes
+// its emulated client of it with make_p2p_plc (p2p_plc.hpp).
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 namespace fieldproof::p2p {
 
 namespace {
-constexpr unsigned longest_time_out = 50;  // 000 figure 4.3.1: (0-50)(*100ms)
+constexpr unsigned longest_time_out = 50;  // Cnet EN figure 4.3.1: (0-50)(*100ms)
 }
 
 P2pPlc::P2pPlc(const plc::PlcModel& model, const P2pParameters& parameters, bool run)

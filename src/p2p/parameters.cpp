@@ -210,7 +210,7 @@ Status check_together(const P2pParameters& parameters) {
       return wrong_block(
           block.number,
           fmt::format(
-              "frame {} has a receive block already; one block receives a frame (000 6.2.4)",
+              "frame {} has a receive block already; one block receives a frame (Cnet EN 6.2.4)",
               block.frame));
     if (parameters.parameter != 1 && block.channel != first_channel)
       return wrong_block(
@@ -266,7 +266,7 @@ Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const
       const char* cause =
           user_frames
               ? "the driver user-frames has send and receive alone"
-              : "a channel whose driver is {} sends and receives no user frames (000 6.2.3)";
+              : "a channel whose driver is {} sends and receives no user frames (Cnet EN 6.2.3)";
       return wrong_block(block.number, fmt::format(fmt::runtime(cause), driver.name()) +
                                            "; set function, or another driver");
     }

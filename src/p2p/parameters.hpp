@@ -1,15 +1,15 @@
-// A P2P parameter: up to 32 blocks, read from JSON and checked as XG5000 checks them (000 and
-// 003 6.2.1-6.2.4, 003 6.3.2).
+// A P2P parameter: up to 32 blocks, read from JSON and checked as XG5000 checks them (Cnet EN and
+// KO 6.2.1-6.2.4, Cnet KO 6.3.2).
 //
 //   {"parameter": 1, "channel": 1, "link": true,
 //    "blocks": [{"block": 0, "channel": 1, "function": "read", "flag": "%MX00000", "command":
 //    "single", "type": "word",
 //                "read": "%MW100", "save": "%MW200", "station": 2}, ...]}
 //
-// `flag` is a bit or a clock (condition.hpp). Stations are 0-255 (000 11.1.4 'Available range:
-// 0~255'; the 0-31 of 003 6.3.2 is what one line carries). Parameter 1 has channels 1 and 2; 2 and
-// 3 are modules of one channel (6.2.3), which may be called 1 or 2 (003 11.2.2 sets channel 2 of an
-// XBL-C21A).
+// `flag` is a bit or a clock (condition.hpp). Stations are 0-255 (Cnet EN 11.1.4 'Available range:
+// 0~255'; the 0-31 of Cnet KO 6.3.2 is what one line carries). Parameter 1 has channels 1 and 2; 2
+// and 3 are modules of one channel (6.2.3), which may be called 1 or 2 (Cnet KO 11.2.2 sets channel
+// 2 of an XBL-C21A).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -25,7 +25,7 @@ class P2pDriver;
 struct P2pParameters {
   unsigned parameter = 1;          // 1-3
   unsigned channel = 1;            // the one that an endpoint leads to
-  bool link = true;                // link enable (000 6.2.6)
+  bool link = true;                // link enable (Cnet EN 6.2.6)
   std::vector<P2pBlock> blocks{};  // in the order of their numbers
 };
 

@@ -65,7 +65,7 @@ TEST(P2pParameters, Defaults) {
   EXPECT_EQ(block.variables[0].own, address("%MW200"));
 }
 
-// 000 6.2.4, figure 6.2.7
+// Cnet EN 6.2.4, figure 6.2.7
 TEST(P2pParameters, EveryKey) {
   const P2pParameters p2p =
       parsed(json::parse(R"({"parameter": 1, "channel": 2, "link": false, "blocks": [
@@ -131,7 +131,7 @@ TEST(P2pParameters, ErrorsOfTheWhole) {
   EXPECT_THAT(error_of({{"parameter", 2}, {"blocks", {read, with(read, {{"channel", 2}})}}}),
               HasSubstr("a module of one channel"));
   EXPECT_EQ(error_of({{"parameter", 3}, {"blocks", json::array({with(read, {{"channel", 2}})})}}),
-            "");  // 003 11.2.2
+            "");  // Cnet KO 11.2.2
   EXPECT_EQ(error_of({{"blocks", {read, with(read, {{"channel", 2}})}}}), "");
 }
 
@@ -227,7 +227,7 @@ TEST(P2pParameters, DriversExcludeUserFrames) {
   EXPECT_EQ(error(2, frames), "");
   EXPECT_EQ(error(2, xgt),
             "cannot set up P2P block 1: a channel whose driver is xgt-client sends and receives no "
-            "user frames (000 6.2.3); set "
+            "user frames (Cnet EN 6.2.3); set "
             "function, or another driver");
   EXPECT_THAT(error(1, frames),
               HasSubstr("P2P block 0: the driver user-frames has send and receive alone"));

@@ -21,7 +21,8 @@ std::string named(const PlcModel& model, const P2pResultFlags& flags) {
   return names;
 }
 
-// 000 and 003 Appendix 2.1 (3). The errors of block 1 are at L522, %LD261: 000 prints %LD264.
+// Cnet EN and KO Appendix 2.1 (3). The errors of block 1 are at L522, %LD261: Cnet EN prints
+// %LD264.
 TEST(P2pResultFlags, PrintedAddresses) {
   EXPECT_EQ(named(mk(), p2p_result_flags(mk(), 1, 0)), "%LX5120 %LX5121 %LW513 %LD257 %LD258 ");
   EXPECT_EQ(named(iec(), p2p_result_flags(iec(), 1, 0)), "%LX8192 %LX8193 %LW513 %LD257 %LD258 ");
@@ -40,7 +41,7 @@ std::string named(const PlcModel& model, const P2pRegisters& registers) {
   return names;
 }
 
-// 000 and 003 Appendix 2.2
+// Cnet EN and KO Appendix 2.2
 TEST(P2pRegisters, PrintedAddresses) {
   EXPECT_EQ(named(mk(), p2p_registers(mk(), 1, 0)),
             "%NW0 %NW1 %NW5 %NW6 %NW10 %NW11 %NW15 %NW16 %NW20 %NW21 %NW25 %NW26 %NW30 %NW31 %NW35 "

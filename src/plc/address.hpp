@@ -1,5 +1,5 @@
-// Device names: "%MW100", "%MX0010A", "%LX8192" (flat on XEC), "%IW0.0.0", "%DB2468" (000 7.1.4,
-// 003 7.1.3).
+// Device names: "%MW100", "%MX0010A", "%LX8192" (flat on XEC), "%IW0.0.0", "%DB2468" (Cnet
+// EN 7.1.4, Cnet KO 7.1.3).
 //
 //   element   index                                    XBM, XBC              XEC
 //   X bit     word * 16 + bit                          %MX0010A: M10 bit A   %MX170: M10 bit A
@@ -20,8 +20,8 @@
 
 namespace fieldproof::plc {
 
-/// What is wrong with a name, in the order in which it is looked at (PROTOCOLS.md 'order of
-/// checks').
+/// What is wrong with a name, in the order in which it is looked at (DECISIONS.md
+/// cnet/order-of-checks).
 enum class AddressFault { none, percent, area, type, form, range };
 
 struct DeviceAddress {

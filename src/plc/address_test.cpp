@@ -40,10 +40,11 @@ TEST(DeviceAddress, BitNamesOfXbcEndInAHexBit) {
                    "%MX1024"
                    "0"),
             "range");
-  EXPECT_EQ(parsed("xbc-h", "%MX0A0"), "range");    // the word is decimal
-  EXPECT_EQ(parsed("xbc-h", "%UX343"), "U X 547");  // 003: U01.02.3 = (1 * 32 + 2) words and bit 3
-  EXPECT_EQ(parsed("xbc-h", "%UX2334"), "U X 3732");  // 003: U07.09.4
-  EXPECT_EQ(parsed("xbc-h", "%UW103"), "U W 103");    // 003: U03.07
+  EXPECT_EQ(parsed("xbc-h", "%MX0A0"), "range");  // the word is decimal
+  EXPECT_EQ(parsed("xbc-h", "%UX343"),
+            "U X 547");  // Cnet KO: U01.02.3 = (1 * 32 + 2) words and bit 3
+  EXPECT_EQ(parsed("xbc-h", "%UX2334"), "U X 3732");  // Cnet KO: U07.09.4
+  EXPECT_EQ(parsed("xbc-h", "%UW103"), "U W 103");    // Cnet KO: U03.07
 }
 
 TEST(DeviceAddress, ContactsGoByNumber) {

@@ -1,4 +1,4 @@
-// Status by service of one channel (000 11.1.4, 003 10.1.4).
+// Status by service of one channel (Cnet EN 11.1.4, Cnet KO 10.1.4).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The frame monitor (000 11.1.3, 003 10.1.3): each frame that crosses a channel, with its form,
-// result, size, time and data.
+// The frame monitor (Cnet EN 11.1.3, Cnet KO 10.1.3): each frame that crosses a channel, with its
+// form, result, size, time and data.
 #pragma once
 
 #include <functional>

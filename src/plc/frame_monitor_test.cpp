@@ -133,7 +133,7 @@ TEST(FrameMonitor, ResultsHaveTheNumbersOfTheManual) {
 }
 
 TEST(FrameMonitor, Views) {
-  // The capture of 000 11.2.4.
+  // The capture of Cnet EN 11.2.4.
   const MonitoredFrame frame{true,
                              FrameResult::xgt_client,
                              {},

@@ -10,7 +10,7 @@ constexpr bool read_only = false;
 constexpr bool read_write = true;
 
 // The 'Size' column of the manual holds for type H; the ranges of type S are smaller.
-// U is flat: 32 words a slot, U07.31 is word 8 * 32 - 1 (003 7.1.3).
+// U is flat: 32 words a slot, U07.31 is word 8 * 32 - 1 (Cnet KO 7.1.3).
 constexpr std::array xbm_s{
     DeviceArea{'P', 128, read_write},      DeviceArea{'M', 256, read_write},
     DeviceArea{'K', 2560, read_write},     DeviceArea{'F', 256, read_only},

@@ -1,5 +1,5 @@
-// The device areas of the emulated PLCs, once, as data (000 and 003 chapter 7 'Available types of
-// device').
+// The device areas of the emulated PLCs, once, as data (Cnet EN and KO chapter 7 'Available types
+// of device').
 #pragma once
 
 #include <cstdint>

@@ -30,7 +30,7 @@ void expect_rows(std::string_view model, const std::map<char, Row>& expected) {
   }
 }
 
-// Typed from 000 7.1.4 '"S" type range'; U07.31 as 003 counts it.
+// Typed from Cnet EN 7.1.4 '"S" type range'; U07.31 as Cnet KO counts it.
 TEST(PlcModel, RangesOfTypeS) {
   expect_rows("xbm-s", {{'P', {127, true}},
                         {'M', {255, true}},

@@ -1,4 +1,5 @@
-// Basic parameters that every protocol of a Cnet channel has (000 and 003 4.3.1), and their JSON.
+// Basic parameters that every protocol of a Cnet channel has (Cnet EN and KO 4.3.1), and their
+// JSON.
 #pragma once
 
 #include <initializer_list>

@@ -64,7 +64,7 @@ Result<UdataModule> read_module(plc::ConfigReader& reader) {
   if (!known) return known.error();
   module.cnet = known->cnet;
   module.slot = known->built_in ? 0 : 1;
-  module.channel = known->built_in ? 1 : 2;  // RS-232C of each (003 table 4.3.1)
+  module.channel = known->built_in ? 1 : 2;  // RS-232C of each (Cnet KO table 4.3.1)
   reader.whole("slot", 11, module.slot);
   reader.whole("channel", 2, module.channel);
   reader.text("driver", driver);
@@ -103,7 +103,8 @@ Result<UdataConfig> parse_udata_config(std::string_view model, const json& confi
   parsed.plc = *plc;
   if (parsed.plc->name == "xbm-s")
     return fail(
-        "cannot make a UDATA port of xbm-s: 003 2.2 lists no version of XBM for UDATA; use xbc-h "
+        "cannot make a UDATA port of xbm-s: Cnet KO 2.2 lists no version of XBM for UDATA; use "
+        "xbc-h "
         "or xec-h");
   const Result<UdataModule> module = read_module(reader);
   if (!module) return module.error();

@@ -20,7 +20,7 @@ struct UdataConfig {
 };
 
 /// Errors name the instruction and the key. XBC has the MK instructions, XEC those of IEC, XBM none
-/// (003 2.2).
+/// (Cnet KO 2.2).
 Result<UdataConfig> parse_udata_config(std::string_view model, const nlohmann::json& config);
 
 }  // namespace fieldproof::udata

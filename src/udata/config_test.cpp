@@ -64,7 +64,7 @@ TEST(UdataConfig, ChecksTheModule) {
   EXPECT_THAT(refused({{"driver", "xgt"}}), HasSubstr("driver is 'xgt'"));
   EXPECT_THAT(refused({{"version", "new"}}), HasSubstr("version is 'new'"));
   EXPECT_THAT(refused({{"linkk", true}}), HasSubstr("did you mean 'link'?"));
-  EXPECT_THAT(refused(json::object(), "xbm-s"), HasSubstr("003 2.2"));
+  EXPECT_THAT(refused(json::object(), "xbm-s"), HasSubstr("Cnet KO 2.2"));
 }
 
 }  // namespace

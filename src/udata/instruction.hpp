@@ -1,5 +1,6 @@
-// The UDATA instructions of 003 6.6: what one is given, and the status that it ends with. MK (XBC):
-// SNDUDATA, RCVUDATA, SENDDTR, SENDRTS; IEC (XEC): SEND_UDATA, RCV_UDATA, SEND_DTR, SEND_RTS.
+// The UDATA instructions of Cnet KO 6.6: what one is given, and the status that it ends with. MK
+// (XBC): SNDUDATA, RCVUDATA, SENDDTR, SENDRTS; IEC (XEC): SEND_UDATA, RCV_UDATA, SEND_DTR,
+// SEND_RTS.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,7 @@ constexpr std::uint16_t before = 0, done = 1, module = 2, channel = 3, value = 4
 
 /// The module whose channel is on this line, and how that channel is set up.
 struct UdataModule {
-  unsigned slot = 1;  // 0: the built-in channels (003 10.1.2)
+  unsigned slot = 1;  // 0: the built-in channels (Cnet KO 10.1.2)
   bool cnet = true;
   bool new_enough = true;  // an external module: V1.4 or above
   unsigned channel = 2;
@@ -58,7 +59,7 @@ struct UdataInstruction {
 };
 
 /// What the instruction meets, in the order of the codes: `done` when nothing stands in its way
-/// (PROTOCOLS: the manual prints no order). Whether there is data, and whether the module answers,
+/// (DECISIONS.md udata/order-of-codes). Whether there is data, and whether the module answers,
 /// shows later.
 std::uint16_t check_udata(const UdataInstruction& instruction, const UdataModule& module,
                           const plc::PlcMemory& memory);

@@ -1,4 +1,4 @@
-// One UDATA instruction out of its JSON: the operands of 003 6.6, by the names that the manual
+// One UDATA instruction out of its JSON: the operands of Cnet KO 6.6, by the names that the manual
 // gives their meaning.
 #pragma once
 

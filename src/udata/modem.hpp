@@ -1,5 +1,5 @@
-// The CDMA modem of 003 11.5 as a scripted device: it answers what the manual prints, and nothing
-// else.
+// The CDMA modem of Cnet KO 11.5 as a scripted device: it answers what the manual prints, and
+// nothing else.
 //
 //   to the modem                                     from the modem
 //   AT CR                     (3 bytes)              OK: 'when an AT command has reached it, the

@@ -8,7 +8,7 @@
 namespace fieldproof::udata {
 
 namespace {
-constexpr std::size_t most_held = 16;  // the manual does not say how many; PROTOCOLS
+constexpr std::size_t most_held = 16;  // DECISIONS.md udata/held
 }  // namespace
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_udata_port(std::string_view model,

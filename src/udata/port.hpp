@@ -1,4 +1,4 @@
-// An emulated XGB port that works with UDATA instructions (003 6.6): its module buffers what
+// An emulated XGB port that works with UDATA instructions (Cnet KO 6.6): its module buffers what
 // arrives, and the program of the PLC takes it, sends, and moves DTR and RTS.
 #pragma once
 
@@ -17,7 +17,7 @@ class UdataPort : public plc::EmulatedDevice, private UdataChannel {
  public:
   explicit UdataPort(const UdataConfig& config);
 
-  /// A datum ends when the line is silent for the inter-character time (003 4.3.1), or is 1024
+  /// A datum ends when the line is silent for the inter-character time (Cnet KO 4.3.1), or is 1024
   /// bytes long.
   void receive(const line::Burst& burst) override;
   std::optional<Time> wake_at() const override;

@@ -1,5 +1,5 @@
-// The frame of a SEND or RECEIVE block, with what the block says of its variables (000 6.2.4,
-// 003 6.5.5).
+// The frame of a SEND or RECEIVE block, with what the block says of its variables (Cnet EN 6.2.4,
+// Cnet KO 6.5.5).
 #pragma once
 
 #include "src/base/result.hpp"

@@ -1,4 +1,4 @@
-// The error checks of user-defined frames (003 6.5.1 'BCC error check').
+// The error checks of user-defined frames (Cnet KO 6.5.1 'BCC error check').
 //
 // The manual describes them in words. What it leaves open is settled in
 // suites/user_frames/definitions/README.md: byte order, left-over bytes, start values. Sources

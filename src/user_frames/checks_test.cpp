@@ -86,7 +86,7 @@ TEST(UserFrameChecks, AsciiConversionDoublesTheLength) {
   EXPECT_EQ(check_size(CheckMethod::byte_xor, false), 1u);
 }
 
-/// 000 7.1.5: 05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 sums up to 3A4.
+/// Cnet EN 7.1.5: 05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04 sums up to 3A4.
 TEST(UserFrameChecks, ByteSumIsTheBccOfXgtCnet) {
   EXPECT_EQ(check("byte_sum", *from_hex("05 32 30 72 53 53 30 31 30 36 25 4D 57 31 30 30 04"),
                   {.ascii = true}),

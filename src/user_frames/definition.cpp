@@ -54,7 +54,7 @@ Status read_area(const Json& list, const plc::PlcModel& plc, const Group& group,
   return ok();
 }
 
-/// The limits of 003 6.5.1.
+/// The limits of Cnet KO 6.5.1.
 Status check_limits(const UserFrame& frame, const std::string& place) {
   using Kind = Segment::Kind;
   const auto count = [&](auto predicate) {

@@ -1,5 +1,5 @@
-// User-defined frames as data (000 6.2.5, 003 6.5): segments of a frame, frames of a definition.
-// Made by parse_frame_definition (definition.hpp) alone, which keeps the limits.
+// User-defined frames as data (Cnet EN 6.2.5, Cnet KO 6.5): segments of a frame, frames of a
+// definition. Made by parse_frame_definition (definition.hpp) alone, which keeps the limits.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace fieldproof::user_frames {
 
-constexpr std::size_t max_frame = 1024;   // bytes (003 6.5.1)
+constexpr std::size_t max_frame = 1024;   // bytes (Cnet KO 6.5.1)
 constexpr std::size_t max_constant = 10;  // bytes
 constexpr std::size_t max_variables = 4;  // of a frame
 

@@ -1,9 +1,10 @@
-// The P2P driver 'user frame definition': SEND and RECEIVE blocks (000 6.2.4 3), 4); 003 6.5.5).
+// The P2P driver 'user frame definition': SEND and RECEIVE blocks (Cnet EN 6.2.4 3), 4); Cnet
+// KO 6.5.5).
 //
 // SEND builds its frame from memory and is done with that; nothing is waited for. RECEIVE is always
 // armed: a frame that comes whole and with a right check is stored, whether anybody asked for it or
 // not. A frame that has no RECEIVE block is not looked for. A frame with a wrong check is ignored
-// (003 6.5.1).
+// (Cnet KO 6.5.1).
 //
 // Where the definition says `"memory": true`, the block gives the addresses, in the order of the
 // variables (READ1, SAVE1 of figures 6.2.8 and 6.2.9), and its `size` is that of the sent variable

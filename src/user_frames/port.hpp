@@ -1,4 +1,4 @@
-// An emulated XGB port that works with user-defined frames (000 6.2.5, 003 6.5).
+// An emulated XGB port that works with user-defined frames (Cnet EN 6.2.5, Cnet KO 6.5).
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// The way of a variable between memory and frame: conversion, swap, and memory as bytes (000 6.2.5
-// 4)).
+// The way of a variable between memory and frame: conversion, swap, and memory as bytes (Cnet
+// EN 6.2.5 4)).
 #pragma once
 
 #include <optional>

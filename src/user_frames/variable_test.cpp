@@ -15,7 +15,7 @@ std::string swap(std::size_t group, std::string_view hex) {
 
 TEST(UserFrameVariable, HexToAsciiDoubles) {
   EXPECT_EQ(convert(Convert::hex_to_ascii, "12 34 56 78"),
-            "31 32 33 34 35 36 37 38");  // 000 6.2.5 3) C)
+            "31 32 33 34 35 36 37 38");  // Cnet EN 6.2.5 3) C)
   EXPECT_EQ(convert(Convert::hex_to_ascii, "AB"), "41 42");
 }
 
@@ -26,7 +26,7 @@ TEST(UserFrameVariable, AsciiToHexHalves) {
   EXPECT_EQ(convert(Convert::ascii_to_hex, "34 47"), "none");
 }
 
-/// 000 6.2.5 4) B).
+/// Cnet EN 6.2.5 4) B).
 TEST(UserFrameVariable, SwapTurnsGroupsRound) {
   EXPECT_EQ(swap(2, "1234567811223344"), "34 12 78 56 22 11 44 33");
   EXPECT_EQ(swap(4, "1234567811223344"), "78 56 34 12 44 33 22 11");

@@ -1,4 +1,4 @@
-// Frames of the XGT dedicated protocol as values (000 and 003 chapter 7).
+// Frames of the XGT dedicated protocol as values (Cnet EN and KO chapter 7).
 //
 //   request  ENQ station command type   content EOT [BCC]     RSS RSB WSS WSB
 //            ENQ station command number content EOT [BCC]     X Y
@@ -8,7 +8,7 @@
 // Numbers are hex digits, most significant first; BCC follows a lower-case command: the low byte of
 // the sum from header to tail. Values hold views into the frame that they were parsed from. Parsing
 // never fails and never reads past the frame: `fault` says what is wrong first, in the order of
-// PROTOCOLS.md 'order of checks'.
+// DECISIONS.md cnet/order-of-checks.
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ void expect_printed_reply(std::string_view wire) {
   EXPECT_EQ(to_hex(encoded(reply)), wire);
 }
 
-// The frames below are typed from the 'ASCII value' rows of 000 7.1.5 with the errata of the
+// The frames below are typed from the 'ASCII value' rows of Cnet EN 7.1.5 with the errata of the
 // vectors applied (names and tails printed wrong); BCC added by hand where the manual prints none.
 TEST(XgtCodec, PrintedRequests) {
   expect_printed_request(

@@ -101,7 +101,7 @@ Status XgtP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
   }
   if (!block.continuous) return ok();
   if (block.type == 'X')
-    return fail("bits are not read or written as a run; use command single (003 6.3.2)");
+    return fail("bits are not read or written as a run; use command single (Cnet KO 6.3.2)");
   const unsigned most = p2p::p2p_max_bytes / plc::type_bytes(block.type);
   if (block.size > most)
     return fail(fmt::format("size is {}; a run has at most {} bytes: {} elements of this type",

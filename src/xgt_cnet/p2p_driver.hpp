@@ -1,6 +1,6 @@
-// The P2P driver 'XGT client' (000 6.2.3, 003 6.3): single variables go as one RSS or WSS of up to
-// four blocks, a run as RSB or WSB, in lower case with BCC and unpadded names (PROTOCOLS.md 'P2P
-// client').
+// The P2P driver 'XGT client' (Cnet EN 6.2.3, Cnet KO 6.3): single variables go as one RSS or WSS
+// of up to four blocks, a run as RSB or WSB, in lower case with BCC and unpadded names
+// (DECISIONS.md p2p/xgt-requests).
 //
 // Error codes of Appendix 3.3: a reply that repeats another command or type is of another driver,
 // 05; one with more values than asked for, or fewer, is 0B, and 0E where the surplus would run over

@@ -78,7 +78,7 @@ std::string ended(std::string_view status) {
   return "00 01 " + std::string(status) + " 00000000 00000001";
 }
 
-// 000 11.2.4: 'ENQ 01rSS0104%MW0 EOT 40'
+// Cnet EN 11.2.4: 'ENQ 01rSS0104%MW0 EOT 40'
 TEST(XgtP2pDriver, CaptureOfTheManual) {
   Bench b(json{{"read", "%MW0"}, {"station", 1}});
   EXPECT_EQ(to_hex(b.request()), "05 30 31 72 53 53 30 31 30 34 25 4D 57 30 04 34 30");
@@ -141,7 +141,7 @@ TEST(XgtP2pDriver, WritesSingleVariables) {
   EXPECT_EQ(b.result(), normal);
 }
 
-// 000 6.2.4: 10 bytes from M125 on are written from P20 on
+// Cnet EN 6.2.4: 10 bytes from M125 on are written from P20 on
 TEST(XgtP2pDriver, WritesARun) {
   Bench b(json{{"function", "write"},
                {"command", "continuous"},

@@ -1,4 +1,4 @@
-// Finds frames in what arrives: header, tail, BCC, and the inter-character time (003 4.3.1).
+// Finds frames in what arrives: header, tail, BCC, and the inter-character time (Cnet KO 4.3.1).
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace fieldproof::xgt_cnet {
 /// BCC never came).
 class FrameReceiver {
  public:
-  /// From the header on; more without a tail is dropped (PROTOCOLS.md).
+  /// From the header on; more without a tail is dropped (DECISIONS.md cnet/receive-buffer).
   static constexpr std::size_t max_frame = 1024;
 
   /// A server receives ENQ ... EOT, a client ACK or NAK ... ETX.

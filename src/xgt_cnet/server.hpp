@@ -1,12 +1,7 @@
-// The XGT dedicated server of one channel: RSS RSB WSS WSB X Y (000 and 003 chapter 7,
-// Appendix 3.1; PROTOCOLS.md 'XGT Cnet server'). It answers in RUN and STOP. Decisions beyond
-// PROTOCOLS.md:
-// - a BCC is accepted in either case of its hex digits;
-// - an unknown command or type counts with status 1;
-// - a registration number that is cut short, or not printable, is filled up with 0 in the NAK,
-// which so keeps its form;
-// - a registration number is replied in upper-case hex, as other numbers are;
-// - name length or number of data that is not hex: 0011.
+// The XGT dedicated server of one channel: RSS RSB WSS WSB X Y (Cnet EN and KO chapter 7,
+// Appendix 3.1; DECISIONS.md 'XGT Cnet server'). It answers in RUN and STOP. What a reader of the
+// manuals may not expect: cnet/bcc-digits, cnet/unknown-command, cnet/registration-numbers,
+// cnet/registration-number-form, cnet/name-length, cnet/sb-count.
 #pragma once
 
 #include <array>

@@ -50,7 +50,7 @@ std::string repeated(std::string_view text, int times) {
   return all;
 }
 
-// --- The manual's examples, byte for byte (000 7.1.5) ---
+// --- The manual's examples, byte for byte (Cnet EN 7.1.5) ---
 
 std::string exchange(unsigned station,
                      const std::vector<std::pair<std::string, std::string>>& memory,

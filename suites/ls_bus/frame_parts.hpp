@@ -12,19 +12,19 @@ namespace fieldproof::ls_bus_suite {
 
 constexpr Byte enq = 0x05, ack = 0x06, nak = 0x15, eot = 0x04;
 
-/// Length of the first complete frame: header to EOT (000 8.1.1). A header inside a frame ends it,
-/// and so it does a run of bytes before a header.
+/// Length of the first complete frame: header to EOT (Cnet EN 8.1.1). A header inside a frame ends
+/// it, and so it does a run of bytes before a header.
 std::optional<std::size_t> frame_length(ByteView bytes);
 
-/// The parts of a request, ACK or NAK (000 8.2), as far as it can be read. A write is shown with
-/// the address first, unless it adds up with the count first alone; its count then says so.
+/// The parts of a request, ACK or NAK (Cnet EN 8.2), as far as it can be read. A write is shown
+/// with the address first, unless it adds up with the count first alone; its count then says so.
 std::vector<harness::Field> explain(ByteView frame);
 
 /// A write request in one of its two orders.
 struct WriteReading {
   std::string address;       // four digits, as they stand in the request
   unsigned words = 1;        // as its count or its data say, whichever is more; at least one
-  bool count_first = false;  // 000 8.2.1; else address first (inverter manuals)
+  bool count_first = false;  // Cnet EN 8.2.1; else address first (inverter manuals)
   bool adds_up = false;      // count and length of the data agree
 };
 /// The readings that have an address, address first before count first.

@@ -19,7 +19,7 @@ std::string part(ByteView frame, std::string_view name) {
   return "absent";
 }
 
-// The examples of 000 and 003 8.2; the sums are added up by hand.
+// The examples of Cnet EN and KO 8.2; the sums are added up by hand.
 const Bytes read_request = bytes("05 30 31 52 31 32 33 30 31 41 41 04");
 const Bytes read_ack = bytes("06 30 31 52 31 32 33 34 37 44 04");
 const Bytes write_count_first = bytes("05 30 31 57 31 31 32 33 30 30 30 46 46 39 42 04");

@@ -32,7 +32,7 @@ Result<std::string> read_reply(ByteView reply);
 std::vector<harness::Protocol::Place> places(const harness::Protocol::Written& written);
 std::optional<harness::Protocol::Written> named(std::string_view address, std::size_t digits);
 std::optional<std::string> moved(std::string_view address, int words);
-/// The address of a request, in one of the two orders of a write (000 8.2.1: count first).
+/// The address of a request, in one of the two orders of a write (Cnet EN 8.2.1: count first).
 std::vector<harness::Protocol::AddressField> address_fields(ByteView request, bool count_first);
 
 /// What a request frame would write: address first, and count first too unless it adds up address

@@ -1,4 +1,4 @@
-// The LS Bus between an XGB and LS inverters (000 and 003 chapter 8) for the harness. The device
+// The LS Bus between an XGB and LS inverters (Cnet EN and KO chapter 8) for the harness. The device
 // under test is the inverter.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How a message travels: RTU (000 9.3.2) and ASCII (000 9.3.1).
+// How a message travels: RTU (Cnet EN 9.3.2) and ASCII (Cnet EN 9.3.1).
 #pragma once
 
 #include <optional>

@@ -23,8 +23,8 @@ std::string ascii(std::string_view text, std::string_view name) {
   return part(ascii_framing(), to_bytes(text), name);
 }
 
-// Published frames: Modbus over serial line 1.02, and the manual's examples (000 9.4) with their
-// CRC.
+// Published frames: Modbus over serial line 1.02, and the manual's examples (Cnet EN 9.4) with
+// their CRC.
 constexpr std::string_view read_request = "01 03 00 6B 00 03 74 17";
 constexpr std::string_view read_reply = "01 03 06 13 12 3D 12 40 4F 46 48";
 constexpr std::string_view ascii_request = ":0103006B00038E\r\n";

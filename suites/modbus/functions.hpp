@@ -1,4 +1,4 @@
-// The function and exception codes of the XGB Modbus servers as data (000
+// The function and exception codes of the XGB Modbus servers as data (Cnet EN
 // Table 6.1.1, 9.2.2, 9.3.3, 9.4).
 #pragma once
 

@@ -22,8 +22,8 @@ const Bases& default_bases();
 /// `config`: bit_read_base and its like (vectors/README.md). Errors name the model or the key.
 Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config);
 
-/// Few enough words a request for a frame of 255 characters (PROTOCOLS.md, ASCII), and any server.
-/// Errors say why there is no way.
+/// Few enough words a request for a frame of 255 characters (DECISIONS.md modbus/ascii-length), and
+/// any server. Errors say why there is no way.
 Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station,
                                           std::string_view address, std::string_view hex);
 Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& bases, int station,

@@ -19,9 +19,9 @@ struct Part {
   std::string problem;
 };
 
-/// The parts of a request, reply or exception (000 9.4) as far as it can be read. Which one it is,
-/// is told by what fits its length: a reply where the byte count agrees, else a request. The parts
-/// cover the message.
+/// The parts of a request, reply or exception (Cnet EN 9.4) as far as it can be read. Which one it
+/// is, is told by what fits its length: a reply where the byte count agrees, else a request. The
+/// parts cover the message.
 std::vector<Part> message_parts(ByteView message);
 
 /// The lengths that a message which begins like `bytes` can have, replies before requests; empty

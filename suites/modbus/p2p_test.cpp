@@ -25,7 +25,7 @@ json block(const char* function, const char* type, const char* read, const char*
   return made;
 }
 
-/// 000 10.3.2 with its errata: the addresses that do what the steps say (003 11.3).
+/// Cnet EN 10.3.2 with its errata: the addresses that do what the steps say (Cnet KO 11.3).
 const json blocks_of_the_example{
     block("write", "word", "%MW100", "0x40001"),  block("write", "word", "%DW0", "0x40002", 4),
     block("write", "bit", "%MX0001F", "0x00142"), block("write", "bit", "%MX00020", "0x00150", 16),

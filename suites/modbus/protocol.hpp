@@ -1,4 +1,5 @@
-// Modbus RTU and ASCII servers of the XGB Cnet interface (000 6.1.3 and chapter 9) for the harness.
+// Modbus RTU and ASCII servers of the XGB Cnet interface (Cnet EN 6.1.3 and chapter 9) for the
+// harness.
 #pragma once
 
 #include "harness/protocol.hpp"

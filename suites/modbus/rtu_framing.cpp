@@ -84,7 +84,7 @@ class Rtu : public Framing {
     return fields;
   }
 
-  /// 3.5 characters of 11 bits (003 4.3.1), in characters of 10 bits or more.
+  /// 3.5 characters of 11 bits (Cnet KO 4.3.1), in characters of 10 bits or more.
   Duration frame_gap(Duration character_time) const override { return character_time * 4; }
 
   std::vector<Bytes> messages(ByteView bytes) const override {

@@ -85,7 +85,7 @@ class ClientRole : public testing::Test {
   Results results;
 };
 
-/// What each fault does to an XGT client: the codes of 000 Appendix 3.3.
+/// What each fault does to an XGT client: the codes of Cnet EN Appendix 3.3.
 TEST_F(ClientRole, EveryFaultOfThePartnerHasItsErrorCode) {
   const std::map<std::string, std::string> codes{
       {"none", "0000"},       {"wrong_station", "0004"}, {"wrong_check", "0003"}, {"nak", "000F"},

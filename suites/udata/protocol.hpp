@@ -1,5 +1,5 @@
-// What UDATA instructions send and receive (003 6.6), for the harness: raw bytes without a frame.
-// Models: PLCs whose port runs such instructions, and the modem of 003 11.5.
+// What UDATA instructions send and receive (Cnet KO 6.6), for the harness: raw bytes without a
+// frame. Models: PLCs whose port runs such instructions, and the modem of Cnet KO 11.5.
 #pragma once
 
 #include "harness/protocol.hpp"

@@ -1,4 +1,4 @@
-// SEND and RECEIVE blocks against the stand-in controller of 000 10.4.
+// SEND and RECEIVE blocks against the stand-in controller of Cnet EN 10.4.
 #include <gmock/gmock.h>
 
 #include "suites/test_p2p_pair.hpp"

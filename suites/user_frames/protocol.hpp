@@ -1,4 +1,4 @@
-// User-defined frames (000 6.2.5, 003 6.5) for the harness. Models are definitions:
+// User-defined frames (Cnet EN 6.2.5, Cnet KO 6.5) for the harness. Models are definitions:
 // definitions/README.md.
 #pragma once
 

@@ -17,7 +17,7 @@ constexpr Byte enq = 0x05, ack = 0x06, nak = 0x15, eot = 0x04, etx = 0x03;
 bool is_header(Byte b) { return b == enq || b == ack || b == nak; }
 bool is_lower(Byte b) { return b >= 'a' && b <= 'z'; }
 
-/// 000 and 003 Appendix 3.1.
+/// Cnet EN and KO Appendix 3.1.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 13> errors{{
     {"0003", "more than 16 blocks"},
     {"0004", "name longer than 16 characters"},
@@ -187,7 +187,7 @@ class Reader {
 
   void reply(char main, const std::string& type) {
     if (left() == 0 || main == 'W' || main == 'X') return;
-    // The reply to Y of a continuous registration is printed without a block count (000 7.1.5
+    // The reply to Y of a continuous registration is printed without a block count (Cnet EN 7.1.5
     // (6)(c)2).
     if (main == 'Y' && count_fits_at(pos_)) return data_block("");
     const unsigned count = hex("block count", 2).value_or(0);

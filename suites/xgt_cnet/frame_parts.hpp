@@ -11,10 +11,10 @@
 namespace fieldproof::xgt_cnet_suite {
 
 /// Length of the first complete frame: header to tail, and two characters of BCC where the main
-/// command is lower case (000 7.1.2). Bytes before a header count as a piece of their own.
+/// command is lower case (Cnet EN 7.1.2). Bytes before a header count as a piece of their own.
 std::optional<std::size_t> frame_length(ByteView bytes);
 
-/// The parts of a request, ACK or NAK (000 7.1.5), as far as it can be read.
+/// The parts of a request, ACK or NAK (Cnet EN 7.1.5), as far as it can be read.
 std::vector<harness::Field> explain(ByteView frame);
 
 /// What an error code of Appendix 3.1 means; empty for an unknown one.

@@ -16,7 +16,7 @@ std::string part(ByteView frame, std::string_view name) {
   return "absent";
 }
 
-// 000 7.1.5 (1)(e), request and ACK.
+// Cnet EN 7.1.5 (1)(e), request and ACK.
 const Bytes request =
     bytes("05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38");
 const Bytes reply = bytes("06 30 31 72 53 53 30 32 30 32 31 32 33 34 30 32 35 36 37 38 03 34 43");

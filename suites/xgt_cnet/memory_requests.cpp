@@ -17,7 +17,7 @@ using harness::Protocol;
 
 namespace {
 
-constexpr std::size_t max_bytes = 120;  // 60 words a request (000 7.1.5)
+constexpr std::size_t max_bytes = 120;  // 60 words a request (Cnet EN 7.1.5)
 
 /// "%MW100" taken apart.
 struct Name {

@@ -11,8 +11,8 @@
 
 namespace fieldproof::xgt_cnet_suite {
 
-/// WSS for one element, WSB (at most 60 words each, 000 7.1.5 (4)) for more. F and N are read only
-/// (000 7.1.4).
+/// WSS for one element, WSB (at most 60 words each, Cnet EN 7.1.5 (4)) for more. F and N are read
+/// only (Cnet EN 7.1.4).
 Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_view address,
                                           std::string_view hex);
 /// RSS for one element, RSB for more.

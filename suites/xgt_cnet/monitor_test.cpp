@@ -1,4 +1,4 @@
-// The frame monitor on an XGT channel, and the phenomenon of 000 11.2.4.
+// The frame monitor on an XGT channel, and the phenomenon of Cnet EN 11.2.4.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

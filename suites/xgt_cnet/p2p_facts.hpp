@@ -1,4 +1,4 @@
-// Where the manual prints the flags and registers of the P2P service (000 and 003 Appendix 2.1
+// Where the manual prints the flags and registers of the P2P service (Cnet EN and KO Appendix 2.1
 // (3), 2.2), checked against src/p2p/registers:
 //
 //   {"p2p": 1, "block": 31, "flag": "services", "mk": "L700", "iec": "%LD350"}

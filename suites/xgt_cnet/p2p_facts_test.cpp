@@ -15,7 +15,7 @@ std::string problem(const char* facts) {
   return status ? "" : status.error().message;
 }
 
-// 000 and 003 Appendix 2.1 (3), 2.2
+// Cnet EN and KO Appendix 2.1 (3), 2.2
 TEST(P2pFacts, WhatIsPrinted) {
   EXPECT_EQ(problem(R"({"p2p": 1, "block": 0, "flag": "ndr", "mk": "L5120", "iec": "%LX8192"})"),
             "");

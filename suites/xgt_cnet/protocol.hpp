@@ -1,4 +1,4 @@
-// The XGT dedicated protocol of the XGB Cnet interface (000 chapter 7) for the harness.
+// The XGT dedicated protocol of the XGB Cnet interface (Cnet EN chapter 7) for the harness.
 #pragma once
 
 #include "harness/protocol.hpp"

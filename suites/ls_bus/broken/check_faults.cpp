@@ -1,4 +1,4 @@
-// Faults of the sum (000 8.2: 'except ENQ and EOT') and of the station number.
+// Faults of the sum (Cnet EN 8.2: 'except ENQ and EOT') and of the station number.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-// Faults in the form of replies (000 8.2).
+// Faults in the form of replies (Cnet EN 8.2).
 #include <algorithm>
 #include <cctype>
 

@@ -1,4 +1,4 @@
-// Faults in what a request is taken for: command, address, count, data (000 8.2).
+// Faults in what a request is taken for: command, address, count, data (Cnet EN 8.2).
 #include <algorithm>
 #include <cctype>
 #include <charconv>

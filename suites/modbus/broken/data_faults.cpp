@@ -1,5 +1,5 @@
 // Faults in what is read and written: addresses, order of bits and bytes, which area
-// (000 6.1.3, 9.3.2 (5), 9.4).
+// (Cnet EN 6.1.3, 9.3.2 (5), 9.4).
 #include <algorithm>
 #include <array>
 

@@ -1,4 +1,4 @@
-// Faults of exceptions: which code, which form (000 9.2.2, Appendix 3.2).
+// Faults of exceptions: which code, which form (Cnet EN 9.2.2, Appendix 3.2).
 #include "suites/modbus/broken/faults.hpp"
 
 namespace fieldproof::modbus_broken {

@@ -1,4 +1,4 @@
-// Faults of the checks, of the station number and of the form of frames (000 9.3.1, 9.3.2).
+// Faults of the checks, of the station number and of the form of frames (Cnet EN 9.3.1, 9.3.2).
 #include <algorithm>
 #include <cctype>
 

@@ -1,4 +1,4 @@
-// Faults in what is accepted: counts, addresses, lengths, values (000 6.1.3, 9.3.3, 9.4).
+// Faults in what is accepted: counts, addresses, lengths, values (Cnet EN 6.1.3, 9.3.3, 9.4).
 #include <algorithm>
 
 #include "suites/modbus/broken/faults.hpp"

@@ -1,5 +1,5 @@
 // Faults of time and of the line: where frames begin and end, late, repeated, lost and surplus
-// bytes (000 9.3.1, 9.3.2).
+// bytes (Cnet EN 9.3.1, 9.3.2).
 #include <algorithm>
 #include <utility>
 

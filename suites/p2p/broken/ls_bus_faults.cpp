@@ -1,4 +1,4 @@
-// The LS Bus client (000 and 003 chapter 8).
+// The LS Bus client (Cnet EN and KO chapter 8).
 #include "src/ls_bus/codec.hpp"
 #include "suites/p2p/broken/faults.hpp"
 

@@ -1,4 +1,4 @@
-// Modbus clients, RTU and ASCII (000 10.3, 003 6.4, 11.3).
+// Modbus clients, RTU and ASCII (Cnet EN 10.3, Cnet KO 6.4, 11.3).
 #include "suites/p2p/broken/faults.hpp"
 
 namespace fieldproof::p2p_broken {

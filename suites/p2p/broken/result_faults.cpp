@@ -1,5 +1,5 @@
-// What a block shows: flags, STATUS and counts in L, its parameters in N (000 and 003 Appendix 2.1
-// (3), 2.2).
+// What a block shows: flags, STATUS and counts in L, its parameters in N (Cnet EN and KO
+// Appendix 2.1 (3), 2.2).
 #include "suites/p2p/broken/faults.hpp"
 
 namespace fieldproof::p2p_broken {

@@ -1,4 +1,4 @@
-// When a block is asked: edges, clocks, order, RUN and link, time-out (000 and 003 6.2.4, 4.3).
+// When a block is asked: edges, clocks, order, RUN and link, time-out (Cnet EN and KO 6.2.4, 4.3).
 #include "suites/p2p/broken/faults.hpp"
 
 namespace fieldproof::p2p_broken {

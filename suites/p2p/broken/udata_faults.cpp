@@ -1,4 +1,4 @@
-// The UDATA instructions (003 6.6).
+// The UDATA instructions (Cnet KO 6.6).
 #include "suites/p2p/broken/faults.hpp"
 
 namespace fieldproof::p2p_broken {

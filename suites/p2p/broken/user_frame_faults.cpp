@@ -1,4 +1,4 @@
-// SEND and RECEIVE blocks of user-defined frames (000 6.2.4, 10.4; 003 6.5, 11.4).
+// SEND and RECEIVE blocks of user-defined frames (Cnet EN 6.2.4, 10.4; Cnet KO 6.5, 11.4).
 #include "suites/p2p/broken/faults.hpp"
 
 namespace fieldproof::p2p_broken {

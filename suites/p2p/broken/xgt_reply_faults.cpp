@@ -1,4 +1,4 @@
-// What the XGT client makes of a reply (000 and 003 6.3, 7.1, Appendix 3.3).
+// What the XGT client makes of a reply (Cnet EN and KO 6.3, 7.1, Appendix 3.3).
 #include "suites/p2p/broken/faults.hpp"
 
 namespace fieldproof::p2p_broken {

@@ -1,4 +1,4 @@
-// Requests of the XGT client (000 and 003 6.3, 7.1).
+// Requests of the XGT client (Cnet EN and KO 6.3, 7.1).
 #include <fmt/format.h>
 
 #include <cctype>

@@ -1,4 +1,4 @@
-// Faults of the BCC (000 7.1.3) and of the station number.
+// Faults of the BCC (Cnet EN 7.1.3) and of the station number.
 #include <algorithm>
 #include <cctype>
 

@@ -1,4 +1,4 @@
-// Faults in what is read and written: order of bytes and words, addresses, rights (000 7.1.4).
+// Faults in what is read and written: order of bytes and words, addresses, rights (Cnet EN 7.1.4).
 #include <fmt/format.h>
 
 #include <algorithm>

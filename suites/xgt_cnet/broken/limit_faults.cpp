@@ -1,4 +1,4 @@
-// Faults in what is accepted: ranges, counts, lengths, forms (000 7.1.4, 7.1.5, Appendix 3.1).
+// Faults in what is accepted: ranges, counts, lengths, forms (Cnet EN 7.1.4, 7.1.5, Appendix 3.1).
 #include <algorithm>
 #include <cctype>
 

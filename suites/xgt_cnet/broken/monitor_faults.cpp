@@ -1,4 +1,4 @@
-// Faults of monitor registration and execution (000 7.1.5 (5), (6)).
+// Faults of monitor registration and execution (Cnet EN 7.1.5 (5), (6)).
 #include <map>
 
 #include "suites/xgt_cnet/broken/faults.hpp"

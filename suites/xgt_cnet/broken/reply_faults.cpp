@@ -1,4 +1,4 @@
-// Faults in the form of replies (000 7.1.2, 7.1.5).
+// Faults in the form of replies (Cnet EN 7.1.2, 7.1.5).
 #include <algorithm>
 #include <cctype>
 
