@@ -13,9 +13,8 @@ namespace fieldproof::reports {
 /// Reads the results in `ndjson` (of a killed run too) and writes `path`: the frames of all cases
 /// in both directions, as RTAC serial (linktype 250), one interface a protocol, with step, case and
 /// verdict as comment. `path` appears whole or not at all. Returns the counts of what was read.
-///   tshark -r FILE -d rtacser.data,mbrtu -o mbrtu.crc_verification:TRUE     decodes Modbus RTU
-///   frame.comment contains "FAIL"                                           shows the cases that
-///   failed
+///   tshark -r FILE -d rtacser.data,mbrtu -o mbrtu.crc_verification:TRUE   decodes Modbus RTU
+///   the display filter frame.comment contains "FAIL"   shows the cases that failed
 ///
 /// Times are those of the bench, counted from the start of the run as the clock of the computer
 /// gave it (in seconds). Simulated clocks of several protocols run one after the other, as their

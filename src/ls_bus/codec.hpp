@@ -39,9 +39,8 @@ enum class LsWriteOrder : std::uint8_t { address_first, count_first };
 ///   frame     FE  the sum is wrong
 ///   function  IF  a command other than R and W
 ///   address   IA  the address is cut short or not hex
-///   data      ID  the count is not 1 to 8; data are missing, not hex, or more than the count says
-///   (so is every frame
-///                 beyond 44 bytes)
+///   data      ID  the count is not 1 to 8; data are missing, not hex, or more than the count
+///                 says (so is every frame beyond 44 bytes)
 ///   range     IA  a word that the inverter does not have
 ///   rights    WM  a write to a word that is read only
 /// A write is all or nothing. Silence, without a look at the sum: another station (or none), a

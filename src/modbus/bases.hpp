@@ -1,10 +1,11 @@
 // Where the four Modbus tables lie in the PLC's memory (Cnet EN and KO 6.1.3, 9.3.3).
 //
-//   base         table                   functions     a base is entered as
-//   bit_read     1XXXX bit input         02            bit address: P0100 is word 10 bit 0; XEC
-//   flat: M160, IX0.0.5 bit_write    0XXXX bit output        01 05 0F      bit address word_read
-//   3XXXX word input        04            word address: P010 word_write   4XXXX word output 03 06
-//   10      word address
+//   base         table               functions  a base is entered as
+//   bit_read     1XXXX bit input     02         bit address: P0100 is word 10 bit 0; XEC flat:
+//                                               M160, IX0.0.5
+//   bit_write    0XXXX bit output    01 05 0F   bit address
+//   word_read    3XXXX word input    04         word address: P010
+//   word_write   4XXXX word output   03 06 10   word address
 //
 // Data address 0 is the base. A table ends at data address 9998 (Modbus addresses are 1-9999) or
 // with the device area, whichever is first (DECISIONS.md modbus/end-of-tables; the 1249 bytes

@@ -2,7 +2,7 @@
 // follows from it (Cnet EN tables 6.2.2 and 10.3.2, Cnet KO 6.4.2):
 //
 //   0x40001   the leading digit is the table, the four hex digits behind it the data address,
-//   counted from zero
+//             counted from zero
 //
 //   table                  type   read   write single   write continuous
 //   0   coils              bit    01     05             0F

@@ -8,7 +8,7 @@
 //          read bits   read words   write bits   write words
 //   RTU    2000        120          1968         120
 //   ASCII  976         61           944          59 (Cnet KO prints 120, which is 499 characters:
-// DECISIONS.md modbus/ascii-length)
+//                                                DECISIONS.md modbus/ascii-length)
 //
 // Where a parameter is what 11.1.4 calls 'Modbus address error' or 'commands except Read/Write'
 // (status FFFE), `check` refuses it: XG5000 takes the address apart when it is entered. So no block
@@ -16,11 +16,11 @@
 //
 // What a reply that is not the one asked for gives (Appendix 3.3; where several codes would
 // fit: DECISIONS.md p2p/wrong-driver, p2p/check-first, p2p/reply-length):
-//   01  ASCII: characters, but no ':'                          02  ASCII: no CR LF within a second
-//   03  CRC or LRC                                             04  another station
-//   05  another function code, or the echo of another write    0B  byte count, or length of the
-//   frame 0D  ASCII: no pairs of hex digits                          0F  exception, whatever its
-//   code
+//   01  ASCII: characters, but no ':'       02  ASCII: no CR LF within a second
+//   03  CRC or LRC                          04  another station
+//   05  another function code, or the       0B  byte count, or length of the frame
+//       echo of another write
+//   0D  ASCII: no pairs of hex digits       0F  exception, whatever its code
 #pragma once
 
 #include <memory>

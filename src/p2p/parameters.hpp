@@ -2,8 +2,8 @@
 // KO 6.2.1-6.2.4, Cnet KO 6.3.2).
 //
 //   {"parameter": 1, "channel": 1, "link": true,
-//    "blocks": [{"block": 0, "channel": 1, "function": "read", "flag": "%MX00000", "command":
-//    "single", "type": "word",
+//    "blocks": [{"block": 0, "channel": 1, "function": "read", "flag": "%MX00000",
+//                "command": "single", "type": "word",
 //                "read": "%MW100", "save": "%MW200", "station": 2}, ...]}
 //
 // `flag` is a bit or a clock (condition.hpp). Stations are 0-255 (Cnet EN 11.1.4 'Available range:

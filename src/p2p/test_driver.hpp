@@ -1,8 +1,10 @@
 // For tests: a driver whose frames are whole bursts.
 //
 //   request     "ask 3" (block 3); "send A.B" of a user frame; none where the block's station is
-//   255 reply       "ok", "error 0F"; others belong to no block received    "got A.B" ends the
-//   RECEIVE block of frame A.B broken      "broken 02": service_status 2
+//               255
+//   reply       "ok", "error 0F"; others belong to no block
+//   received    "got A.B" ends the RECEIVE block of frame A.B
+//   broken      "broken 02": service_status 2
 #pragma once
 
 #include <charconv>

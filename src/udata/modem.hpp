@@ -1,13 +1,16 @@
 // The CDMA modem of Cnet KO 11.5 as a scripted device: it answers what the manual prints, and
 // nothing else.
 //
-//   to the modem                                     from the modem
-//   AT CR                     (3 bytes)              OK: 'when an AT command has reached it, the
-//   modem sends OK' AT+CRM=129 CR             (11 bytes)             OK any other AT command,
-//   ending with CR             OK ATDT01094714031 CR        (16 bytes), BSM-856R   CONNECT; from
-//   then on data passes in both directions the SMS command, BSM-856R                        OK,
-//   later $006; without a network no $006 the SMS command, RCU-890 *SKT*PRIMO:0 and OK, later
-//   *SKT*MOACK:0,1; without a network 0,0
+//   to the modem                                    from the modem
+//   AT CR                    (3 bytes)              OK: 'when an AT command has reached it, the
+//                                                   modem sends OK'
+//   AT+CRM=129 CR            (11 bytes)             OK
+//   any other AT command, ending with CR            OK
+//   ATDT01094714031 CR       (16 bytes), BSM-856R   CONNECT; from then on data passes in both
+//                                                   directions
+//   the SMS command, BSM-856R                       OK, later $006; without a network no $006
+//   the SMS command, RCU-890                        *SKT*PRIMO:0 and OK, later *SKT*MOACK:0,1;
+//                                                   without a network 0,0
 //
 // The SMS commands stand in figures of the manual that its text does not have, and in the modems'
 // own manuals: `sms` of the configuration says how they begin. Nothing is printed of line ends in

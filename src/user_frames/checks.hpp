@@ -4,11 +4,12 @@
 // suites/user_frames/definitions/README.md: byte order, left-over bytes, start values. Sources
 // beyond the manual:
 //   DLE AB       DF1: two's complement of the sum of the data between DLE STX and DLE ETX, DLE DLE
-//   counted once
-//                (Rockwell 1770-6.5.16, 5-3; 5370-CVIM manual, 5-29 prints two examples)
+//                counted once (Rockwell 1770-6.5.16, 5-3; 5370-CVIM manual, 5-29 prints two
+//                examples)
 //   DLE SIEMENS  3964R: exclusive or of the data block, DLE and ETX (Euchner HBLS manual, 8.3
-//   'equal to 3964R') LGIS CRC     none found: it has a name here, so that a definition that asks
-//   for it can be told why not
+//                'equal to 3964R')
+//   LGIS CRC     none found: it has a name here, so that a definition that asks for it can be told
+//                why not
 #pragma once
 
 #include <cstddef>

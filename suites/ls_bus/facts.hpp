@@ -1,7 +1,7 @@
 // Facts of `table` vectors of the LS Bus against the tables in src/ls_bus. Each has "model":
 // "inverter" and one of
 //   {"first": "0000", "last": "0003", "write": false}   each of these parameters exists, and has
-//   that right
+//                                                       that right
 //   {"first": "1000", "last": "11FF", "exists": false}  none of them exists
 //   {"max_words": 8}
 //   {"max_frame": 44}
