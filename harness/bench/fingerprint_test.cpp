@@ -28,7 +28,8 @@ struct AreaDevice : exchange::ScriptedEndpoint {
   std::map<char, std::uint32_t> words;
   std::string refusal = "<no>";
 
-  Result<line::Sent> send(ByteView bytes) override {
+  using endpoints::Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override {
     const std::string request = to_text(bytes);  // <r%MW12>
     const bool has = std::stoul(request.substr(5)) < words[request[3]];
     answers[request] = {{1ms, has ? "<0000>" : refusal}};

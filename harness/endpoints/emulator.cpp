@@ -144,13 +144,13 @@ Status EmulatorEndpoint::attach_neighbours(std::string_view model, const json& n
   return ok();
 }
 
-Result<line::Sent> EmulatorEndpoint::send(ByteView bytes) {
+Result<Sent> EmulatorEndpoint::send(ByteView bytes, LinkId) {
   if (devices_.empty()) return before_begin("send");
   const auto [start, end] = line_.transmit(bytes);
-  return line::Sent{start, end};
+  return Sent{start, end};
 }
 
-Result<line::Burst> EmulatorEndpoint::receive(Time deadline) {
+Result<Burst> EmulatorEndpoint::receive(Time deadline) {
   if (devices_.empty()) return before_begin("receive");
   return line_.receive(deadline);
 }

@@ -40,8 +40,9 @@ class EmulatorEndpoint : public Endpoint {
   /// `neighbours`: stations, or objects of config keys, of further devices of the same model on the
   /// same line. Errors name the key.
   Status begin(const nlohmann::json& config) override;
-  Result<line::Sent> send(ByteView bytes) override;
-  Result<line::Burst> receive(Time deadline) override;
+  using Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override;
+  Result<Burst> receive(Time deadline) override;
 
   Status set(std::string_view address, std::string_view hex) override;
   Result<std::string> get(std::string_view address, std::size_t digits) override;

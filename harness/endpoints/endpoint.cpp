@@ -99,6 +99,14 @@ std::size_t options_of_command(std::string_view rest, const Kind& kind) {
 
 }  // namespace
 
+Result<LinkId> Endpoint::open(Transport, std::uint16_t) {
+  return fail(fmt::format("cannot open a link: {} is one line that is always open", describe()));
+}
+
+Status Endpoint::close(LinkId, Closing) {
+  return fail(fmt::format("cannot close a link: {} is one line that is always open", describe()));
+}
+
 Status Endpoint::set(std::string_view address, std::string_view) {
   return fail(fmt::format("cannot set {}: {} has no back door", address, describe()));
 }

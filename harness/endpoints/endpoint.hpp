@@ -25,7 +25,8 @@ struct Capabilities {
   bool back_door = false;  // emulator: memory, counters and configuration can be set for each case
   bool real_device = false;  // the write fence binds; configuration is what is declared
   bool can_power_cycle = false;
-  bool datagrams = false;  // one send is one packet (UDP)
+  bool connections = false;  // links are opened and closed (TCP); there is no line 0
+  bool datagrams = false;    // one send is one packet (UDP)
   /// Differences in time below this cannot be judged (0 in simulation).
   Duration timing_floor{};
 };
@@ -46,11 +47,22 @@ class Endpoint {
   /// declared. Nothing is purged.
   virtual Status begin(const nlohmann::json& config) = 0;
 
-  /// Transmits now. Errors are trouble of the port, never of the device.
-  virtual Result<line::Sent> send(ByteView bytes) = 0;
-  /// Waits for bytes until `deadline` (a moment in the past: takes what is there). An empty burst:
-  /// none came. Ctrl-C ends the wait with an interrupted error.
-  virtual Result<line::Burst> receive(Time deadline) = 0;
+  /// Opens a connection to `port` of the device, or a datagram port of the bench that talks to it
+  /// (capabilities().connections, .datagrams); 0: the port of the endpoint's name, else of its
+  /// protocol. A refused connection is no error: the link is there, and the first burst on it is
+  /// `reset`. Errors are trouble of the bench ("no route", "cannot resolve").
+  virtual Result<LinkId> open(Transport transport, std::uint16_t port);
+  /// Errors: the link is not open.
+  virtual Status close(LinkId link, Closing how);
+
+  /// Transmits now, on an open link. Errors are trouble of the port, never of the device; what is
+  /// sent on a link that the device has ended is dropped.
+  virtual Result<Sent> send(ByteView bytes, LinkId link) = 0;
+  Result<Sent> send(ByteView bytes) { return send(bytes, line_link); }
+  /// Waits until `deadline` (a moment in the past: takes what is there) for what the device does
+  /// next on any link: bytes, a datagram, FIN, RST, or a connection of its own. An empty burst of
+  /// event `data`: nothing came. Ctrl-C ends the wait with an interrupted error.
+  virtual Result<Burst> receive(Time deadline) = 0;
 
   /// Back door (capabilities().back_door); errors name the address or action.
   virtual Status set(std::string_view address, std::string_view hex);

@@ -124,8 +124,9 @@ class Plain : public Endpoint {
   Time now() const override { return {}; }
   Duration character_time() const override { return {}; }
   Status begin(const nlohmann::json&) override { return ok(); }
-  Result<line::Sent> send(ByteView) override { return line::Sent{}; }
-  Result<line::Burst> receive(Time) override { return line::Burst{}; }
+  using Endpoint::send;
+  Result<Sent> send(ByteView, LinkId) override { return Sent{}; }
+  Result<Burst> receive(Time) override { return Burst{}; }
 
  private:
   Capabilities capabilities_;

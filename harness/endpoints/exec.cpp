@@ -65,8 +65,9 @@ class ExecEndpoint final : public Endpoint {
   /// A pty has no wire; pauses in characters are meant at the default speed.
   Duration character_time() const override { return line::LineSettings{}.character_time(); }
   Status begin(const nlohmann::json&) override { return ok(); }
-  Result<line::Sent> send(ByteView bytes) override { return link_.send(bytes); }
-  Result<line::Burst> receive(Time deadline) override { return link_.receive(deadline); }
+  using Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override { return link_.send(bytes); }
+  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
   Status tell(std::string_view line) override {
     if (command_.find(tty_mark) == std::string::npos)

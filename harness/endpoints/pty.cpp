@@ -74,8 +74,9 @@ class PtyEndpoint final : public Endpoint {
     return status_of(begun);
   }
 
-  Result<line::Sent> send(ByteView bytes) override { return link_.send(bytes); }
-  Result<line::Burst> receive(Time deadline) override { return link_.receive(deadline); }
+  using Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override { return link_.send(bytes); }
+  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
   Status set(std::string_view address, std::string_view hex) override {
     return status_of(ask({{"set", {{"address", address}, {"hex", hex}}}}));
@@ -99,12 +100,11 @@ class PtyEndpoint final : public Endpoint {
 
   Result<std::string> ask(const json& request) {
     const std::string question = control_line(request);
-    if (const Result<line::Sent> sent = control_.send(to_bytes(question)); !sent)
-      return sent.error();
+    if (const Result<Sent> sent = control_.send(to_bytes(question)); !sent) return sent.error();
     const Time deadline = control_.now() + answer_limit;
     std::string answer;
     while (answer.empty() || answer.back() != '\n') {
-      const Result<line::Burst> burst = control_.receive(deadline);
+      const Result<Burst> burst = control_.receive(deadline);
       if (!burst) return burst.error();
       if (burst->bytes.empty())
         return fail("cannot talk to " + describe() + ": no answer within 5 s; " + child_->how());

@@ -31,8 +31,9 @@ class Rfc2217Endpoint final : public Endpoint {
   }
   Time now() const override { return session_.now(); }
   Duration character_time() const override { return settings_.character_time(); }
-  Result<line::Sent> send(ByteView bytes) override { return session_.send(bytes); }
-  Result<line::Burst> receive(Time deadline) override { return session_.receive(deadline); }
+  using Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override { return session_.send(bytes); }
+  Result<Burst> receive(Time deadline) override { return session_.receive(deadline); }
 
   Status begin(const nlohmann::json&) override {
     if (!session_.ended()) return ok();

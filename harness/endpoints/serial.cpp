@@ -94,12 +94,13 @@ class SerialEndpoint final : public Endpoint {
   Time now() const override { return link_.now(); }
   Duration character_time() const override { return settings_.character_time(); }
   Status begin(const nlohmann::json&) override { return ok(); }
-  Result<line::Burst> receive(Time deadline) override { return link_.receive(deadline); }
+  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
-  Result<line::Sent> send(ByteView bytes) override {
+  using Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override {
     if (direction_ != Direction::rts) return link_.send(bytes);
     if (const Status on = set_rts(calls_, link_.fd(), path_, true); !on) return on.error();
-    Result<line::Sent> sent = link_.send(bytes);
+    Result<Sent> sent = link_.send(bytes);
     // The time is over by now; TCSBRK with 1 (tcdrain) covers what the driver still holds.
     calls_.ioctl(link_.fd(), TCSBRK, number(1));
     if (const Status off = set_rts(calls_, link_.fd(), path_, false); !off) return off.error();

@@ -12,7 +12,7 @@
 
 namespace fieldproof::exchange {
 
-class ScriptedEndpoint : public endpoints::Endpoint {
+class ScriptedEndpoint : public Endpoint {
  public:
   struct Piece {
     Duration after;  // the end of the transmission
@@ -37,11 +37,12 @@ class ScriptedEndpoint : public endpoints::Endpoint {
     return ok();
   }
 
-  Result<line::Sent> send(ByteView bytes) override {
+  using endpoints::Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override {
     if (fails_after >= 0 && static_cast<int>(sent.size()) >= fails_after)
       return fail("the port is gone");
     sent.push_back(to_text(bytes));
-    const line::Sent when{now_, now_ + character_time() * static_cast<Duration::rep>(bytes.size())};
+    const Sent when{now_, now_ + character_time() * static_cast<Duration::rep>(bytes.size())};
     now_ = when.end;
     for (const Piece& piece : answers[sent.back()])
       coming_.push_back({to_bytes(piece.text), now_ + piece.after, character_time()});
@@ -49,12 +50,12 @@ class ScriptedEndpoint : public endpoints::Endpoint {
     return when;
   }
 
-  Result<line::Burst> receive(Time deadline) override {
+  Result<Burst> receive(Time deadline) override {
     if (coming_.empty() || coming_.front().end() > deadline) {
       now_ = std::max(now_, deadline);
-      return line::Burst{};
+      return Burst{};
     }
-    line::Burst burst = coming_.front();
+    Burst burst = coming_.front();
     coming_.pop_front();
     now_ = std::max(now_, burst.end());
     return burst;
@@ -75,7 +76,7 @@ class ScriptedEndpoint : public endpoints::Endpoint {
 
  private:
   Time now_{};
-  std::deque<line::Burst> coming_;
+  std::deque<Burst> coming_;
 };
 
 }  // namespace fieldproof::exchange

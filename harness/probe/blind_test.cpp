@@ -8,7 +8,6 @@
 
 namespace fieldproof::probe::test {
 
-using endpoints::Endpoint;
 using line::LineSettings;
 
 namespace {
@@ -80,7 +79,8 @@ TEST(Search, SendsProbesAlone) {
   struct Recorder final : Wire {
     Recorder(std::unique_ptr<Endpoint> inner, const LineSettings&, std::set<Bytes>* all)
         : Wire(std::move(inner)), sent(all) {}
-    Result<line::Sent> send(ByteView bytes) override {
+    using endpoints::Endpoint::send;
+    Result<Sent> send(ByteView bytes, LinkId) override {
       sent->emplace(bytes.begin(), bytes.end());
       return inner_->send(bytes);
     }
@@ -137,7 +137,8 @@ TEST(Search, TroubleOfThePortEndsIt) {
 
   struct Unplugged final : Wire {
     Unplugged(std::unique_ptr<Endpoint> inner, const LineSettings&) : Wire(std::move(inner)) {}
-    Result<line::Sent> send(ByteView) override { return fail("the far end is gone"); }
+    using endpoints::Endpoint::send;
+    Result<Sent> send(ByteView, LinkId) override { return fail("the far end is gone"); }
   };
   const Result<Search> gone = run(behind<Unplugged>(opener({})));
   ASSERT_FALSE(gone);
@@ -147,8 +148,9 @@ TEST(Search, TroubleOfThePortEndsIt) {
 TEST(Search, AnInterruptKeepsWhatWasHeard) {
   struct Stopped final : Wire {
     Stopped(std::unique_ptr<Endpoint> inner, const LineSettings&) : Wire(std::move(inner)) {}
-    Result<line::Sent> send(ByteView bytes) override {
-      return ++sent > 2 ? Result<line::Sent>(Error{"interrupted", true}) : inner_->send(bytes);
+    using endpoints::Endpoint::send;
+    Result<Sent> send(ByteView bytes, LinkId) override {
+      return ++sent > 2 ? Result<Sent>(Error{"interrupted", true}) : inner_->send(bytes);
     }
     int sent = 0;
   };

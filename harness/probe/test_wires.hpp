@@ -11,7 +11,7 @@ namespace fieldproof::probe::test {
 /// Nobody there.
 class Deaf final : public line::Device {
  public:
-  void receive(const line::Burst&) override {}
+  void receive(const Burst&) override {}
   std::optional<Time> wake_at() const override { return std::nullopt; }
   Bytes advance(Time) override { return {}; }
 };
@@ -22,32 +22,31 @@ inline const endpoints::Decorator switched_off = [](line::Device&, const line::L
 /// Our transmitter is heard by our receiver.
 class Echo final : public Wire {
  public:
-  Echo(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings&)
-      : Wire(std::move(inner)) {}
-  Result<line::Sent> send(ByteView bytes) override {
-    const Result<line::Sent> sent = inner_->send(bytes);
+  Echo(std::unique_ptr<Endpoint> inner, const line::LineSettings&) : Wire(std::move(inner)) {}
+  using endpoints::Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override {
+    const Result<Sent> sent = inner_->send(bytes);
     if (sent) echo_.push_back({Bytes(bytes.begin(), bytes.end()), sent->start, character_time()});
     return sent;
   }
-  Result<line::Burst> receive(Time deadline) override {
+  Result<Burst> receive(Time deadline) override {
     if (echo_.empty()) return inner_->receive(deadline);
-    line::Burst burst = std::move(echo_.front());
+    Burst burst = std::move(echo_.front());
     echo_.pop_front();
     return burst;
   }
 
  private:
-  std::deque<line::Burst> echo_;
+  std::deque<Burst> echo_;
 };
 
 /// The pair on which we listen is swapped: the line idles low, and each level is the other one.
 /// 8N1.
 class Swapped final : public Wire {
  public:
-  Swapped(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings&)
-      : Wire(std::move(inner)) {}
-  Result<line::Burst> receive(Time deadline) override {
-    Result<line::Burst> burst = inner_->receive(deadline);
+  Swapped(std::unique_ptr<Endpoint> inner, const line::LineSettings&) : Wire(std::move(inner)) {}
+  Result<Burst> receive(Time deadline) override {
+    Result<Burst> burst = inner_->receive(deadline);
     if (burst && !burst->bytes.empty()) burst->bytes = read(burst->bytes);
     return burst;
   }
@@ -84,16 +83,15 @@ class Swapped final : public Wire {
 /// Nothing holds the idle line: each change of direction rings.
 class Floating final : public Wire {
  public:
-  Floating(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings&)
-      : Wire(std::move(inner)) {}
-  Result<line::Sent> send(ByteView bytes) override {
-    const Result<line::Sent> sent = inner_->send(bytes);
+  Floating(std::unique_ptr<Endpoint> inner, const line::LineSettings&) : Wire(std::move(inner)) {}
+  using endpoints::Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override {
+    const Result<Sent> sent = inner_->send(bytes);
     ringing_ = true;
     return sent;
   }
-  Result<line::Burst> receive(Time deadline) override {
-    if (std::exchange(ringing_, false))
-      return line::Burst{{0x00, 0xFF, 0x00}, now(), character_time()};
+  Result<Burst> receive(Time deadline) override {
+    if (std::exchange(ringing_, false)) return Burst{{0x00, 0xFF, 0x00}, now(), character_time()};
     return inner_->receive(deadline);
   }
 
@@ -105,7 +103,7 @@ class Floating final : public Wire {
 class Canned final : public line::Device {
  public:
   Canned(Bytes reply) : reply_(std::move(reply)) {}
-  void receive(const line::Burst& burst) override { at_ = burst.end() + 5ms; }
+  void receive(const Burst& burst) override { at_ = burst.end() + 5ms; }
   std::optional<Time> wake_at() const override { return at_; }
   Bytes advance(Time now) override {
     if (!at_ || now < *at_) return {};
@@ -125,7 +123,7 @@ inline endpoints::Decorator answers(Bytes reply) {
 /// A master that asks station 9, five times a second.
 class Master final : public line::Device {
  public:
-  void receive(const line::Burst&) override {}
+  void receive(const Burst&) override {}
   std::optional<Time> wake_at() const override { return next_; }
   Bytes advance(Time now) override {
     if (next_ == Time{}) next_ = now;
@@ -141,18 +139,17 @@ class Master final : public line::Device {
 /// The device takes any format, but answers in its own: the reply shows which one.
 class OwnFormat final : public Wire {
  public:
-  OwnFormat(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings& bench,
-            const char* device)
+  OwnFormat(std::unique_ptr<Endpoint> inner, const line::LineSettings& bench, const char* device)
       : Wire(std::move(inner)), bench_(bench), device_(*line::parse_line_settings(device)) {}
-  Result<line::Burst> receive(Time deadline) override {
-    Result<line::Burst> burst = inner_->receive(deadline);
+  Result<Burst> receive(Time deadline) override {
+    Result<Burst> burst = inner_->receive(deadline);
     if (!burst || burst->bytes.empty()) return burst;
     const line::Reading reading =
         line::read_burst({burst->bytes, burst->start, device_.character_time()}, device_, bench_);
     parity_ += reading.errors.parity;
     framing_ += reading.errors.framing;
-    line::Burst read{{}, burst->start, bench_.character_time()};
-    for (const line::Burst& one : reading.bursts)
+    Burst read{{}, burst->start, bench_.character_time()};
+    for (const Burst& one : reading.bursts)
       read.bytes.insert(read.bytes.end(), one.bytes.begin(), one.bytes.end());
     if (read.bytes.empty()) return inner_->receive(deadline);
     return read;

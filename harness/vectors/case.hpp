@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "harness/notation/notation.hpp"
-#include "src/base/time.hpp"
+#include "src/base/burst.hpp"
 
 namespace fieldproof::vectors {
 
@@ -42,6 +42,13 @@ inline constexpr std::array<std::string_view, 14> partner_faults{
     "wrong_station", "wrong_check", "nak",   "wrong_head", "wrong_tail", "short",       "long",
     "not_hex",       "late",        "never", "echo",       "garbage",    "other_block", "previous"};
 
+/// What an `open` step opens.
+struct LinkSpec {
+  std::string protocol;  // empty: the case's
+  Transport transport = Transport::tcp;
+  std::uint16_t port = 0;  // 0: the protocol's
+};
+
 struct Step {
   enum class Kind {
     send,
@@ -67,6 +74,10 @@ struct Step {
   std::optional<Duration> max_gap;     // expect: longest silence inside the frame
   std::optional<PartnerSpec> partner;  // partner, expect: who answers the request
   int times = 1;
+  std::string on;                  // name of the link; empty: the only one that is open
+  LinkSpec link;                   // open
+  Closing closing = Closing::fin;  // close
+  std::optional<LinkEvent> ending = std::nullopt;  // expect_close: closed or reset; nothing: either
 };
 
 struct Case {

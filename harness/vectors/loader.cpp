@@ -166,6 +166,27 @@ PartnerSpec read_partner(const json& value, const Row& row) {
   return partner;
 }
 
+void read_open(const json& value, const Row& row, Step& step) {
+  step.kind = Step::Kind::open;
+  if (value.is_string()) {
+    step.on = text_of(value, row);
+    return;
+  }
+  step.on = text_of(value, "name", row);
+  step.link.protocol = text_of(value, "protocol", row);
+  if (value.value("transport", "tcp") == "udp") step.link.transport = Transport::udp;
+  step.link.port = value.value("port", std::uint16_t{0});
+}
+
+Closing read_closing(const json& value) {
+  return value == "fin" ? Closing::fin : value == "rst" ? Closing::rst : Closing::vanish;
+}
+
+std::optional<LinkEvent> read_ending(const json& value) {
+  if (value == "any") return std::nullopt;
+  return value == "fin" ? LinkEvent::closed : LinkEvent::reset;
+}
+
 Step read_step(const json& value, const Row& row) {
   Step step;
   const json* wire = value.contains("wire") ? &value["wire"] : nullptr;
@@ -182,9 +203,10 @@ Step read_step(const json& value, const Row& row) {
   if (is("set")) step.kind = Step::Kind::set, step.memory = read_memory(value["set"], row);
   if (is("check")) step.kind = Step::Kind::check, step.memory = read_memory(value["check"], row);
   if (is("do")) step.kind = Step::Kind::act, step.action = text_of(value["do"], row);
-  if (is("open")) step.kind = Step::Kind::open;
-  if (is("close")) step.kind = Step::Kind::close;
-  if (is("expect_close")) step.kind = Step::Kind::expect_close;
+  if (is("open")) read_open(value["open"], row, step);
+  if (is("close")) step.kind = Step::Kind::close, step.closing = read_closing(value["close"]);
+  if (is("expect_close"))
+    step.kind = Step::Kind::expect_close, step.ending = read_ending(value["expect_close"]);
   if (value.contains("partner")) {
     step.partner = read_partner(value["partner"], row);
     if (!value.contains("expect") && is("partner")) step.kind = Step::Kind::partner;
@@ -198,6 +220,7 @@ Step read_step(const json& value, const Row& row) {
   if (value.contains("every")) step.every = read_duration(text_of(value["every"], row));
   if (value.contains("max_gap")) step.max_gap = read_duration(text_of(value["max_gap"], row));
   step.times = value.value("times", 1);
+  if (value.contains("on")) step.on = text_of(value["on"], row);
   return step;
 }
 

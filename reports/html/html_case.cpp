@@ -57,6 +57,9 @@ Direction direction(Event::Kind kind) {
   switch (kind) {
     case Event::Kind::sent: return {"\u2192", "sent"};
     case Event::Kind::received: return {"\u2190", "received"};
+    case Event::Kind::opened: return {"\u25CB", "opened"};
+    case Event::Kind::closed: return {"\u25CF", "closed"};
+    case Event::Kind::reset: return {"\u25CF", "reset"};
     case Event::Kind::note: break;
   }
   return {"\u00B7", "note"};

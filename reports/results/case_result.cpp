@@ -46,6 +46,9 @@ const char* kind_word(Event::Kind kind) {
   switch (kind) {
     case Event::Kind::sent: return "sent";
     case Event::Kind::received: return "received";
+    case Event::Kind::opened: return "opened";
+    case Event::Kind::closed: return "closed";
+    case Event::Kind::reset: return "reset";
     case Event::Kind::note: break;
   }
   return "note";
@@ -53,7 +56,8 @@ const char* kind_word(Event::Kind kind) {
 
 Event::Kind parse_kind(const json& object) {
   const auto word = object.at("kind").get<std::string>();
-  for (Event::Kind kind : {Event::Kind::sent, Event::Kind::received, Event::Kind::note}) {
+  for (Event::Kind kind : {Event::Kind::sent, Event::Kind::received, Event::Kind::note,
+                           Event::Kind::opened, Event::Kind::closed, Event::Kind::reset}) {
     if (word == kind_word(kind)) return kind;
   }
   refuse("unknown kind of event '" + word + "'", object);
@@ -79,6 +83,10 @@ void to_json(json& object, const Event& event) {
   put(object, "text", event.text);
   if (event.step >= 0) object["step"] = event.step;
   if (event.surplus) object["surplus"] = true;
+  put(object, "link", event.link);
+  if (event.port != 0) object["port"] = event.port;
+  if (event.transport == Transport::udp) object["transport"] = "udp";
+  if (event.by_device) object["by_device"] = true;
 }
 
 void from_json(const json& object, Event& event) {
@@ -90,6 +98,10 @@ void from_json(const json& object, Event& event) {
   get(object, "text", event.text);
   get(object, "step", event.step);
   get(object, "surplus", event.surplus);
+  get(object, "link", event.link);
+  get(object, "port", event.port);
+  if (object.value("transport", "tcp") == "udp") event.transport = Transport::udp;
+  get(object, "by_device", event.by_device);
 }
 
 void to_json(json& object, const StepOutcome& step) {

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "reports/results/verdict.hpp"
-#include "src/base/bytes.hpp"
+#include "src/base/burst.hpp"
 #include "src/base/result.hpp"
-#include "src/base/time.hpp"
 
 namespace fieldproof::results {
 
 /// A line of the exchange, as a frame monitor would show it.
 struct Event {
-  enum class Kind { sent, received, note };
+  /// opened, closed (FIN), reset (RST): of a link; `by_device` tells who did it.
+  enum class Kind { sent, received, note, opened, closed, reset };
   Kind kind = Kind::note;
   Time start{};
   Time end{};
@@ -25,7 +25,11 @@ struct Event {
   std::string text;  // frame notation of the bytes, or the note: "set %MW100 = 1234", "silence
                      // until 1000.0 ms"
   int step = -1;  // the executed step whose bytes these are; -1: of none (a probe and its answer)
-  bool surplus = false;  // bytes that no step was waiting for
+  bool surplus = false;    // bytes that no step was waiting for
+  std::string link{};      // its name in the vector; empty: the only one
+  std::uint16_t port = 0;  // the one that listens, of a connection or datagram; 0: a line
+  Transport transport = Transport::tcp;
+  bool by_device = false;  // opened, closed, reset: the device did it, not the bench
 };
 
 /// What an executed step came to, besides the frames in the exchange.

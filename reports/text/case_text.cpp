@@ -151,6 +151,9 @@ const char* arrow(Event::Kind kind) {
   switch (kind) {
     case Event::Kind::sent: return "-->";
     case Event::Kind::received: return "<--";
+    case Event::Kind::opened:
+    case Event::Kind::closed:
+    case Event::Kind::reset:
     case Event::Kind::note: break;
   }
   return " . ";

@@ -4,28 +4,9 @@
 
 #include <optional>
 
-#include "src/base/bytes.hpp"
-#include "src/base/time.hpp"
+#include "src/base/burst.hpp"
 
 namespace fieldproof::line {
-
-/// Bytes without a gap between them: byte i occupies [start + i*character_time, start +
-/// (i+1)*character_time). Behind a pty or a socket there is no wire time: character_time is 0 and
-/// start is the moment of arrival.
-struct Burst {
-  Bytes bytes;
-  Time start{};
-  Duration character_time{};
-
-  /// The end of the last stop bit.
-  Time end() const { return start + character_time * static_cast<Duration::rep>(bytes.size()); }
-};
-
-/// The moments at which a transmission began and its last stop bit ended.
-struct Sent {
-  Time start{};
-  Time end{};
-};
 
 /// A server, client, inverter or modem as a state machine on given time. Nothing in it sleeps or
 /// asks a clock.
@@ -33,8 +14,8 @@ class Device {
  public:
   virtual ~Device() = default;
 
-  /// Feeds a burst. Bursts come in the order of time; `advance` was called for everything due
-  /// before `burst.end()`.
+  /// Feeds a burst of bytes on the line (LinkEvent::data on line_link). Bursts come in the order of
+  /// time; `advance` was called for everything due before `burst.end()`.
   virtual void receive(const Burst& burst) = 0;
 
   /// The next moment `advance` has something to do, or nothing until bytes arrive.
