@@ -30,7 +30,7 @@ class P2pPair {
   std::vector<std::string> run(Duration time) {
     std::vector<std::string> said;
     for (const Time end = line_.now() + time; line_.now() < end;)
-      if (const line::Burst burst = line_.receive(end); !burst.bytes.empty())
+      if (const Burst burst = line_.receive(end); !burst.bytes.empty())
         said.push_back(to_hex(burst.bytes));
     return said;
   }

@@ -20,7 +20,7 @@ class TinyDevice : public plc::EmulatedDevice {
  public:
   explicit TinyDevice(int station) : station_(static_cast<Byte>(station)) {}
 
-  void receive(const line::Burst& burst) override {
+  void receive(const Burst& burst) override {
     if (burst.bytes.front() == station_) due_ = burst.end();
   }
   std::optional<Time> wake_at() const override { return due_; }

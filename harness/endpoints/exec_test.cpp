@@ -49,7 +49,7 @@ TEST(Exec, ADeadChildIsAnErrorThatSaysWhy) {
   EXPECT_EQ(receive_error(*endpoint).message,
             "cannot receive from exec:echo cannot find the config >&2; exit 7: "
             "the process ended with exit status 7; it said: cannot find the config");
-  const Result<line::Sent> sent = endpoint->send(to_bytes("x"));
+  const Result<Sent> sent = endpoint->send(to_bytes("x"));
   ASSERT_FALSE(sent);
   EXPECT_THAT(sent.error().message, HasSubstr("exit status 7"));
 }
@@ -65,7 +65,7 @@ TEST(Exec, TheLastBytesOfADyingChildStillArrive) {
 TEST(Exec, AChildThatHangsIsSilent) {
   const auto endpoint = open("sleep 1000 <{tty}");
   ASSERT_TRUE(endpoint->send(to_bytes("anybody?")));
-  const Result<line::Burst> burst = endpoint->receive(endpoint->now() + 30ms);
+  const Result<Burst> burst = endpoint->receive(endpoint->now() + 30ms);
   ASSERT_TRUE(burst);
   EXPECT_TRUE(burst->bytes.empty());
 }
@@ -74,7 +74,7 @@ TEST(Exec, AChildThatFloodsDoesNotHoldTheBench) {
   const auto endpoint = open("yes");
   std::size_t got = 0;
   while (got < 100'000) {
-    const Result<line::Burst> burst = endpoint->receive(endpoint->now() + 5s);
+    const Result<Burst> burst = endpoint->receive(endpoint->now() + 5s);
     ASSERT_TRUE(burst) << burst.error().message;
     ASSERT_FALSE(burst->bytes.empty());
     got += burst->bytes.size();

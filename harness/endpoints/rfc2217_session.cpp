@@ -11,8 +11,8 @@
 
 namespace fieldproof::endpoints {
 
-using line::Burst;
-using line::Sent;
+using Burst;
+using Sent;
 
 namespace {
 

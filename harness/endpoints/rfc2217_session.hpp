@@ -28,10 +28,10 @@ class Rfc2217Session {
 
   Time now() const { return clock_.now(); }
   /// The end is that of the last stop bit at the set speed, as far as a network lets one tell.
-  Result<line::Sent> send(ByteView bytes);
+  Result<Sent> send(ByteView bytes);
   /// As Endpoint::receive. A silence counts only if the server still answers us at its end: a dead
   /// server or network is an error, never a silence of the device.
-  Result<line::Burst> receive(Time deadline);
+  Result<Burst> receive(Time deadline);
 
   /// Errors that the server has notified, since the last call.
   LineErrorCounts take_line_errors() { return std::exchange(line_errors_, {}); }
@@ -57,7 +57,7 @@ class Rfc2217Session {
   telnet::Negotiator negotiator_;
   std::map<Byte, Bytes>
       confirmed_;  // by command of the client: the value that the server has answered
-  std::deque<line::Burst> received_;
+  std::deque<Burst> received_;
   LineErrorCounts line_errors_;
   Time sent_until_{};
   bool unproven_ = false;  // something was sent, and nothing has come from the server since

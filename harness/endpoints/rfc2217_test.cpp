@@ -254,12 +254,12 @@ TEST(Rfc2217Server, SilenceOfADeadServerIsNotTheDevices) {
   ASSERT_TRUE(port) << port.error().message;
   ASSERT_TRUE((*port)->send(to_bytes("x")));
   EXPECT_EQ(receive_text(**port, "x"), "x");
-  const Result<line::Burst> quiet = (*port)->receive((*port)->now() + 1ms);
+  const Result<Burst> quiet = (*port)->receive((*port)->now() + 1ms);
   ASSERT_TRUE(quiet) << "silence is believed while the server lives";
   EXPECT_TRUE(quiet->bytes.empty());
   server.play_dead();
   ASSERT_TRUE((*port)->send(to_bytes("y")));
-  const Result<line::Burst> burst = (*port)->receive((*port)->now() + 1ms);
+  const Result<Burst> burst = (*port)->receive((*port)->now() + 1ms);
   ASSERT_FALSE(burst);
   EXPECT_EQ(burst.error().message,
             "cannot receive from rfc2217:" + server.where() +
@@ -270,11 +270,11 @@ TEST(Rfc2217Server, ATransmissionLastsAsLongAsOnTheWire) {
   FakeServer server;
   auto port = open(server.where(), {{"baud", "9600"}});
   ASSERT_TRUE(port) << port.error().message;
-  const Result<line::Sent> sent = (*port)->send(to_bytes("0123456789"));
+  const Result<Sent> sent = (*port)->send(to_bytes("0123456789"));
   ASSERT_TRUE(sent);
   EXPECT_EQ(sent->end - sent->start, 10 * (*port)->character_time());
   EXPECT_GE((*port)->now(), sent->end);
-  const Result<line::Burst> echo = (*port)->receive((*port)->now() + 5s);
+  const Result<Burst> echo = (*port)->receive((*port)->now() + 5s);
   ASSERT_TRUE(echo);
   EXPECT_GE(echo->start, sent->end) << "an answer counts from the end of the request";
 }

@@ -219,7 +219,7 @@ TEST_F(Serial, ARealPortHasCharacterTimes) {
   EXPECT_TRUE((*port)->capabilities().wire);
   EXPECT_EQ((*port)->capabilities().timing_floor, 2ms);
   EXPECT_EQ((*port)->character_time(), (line::LineSettings{9600, 8, 'E', 1}.character_time()));
-  const Result<line::Sent> sent = (*port)->send(to_bytes("0123456789"));
+  const Result<Sent> sent = (*port)->send(to_bytes("0123456789"));
   ASSERT_TRUE(sent);
   EXPECT_EQ(sent->end - sent->start, 10 * (*port)->character_time());
 }
@@ -264,7 +264,7 @@ TEST_F(Serial, TheBenchSwitchesTheDirectionByRts) {
   EXPECT_THAT(driver.calls, ElementsAre("RTS off", "RTS on", "drain", "RTS off"));
   EXPECT_EQ(receive_text(*far, "x"), "x");
   driver.has_modem_lines = false;
-  const Result<line::Sent> sent = (*port)->send(to_bytes("y"));
+  const Result<Sent> sent = (*port)->send(to_bytes("y"));
   ASSERT_FALSE(sent);
   EXPECT_THAT(sent.error().message,
               HasSubstr("cannot switch RTS of " + path + ": it has no such line"));

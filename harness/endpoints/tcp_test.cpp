@@ -143,7 +143,7 @@ TEST_F(Udp, OneSendIsOneDatagramAndOneBurstIsOne) {
   say("first");
   say("second");
   for (const char* expected : {"first", "second"}) {
-    const Result<line::Burst> burst = (*endpoint)->receive((*endpoint)->now() + 5s);
+    const Result<Burst> burst = (*endpoint)->receive((*endpoint)->now() + 5s);
     ASSERT_TRUE(burst) << burst.error().message;
     EXPECT_EQ(to_text(burst->bytes), expected);
   }

@@ -150,7 +150,7 @@ void Exchange::partner(const PreparedCase& prepared, const PreparedStep& step, S
 
 void Exchange::answer(const PreparedCase& prepared, const vectors::PartnerSpec& spec,
                       StepRecord& record, Transcript& transcript) {
-  const line::Burst request = std::exchange(request_, {});
+  const Burst request = std::exchange(request_, {});
   // Past the client's time-out, and past what the link can tell apart.
   const Duration more = endpoint_.character_time() + endpoint_.capabilities().timing_floor;
   const Result<Partner::Answer> reply =
@@ -280,7 +280,7 @@ Result<bool> Exchange::anything_answers(int station, Duration patience, Duration
   std::size_t probes = 0, answers = 0;
   if (protocol_.probe(station, {}).empty()) return true;
   while (endpoint_.now() < give_up) {
-    const Result<line::Sent> sent = endpoint_.send(protocol_.probe(station, {}));
+    const Result<Sent> sent = endpoint_.send(protocol_.probe(station, {}));
     if (!sent) return sent.error();
     ++probes;
     // A child that has just been started flushes what came before it opened the port: the first
@@ -289,7 +289,7 @@ Result<bool> Exchange::anything_answers(int station, Duration patience, Duration
     Time until = std::min(
         give_up, sent->end + (maybe_lost ? timing_.quiet : timing_.response_max) + reply_delay);
     while (answers < probes) {
-      const Result<line::Burst> burst = endpoint_.receive(until);
+      const Result<Burst> burst = endpoint_.receive(until);
       if (!burst) return burst.error();
       if (burst->bytes.empty()) break;
       heard.insert(heard.end(), burst->bytes.begin(), burst->bytes.end());
@@ -373,7 +373,7 @@ std::size_t Exchange::take_frames(Bytes& bytes) const {
 bool Exchange::probe(const PreparedCase& prepared, Received& before, Transcript& transcript) {
   await_frame_gap(transcript);
   const Bytes request = protocol_.probe(prepared.station, last_bytes_);
-  const Result<line::Sent> sent = endpoint_.send(request);
+  const Result<Sent> sent = endpoint_.send(request);
   if (!sent) {
     transcript.trouble = sent.error();
     return false;
@@ -417,7 +417,7 @@ void Exchange::await_frame_gap(Transcript& transcript) {
 }
 
 bool Exchange::transmit(ByteView bytes, Transcript& transcript) {
-  const Result<line::Sent> sent = endpoint_.send(bytes);
+  const Result<Sent> sent = endpoint_.send(bytes);
   if (!sent) {
     transcript.trouble = sent.error();
     return false;
@@ -436,7 +436,7 @@ bool Exchange::transmit(ByteView bytes, Transcript& transcript) {
 
 bool Exchange::listen(Time deadline, Transcript& transcript) {
   if (transcript.trouble || transcript.flooded) return false;
-  Result<line::Burst> burst = endpoint_.receive(deadline);
+  Result<Burst> burst = endpoint_.receive(deadline);
   if (!burst) {
     transcript.trouble = burst.error();
     return false;

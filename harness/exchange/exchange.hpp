@@ -82,7 +82,7 @@ class Exchange {
   ExchangeTiming timing_;
   MemoryAccess memory_;
   Received pending_;  // came, but no step has taken it
-  line::Sent last_sent_;
+  Sent last_sent_;
   Time last_heard_{};
   bool neighbours_ = false;  // further stations hear all that is said
   Time
@@ -90,7 +90,7 @@ class Exchange {
   Bytes last_bytes_;
   notation::Captures captures_;
   std::optional<Partner> partner_;  // of this case
-  line::Burst request_;             // of the client, taken by `expect` and not answered yet
+  Burst request_;                   // of the client, taken by `expect` and not answered yet
 };
 
 }  // namespace fieldproof::exchange

@@ -6,13 +6,13 @@ Result<Bytes> MemoryAccess::ask(const Server& server, ByteView request) {
   endpoints::Endpoint& endpoint = server.endpoint;
   if (const Duration gap = server.protocol.frame_gap(endpoint.character_time());
       gap > 0ns && endpoint.capabilities().wire)
-    if (const Result<line::Burst> quiet = endpoint.receive(endpoint.now() + gap); !quiet)
+    if (const Result<Burst> quiet = endpoint.receive(endpoint.now() + gap); !quiet)
       return quiet.error();
-  const Result<line::Sent> sent = endpoint.send(request);
+  const Result<Sent> sent = endpoint.send(request);
   if (!sent) return sent.error();
   Bytes reply;
   while (!server.protocol.frame_length(reply)) {
-    const Result<line::Burst> burst = endpoint.receive(sent->end + patience_);
+    const Result<Burst> burst = endpoint.receive(sent->end + patience_);
     if (!burst) return burst.error();
     if (burst->bytes.empty()) break;
     reply.insert(reply.end(), burst->bytes.begin(), burst->bytes.end());

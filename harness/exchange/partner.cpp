@@ -129,7 +129,7 @@ Result<Bytes> unanswerable(ByteView request, const Protocol& protocol) {
 }
 
 /// What the device says to the request, and when.
-Partner::Answer ask(EmulatedDevice& device, const line::Burst& request) {
+Partner::Answer ask(EmulatedDevice& device, const Burst& request) {
   device.advance(request.start);
   device.receive(request);
   const Time give_up = request.end() + longest_think;
@@ -183,7 +183,7 @@ Result<EmulatedDevice*> Partner::device_for(const vectors::PartnerSpec& spec) {
 }
 
 Result<Bytes> Partner::faulty(const vectors::PartnerSpec& spec, EmulatedDevice& device,
-                              const line::Burst& request, const Bytes& answer) const {
+                              const Burst& request, const Bytes& answer) const {
   if (spec.fault == "never") return Bytes{};
   if (spec.fault == "echo") return request.bytes;
   if (spec.fault == "garbage") return Bytes(std::max<std::size_t>(answer.size(), 1), foreign);
@@ -209,8 +209,8 @@ Result<Bytes> Partner::faulty(const vectors::PartnerSpec& spec, EmulatedDevice& 
                  protocol_);
 }
 
-Result<Partner::Answer> Partner::answer(const vectors::PartnerSpec& spec,
-                                        const line::Burst& request, Time too_late) {
+Result<Partner::Answer> Partner::answer(const vectors::PartnerSpec& spec, const Burst& request,
+                                        Time too_late) {
   const Result<EmulatedDevice*> device = device_for(spec);
   if (!device) return device.error();
   Answer answer = ask(**device, request);

@@ -32,13 +32,12 @@ class Partner {
   };
   /// What comes back for `request`. `too_late` is the moment at which the fault `late` begins to
   /// answer. Errors name the fault, or the key of the partner.
-  Result<Answer> answer(const vectors::PartnerSpec& spec, const line::Burst& request,
-                        Time too_late);
+  Result<Answer> answer(const vectors::PartnerSpec& spec, const Burst& request, Time too_late);
 
  private:
   Result<plc::EmulatedDevice*> device_for(const vectors::PartnerSpec& spec);
   Result<Bytes> faulty(const vectors::PartnerSpec& spec, plc::EmulatedDevice& device,
-                       const line::Burst& request, const Bytes& answer) const;
+                       const Burst& request, const Bytes& answer) const;
 
   struct Exchanged {
     Bytes request, answer;

@@ -4,7 +4,7 @@
 
 namespace fieldproof::exchange {
 
-void Received::add(const line::Burst& burst, std::size_t event) {
+void Received::add(const Burst& burst, std::size_t event) {
   arrivals.push_back({bytes.size(), burst.start, burst.end(), event, 0});
   bytes.insert(bytes.end(), burst.bytes.begin(), burst.bytes.end());
 }

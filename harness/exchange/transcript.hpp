@@ -24,14 +24,14 @@ struct Received {
   Bytes bytes;
   std::vector<Arrival> arrivals;
 
-  void add(const line::Burst& burst, std::size_t event = 0);
+  void add(const Burst& burst, std::size_t event = 0);
   void append(Received other);
   /// Takes the first `count` bytes out.
   Received take(std::size_t count);
 };
 
 struct StepRecord {
-  line::Sent sent;    // send: when
+  Sent sent;          // send: when
   Time stimulus{};    // expect: the end of what it answers (a transmission, the reply before it, a
                       // set or do)
   Bytes sent_bytes;   // send

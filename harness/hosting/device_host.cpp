@@ -122,7 +122,7 @@ Status DeviceHost::hear() {
     if (const std::optional<Time> wake = device_->wake_at()) moment = std::min(moment, *wake);
     device_time_ = std::max(device_time_, moment);
     show(true, *bytes);
-    device_->receive(line::Burst{std::move(*bytes), device_time_, {}});
+    device_->receive(Burst{std::move(*bytes), device_time_, {}});
     run_due(device_time_);  // not until now: more may be waiting to be read
   }
 }

@@ -178,7 +178,7 @@ TEST(DeviceHost, RepliesWhenTheDeviceIsDue) {
   options.config = {{"delay_ms", 30}};
   Hosted host(options);
   FdLink client = open_client(host.where.substr(4));
-  const Result<line::Sent> sent = client.send(to_bytes("later."));
+  const Result<Sent> sent = client.send(to_bytes("later."));
   ASSERT_TRUE(sent);
   EXPECT_EQ(receive_text(client, ">"), "<later>");
   EXPECT_GE(client.now() - sent->start, 30ms);
@@ -227,7 +227,7 @@ TEST(DeviceHost, ServesSocketsOneAfterAnotherAndTogether) {
     ASSERT_TRUE(client->send(to_bytes("in turn.")));
     EXPECT_EQ(receive_text(*client, ">"), "<in turn>");
   }
-  const Result<line::Burst> nothing = (*two)->receive(Time{0});
+  const Result<Burst> nothing = (*two)->receive(Time{0});
   ASSERT_TRUE(nothing);
   EXPECT_TRUE(nothing->bytes.empty()) << "a reply went to another client";
 }

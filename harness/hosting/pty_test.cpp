@@ -105,7 +105,7 @@ TEST(Pty, AReplyThatTheOldDeviceOwesNeverComes) {
   ASSERT_TRUE(endpoint->begin({{"delay_ms", 30}}));
   ASSERT_TRUE(endpoint->send(to_bytes("old.")));
   ASSERT_TRUE(endpoint->begin(json::object()));
-  const Result<line::Burst> burst = endpoint->receive(endpoint->now() + 60ms);
+  const Result<Burst> burst = endpoint->receive(endpoint->now() + 60ms);
   ASSERT_TRUE(burst);
   EXPECT_TRUE(burst->bytes.empty());
 }

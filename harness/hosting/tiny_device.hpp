@@ -22,7 +22,7 @@ class TinyDevice final : public plc::EmulatedDevice {
         delay_(std::chrono::milliseconds(config.value("delay_ms", 0))),
         gap_(std::chrono::milliseconds(config.value("inter_character_floor_ms", 0))) {}
 
-  void receive(const line::Burst& burst) override {
+  void receive(const Burst& burst) override {
     for (const Byte byte : burst.bytes) {
       if (byte != '.') {
         frame_ += static_cast<char>(byte);

@@ -9,8 +9,8 @@
 
 namespace fieldproof::probe {
 
+using Burst;
 using harness::Field;
-using line::Burst;
 using line::LineSettings;
 
 namespace {

@@ -13,14 +13,14 @@ namespace fieldproof::probe {
 
 /// What came around one question.
 struct Heard {
-  std::vector<line::Burst> before;  // nobody had asked: the line was to be silent
-  Time asked_until{};               // the end of the question's last stop bit
-  std::vector<line::Burst> after;   // since the question began; the echo of our own transmitter too
-  std::string errors;               // as Endpoint::line_errors gives them
+  std::vector<Burst> before;  // nobody had asked: the line was to be silent
+  Time asked_until{};         // the end of the question's last stop bit
+  std::vector<Burst> after;   // since the question began; the echo of our own transmitter too
+  std::string errors;         // as Endpoint::line_errors gives them
 
   bool silent() const { return before.empty() && after.empty() && errors.empty(); }
 };
-Bytes all_bytes(const std::vector<line::Burst>& bursts);
+Bytes all_bytes(const std::vector<Burst>& bursts);
 
 enum class Symptom {
   silence,

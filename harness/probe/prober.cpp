@@ -134,7 +134,7 @@ Result<Observation> Prober::observe(const Trial& trial) {
       !done)
     return done.error();
   if (trial.protocol) {
-    const Result<line::Sent> sent = endpoint_->send(trial.protocol->probe(trial.station, {}));
+    const Result<Sent> sent = endpoint_->send(trial.protocol->probe(trial.station, {}));
     if (!sent) return sent.error();
     heard.asked_until = sent->end;
     const Time until =
@@ -149,10 +149,10 @@ Result<Observation> Prober::observe(const Trial& trial) {
 
 /// Collects what comes until `until`, and behind the last byte a silence: a second device may be
 /// slower than the first.
-Status Prober::listen(Time until, std::vector<line::Burst>& heard) {
+Status Prober::listen(Time until, std::vector<Burst>& heard) {
   std::size_t size = 0;
   while (size < flood) {
-    Result<line::Burst> burst = endpoint_->receive(until);
+    Result<Burst> burst = endpoint_->receive(until);
     if (!burst) return burst.error();
     if (burst->bytes.empty()) return ok();
     until = std::max(until, burst->end() + timing_.quiet);

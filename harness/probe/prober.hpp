@@ -63,7 +63,7 @@ class Prober {
   Result<Observation> observe(const Trial& trial);
   Result<bool> confirm(const Trial& trial);
   Result<bool> settle(const line::LineSettings& line);
-  Status listen(Time until, std::vector<line::Burst>& heard);
+  Status listen(Time until, std::vector<Burst>& heard);
   void keep(const Observation& observation);
 
   LineOpener open_;

@@ -15,7 +15,7 @@
 
 namespace fieldproof::os {
 
-using line::Burst;
+using Burst;
 
 namespace {
 
@@ -81,10 +81,10 @@ Error FdLink::ended(const char* verb) {
   return fail("cannot " + std::string(verb) + ' ' + name_ + ": " + far_end_->how());
 }
 
-Result<line::Sent> FdLink::send(ByteView bytes) {
+Result<Sent> FdLink::send(ByteView bytes) {
   if (interrupted()) return interrupted_error("send to", name_);
   if (far_end_ && far_end_->ended()) return ended("send to");
-  line::Sent sent;
+  Sent sent;
   sent.start = std::max(now(), sent_until_);
   sent.end = sent.start + character_time_ * static_cast<Duration::rep>(bytes.size());
   const Time give_up = sent.end + send_limit_;

@@ -54,17 +54,17 @@ class FdLink {
 
   /// Sends all. On a real line it returns when the last stop bit is over. Errors: interrupted, the
   /// far end is gone, or it takes no bytes (3 s).
-  Result<line::Sent> send(ByteView bytes);
+  Result<Sent> send(ByteView bytes);
 
   /// The next bytes up to `deadline` (in the past: what is there), or an empty burst. Bytes that a
   /// dead far end left behind are still handed out. Errors: interrupted, the far end is gone.
-  Result<line::Burst> receive(Time deadline);
+  Result<Burst> receive(Time deadline);
 
  private:
   Status wait_writable(Time give_up);
   Status wait_for_end(Time end);
   long read_some(Byte* buffer, std::size_t size) const;
-  line::Burst arrived(ByteView bytes);
+  Burst arrived(ByteView bytes);
   Error gone(const char* verb, int error);
   Error ended(const char* verb);
 

@@ -12,8 +12,8 @@
 
 namespace fieldproof::os {
 
-using line::Burst;
-using line::Sent;
+using Burst;
+using Sent;
 
 namespace {
 

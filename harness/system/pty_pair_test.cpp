@@ -14,7 +14,7 @@ namespace {
 Bytes receive_all(FdLink& link, std::size_t size) {
   Bytes all;
   while (all.size() < size) {
-    const Result<line::Burst> burst = link.receive(link.now() + 5s);
+    const Result<Burst> burst = link.receive(link.now() + 5s);
     if (!burst || burst->bytes.empty()) break;
     all.insert(all.end(), burst->bytes.begin(), burst->bytes.end());
   }

@@ -16,7 +16,7 @@ std::string receive_text(Link& link, const std::string& wanted) {
   std::string text;
   const Time deadline = link.now() + 5s;
   while (text.find(wanted) == std::string::npos) {
-    const Result<line::Burst> burst = link.receive(deadline);
+    const Result<Burst> burst = link.receive(deadline);
     if (!burst) return text + '!' + burst.error().message;
     if (burst->bytes.empty()) return text + "!time-out";
     text += to_text(burst->bytes);
@@ -29,7 +29,7 @@ template <typename Link>
 Error receive_error(Link& link) {
   const Time deadline = link.now() + 5s;
   while (link.now() < deadline) {
-    if (const Result<line::Burst> burst = link.receive(deadline); !burst) return burst.error();
+    if (const Result<Burst> burst = link.receive(deadline); !burst) return burst.error();
   }
   return fail("no error came");
 }

@@ -28,7 +28,7 @@ Result<unsigned> find_parameter(const InverterParameters& parameters, std::strin
 }
 }  // namespace
 
-void Inverter::receive(const line::Burst& burst) {
+void Inverter::receive(const Burst& burst) {
   Time end = burst.start;
   for (const Byte b : burst.bytes) {
     end += burst.character_time;

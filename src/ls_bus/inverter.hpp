@@ -29,7 +29,7 @@ class Inverter : public plc::EmulatedDevice {
  public:
   explicit Inverter(const InverterConfig& config) : config_(config) {}
 
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override { return replies_.wake_at(std::nullopt); }
   Bytes advance(Time now) override { return replies_.take(now); }
 

@@ -177,7 +177,7 @@ TEST(Inverter, OnALineWithAnother) {
   line.attach(second, line::LineSettings{});
   ASSERT_TRUE(second.set("1230", "0002"));
   line.transmit(enq("02R12301"));
-  const line::Burst reply = line.receive(line.now() + 1s);
+  const Burst reply = line.receive(line.now() + 1s);
   EXPECT_EQ(shown(reply.bytes), "ACK 02R0002") << "the reply of one is no request to the other";
 }
 

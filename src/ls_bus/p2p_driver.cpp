@@ -29,7 +29,7 @@ class LsBusP2pDriver : public p2p::P2pDriver {
   std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
                                     PlcMemory& memory) const override;
 
-  void receive(const line::Burst& burst, FrameSink& sink) override;
+  void receive(const Burst& burst, FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
   void advance(Time now, FrameSink& sink) override;
   void reset() override {
@@ -117,7 +117,7 @@ std::uint16_t LsBusP2pDriver::take_ack(const P2pBlock& block, const LsReply& rep
   return p2p::p2p_error::none;
 }
 
-void LsBusP2pDriver::receive(const line::Burst& burst, FrameSink& sink) {
+void LsBusP2pDriver::receive(const Burst& burst, FrameSink& sink) {
   if (burst.bytes.empty()) return;
   Time end = burst.start;
   for (const Byte b : burst.bytes) {

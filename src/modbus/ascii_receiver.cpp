@@ -5,7 +5,7 @@
 
 namespace fieldproof::modbus {
 
-void AsciiReceiver::receive(const line::Burst& burst, plc::FrameSink& sink) {
+void AsciiReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > max_gap) give_up(sink);
   Time end = burst.start;

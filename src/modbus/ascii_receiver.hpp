@@ -17,7 +17,7 @@ class AsciiReceiver : public ModbusReceiver {
   /// Frames have at most ascii_max_frame characters; a longer one is dropped
   /// (service_status::too_long). Characters outside a frame (once a run of them), and a frame
   /// without its end, are service_status::not_modbus.
-  void receive(const line::Burst& burst, plc::FrameSink& sink) override;
+  void receive(const Burst& burst, plc::FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
   void advance(Time now, plc::FrameSink& sink) override;
   void reset() override { state_ = State::idle; }

@@ -26,7 +26,7 @@ class ModbusPlc : public plc::EmulatedDevice, private plc::FrameSink {
         tables_(tables),
         receiver_(make_modbus_receiver(mode, port.gap())) {}
 
-  void receive(const line::Burst& burst) override { receiver_->receive(burst, *this); }
+  void receive(const Burst& burst) override { receiver_->receive(burst, *this); }
   std::optional<Time> wake_at() const override { return replies_.wake_at(receiver_->wake_at()); }
   Bytes advance(Time now) override {
     receiver_->advance(now, *this);

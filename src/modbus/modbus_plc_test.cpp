@@ -303,7 +303,7 @@ TEST(ModbusOnALine, RtuReplyFollowsTheSilence) {
   for (const LineSettings& line : rtu_lines) {
     Wire w(ModbusMode::rtu, line);
     const auto sent = w.wire.transmit(rtu("01 03 00 00 00 01"));
-    const line::Burst reply = w.wire.receive(sent.end + 2s);
+    const Burst reply = w.wire.receive(sent.end + 2s);
     EXPECT_EQ(reply.bytes, rtu("01 03 02 00 00")) << line::to_string(line);
     EXPECT_EQ(reply.start, sent.end + w.gap() + line.character_time()) << line::to_string(line);
   }
@@ -380,7 +380,7 @@ TEST(ModbusOnALine, AsciiRepliesAtOnceWith7And8DataBits) {
                                    LineSettings{115200, 8, 'N', 1}}) {
     Wire w(ModbusMode::ascii, line);
     const auto sent = w.wire.transmit(to_bytes(":010600000001F8\r\n"));
-    const line::Burst reply = w.wire.receive(sent.end + 2s);
+    const Burst reply = w.wire.receive(sent.end + 2s);
     EXPECT_EQ(to_text(reply.bytes), ":010600000001F8\r\n") << line::to_string(line);
     EXPECT_EQ(reply.start, sent.end) << line::to_string(line);
   }

@@ -114,7 +114,7 @@ class ModbusP2pDriver : public p2p::P2pDriver {
   std::optional<std::uint16_t> take(const P2pBlock& block, ByteView bytes,
                                     PlcMemory& memory) const override;
 
-  void receive(const line::Burst& burst, FrameSink& sink) override {
+  void receive(const Burst& burst, FrameSink& sink) override {
     ClientSink client(sink, plc::service_status::head);
     receiver_->receive(burst, client);
   }

@@ -14,7 +14,7 @@ class ModbusReceiver {
  public:
   virtual ~ModbusReceiver() = default;
 
-  virtual void receive(const line::Burst& burst, plc::FrameSink& sink) = 0;
+  virtual void receive(const Burst& burst, plc::FrameSink& sink) = 0;
   /// When silence has ended the frame in progress.
   virtual std::optional<Time> wake_at() const = 0;
   virtual void advance(Time now, plc::FrameSink& sink) = 0;

@@ -8,7 +8,7 @@
 
 namespace fieldproof::modbus {
 
-void RtuReceiver::receive(const line::Burst& burst, plc::FrameSink& sink) {
+void RtuReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ >= gap_) finish(sink);
   const std::size_t room = rtu_max_frame + 1 - frame_.size();

@@ -17,7 +17,7 @@ class RtuReceiver : public ModbusReceiver {
 
   /// Frames have at most rtu_max_frame bytes; a longer one is dropped (service_status::too_long).
   /// The `end` of a frame is the moment at which its end is known.
-  void receive(const line::Burst& burst, plc::FrameSink& sink) override;
+  void receive(const Burst& burst, plc::FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
   void advance(Time now, plc::FrameSink& sink) override;
   void reset() override { frame_.clear(); }

@@ -36,7 +36,7 @@ P2pClient::P2pClient(plc::PlcMemory& memory, const P2pParameters& parameters, un
   }
 }
 
-void P2pClient::receive(const line::Burst& burst) {
+void P2pClient::receive(const Burst& burst) {
   driver_->receive(burst, *this);
   now_ = std::max(now_, burst.end());
   heard_until_ = std::max(heard_until_, burst.end());

@@ -38,7 +38,7 @@ class P2pClient : public line::Device, private plc::FrameSink {
   P2pClient(plc::PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
             std::unique_ptr<P2pDriver> driver, const Timing& timing, std::function<void()> saved);
 
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 

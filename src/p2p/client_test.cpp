@@ -50,7 +50,7 @@ struct Bench {
   std::string sent() { return sent(now); }
   void reply(const std::string& text, Duration after = 50ms) {
     EXPECT_EQ(sent(now + after), "");
-    const line::Burst burst{to_bytes(text), now, character};
+    const Burst burst{to_bytes(text), now, character};
     client->receive(burst);
     now = burst.end();
   }

@@ -44,7 +44,7 @@ class P2pDriver {
 
   /// Finds frames in what arrives: complete ones and broken ones (`why` is a service_status) go to
   /// the sink.
-  virtual void receive(const line::Burst& burst, plc::FrameSink& sink) = 0;
+  virtual void receive(const Burst& burst, plc::FrameSink& sink) = 0;
   virtual std::optional<Time> wake_at() const = 0;
   virtual void advance(Time now, plc::FrameSink& sink) = 0;
   /// Forgets what was half received.

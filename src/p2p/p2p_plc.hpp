@@ -32,7 +32,7 @@ class P2pPlc : public plc::EmulatedDevice {
   P2pPlc(const P2pPlc&) = delete;
   P2pPlc& operator=(const P2pPlc&) = delete;
 
-  void receive(const line::Burst& burst) override { line_->receive(burst); }
+  void receive(const Burst& burst) override { line_->receive(burst); }
   std::optional<Time> wake_at() const override { return line_->wake_at(); }
   Bytes advance(Time now) override { return line_->advance(now); }
 

@@ -41,7 +41,7 @@ class TestDriver : public P2pDriver {
     for (const P2pVariable& variable : block.variables) memory.write(variable.own, 1);
     return p2p_error::none;
   }
-  void receive(const line::Burst& burst, plc::FrameSink& sink) override {
+  void receive(const Burst& burst, plc::FrameSink& sink) override {
     if (const std::string text = to_text(burst.bytes); text.starts_with("broken "))
       sink.on_broken_frame(code_in(text));
     else

@@ -62,7 +62,7 @@ std::string csv_row(const MonitoredFrame& frame, std::string_view time) {
                      in_quotes(ascii_view(frame)));
 }
 
-void FrameMonitor::receive(const line::Burst& burst) {
+void FrameMonitor::receive(const Burst& burst) {
   heard_.insert(heard_.end(), burst.bytes.begin(), burst.bytes.end());
   last_end_ = burst.end();
   character_time_ = burst.character_time;

@@ -62,7 +62,7 @@ class FrameMonitor : public EmulatedDevice {
   FrameMonitor(std::unique_ptr<EmulatedDevice> device, MonitorRules rules, Record record = {})
       : device_(std::move(device)), rules_(std::move(rules)), record_(std::move(record)) {}
 
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 

@@ -15,7 +15,7 @@ constexpr Duration character = 1ms;
 class Answerer : public EmulatedDevice {
  public:
   explicit Answerer(Bytes answer) : answer_(std::move(answer)) {}
-  void receive(const line::Burst& burst) override { due_ = burst.end() + 10ms; }
+  void receive(const Burst& burst) override { due_ = burst.end() + 10ms; }
   std::optional<Time> wake_at() const override { return due_; }
   Bytes advance(Time now) override {
     if (!due_ || now < *due_) return {};

@@ -4,7 +4,7 @@
 
 namespace fieldproof::plc {
 
-void MultiDrop::receive(const line::Burst& burst) {
+void MultiDrop::receive(const Burst& burst) {
   for (const auto& device : devices_) device->receive(burst);
 }
 

@@ -16,7 +16,7 @@ class MultiDrop : public EmulatedDevice {
   explicit MultiDrop(std::vector<std::unique_ptr<EmulatedDevice>> devices)
       : devices_(std::move(devices)) {}
 
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 

@@ -9,7 +9,7 @@ namespace {
 class Talker : public EmulatedDevice {
  public:
   Talker(std::string name, std::string& heard) : name_(std::move(name)), heard_(heard) {}
-  void receive(const line::Burst& burst) override {
+  void receive(const Burst& burst) override {
     const std::string text = to_text(burst.bytes);
     heard_ += text + ";";
     if (text == name_) due_ = burst.end() + 1ms;

@@ -45,7 +45,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_modem(const nlohmann::json& co
   return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Modem>(std::move(modem)));
 }
 
-void Modem::receive(const line::Burst& burst) {
+void Modem::receive(const Burst& burst) {
   Time end = burst.start;
   for (const Byte b : burst.bytes) {
     end += burst.character_time;

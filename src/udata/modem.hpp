@@ -42,7 +42,7 @@ class Modem : public plc::EmulatedDevice {
   explicit Modem(ModemConfig config)
       : config_(std::move(config)), dtr_(config_.dtr), rts_(config_.rts) {}
 
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 

@@ -25,7 +25,7 @@ UdataPort::UdataPort(const UdataConfig& config)
       gap_(config.port.gap()),
       run_(config.port.run) {}
 
-void UdataPort::receive(const line::Burst& burst) {
+void UdataPort::receive(const Burst& burst) {
   if (burst.bytes.empty()) return;
   last_end_ = burst.end();
   now_ = std::max(now_, last_end_);

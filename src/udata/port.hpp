@@ -19,7 +19,7 @@ class UdataPort : public plc::EmulatedDevice, private UdataChannel {
 
   /// A datum ends when the line is silent for the inter-character time (Cnet KO 4.3.1), or is 1024
   /// bytes long.
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 

@@ -48,8 +48,7 @@ class Port {
   std::string hear(Duration patience = 100ms) {
     const Time until = line_.now() + patience;
     Bytes heard;
-    for (line::Burst burst = line_.receive(until); !burst.bytes.empty();
-         burst = line_.receive(until))
+    for (Burst burst = line_.receive(until); !burst.bytes.empty(); burst = line_.receive(until))
       heard.insert(heard.end(), burst.bytes.begin(), burst.bytes.end());
     return to_text(heard);
   }

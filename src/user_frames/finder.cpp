@@ -4,7 +4,7 @@
 
 namespace fieldproof::user_frames {
 
-void FrameFinder::receive(const line::Burst& burst, Sink& sink) {
+void FrameFinder::receive(const Burst& burst, Sink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > gap_) {
     take_frames(burst.start, true, sink);

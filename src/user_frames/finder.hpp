@@ -34,7 +34,7 @@ class FrameFinder {
   FrameFinder(std::vector<const UserFrame*> frames, Duration gap)
       : frames_(std::move(frames)), gap_(gap) {}
 
-  void receive(const line::Burst& burst, Sink& sink);
+  void receive(const Burst& burst, Sink& sink);
   /// When silence ends what was heard.
   std::optional<Time> wake_at() const;
   void advance(Time now, Sink& sink);

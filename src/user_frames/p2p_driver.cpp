@@ -56,7 +56,7 @@ class UserFrameP2pDriver : public p2p::P2pDriver {
     return p2p::p2p_error::none;
   }
 
-  void receive(const line::Burst& burst, plc::FrameSink& sink) override {
+  void receive(const Burst& burst, plc::FrameSink& sink) override {
     Heard heard(*this, sink);
     finder_.receive(burst, heard);
   }

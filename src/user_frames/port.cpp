@@ -36,7 +36,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(
   return std::unique_ptr<plc::EmulatedDevice>(new UserFramePort(definition, port));
 }
 
-void UserFramePort::receive(const line::Burst& burst) {
+void UserFramePort::receive(const Burst& burst) {
   if (run_) finder_.receive(burst, *this);
   now_ = std::max(now_, burst.end());
 }

@@ -16,7 +16,7 @@ namespace fieldproof::user_frames {
 
 class UserFramePort : public plc::EmulatedDevice, private FrameFinder::Sink {
  public:
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 

@@ -28,7 +28,7 @@ class XgtP2pDriver : public p2p::P2pDriver {
   std::optional<std::uint16_t> take(const p2p::P2pBlock& block, ByteView frame,
                                     plc::PlcMemory& memory) const override;
 
-  void receive(const line::Burst& burst, plc::FrameSink& sink) override {
+  void receive(const Burst& burst, plc::FrameSink& sink) override {
     receiver_.receive(burst, sink);
   }
   std::optional<Time> wake_at() const override { return receiver_.wake_at(); }

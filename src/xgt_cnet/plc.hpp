@@ -18,7 +18,7 @@ class Plc : public plc::EmulatedDevice {
   Plc(const Plc&) = delete;
   Plc& operator=(const Plc&) = delete;
 
-  void receive(const line::Burst& burst) override { server_.receive(burst); }
+  void receive(const Burst& burst) override { server_.receive(burst); }
   std::optional<Time> wake_at() const override { return server_.wake_at(); }
   Bytes advance(Time now) override { return server_.advance(now); }
 

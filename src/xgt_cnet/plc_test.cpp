@@ -121,7 +121,7 @@ TEST(PlcOnALine, OnlyTheAddressedStationAnswersAndAtOnce) {
   wire.attach(*two, line);
   ASSERT_TRUE(two->set("%MW0", "2222"));
   const auto sent = wire.transmit(enq("02rSS0104%MW0"));
-  const line::Burst reply = wire.receive(sent.end + 1s);
+  const Burst reply = wire.receive(sent.end + 1s);
   EXPECT_EQ(shown(reply.bytes), "ACK 02rSS01022222");
   EXPECT_EQ(reply.start, sent.end);
   EXPECT_TRUE(wire.receive(wire.now() + 1s).bytes.empty());

@@ -19,7 +19,7 @@ bool FrameReceiver::is_head(Byte b) const {
   return side_ == Side::server ? b == xgt_enq : b == xgt_ack || b == xgt_nak;
 }
 
-void FrameReceiver::receive(const line::Burst& burst, plc::FrameSink& sink) {
+void FrameReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > gap_) give_up(sink);
   Time end = burst.start;

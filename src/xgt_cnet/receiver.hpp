@@ -23,7 +23,7 @@ class FrameReceiver {
   /// A silence longer than `gap` between two characters ends a frame.
   FrameReceiver(Side side, Duration gap);
 
-  void receive(const line::Burst& burst, plc::FrameSink& sink);
+  void receive(const Burst& burst, plc::FrameSink& sink);
   /// When the silence has become too long even for a character that is arriving at that moment.
   std::optional<Time> wake_at() const;
   void advance(Time now, plc::FrameSink& sink);

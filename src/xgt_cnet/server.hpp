@@ -22,7 +22,7 @@ class XgtServer : private plc::FrameSink {
   /// outlives the server.
   XgtServer(plc::PlcMemory& memory, unsigned station, Duration gap, Duration delay);
 
-  void receive(const line::Burst& burst) { receiver_.receive(burst, *this); }
+  void receive(const Burst& burst) { receiver_.receive(burst, *this); }
   std::optional<Time> wake_at() const { return replies_.wake_at(receiver_.wake_at()); }
   Bytes advance(Time now);
 

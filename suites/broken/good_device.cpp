@@ -6,7 +6,7 @@ namespace fieldproof::broken {
 
 Bytes GoodDevice::answer(ByteView frame) {
   now_ += 10s;  // far from the frame before: no gap is judged here
-  device_->receive(line::Burst{Bytes(frame.begin(), frame.end()), now_, {}});
+  device_->receive(Burst{Bytes(frame.begin(), frame.end()), now_, {}});
   Bytes reply;
   while (const std::optional<Time> wake = device_->wake_at()) {
     now_ = std::max(now_, *wake);

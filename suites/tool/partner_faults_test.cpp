@@ -25,7 +25,7 @@ class PartnerFaults : public testing::TestWithParam<Asked> {
         GetParam().model, {{"station", 2}}, {{GetParam().address, "5ABC"}}, fault};
     return partner.answer(spec, request(), 1s);
   }
-  line::Burst request() {
+  Burst request() {
     if (GetParam().request) return {to_bytes(GetParam().request), Time{}, 1ms};
     return {protocol().read_requests(2, GetParam().address, 4)->front(), Time{}, 1ms};
   }

@@ -15,7 +15,7 @@ class BrokenInverter : public plc::EmulatedDevice {
   BrokenInverter(Behaviour behaviour, GoodInverter inverter)
       : behaviour_(std::move(behaviour)), inverter_(std::move(inverter)) {}
 
-  void receive(const line::Burst& burst) override {
+  void receive(const Burst& burst) override {
     Bytes heard = burst.bytes;
     if (behaviour_.hear) behaviour_.hear(heard);
     bool together = false;

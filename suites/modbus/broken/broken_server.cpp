@@ -20,8 +20,8 @@ class BrokenServer : public plc::EmulatedDevice, private plc::FrameSink {
         receiver_(behaviour_.receiver ? behaviour_.receiver(plc_.mode(), gap)
                                       : modbus::make_modbus_receiver(plc_.mode(), gap)) {}
 
-  void receive(const line::Burst& burst) override {
-    line::Burst heard = burst;
+  void receive(const Burst& burst) override {
+    Burst heard = burst;
     if (behaviour_.hear) behaviour_.hear(heard.bytes);
     receiver_->receive(heard, *this);
   }

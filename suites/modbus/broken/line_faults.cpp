@@ -22,7 +22,7 @@ Bytes operator+(Bytes a, const Bytes& b) {
 /// for more.
 class ByLength : public ModbusReceiver {
  public:
-  void receive(const line::Burst& burst, FrameSink& sink) override {
+  void receive(const Burst& burst, FrameSink& sink) override {
     heard_.insert(heard_.end(), burst.bytes.begin(), burst.bytes.end());
     while (heard_.size() >= length()) {
       const Bytes frame(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(length()));
@@ -57,8 +57,8 @@ class OtherClock : public ModbusReceiver, private FrameSink {
   OtherClock(std::unique_ptr<ModbusReceiver> receiver, double times)
       : receiver_(std::move(receiver)), times_(times) {}
 
-  void receive(const line::Burst& burst, FrameSink& sink) override {
-    line::Burst other = burst;
+  void receive(const Burst& burst, FrameSink& sink) override {
+    Burst other = burst;
     other.start = slowed(burst.start);
     sink_ = &sink;
     real_end_ = burst.end();

@@ -23,7 +23,7 @@ class BrokenClient : public plc::EmulatedDevice {
   BrokenClient(const plc::PlcModel& model, const P2pParameters& parameters, bool run,
                P2pClient::Timing timing, const Behaviour& behaviour, const DriverFactory& driver);
 
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
@@ -65,7 +65,7 @@ class BrokenClient : public plc::EmulatedDevice {
   bool run_, link_;
   std::vector<Block> blocks_;
   std::vector<std::unique_ptr<P2pClient>> engines_;  // one, unless all blocks are asked at once
-  std::vector<line::Burst> late_;
+  std::vector<Burst> late_;
 };
 
 BrokenClient::BrokenClient(const plc::PlcModel& model, const P2pParameters& parameters, bool run,
@@ -108,7 +108,7 @@ void BrokenClient::make_engines(const P2pParameters& parameters, const P2pClient
   if (!behaviour_.all_at_once) make(parameters);
 }
 
-void BrokenClient::receive(const line::Burst& burst) {
+void BrokenClient::receive(const Burst& burst) {
   for (Block& block : blocks_) block.outcome = outcome(block);
   const bool asked = std::ranges::any_of(blocks_, &Block::under_way);
   if (behaviour_.keeps_late_replies && !asked) late_.push_back(burst);
@@ -132,7 +132,7 @@ Bytes BrokenClient::advance(Time now) {
     bytes.insert(bytes.end(), more.begin(), more.end());
   }
   if (bytes.empty()) return bytes;
-  for (line::Burst& burst : std::exchange(late_, {})) {
+  for (Burst& burst : std::exchange(late_, {})) {
     burst.start = now;
     for (const auto& engine : engines_) engine->receive(burst);
   }

@@ -31,9 +31,7 @@ class BrokenDriver : public p2p::P2pDriver {
     if (!behaviour_.takes) return good_->take(block, frame, memory);
     return behaviour_.takes(*good_, block, Bytes(frame.begin(), frame.end()), memory);
   }
-  void receive(const line::Burst& burst, plc::FrameSink& sink) override {
-    good_->receive(burst, sink);
-  }
+  void receive(const Burst& burst, plc::FrameSink& sink) override { good_->receive(burst, sink); }
   std::optional<Time> wake_at() const override { return good_->wake_at(); }
   void advance(Time now, plc::FrameSink& sink) override { good_->advance(now, sink); }
   void reset() override { good_->reset(); }

@@ -13,8 +13,8 @@ class BrokenUdataPort : public plc::EmulatedDevice {
   BrokenUdataPort(const udata::UdataConfig& config, Behaviour behaviour)
       : port_(config), behaviour_(std::move(behaviour)) {}
 
-  void receive(const line::Burst& burst) override {
-    line::Burst heard = burst;
+  void receive(const Burst& burst) override {
+    Burst heard = burst;
     if (behaviour_.hears) behaviour_.hears(heard.bytes);
     port_.receive(heard);
   }

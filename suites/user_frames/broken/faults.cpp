@@ -84,7 +84,7 @@ class MisspeakingPort : public EmulatedDevice {
   MisspeakingPort(std::unique_ptr<EmulatedDevice> port, Behaviour behaviour)
       : port_(std::move(port)), behaviour_(std::move(behaviour)) {}
 
-  void receive(const line::Burst& burst) override { port_->receive(burst); }
+  void receive(const Burst& burst) override { port_->receive(burst); }
   std::optional<Time> wake_at() const override { return port_->wake_at(); }
   Bytes advance(Time now) override {
     const Bytes bytes = port_->advance(now);

@@ -15,10 +15,10 @@ BrokenPlc::BrokenPlc(Behaviour behaviour, GoodPlc plc, Duration gap)
   if (behaviour_.power_on) behaviour_.power_on(plc_);
 }
 
-void BrokenPlc::receive(const line::Burst& burst) {
+void BrokenPlc::receive(const Burst& burst) {
   now_ = burst.end();
   frames_in_burst_ = 0;
-  line::Burst heard = burst;
+  Burst heard = burst;
   if (behaviour_.hear) behaviour_.hear(heard.bytes);
   remember(heard.bytes);
   receiver_.receive(heard, *this);

@@ -12,7 +12,7 @@ namespace fieldproof::xgt_cnet_broken {
 
 class BrokenPlc : public plc::EmulatedDevice, private plc::FrameSink {
  public:
-  void receive(const line::Burst& burst) override;
+  void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
