@@ -11,9 +11,6 @@
 
 namespace fieldproof::endpoints {
 
-using Burst;
-using Sent;
-
 namespace {
 
 Bytes big_endian(int value) {

@@ -9,7 +9,6 @@
 
 namespace fieldproof::probe {
 
-using Burst;
 using harness::Field;
 using line::LineSettings;
 

@@ -15,8 +15,6 @@
 
 namespace fieldproof::os {
 
-using Burst;
-
 namespace {
 
 /// Bytes that a process wrote before its end pass through a kernel work queue and may come after

@@ -12,9 +12,6 @@
 
 namespace fieldproof::os {
 
-using Burst;
-using Sent;
-
 namespace {
 
 using os::test::receive_text;
