@@ -124,7 +124,7 @@ class Plain : public Endpoint {
   Time now() const override { return {}; }
   Duration character_time() const override { return {}; }
   Status begin(const nlohmann::json&) override { return ok(); }
-  using Endpoint::send;
+  using endpoints::Endpoint::send;
   Result<Sent> send(ByteView, LinkId) override { return Sent{}; }
   Result<Burst> receive(Time) override { return Burst{}; }
 

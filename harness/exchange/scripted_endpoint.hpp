@@ -12,7 +12,7 @@
 
 namespace fieldproof::exchange {
 
-class ScriptedEndpoint : public Endpoint {
+class ScriptedEndpoint : public endpoints::Endpoint {
  public:
   struct Piece {
     Duration after;  // the end of the transmission

@@ -8,6 +8,7 @@
 
 namespace fieldproof::probe::test {
 
+using endpoints::Endpoint;
 using line::LineSettings;
 
 namespace {

@@ -27,7 +27,7 @@ struct Hidden {
 };
 
 inline LineOpener opener(const Hidden& hidden) {
-  return [hidden](const line::LineSettings& bench) -> Result<std::unique_ptr<Endpoint>> {
+  return [hidden](const line::LineSettings& bench) -> Result<std::unique_ptr<endpoints::Endpoint>> {
     const harness::Protocol* protocol = suites::protocols().find(hidden.protocol);
     auto endpoint = std::make_unique<endpoints::EmulatorEndpoint>(
         endpoints::EndpointName{"emulator", hidden.model, {}},
@@ -38,7 +38,7 @@ inline LineOpener opener(const Hidden& hidden) {
     nlohmann::json config = hidden.config;
     config["bench_line"] = line::to_string(bench);
     if (const Status begun = endpoint->begin(config); !begun) return begun.error();
-    return std::unique_ptr<Endpoint>(std::move(endpoint));
+    return std::unique_ptr<endpoints::Endpoint>(std::move(endpoint));
   };
 }
 
@@ -50,9 +50,9 @@ inline endpoints::Decorator with_faults(const line::LineFaults& faults) {
 }
 
 /// Between the bench and its endpoint: what happens on the way.
-class Wire : public Endpoint {
+class Wire : public endpoints::Endpoint {
  public:
-  explicit Wire(std::unique_ptr<Endpoint> inner) : inner_(std::move(inner)) {}
+  explicit Wire(std::unique_ptr<endpoints::Endpoint> inner) : inner_(std::move(inner)) {}
 
   const endpoints::Capabilities& capabilities() const override { return inner_->capabilities(); }
   std::string describe() const override { return inner_->describe(); }
@@ -65,15 +65,15 @@ class Wire : public Endpoint {
   std::string line_errors() override { return inner_->line_errors(); }
 
  protected:
-  std::unique_ptr<Endpoint> inner_;
+  std::unique_ptr<endpoints::Endpoint> inner_;
 };
 
 template <typename OneWire, typename... Arguments>
 LineOpener behind(LineOpener inner, Arguments... arguments) {
-  return [=](const line::LineSettings& line) -> Result<std::unique_ptr<Endpoint>> {
-    Result<std::unique_ptr<Endpoint>> opened = inner(line);
+  return [=](const line::LineSettings& line) -> Result<std::unique_ptr<endpoints::Endpoint>> {
+    Result<std::unique_ptr<endpoints::Endpoint>> opened = inner(line);
     if (!opened) return opened;
-    return std::unique_ptr<Endpoint>(
+    return std::unique_ptr<endpoints::Endpoint>(
         std::make_unique<OneWire>(std::move(*opened), line, arguments...));
   };
 }

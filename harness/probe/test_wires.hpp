@@ -22,7 +22,8 @@ inline const endpoints::Decorator switched_off = [](line::Device&, const line::L
 /// Our transmitter is heard by our receiver.
 class Echo final : public Wire {
  public:
-  Echo(std::unique_ptr<Endpoint> inner, const line::LineSettings&) : Wire(std::move(inner)) {}
+  Echo(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings&)
+      : Wire(std::move(inner)) {}
   using endpoints::Endpoint::send;
   Result<Sent> send(ByteView bytes, LinkId) override {
     const Result<Sent> sent = inner_->send(bytes);
@@ -44,7 +45,8 @@ class Echo final : public Wire {
 /// 8N1.
 class Swapped final : public Wire {
  public:
-  Swapped(std::unique_ptr<Endpoint> inner, const line::LineSettings&) : Wire(std::move(inner)) {}
+  Swapped(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings&)
+      : Wire(std::move(inner)) {}
   Result<Burst> receive(Time deadline) override {
     Result<Burst> burst = inner_->receive(deadline);
     if (burst && !burst->bytes.empty()) burst->bytes = read(burst->bytes);
@@ -83,7 +85,8 @@ class Swapped final : public Wire {
 /// Nothing holds the idle line: each change of direction rings.
 class Floating final : public Wire {
  public:
-  Floating(std::unique_ptr<Endpoint> inner, const line::LineSettings&) : Wire(std::move(inner)) {}
+  Floating(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings&)
+      : Wire(std::move(inner)) {}
   using endpoints::Endpoint::send;
   Result<Sent> send(ByteView bytes, LinkId) override {
     const Result<Sent> sent = inner_->send(bytes);
@@ -139,7 +142,8 @@ class Master final : public line::Device {
 /// The device takes any format, but answers in its own: the reply shows which one.
 class OwnFormat final : public Wire {
  public:
-  OwnFormat(std::unique_ptr<Endpoint> inner, const line::LineSettings& bench, const char* device)
+  OwnFormat(std::unique_ptr<endpoints::Endpoint> inner, const line::LineSettings& bench,
+            const char* device)
       : Wire(std::move(inner)), bench_(bench), device_(*line::parse_line_settings(device)) {}
   Result<Burst> receive(Time deadline) override {
     Result<Burst> burst = inner_->receive(deadline);
