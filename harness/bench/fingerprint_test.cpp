@@ -29,11 +29,11 @@ struct AreaDevice : exchange::ScriptedEndpoint {
   std::string refusal = "<no>";
 
   using endpoints::Endpoint::send;
-  Result<Sent> send(ByteView bytes, LinkId) override {
+  Result<Sent> send(ByteView bytes, LinkId link) override {
     const std::string request = to_text(bytes);  // <r%MW12>
     const bool has = std::stoul(request.substr(5)) < words[request[3]];
     answers[request] = {{1ms, has ? "<0000>" : refusal}};
-    return exchange::ScriptedEndpoint::send(bytes);
+    return exchange::ScriptedEndpoint::send(bytes, link);
   }
 };
 
