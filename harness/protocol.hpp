@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/notation/dressing.hpp"
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
@@ -49,6 +50,10 @@ class Protocol {
 
   /// The station number as it stands in a frame.
   virtual Bytes station_bytes(int station) const = 0;
+
+  /// How it frames a body that it shares with other protocols: pdu(...) of a vector. nullptr: it
+  /// shares none.
+  virtual const notation::Dressing* dressing() const { return nullptr; }
 
   /// The length of the first complete frame in `bytes`, or nothing while it is incomplete.
   virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;

@@ -42,8 +42,8 @@ std::unique_ptr<Endpoint> open(const std::string& text) {
 
 /// A one-word RSS and its ACK.
 const char* one_word =
-    R"j([{"id": "xgt_cnet/bench/one_word", "rev": 1, "title": "one word", "level": "must", "basis": "printed",
-  "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"},
+    R"j([{"id": "xgt_cnet/bench/one_word", "rev": 1, "title": "read one word", "level": "must", "basis": "printed",
+  "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"},
   "steps": [{"send": "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]"}, {"expect": "[ACK st 'rSS' '01' '02' '0000' ETX BCC]"}]}])j";
 
 struct OneWord {
@@ -81,7 +81,7 @@ BENCHMARK(in_process_exchange);
 
 void whole_suite(benchmark::State& state) {
   const harness::DataPaths data = harness::find_data();
-  const vectors::VectorSet set = vectors::load_vectors(data.vectors);
+  const vectors::VectorSet set = vectors::load_vectors(data.vectors, {protocols()});
   const std::unique_ptr<Endpoint> endpoint = open("emulator:");
   bench::BenchOptions options;
   options.profile = *bench::load_profile("emulator", data.profiles);
@@ -97,7 +97,7 @@ BENCHMARK(whole_suite)->Unit(benchmark::kMillisecond);
 void load_all_vectors(benchmark::State& state) {
   for (auto _ : state) {
     (void)_;
-    benchmark::DoNotOptimize(vectors::load_vectors(harness::find_data().vectors));
+    benchmark::DoNotOptimize(vectors::load_vectors(harness::find_data().vectors, {protocols()}));
   }
 }
 BENCHMARK(load_all_vectors)->Unit(benchmark::kMillisecond);

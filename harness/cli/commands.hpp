@@ -61,7 +61,7 @@ struct ErrataOptions {
   std::string vectors;
   bool json = false, markdown = false;
 };
-int errata_command(const ErrataOptions& options);
+int errata_command(const ErrataOptions& options, const harness::Protocols& protocols);
 
 struct ReportOptions {
   std::string ndjson, junit, json, html, capture;

@@ -5,8 +5,8 @@
 
 namespace fieldproof::cli {
 
-int errata_command(const ErrataOptions& options) {
-  const Result<vectors::VectorSet> set = run::load_sound_vectors(options.vectors);
+int errata_command(const ErrataOptions& options, const harness::Protocols& protocols) {
+  const Result<vectors::VectorSet> set = run::load_sound_vectors(options.vectors, protocols);
   if (!set) return run::complain(set.error().message, run::exit_code::usage);
   std::vector<results::ErratumInfo> errata;
   for (const vectors::Erratum& one : set->errata) errata.push_back(run::erratum_info(one));

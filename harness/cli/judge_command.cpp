@@ -37,7 +37,8 @@ results::Gate gate_of(const JudgeOptions& options, const results::RunInfo& run) 
   return gate;
 }
 
-Result<JudgePlan> make_judge_plan(const JudgeOptions& options) {
+Result<JudgePlan> make_judge_plan(const JudgeOptions& options,
+                                  const harness::Protocols& protocols) {
   JudgePlan plan;
   Result<compare::ResultFile> recorded = compare::read_result_file(options.file);
   if (!recorded) return recorded.error();
@@ -50,7 +51,7 @@ Result<JudgePlan> make_judge_plan(const JudgeOptions& options) {
         "cannot judge {} by the profile it was recorded with: {}; name one with --profile",
         options.file, profile.error().message));
   plan.profile = std::move(*profile);
-  Result<vectors::VectorSet> vectors = run::load_sound_vectors(options.vectors);
+  Result<vectors::VectorSet> vectors = run::load_sound_vectors(options.vectors, protocols);
   if (!vectors) return vectors.error();
   plan.vectors = std::move(*vectors);
   Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
@@ -135,7 +136,7 @@ News judge_all(const JudgeOptions& options, const JudgePlan& plan, run::RunRepor
 }  // namespace
 
 int judge_command(const JudgeOptions& options, const harness::Protocols& protocols) {
-  const Result<JudgePlan> plan = make_judge_plan(options);
+  const Result<JudgePlan> plan = make_judge_plan(options, protocols);
   if (!plan) return run::complain(plan.error().message, run::exit_code::usage);
   if (plan->selected.empty())
     return run::complain(

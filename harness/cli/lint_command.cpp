@@ -76,7 +76,7 @@ std::string read_lock(const fs::path& folder) {
 int lint_command(const LintOptions& options, const harness::Protocols& protocols) {
   const harness::DataPaths data = harness::find_data();
   const fs::path folder = run::vectors_path(options.vectors);
-  vectors::VectorSet set = vectors::load_vectors(folder, data.vectors / "schema.json");
+  vectors::VectorSet set = vectors::load_vectors(folder, {protocols});
   vectors::load_wires(folder, set);
   std::vector<std::string> problems = set.problems;
   add(problems, vectors::lint_wires(set, protocols));

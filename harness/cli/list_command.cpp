@@ -130,15 +130,15 @@ int list_command(const ListOptions& options, const harness::Protocols& protocols
   if (options.coverage && !(options.filter + options.role).empty())
     return run::complain("--filter and --role select cases; --coverage is of all statements",
                          run::exit_code::usage);
-  const Result<vectors::VectorSet> loaded = run::load_sound_vectors(options.vectors);
+  const Result<vectors::VectorSet> loaded = run::load_sound_vectors(
+      options.vectors, protocols, options.coverage ? std::string() : options.filter);
   if (!loaded) return run::complain(loaded.error().message, run::exit_code::usage);
   const vectors::VectorSet& set = *loaded;
   if (options.coverage) return list_coverage(options, set);
   ordered_json all = ordered_json::array();
   std::size_t count = 0;
   for (const vectors::Case& one : set.cases) {
-    if (!vectors::matches_filter(one.id, options.filter) || !vectors::has_role(one, options.role))
-      continue;
+    if (!vectors::has_role(one, options.role)) continue;
     ++count;
     if (options.json)
       all.push_back(case_json(one, protocols));

@@ -34,8 +34,8 @@ class ExchangeTest : public testing::Test {
   std::vector<std::string> exchange(const harness::Protocol& protocol, const std::string& steps,
                                     const std::string& config = "{}") {
     const std::string text =
-        R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": "must", "basis": "printed",
-      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "given": {"config": )j" +
+        R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed",
+      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "given": {"config": )j" +
         config + R"j(}, "steps": [)j" + steps + "]}";
     vectors::load_vector_text(text, "f.json", set_);
     const Result<PreparedCase> prepared = prepare(set_.cases.at(0), 1, protocol);

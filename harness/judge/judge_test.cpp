@@ -26,12 +26,13 @@ class JudgeTest : public testing::Test {
   Judgement judged(const std::string& steps, const std::string& level = "must",
                    const std::string& basis = "printed") {
     set_ = {};
-    vectors::load_vector_text(R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "t", "level": ")j" +
-                                  level + R"j(", "basis": ")j" + basis +
-                                  R"j(", "why": "because we say so",
-      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "q"}, "steps": [)j" +
-                                  steps + "]}]",
-                              "f.json", set_);
+    vectors::load_vector_text(
+        R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": ")j" + level +
+            R"j(", "basis": ")j" + basis +
+            R"j(", "why": "because we say so",
+      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "steps": [)j" +
+            steps + "]}]",
+        "f.json", set_);
     EXPECT_THAT(set_.problems, testing::IsEmpty());
     Result<exchange::PreparedCase> prepared = exchange::prepare(set_.cases.at(0), 1, protocol_);
     EXPECT_TRUE(prepared);

@@ -188,7 +188,10 @@ class Parser {
     item.text = letters;
     for (const Control& control : controls)
       if (letters == control.name) item.bytes = {control.value};
-    if (item.bytes.empty() && letters.size() == 2) item.bytes = from_hex(letters).value_or(Bytes{});
+    // Several bytes stand together where they are repeated together: a forgotten quote is noticed.
+    const bool together = letters.size() % 2 == 0 && peek() == '*';
+    if (item.bytes.empty() && (letters.size() == 2 || together))
+      item.bytes = from_hex(letters).value_or(Bytes{});
     if (item.bytes.empty())
       error_at(begin, fmt::format("unknown word '{}'; there are {}",
                                   letters.empty() ? text_.substr(begin, 1) : letters, words));

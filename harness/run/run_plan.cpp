@@ -306,7 +306,9 @@ Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocol
   Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);
-  Result<vectors::VectorSet> loaded = load_sound_vectors(options.vectors);
+  // A waiver may name any case.
+  Result<vectors::VectorSet> loaded = load_sound_vectors(
+      options.vectors, known, plan.waivers.empty() ? options.filter : std::string());
   if (!loaded) return loaded.error();
   plan.vectors = std::move(*loaded);
   for (const Case& one : plan.vectors.cases)

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "harness/paths.hpp"
+#include "harness/vectors/lint.hpp"
 
 namespace fieldproof::run {
 
@@ -11,15 +12,16 @@ std::filesystem::path vectors_path(const std::string& option) {
   return option.empty() ? harness::find_data().vectors : std::filesystem::path(option);
 }
 
-Result<vectors::VectorSet> load_sound_vectors(const std::string& option) {
-  vectors::VectorSet vectors =
-      vectors::load_vectors(vectors_path(option), harness::find_data().vectors / "schema.json");
-  if (vectors.problems.empty()) return vectors;
+Result<vectors::VectorSet> load_sound_vectors(const std::string& option,
+                                              const harness::Protocols& protocols,
+                                              const std::string& filter) {
+  vectors::VectorSet set = vectors::load_vectors(vectors_path(option), {protocols, filter});
+  if (set.problems.empty()) set.problems = vectors::contradictions(set, protocols);
+  if (set.problems.empty()) return set;
   return fail(fmt::format(
       "{}\n{} in the vectors; nothing was sent. `fieldproof lint` shows them all",
-      fmt::join(vectors.problems, "\n"),
-      vectors.problems.size() == 1 ? "1 problem"
-                                   : fmt::format("{} problems", vectors.problems.size())));
+      fmt::join(set.problems, "\n"),
+      set.problems.size() == 1 ? "1 problem" : fmt::format("{} problems", set.problems.size())));
 }
 
 std::vector<std::string> case_ids(const vectors::VectorSet& set) {

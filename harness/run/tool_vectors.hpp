@@ -13,8 +13,11 @@ namespace fieldproof::run {
 /// The folder or file that --vectors names; empty: the tool's own.
 std::filesystem::path vectors_path(const std::string& option);
 
-/// The vectors that --vectors names; the error tells each problem that they have.
-Result<vectors::VectorSet> load_sound_vectors(const std::string& option);
+/// The vectors that --vectors names; of cases only those that `filter` selects (empty: all). The
+/// error tells each problem that they have.
+Result<vectors::VectorSet> load_sound_vectors(const std::string& option,
+                                              const harness::Protocols& protocols,
+                                              const std::string& filter = {});
 
 std::vector<std::string> case_ids(const vectors::VectorSet& set);
 

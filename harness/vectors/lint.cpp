@@ -2,20 +2,16 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
+#include <unordered_set>
 
 #include "harness/notation/frame_template.hpp"
-#include "harness/vectors/fingerprint.hpp"
 
 namespace fieldproof::vectors {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// "05 30 ??" as one token a byte; nothing when it is not.
 std::optional<std::vector<std::string>> wire_bytes(const std::string& wire) {
@@ -44,9 +40,16 @@ std::string compare_wire(const std::string& wire, const notation::FrameTemplate&
                      notation::to_hex_with_holes(frame));
 }
 
-void lint_step(const Case& one, std::size_t index, const notation::Stations& stations,
+notation::Stations stations_of(const Case& one, const harness::Protocol& protocol) {
+  const int station = config_station(one.config, 1).value_or(1);
+  return {protocol.station_bytes(station), protocol.station_bytes((station + 1) % 256)};
+}
+
+/// `all`: every frame has literal bytes.
+void lint_step(const Case& one, std::size_t index, const notation::Stations& stations, bool all,
                std::vector<std::string>& problems) {
   for (const Frame& frame : one.steps[index].frames) {
+    if (!frame.wire && !all) continue;
     const auto problem = [&](const std::string& what) {
       problems.push_back(fmt::format("{}: {}: steps[{}]{}{}: {}", one.file, one.id, index,
                                      frame.reading.empty() ? "" : " ", frame.reading, what));
@@ -66,6 +69,29 @@ void lint_step(const Case& one, std::size_t index, const notation::Stations& sta
   }
 }
 
+bool prints_bytes(const Case& one) {
+  return std::ranges::any_of(one.steps, [](const Step& step) {
+    return std::ranges::any_of(step.frames, [](const Frame& f) { return f.wire.has_value(); });
+  });
+}
+
+/// Manuals and statements that cases cite are there.
+void lint_citations(const VectorSet& set, std::vector<std::string>& problems) {
+  std::unordered_set<std::string_view> manuals, statements;
+  for (const Manual& manual : set.manuals) manuals.insert(manual.id);
+  for (const Statement& statement : set.statements) statements.insert(statement.id);
+  for (const std::vector<Case>* cases : {&set.cases, &set.tables})
+    for (const Case& one : *cases) {
+      if (!manuals.contains(one.source.manual))
+        problems.push_back(fmt::format("{}: {}: no manual '{}' in manuals.json", one.file, one.id,
+                                       one.source.manual));
+      for (const std::string& statement : one.source.statements)
+        if (!statements.contains(statement))
+          problems.push_back(
+              fmt::format("{}: {}: no statement '{}' in statements/", one.file, one.id, statement));
+    }
+}
+
 /// A partner that cannot be made would only be noticed in a run.
 void lint_partner(const Case& one, std::size_t index, const harness::Protocol& protocol,
                   std::vector<std::string>& problems) {
@@ -82,56 +108,7 @@ void lint_partner(const Case& one, std::size_t index, const harness::Protocol& p
     if (const Status set = (*device)->set(address, hex); !set) problem(set.error());
 }
 
-std::string read_all(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
-/// Every quote of the set with the id that carries it and its manual; a vector's quote once, not
-/// for each of its cases.
-struct Quote {
-  std::string id, manual, text;
-};
-std::vector<Quote> quotes(const VectorSet& set) {
-  std::map<std::string, Quote> by_id;
-  for (const Statement& statement : set.statements)
-    by_id["statement " + statement.id] = {statement.id, statement.manual, statement.quote};
-  for (const std::vector<Case>* cases : {&set.cases, &set.tables})
-    for (const Case& one : *cases)
-      by_id["vector " + one.id] = {one.id, one.source.manual, one.source.quote};
-  std::vector<Quote> result;
-  std::set<std::pair<std::string, std::string>> seen;
-  for (auto& [key, quote] : by_id)
-    if (seen.emplace(quote.manual, quote.text).second) result.push_back(std::move(quote));
-  return result;
-}
-
-std::string quote_hash(const Quote& quote) {
-  return fmt::format("{:016x}", extend_fingerprint(empty_fingerprint,
-                                                   quote.manual + '\n' + fold_space(quote.text)));
-}
-
-/// At least five words; a table row or a Korean sentence counts its words likewise, shorter ones
-/// must be long in bytes.
-bool long_enough(const std::string& quote) {
-  const std::string folded = fold_space(quote);
-  return std::ranges::count(folded, ' ') >= 4 || folded.size() >= 20;
-}
-
 }  // namespace
-
-std::string fold_space(std::string_view text) {
-  std::string folded;
-  for (char c : text) {
-    const bool space = c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
-    if (!space)
-      folded += c;
-    else if (!folded.empty() && folded.back() != ' ')
-      folded += ' ';
-  }
-  if (folded.ends_with(' ')) folded.pop_back();
-  return folded;
-}
 
 std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protocols& protocols) {
   std::vector<std::string> problems;
@@ -147,20 +124,29 @@ std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protoco
       if (!protocol->has_model(model))
         problems.push_back(
             fmt::format("{}: {}: {} has no model '{}'", one.file, one.id, one.protocol, model));
-    const int station = config_station(one.config, 1).value_or(1);
-    const notation::Stations stations{protocol->station_bytes(station),
-                                      protocol->station_bytes((station + 1) % 256)};
+    const notation::Stations stations = stations_of(one, *protocol);
     for (std::size_t i = 0; i < one.steps.size(); ++i) {
-      lint_step(one, i, stations, problems);
+      lint_step(one, i, stations, true, problems);
       lint_partner(one, i, *protocol, problems);
     }
   }
   return problems;
 }
 
+std::vector<std::string> contradictions(const VectorSet& set, const harness::Protocols& protocols) {
+  std::vector<std::string> problems;
+  for (const Case& one : set.cases)
+    if (const harness::Protocol* protocol = protocols.find(one.protocol);
+        protocol && prints_bytes(one))
+      for (std::size_t i = 0; i < one.steps.size(); ++i)
+        lint_step(one, i, stations_of(one, *protocol), false, problems);
+  if (!set.manuals.empty()) lint_citations(set, problems);
+  return problems;
+}
+
 std::vector<std::string> lint_statements(const VectorSet& set) {
   std::vector<std::string> problems;
-  std::set<std::string> manuals, ids;
+  std::set<std::string_view> manuals, ids;
   for (const Manual& manual : set.manuals) manuals.insert(manual.id);
   for (const Statement& statement : set.statements) {
     if (!ids.insert(statement.id).second)
@@ -169,16 +155,7 @@ std::vector<std::string> lint_statements(const VectorSet& set) {
       problems.push_back(fmt::format("statements: {}: no manual '{}' in manuals.json", statement.id,
                                      statement.manual));
   }
-  for (const std::vector<Case>* cases : {&set.cases, &set.tables})
-    for (const Case& one : *cases) {
-      if (!manuals.contains(one.source.manual))
-        problems.push_back(fmt::format("{}: {}: no manual '{}' in manuals.json", one.file, one.id,
-                                       one.source.manual));
-      for (const std::string& statement : one.source.statements)
-        if (!ids.contains(statement))
-          problems.push_back(
-              fmt::format("{}: {}: no statement '{}' in statements/", one.file, one.id, statement));
-    }
+  lint_citations(set, problems);
   for (const SectionCoverage& section : coverage(set))
     for (const std::string& id : section.uncovered)
       problems.push_back(fmt::format("statements: {} has neither a vector nor a reason", id));
@@ -224,49 +201,6 @@ std::vector<std::string> lint_tables(const VectorSet& set, const harness::Protoc
     if (!fact)
       problems.push_back(fmt::format("{}: {}: {}", one.file, one.id, fact.error().message));
   }
-  return problems;
-}
-
-std::vector<std::string> lint_quotes(const VectorSet& set, const fs::path& folder) {
-  std::vector<std::string> problems;
-  std::map<std::string, std::string> texts;
-  for (const Manual& manual : set.manuals) {
-    const std::string text = read_all(folder / manual.file);
-    if (!text.empty()) texts[manual.id] = fold_space(text);
-  }
-  for (const Quote& quote : quotes(set)) {
-    const auto text = texts.find(quote.manual);
-    if (text == texts.end())
-      problems.push_back(
-          fmt::format("{}: the text of {} is not in {}", quote.id, quote.manual, folder.string()));
-    else if (text->second.find(fold_space(quote.text)) == std::string::npos)
-      problems.push_back(fmt::format("{}: the quote does not stand in {}: \"{}\"", quote.id,
-                                     quote.manual, quote.text));
-    if (!long_enough(quote.text))
-      problems.push_back(
-          fmt::format("{}: the quote is shorter than five words: \"{}\"", quote.id, quote.text));
-  }
-  return problems;
-}
-
-std::string quotes_lock(const VectorSet& set) {
-  std::string lock;
-  for (const Quote& quote : quotes(set))
-    lock += fmt::format("{} {}\n", quote_hash(quote), quote.id);
-  return lock;
-}
-
-std::vector<std::string> lint_lock(const VectorSet& set, const std::string& lock) {
-  std::set<std::string> locked;
-  std::istringstream in(lock);
-  for (std::string line; std::getline(in, line);) locked.insert(line.substr(0, line.find(' ')));
-  std::vector<std::string> problems;
-  for (const Quote& quote : quotes(set))
-    if (!locked.contains(quote_hash(quote)))
-      problems.push_back(
-          fmt::format("{}: the quote is not the one last verified against the manual; run "
-                      "`fieldproof lint --manuals DIR --lock`",
-                      quote.id));
   return problems;
 }
 

@@ -17,6 +17,11 @@ namespace fieldproof::vectors {
 /// sends or expects has literal bytes, so that no byte of a vector can change unnoticed.
 std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protocols& protocols);
 
+/// What makes verdicts of these cases worthless, checked before a run: literal bytes that a vector
+/// prints contradict its notation, or it cites a manual or a statement that there is not (in a set
+/// that has manuals).
+std::vector<std::string> contradictions(const VectorSet& set, const harness::Protocols& protocols);
+
 /// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are
 /// unique.
 std::vector<std::string> lint_statements(const VectorSet& set);

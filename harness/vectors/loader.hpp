@@ -1,12 +1,14 @@
-// Vector files to cases: JSON, schema, expansion of `each`, notation. Nothing here knows a
-// protocol.
+// Vector files to cases. Nothing here knows a protocol by name: what one makes of a shared body, it
+// says itself.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "harness/protocols.hpp"
 #include "harness/vectors/case.hpp"
+#include "harness/vectors/filter.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof::vectors {
@@ -27,7 +29,7 @@ struct Manual {
 };
 
 /// All that a folder of vectors holds. A broken file does not hide the others: `problems` names
-/// each, with file, vector and key; a run starts only without any.
+/// each, with file, line, vector and key; a run starts only without any.
 struct VectorSet {
   std::vector<Case> cases;   // expanded, sorted by id; without tables
   std::vector<Case> tables;  // kind table
@@ -35,14 +37,19 @@ struct VectorSet {
   std::vector<Statement> statements;
   std::vector<Manual> manuals;
   std::vector<std::string> problems;
-  std::string hash;       // of all files, to tell vector sets apart
-  nlohmann::json schema;  // vectors/schema.json; null: files are not checked against it
+  std::string hash;  // of all files, to tell vector sets apart
 };
 
-/// A folder, or one file of vectors. The folder's own schema.json, where it has one, else
-/// `schema_file`.
-VectorSet load_vectors(const std::filesystem::path& folder,
-                       const std::filesystem::path& schema_file = {});
+/// What to load. The protocols dress pdu(...), and say which framings there are.
+struct LoadOptions {
+  harness::Protocols protocols{{}};
+  /// Not empty: only cases that match, and the statements that they cite. Vectors that cannot have
+  /// such a case are not parsed, so nobody notices what is wrong in them.
+  std::string filter{};
+};
+
+/// A folder, or one file of vectors.
+VectorSet load_vectors(const std::filesystem::path& folder, const LoadOptions& options = {});
 
 /// Adds the second entry of the double entry: `folder`/wires/**.json gives the literal bytes of
 /// each step of a case,
@@ -50,10 +57,7 @@ VectorSet load_vectors(const std::filesystem::path& folder,
 void load_wires(const std::filesystem::path& folder, VectorSet& set);
 
 /// The vectors of one file's text; `file` is for messages. Used by load_vectors and by tests.
-void load_vector_text(std::string_view text, const std::string& file, VectorSet& set);
-
-/// "*" and "?" as in a shell; '*' crosses '/'. Alternatives are separated by ':' and a leading '-'
-/// excludes.
-bool matches_filter(std::string_view id, std::string_view filter);
+void load_vector_text(std::string_view text, const std::string& file, VectorSet& set,
+                      const LoadOptions& options = {});
 
 }  // namespace fieldproof::vectors

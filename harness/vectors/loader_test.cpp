@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <fstream>
+
+#include "harness/test_protocol.hpp"
 
 namespace fieldproof::vectors {
 namespace {
@@ -18,13 +21,9 @@ const std::string two_words = R"j({
   "given": {"config": {"station": 1}, "memory": {"%MW020": "1234"}},
   "steps": [{"send": "[ENQ st 'rSS' EOT BCC]", "wire": "05"}, {"expect": "[ACK st 'rSS' ETX BCC]"}]})j";
 
-VectorSet load(const std::string& text, bool with_schema = true) {
+VectorSet load(const std::string& text, const LoadOptions& options = {}) {
   VectorSet set;
-  if (with_schema) {
-    std::ifstream in(std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json");
-    set.schema = nlohmann::json::parse(in);
-  }
-  load_vector_text(text, "test.json", set);
+  load_vector_text(text, "test.json", set, options);
   return set;
 }
 
@@ -72,7 +71,7 @@ TEST(Loader, EachIsAProductOfRows) {
 TEST(Loader, ASubstitutionWithoutItsRowIsNamed) {
   EXPECT_THAT(
       only_problem(replaced(two_words, "'rSS'", "'${r}SS'")),
-      HasSubstr("test.json: xgt_cnet/rss/two_words: steps[0]: no row of `each` gives '${r}'"));
+      HasSubstr("test.json:1: xgt_cnet/rss/two_words: steps[0]: no row of `each` gives '${r}'"));
 }
 
 TEST(Loader, NamedAlternativesKeepTheirOrder) {
@@ -128,7 +127,7 @@ TEST(Loader, TheSecondEntryFillsInWhatTheVectorDoesNotPrint) {
   std::ofstream(folder / "a.json") << two_words;
   std::ofstream(folder / "wires" / "a.json")
       << R"({"xgt_cnet/rss/two_words": {"0": "FF", "1": "06 03"}, "xgt_cnet/no/such": {"0": "05"}})";
-  VectorSet set = load_vectors(folder, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json");
+  VectorSet set = load_vectors(folder);
   load_wires(folder, set);
   ASSERT_EQ(set.cases.size(), 1u);
   EXPECT_EQ(set.cases[0].steps[0].frames[0].wire, "05") << "what is printed stays";
@@ -143,8 +142,7 @@ TEST(Loader, AFolderWithABrokenFileStillShowsTheOthers) {
   std::ofstream(folder / "a.json") << "[{]";
   std::ofstream(folder / "b.json") << two_words;
   std::ofstream(folder / "c.json") << two_words;
-  const VectorSet set =
-      load_vectors(folder, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json");
+  const VectorSet set = load_vectors(folder);
   EXPECT_EQ(set.cases.size(), 2u);
   EXPECT_THAT(set.problems, ElementsAre(HasSubstr("a.json: "),
                                         HasSubstr("the id xgt_cnet/rss/two_words is used twice")));
@@ -154,9 +152,7 @@ TEST(Loader, AFolderWithABrokenFileStillShowsTheOthers) {
 TEST(Loader, OneFileAloneCanBeLoaded) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "one_vector.json";
   std::ofstream(file) << two_words;
-  EXPECT_EQ(
-      load_vectors(file, std::string(FIELDPROOF_SOURCE_DIR) + "/vectors/schema.json").cases.size(),
-      1u);
+  EXPECT_EQ(load_vectors(file).cases.size(), 1u);
   std::filesystem::remove(file);
 }
 
@@ -165,14 +161,130 @@ TEST(Loader, AnAbsentFolderSaysWhatToDo) {
               ElementsAre(HasSubstr("name their folder, or one file, with --vectors")));
 }
 
-TEST(Filter, GlobsCrossSlashesAndExclude) {
-  EXPECT_TRUE(matches_filter("a/b/c", ""));
-  EXPECT_TRUE(matches_filter("a/b/c", "a/*"));
-  EXPECT_TRUE(matches_filter("a/b/c", "x:*c"));
-  EXPECT_TRUE(matches_filter("a/b/c", "a/?/c"));
-  EXPECT_FALSE(matches_filter("a/b/c", "a/b"));
-  EXPECT_FALSE(matches_filter("a/b/c", "a/*:-*c"));
-  EXPECT_TRUE(matches_filter("a/b/d", "-*c"));
+/// Two protocols that frame a shared body, and one that does not.
+struct Framed : harness::TestProtocol {
+  Framed(std::string_view name, const notation::Dressing* dressing)
+      : name_(name), dressing_(dressing) {}
+  std::string_view name() const override { return name_; }
+  const notation::Dressing* dressing() const override { return dressing_; }
+
+ private:
+  std::string_view name_;
+  const notation::Dressing* dressing_;
+};
+constexpr notation::Dressing binary_dressing{"[${station} ${body} CRC${wrong}]", false};
+constexpr notation::Dressing text_dressing{"[':' ${station} ${body} CR]", true};
+const Framed binary("one-binary", &binary_dressing), text("one-text", &text_dressing);
+const Framed plain("plain", nullptr);
+const std::array<const harness::Protocol*, 3> protocol_table{&plain, &binary, &text};
+const harness::Protocols protocols(protocol_table);
+
+const std::string shared = R"j({
+  "id": "one/read/word", "rev": 1, "framings": ["one_binary", "one_text"], "title": "Read the word ${a}",
+  "source": {"manual": "m", "section": "1", "statement": ["m/1"], "quote": "as it is printed"},
+  "level": "must", "basis": "printed",
+  "each": {"address": [{"case": "low", "a": "00 01"}, {"case": "high", "a": "01 00"}]},
+  "differs": {"one_text": {"source": {"section": "2"}, "basis": "derived", "why": "the same in digits"}},
+  "steps": [{"send": "pdu(03 ${a})", "wire": {"one_binary": "01 03"}}, {"expect": "pdu(83 ??)"}],
+  "errata": [{"printed": "a", "correct": "b", "why": "because it is"}]})j";
+
+TEST(Framings, GiveACaseEachUnderTheirIds) {
+  const VectorSet set = load(shared, {protocols});
+  ASSERT_THAT(set.problems, IsEmpty());
+  std::vector<std::string> ids;
+  for (const Case& one : set.cases) ids.push_back(one.id);
+  EXPECT_THAT(ids, ElementsAre("one_binary/read/word/low", "one_binary/read/word/high",
+                               "one_text/read/word/low", "one_text/read/word/high"));
+  EXPECT_EQ(set.cases[0].vector_id, "one_binary/read/word");
+  EXPECT_EQ(set.cases[3].protocol, "one-text");
+  EXPECT_EQ(set.errata.size(), 2u);
+}
+
+TEST(Framings, DressTheBody) {
+  const VectorSet set = load(shared, {protocols});
+  EXPECT_EQ(set.cases[0].steps[0].frames[0].text, "[st 03 00 01 CRC]");
+  EXPECT_EQ(set.cases[3].steps[0].frames[0].text, "[':' st '030100' CR]");
+  EXPECT_EQ(set.cases[3].steps[1].frames[0].text, "[':' st '83' x:2 CR]");
+}
+
+TEST(Framings, HaveTheirOwnBytesAndSources) {
+  const VectorSet set = load(shared, {protocols});
+  EXPECT_EQ(set.cases[0].steps[0].frames[0].wire, "01 03");
+  EXPECT_FALSE(set.cases[2].steps[0].frames[0].wire);
+  EXPECT_EQ(set.cases[0].source.section, "1");
+  EXPECT_EQ(set.cases[2].source.section, "2");
+  EXPECT_EQ(set.cases[2].source.statements, std::vector<std::string>{"m/1"});
+  EXPECT_EQ(set.cases[0].basis, "printed");
+  EXPECT_EQ(set.cases[2].basis, "derived");
+  EXPECT_EQ(set.cases[2].why, "the same in digits");
+}
+
+TEST(Framings, WhatTheyCannotBeIsNamed) {
+  const auto problems = [](const std::string& from, const std::string& to) {
+    return load(replaced(shared, from, to), {protocols}).problems;
+  };
+  EXPECT_THAT(problems("\"one_text\"]", "\"one_txt\"]"),
+              ElementsAre(HasSubstr("differs: 'one_text' is none of its framings")));
+  EXPECT_THAT(problems("\"one_text\"]", "\"one_text\", \"plain\"]"),
+              ElementsAre(HasSubstr("no protocol frames a shared body as 'plain'")));
+  EXPECT_THAT(problems("{\"one_binary\": \"01 03\"}", "{\"one_binry\": \"01 03\"}"),
+              ElementsAre(HasSubstr("steps[0].wire: 'one_binry' is none of its framings")));
+  EXPECT_THAT(problems("{\"one_binary\": \"01 03\"}", "\"01 03\""),
+              ElementsAre(HasSubstr("steps[0].wire: say of which framing these bytes are")));
+  EXPECT_THAT(problems("\"why\": \"the same in digits\"", "\"title\": \"another title\""),
+              ElementsAre("test.json:1: one/read/word: differs.one_text: lacks 'why'"));
+}
+
+TEST(Framings, ABodyWithoutThemIsThatOfTheProtocol) {
+  EXPECT_EQ(load(replaced(two_words, "[ENQ st 'rSS' EOT BCC]", "pdu(07)"), {}).problems.front(),
+            "test.json:1: xgt_cnet/rss/two_words: steps[0]: \"pdu(07)\": this protocol frames no "
+            "pdu(...); write the whole frame, or name the `framings` of the vector");
+  std::string own = replaced(two_words, "xgt_cnet/rss", "one_binary/rss");
+  own = replaced(own, "[ENQ st 'rSS' EOT BCC]", "pdu@02!(07)");
+  EXPECT_EQ(load(own, {protocols}).cases.at(0).steps[0].frames[0].text, "[02 07 CRC!]");
+}
+
+TEST(Filter, LeavesTheOtherCasesUnread) {
+  const std::string broken = R"j({"id": "xgt_cnet/broken/one", "colour": 1})j";
+  const std::string all = "[" + two_words + "," + broken + "," + shared + "]";
+  EXPECT_THAT(load(all, {protocols}).problems, testing::Not(IsEmpty()));
+  const VectorSet set = load(all, {protocols, "one_text/*low"});
+  EXPECT_THAT(set.problems, IsEmpty());
+  ASSERT_EQ(set.cases.size(), 1u);
+  EXPECT_EQ(set.cases[0].id, "one_text/read/word/low");
+  EXPECT_EQ(load(all, {protocols, "xgt_cnet/rss/*"}).cases.size(), 1u);
+  EXPECT_THAT(load(all, {protocols, "*one"}).problems, testing::Not(IsEmpty()));
+}
+
+TEST(Filter, LeavesStatementsThatNoCaseCites) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "loader_cited";
+  std::filesystem::create_directories(folder / "statements");
+  std::ofstream(folder / "a.json") << "[" << two_words << "," << shared << "]";
+  std::ofstream(folder / "statements" / "m.json")
+      << R"([{"id": "m/1", "section": "1", "quote": "q"}, {"id": "m/2", "section": "2", "quote": "r"}])";
+  EXPECT_EQ(load_vectors(folder, {protocols}).statements.size(), 2u);
+  const VectorSet set = load_vectors(folder, {protocols, "one_text/*"});
+  ASSERT_EQ(set.statements.size(), 1u);
+  EXPECT_EQ(set.statements[0].id, "m/1");
+  EXPECT_EQ(set.hash, load_vectors(folder, {protocols}).hash) << "of all files, whatever is read";
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Loader, OneCommaTooMuchIsOneProblemAtItsLine) {
+  for (const char* text : {"[\n{\"id\": \"a/b\"},\n,{}]", "[\n{\"id\": \"a/b\",\n,\"rev\": 1}]"}) {
+    VectorSet set;
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "comma.json";
+    std::ofstream(file) << text;
+    EXPECT_THAT(load_vectors(file).problems,
+                ElementsAre(testing::AllOf(HasSubstr("comma.json: "), HasSubstr("line 3"))))
+        << text;
+    std::filesystem::remove(file);
+  }
+}
+
+TEST(Loader, AVectorIsNamedByItsLine) {
+  EXPECT_THAT(load("[\n" + two_words + ",\n{\"rev\": \"first\"}]").problems,
+              testing::Contains("test.json:8: a vector: rev: is \"first\"; write a whole number"));
 }
 
 TEST(ConfigStation, IsANumberOrItsDigits) {

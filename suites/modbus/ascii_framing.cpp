@@ -96,6 +96,11 @@ class Ascii : public Framing {
     return fields;
   }
 
+  const notation::Dressing& dressing() const override {
+    static constexpr notation::Dressing dressing{"[':' ${station} ${body} LRC${wrong} CR LF]",
+                                                 true};
+    return dressing;
+  }
   Duration frame_gap(Duration) const override { return {}; }
 
   std::vector<Bytes> messages(ByteView bytes) const override {

@@ -24,6 +24,7 @@ class Framing {
   /// piece of their own.
   virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
   virtual std::vector<harness::Field> explain(ByteView frame) const = 0;
+  virtual const notation::Dressing& dressing() const = 0;
   virtual Duration frame_gap(Duration character_time) const = 0;
 
   /// Every message that a device could read in these bytes, whole or damaged: several frames, a

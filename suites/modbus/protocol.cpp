@@ -43,6 +43,7 @@ class Modbus : public Protocol {
   }
 
   Bytes station_bytes(int station) const override { return framing_.station_bytes(station); }
+  const notation::Dressing* dressing() const override { return &framing_.dressing(); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return framing_.frame_length(bytes);
   }

@@ -84,6 +84,11 @@ class Rtu : public Framing {
     return fields;
   }
 
+  const notation::Dressing& dressing() const override {
+    static constexpr notation::Dressing dressing{"[${station} ${body} CRC${wrong}]", false};
+    return dressing;
+  }
+
   /// 3.5 characters of 11 bits (Cnet KO 4.3.1), in characters of 10 bits or more.
   Duration frame_gap(Duration character_time) const override { return character_time * 4; }
 

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "harness/vectors/schema.hpp"
+#include "reports/results/test_json_schema.hpp"
 #include "suites/tool/tool_files.hpp"
 
 namespace fieldproof::tool_tests {
@@ -390,6 +390,10 @@ TEST_F(JudgeCommand, HostileRecordingsAreSurvived) {
 
 json results_schema() {
   return json::parse(read_text(FIELDPROOF_SOURCE_DIR "/reports/results.schema.json"));
+}
+
+std::vector<std::string> schema_problems(const json& schema, const json& document) {
+  return results::test::JsonSchema(schema).problems(document);
 }
 
 json schema_of(const char* definition) {

@@ -68,8 +68,7 @@ TEST_P(TheSuite, CatchesOnThePort) {
 
 /// The case that must catch `fault`, against the inverter of the name `device`.
 results::CaseResult run_in_process(const Fault& fault, std::string_view device) {
-  const vectors::VectorSet set =
-      vectors::load_vectors(vectors_of(fault), sources + "/vectors/schema.json");
+  const vectors::VectorSet set = vectors::load_vectors(vectors_of(fault));
   const auto source = std::ranges::find(set.cases, case_id(fault), &vectors::Case::id);
   if (source == set.cases.end()) {
     ADD_FAILURE() << "there is no case " << case_id(fault);

@@ -39,8 +39,8 @@ const Cases& cases(const std::string& folder) {
   static std::map<std::string, Cases> known;
   const auto [found, is_new] = known.try_emplace(folder);
   if (!is_new) return found->second;
-  const vectors::VectorSet set = vectors::load_vectors(
-      FIELDPROOF_SOURCE_DIR "/vectors/" + folder, FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
+  const vectors::VectorSet set =
+      vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors", {suites::protocols(), folder + "/*"});
   EXPECT_THAT(set.problems, testing::IsEmpty());
   std::ranges::copy_if(set.cases, std::back_inserter(found->second), concerns);
   return found->second;

@@ -25,8 +25,7 @@ namespace {
 /// Without the cases of P2P blocks: suites/p2p/broken.
 const vectors::VectorSet& vectors() {
   static const vectors::VectorSet set = [] {
-    vectors::VectorSet all = vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/user_frames",
-                                                   FIELDPROOF_SOURCE_DIR "/vectors/schema.json");
+    vectors::VectorSet all = vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/user_frames");
     std::erase_if(all.cases, [](const Case& one) { return one.config.contains("p2p"); });
     return all;
   }();

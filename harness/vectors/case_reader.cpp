@@ -1,0 +1,286 @@
+#include "harness/vectors/case_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "harness/vectors/broken.hpp"
+#include "harness/vectors/framings.hpp"
+#include "harness/vectors/links.hpp"
+#include "harness/vectors/transactions.hpp"
+#include "src/base/duration.hpp"
+#include "src/base/spelling.hpp"
+
+namespace fieldproof::vectors {
+
+namespace {
+
+using json = nlohmann::ordered_json;  // the first of named alternatives is the preferred one
+
+Duration read_duration(const std::string& text) {
+  const Result<Duration> duration = parse_duration(text);
+  if (!duration) throw Broken(duration.error().message);
+  return *duration;
+}
+
+// One vector makes up to a thousand cases: texts are substituted where they are read, without a
+// JSON tree for each case.
+
+/// The text at `value`, substituted.
+std::string text_of(const json& value, const Row& row) {
+  return substitute(value.get_ref<const std::string&>(), row);
+}
+std::string text_of(const json& value, const char* key, const Row& row) {
+  return value.contains(key) ? text_of(value[key], row) : "";
+}
+
+std::vector<std::pair<std::string, std::string>> read_memory(const json& value, const Row& row) {
+  std::vector<std::pair<std::string, std::string>> memory;
+  for (const auto& [key, hex] : value.items()) {
+    const std::string address = substitute(key, row), text = text_of(hex, row);
+    const std::optional<std::string> digits = expand_hex(text);
+    if (!digits) throw Broken(fmt::format("{}: '{}' are no hex digits", address, text));
+    memory.emplace_back(address, *digits);
+  }
+  return memory;
+}
+
+PartnerSpec read_partner(const json& value, const Row& row) {
+  PartnerSpec partner;
+  for (const auto& [key, entry] : value.items()) {
+    if (key == "model")
+      partner.model = text_of(entry, row);
+    else if (key == "memory")
+      partner.memory = read_memory(entry, row);
+    else if (key == "fault")
+      partner.fault = text_of(entry, row);
+    else
+      partner.config[key] = nlohmann::json(substitute(entry, row));
+  }
+  if (!config_station(partner.config, 1))
+    throw Broken("partner.station is not a number from 0 to 255");
+  if (!partner.fault.empty() && partner.fault != "none" &&
+      std::ranges::find(partner_faults, partner.fault) == partner_faults.end())
+    throw Broken(fmt::format("unknown fault '{}'{}; the faults of a partner are {}", partner.fault,
+                             suggestion(partner.fault, partner_faults),
+                             fmt::join(partner_faults, ", ")));
+  if (partner.fault == "none") partner.fault.clear();
+  return partner;
+}
+
+Source read_source(const json& value) {
+  Source source{value.at("manual"), value.at("section"), value.at("quote"), {}};
+  const json& statement = value.at("statement");
+  if (statement.is_string())
+    source.statements.push_back(statement);
+  else
+    source.statements = statement.get<std::vector<std::string>>();
+  return source;
+}
+
+void read_given(const json& given, const Row& row, Case& result) {
+  if (given.contains("config")) result.config = nlohmann::json(substitute(given["config"], row));
+  if (!config_station(result.config, 1))
+    throw Broken("given.config.station is not a number from 0 to 255");
+  if (given.contains("memory")) result.memory = read_memory(given["memory"], row);
+  result.fresh = given.value("fresh", false);
+}
+
+void read_open(const json& value, const Row& row, Step& step) {
+  if (value.is_string()) {
+    step.on = text_of(value, row);
+    return;
+  }
+  step.on = text_of(value, "name", row);
+  step.link.protocol = text_of(value, "protocol", row);
+  if (value.value("transport", "tcp") == "udp") step.link.transport = Transport::udp;
+  step.link.port = value.value("port", std::uint16_t{0});
+}
+
+Closing read_closing(const json& value) {
+  return value == "fin" ? Closing::fin : value == "rst" ? Closing::rst : Closing::vanish;
+}
+
+std::optional<LinkEvent> read_ending(const json& value) {
+  if (value == "any") return std::nullopt;
+  return value == "fin" ? LinkEvent::closed : LinkEvent::reset;
+}
+
+constexpr std::array<std::pair<const char*, Step::Kind>, 11> kinds{
+    {{"send", Step::Kind::send},
+     {"expect", Step::Kind::expect},
+     {"partner", Step::Kind::partner},
+     {"silence", Step::Kind::silence},
+     {"wait", Step::Kind::wait},
+     {"set", Step::Kind::set},
+     {"check", Step::Kind::check},
+     {"do", Step::Kind::act},
+     {"open", Step::Kind::open},
+     {"close", Step::Kind::close},
+     {"expect_close", Step::Kind::expect_close}}};
+
+/// What kind of step it is. A partner may stand in an expect.
+Step::Kind kind_of(const json& value) {
+  std::vector<std::pair<const char*, Step::Kind>> found;
+  for (const auto& kind : kinds)
+    if (value.contains(kind.first) &&
+        !(kind.second == Step::Kind::partner && value.contains("expect")))
+      found.push_back(kind);
+  if (found.size() == 1) return found.front().second;
+  std::vector<const char*> names;
+  for (const auto& [name, kind] : kinds) names.push_back(name);
+  throw Broken(
+      fmt::format("a step is one of {}; this one has {}", fmt::join(names, ", "), found.size()));
+}
+
+bool has_pause(const Frame& frame) {
+  return std::ranges::any_of(frame.notation, [](const notation::Item& item) {
+    return item.kind == notation::Item::Kind::pause;
+  });
+}
+
+/// The steps of one case, in order.
+class StepReader {
+ public:
+  /// `steps` of the vector, for one combination of rows.
+  StepReader(const json& steps, const Row& row, const notation::Dressing* dressing, bool client)
+      : row_(row),
+        dressing_(dressing),
+        transactions_(client),
+        links_(std::ranges::any_of(
+            steps, [](const json& step) { return step.contains("on") || step.contains("open"); })) {
+  }
+
+  Step read(const json& value) {
+    Step step;
+    step.kind = kind_of(value);
+    if (value.contains("on")) step.on = text_of(value["on"], row_);
+    if (step.kind == Step::Kind::open) read_open(value["open"], row_, step);
+    if (step.kind == Step::Kind::close) step.closing = read_closing(value["close"]);
+    links_.resolve(step);
+    read_content(value, step);
+    if (value.contains("partner")) step.partner = read_partner(value["partner"], row_);
+    if (value.contains("within")) step.within = duration(value["within"]);
+    if (value.contains("every")) step.every = duration(value["every"]);
+    if (value.contains("max_gap")) step.max_gap = duration(value["max_gap"]);
+    step.times = value.value("times", 1);
+    return step;
+  }
+
+ private:
+  Duration duration(const json& value) const { return read_duration(text_of(value, row_)); }
+
+  void read_content(const json& value, Step& step) {
+    switch (step.kind) {
+      case Step::Kind::send: return read_send(value, step);
+      case Step::Kind::expect: return read_frames(value["expect"], value, step);
+      case Step::Kind::silence: return read_silence(step);
+      case Step::Kind::wait: step.duration = duration(value["wait"]); return;
+      case Step::Kind::set: step.memory = read_memory(value["set"], row_); return;
+      case Step::Kind::check: step.memory = read_memory(value["check"], row_); return;
+      case Step::Kind::act: step.action = text_of(value["do"], row_); return;
+      case Step::Kind::expect_close: step.ending = read_ending(value["expect_close"]); return;
+      case Step::Kind::open:
+      case Step::Kind::close:
+      case Step::Kind::partner: return;
+    }
+  }
+
+  void read_send(const json& value, Step& step) {
+    read_frames(value["send"], value, step);
+    if (links_.is_datagram(step.on) && has_pause(step.frames.front()))
+      throw Broken("a datagram is sent whole; take the pause out, or make two sends of it");
+  }
+
+  void read_silence(const Step& step) {
+    transactions_.begin(step.kind, step.on);
+    transactions_.end();
+  }
+
+  /// One frame, or named alternatives.
+  void read_frames(const json& value, const json& step_value, Step& step) {
+    const json* wire = step_value.contains("wire") ? &step_value["wire"] : nullptr;
+    transactions_.begin(step.kind, step.on);
+    if (value.is_string()) {
+      step.frames.push_back(frame("", value, wire));
+    } else {
+      step.reading = value.at("reading");
+      for (const auto& [name, text] : value.items()) {
+        if (name == "reading") continue;
+        transactions_.again();
+        step.frames.push_back(frame(name, text, wire));
+      }
+    }
+    transactions_.end();
+  }
+
+  Frame frame(const std::string& reading, const json& text, const json* wire) {
+    Frame frame{reading, dressed(text_of(text, row_)), {}, {}};
+    Result<notation::Notation> notation = notation::parse_notation(frame.text);
+    if (!notation) throw Broken(fmt::format("\"{}\": {}", frame.text, notation.error().message));
+    frame.notation = std::move(*notation);
+    if (wire && wire->is_string()) frame.wire = text_of(*wire, row_);
+    if (wire && wire->is_object() && wire->contains(reading))
+      frame.wire = text_of(wire->at(reading), row_);
+    return frame;
+  }
+
+  std::string dressed(std::string text) {
+    if (text.find("pdu") == text.npos || !notation::has_pdu(text)) return text;
+    if (!dressing_)
+      throw Broken(
+          fmt::format("\"{}\": this protocol frames no pdu(...); write the whole frame, "
+                      "or name the `framings` of the vector",
+                      text));
+    Result<std::string> result =
+        notation::dress(text, *dressing_, [this] { return transactions_.next(); });
+    if (!result) throw Broken(fmt::format("\"{}\": {}", text, result.error().message));
+    return std::move(*result);
+  }
+
+  const Row& row_;
+  const notation::Dressing* dressing_;
+  Transactions transactions_;
+  Links links_;
+};
+
+}  // namespace
+
+CaseReader::CaseReader(const json& vector, std::string file, const notation::Dressing* dressing)
+    : vector_(vector),
+      file_(std::move(file)),
+      dressing_(dressing),
+      source_(read_source(vector.at("source"))) {}
+
+Case CaseReader::read(const Combination& combination) const {
+  const Row& row = combination.row;
+  Case result;
+  result.vector_id = vector_.at("id");
+  result.id = result.vector_id + combination.suffix;
+  result.rev = vector_.at("rev");
+  result.title = text_of(vector_.at("title"), row);
+  result.protocol = protocol_of(result.id);
+  result.source = source_;
+  result.level = text_of(vector_.at("level"), row);
+  result.basis = text_of(vector_.at("basis"), row);
+  result.why = text_of(vector_, "why", row);
+  if (vector_.contains("models"))
+    for (const json& model : vector_["models"]) result.models.push_back(text_of(model, row));
+  result.transpose = vector_.value("transpose", true);
+  result.file = file_;
+  if (vector_.contains("given")) read_given(vector_["given"], row, result);
+  if (vector_.contains("facts")) result.facts = nlohmann::json(substitute(vector_["facts"], row));
+  if (!vector_.contains("steps")) return result;
+  const json& steps = vector_["steps"];
+  StepReader reader(steps, row, dressing_, is_client_case(result));
+  for (std::size_t i = 0; i < steps.size(); ++i) try {
+      result.steps.push_back(reader.read(steps[i]));
+    } catch (const Broken& broken) {
+      throw Broken(fmt::format("steps[{}]: {}", i, broken.what()));
+    }
+  return result;
+}
+
+}  // namespace fieldproof::vectors

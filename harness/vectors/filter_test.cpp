@@ -1,0 +1,40 @@
+#include "harness/vectors/filter.hpp"
+
+#include <gtest/gtest.h>
+
+namespace fieldproof::vectors {
+namespace {
+
+TEST(Filter, GlobsCrossSlashesAndExclude) {
+  EXPECT_TRUE(matches_filter("a/b/c", ""));
+  EXPECT_TRUE(matches_filter("a/b/c", "a/*"));
+  EXPECT_TRUE(matches_filter("a/b/c", "x:*c"));
+  EXPECT_TRUE(matches_filter("a/b/c", "a/?/c"));
+  EXPECT_FALSE(matches_filter("a/b/c", "a/b"));
+  EXPECT_FALSE(matches_filter("a/b/c", "a/*:-*c"));
+  EXPECT_TRUE(matches_filter("a/b/d", "-*c"));
+}
+
+TEST(Filter, AStemMayGoOnInAnyWay) {
+  EXPECT_TRUE(may_match_filter("a/b", ""));
+  EXPECT_TRUE(may_match_filter("a/b", "-a/*"));
+  EXPECT_TRUE(may_match_filter("a/b", "a/b/c/d"));
+  EXPECT_TRUE(may_match_filter("a/b", "a/b"));
+  EXPECT_TRUE(may_match_filter("a/b", "x/y:*c"));
+  EXPECT_TRUE(may_match_filter("a/b", "a/?/c"));
+  EXPECT_FALSE(may_match_filter("a/b", "a/c/*"));
+  EXPECT_FALSE(may_match_filter("a/b", "a"));
+  EXPECT_FALSE(may_match_filter("a/b", "x/*:y/*"));
+}
+
+TEST(Filter, WhatMatchesMayMatchFromEveryStem) {
+  const std::string_view id = "xgt_cnet/rss/refused/lower";
+  for (const std::string_view filter : {"*", "xgt_cnet/*", "*lower", "x*/?ss?ref*:-*upper",
+                                        "xgt_cnet/rss/refused/lower", "a:*/lower"})
+    for (std::size_t size = 0; size <= id.size(); ++size)
+      EXPECT_TRUE(matches_filter(id, filter) && may_match_filter(id.substr(0, size), filter))
+          << filter << ' ' << size;
+}
+
+}  // namespace
+}  // namespace fieldproof::vectors
