@@ -10,6 +10,10 @@ bool faultless(const std::vector<Field>& fields) {
          std::ranges::all_of(fields, [](const Field& field) { return field.problem.empty(); });
 }
 
+notation::Fields Protocol::fields_at(int station) const {
+  return {station_bytes(station), station_bytes((station + 1) % 256), checks()};
+}
+
 plc::FrameResult Protocol::monitor_result(ByteView frame, bool, bool) const {
   return faultless(explain(frame)) ? plc::FrameResult::user_definition : plc::FrameResult::unknown;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/notation/dressing.hpp"
+#include "harness/notation/frame_template.hpp"
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
@@ -50,6 +51,11 @@ class Protocol {
 
   /// The station number as it stands in a frame.
   virtual Bytes station_bytes(int station) const = 0;
+
+  /// The checks that its frames have, for the notation. They live as long as the program.
+  virtual notation::Checks checks() const { return {}; }
+  /// What the moving fields of the notation become at a station.
+  notation::Fields fields_at(int station) const;
 
   /// How it frames a body that it shares with other protocols: pdu(...) of a vector. nullptr: it
   /// shares none.

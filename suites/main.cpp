@@ -333,7 +333,8 @@ int run_tool(int argc, char** argv) {
       [&] { chosen = [&] { return cli::probe_command(probe, suites::protocols()); }; });
   frame_app->callback(
       [&] { chosen = [&] { return cli::frame_command(frame, suites::protocols()); }; });
-  errata_app->callback([&] { chosen = [&] { return cli::errata_command(errata, protocols()); }; });
+  errata_app->callback(
+      [&] { chosen = [&] { return cli::errata_command(errata, suites::protocols()); }; });
   compare_app->callback([&] { chosen = [&] { return cli::compare_command(compare); }; });
   merge_app->callback([&] { chosen = [&] { return cli::merge_command(merge); }; });
   judge_app->callback(

@@ -37,7 +37,7 @@ bool looks_like_hex(const std::string& text) {
 }
 
 /// Notation, hex or raw, in this order of likelihood.
-Result<Bytes> read_frame_text(const std::string& text, const notation::Stations& stations) {
+Result<Bytes> read_frame_text(const std::string& text, const notation::Fields& stations) {
   if (looks_like_hex(text)) return *from_hex(text);
   const Result<notation::Notation> notation = notation::parse_notation(text);
   if (!notation) {
@@ -66,8 +66,7 @@ struct FrameReading {
 };
 
 Result<FrameReading> read_as(const harness::Protocol& protocol, const FrameOptions& options) {
-  const notation::Stations stations{protocol.station_bytes(options.station),
-                                    protocol.station_bytes((options.station + 1) % 256)};
+  const notation::Fields stations = protocol.fields_at(options.station);
   Result<Bytes> bytes = read_frame_text(options.frame, stations);
   if (!bytes) return bytes.error();
   std::vector<harness::Field> fields = protocol.explain(*bytes);

@@ -4,25 +4,17 @@
 #include <algorithm>
 #include <optional>
 
-#include "harness/notation/checks.hpp"
-
 namespace fieldproof::exchange {
 
 using harness::Field;
 using harness::Protocol;
-using notation::CheckKind;
+using notation::find_check;
 using plc::EmulatedDevice;
 
 namespace {
 
 constexpr Byte foreign = '*';            // stands in no frame of these protocols
 constexpr Duration longest_think = 10s;  // no device answers later
-
-std::optional<CheckKind> check_kind(std::string_view field) {
-  for (const CheckKind kind : {CheckKind::bcc, CheckKind::sum, CheckKind::crc, CheckKind::lrc})
-    if (field == notation::to_string(kind)) return kind;
-  return std::nullopt;
-}
 
 bool is_hex(ByteView bytes) {
   return !bytes.empty() &&
@@ -37,7 +29,9 @@ bool is_text(const Protocol& protocol) { return protocol.station_bytes(0).size()
 class Editor {
  public:
   Editor(ByteView frame, const Protocol& protocol)
-      : bytes_(frame.begin(), frame.end()), fields_(protocol.explain(frame)) {}
+      : bytes_(frame.begin(), frame.end()),
+        fields_(protocol.explain(frame)),
+        checks_(protocol.checks()) {}
 
   const Field* find(std::string_view name) const {
     const auto found = std::ranges::find(fields_, name, &Field::name);
@@ -45,14 +39,14 @@ class Editor {
   }
   const Field* check() const {
     const auto found = std::ranges::find_if(
-        fields_, [](const Field& field) { return check_kind(field.name).has_value(); });
+        fields_, [&](const Field& field) { return find_check(checks_, field.name) != nullptr; });
     return found == fields_.end() ? nullptr : &*found;
   }
   /// The last field that carries something: no frame part and no station.
   const Field* content() const {
-    const auto carries = [](const Field& field) {
+    const auto carries = [&](const Field& field) {
       return field.size > 0 && field.name != "header" && field.name != "station" &&
-             field.name != "tail" && !check_kind(field.name);
+             field.name != "tail" && !find_check(checks_, field.name);
     };
     const auto found = std::find_if(fields_.rbegin(), fields_.rend(), carries);
     return found == fields_.rend() ? nullptr : &*found;
@@ -70,10 +64,16 @@ class Editor {
       if (field.offset >= at + size) field.offset = field.offset + with.size() - size;
   }
 
+  /// What the check covers.
+  ByteView covered(const Field& check) const {
+    const bool behind = find_check(checks_, check.name)->behind;
+    return behind ? ByteView(bytes_).subspan(check.offset + check.size)
+                  : ByteView(bytes_).first(check.offset);
+  }
+
   Bytes finish() {
     if (const Field* found = check()) {
-      const Bytes right =
-          notation::compute_check(*check_kind(found->name), ByteView(bytes_).first(found->offset));
+      const Bytes right = find_check(checks_, found->name)->over(covered(*found));
       std::ranges::copy(right, bytes_.begin() + static_cast<std::ptrdiff_t>(found->offset));
     }
     return std::move(bytes_);
@@ -82,6 +82,7 @@ class Editor {
  private:
   Bytes bytes_;
   std::vector<Field> fields_;
+  notation::Checks checks_;
 };
 
 Error lacks(std::string_view fault, const std::string& what) {
@@ -153,7 +154,7 @@ Result<Bytes> damaged(std::string_view fault, ByteView answer, int station,
     if (!check) return lacks(fault, "the answer has none");
     Bytes bytes(answer.begin(), answer.end());
     const Bytes wrong =
-        notation::compute_wrong_check(*check_kind(check->name), answer.first(check->offset));
+        find_check(protocol.checks(), check->name)->wrong_over(frame.covered(*check));
     std::ranges::copy(wrong, bytes.begin() + static_cast<std::ptrdiff_t>(check->offset));
     return bytes;
   }

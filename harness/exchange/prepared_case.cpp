@@ -80,8 +80,7 @@ Duration reply_limit(const Step& step, Duration response_max) {
 Result<PreparedCase> prepare(const vectors::Case& source, int station,
                              const harness::Protocol& protocol) {
   PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), {}};
-  const notation::Stations stations{protocol.station_bytes(station),
-                                    protocol.station_bytes((station + 1) % 256)};
+  const notation::Fields stations = protocol.fields_at(station);
   for (std::size_t i = 0; i < source.steps.size(); ++i) {
     PreparedStep step{&source.steps[i], {}};
     for (const vectors::Frame& frame : source.steps[i].frames) {

@@ -188,9 +188,10 @@ class Judge {
       if (frame.cells[i].kind != notation::FrameTemplate::Cell::Kind::literal)
         bytes[i] = received[i];
     for (const notation::FrameTemplate::Check& check : frame.checks) {
-      const Bytes right = notation::compute_check(
-          check.kind, ByteView(bytes).subspan(check.begin, check.at - check.begin));
-      std::ranges::copy(right, bytes.begin() + static_cast<std::ptrdiff_t>(check.at));
+      const Bytes right = notation::check_bytes(check, bytes);
+      const std::size_t size = bytes.size() - std::min(bytes.size(), check.at);
+      std::copy_n(right.begin(), std::min(right.size(), size),
+                  bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() - size));
     }
     return bytes;
   }

@@ -1,7 +1,10 @@
 #include "harness/notation/frame_template.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
+
+#include "src/base/spelling.hpp"
 
 namespace fieldproof::notation {
 
@@ -9,17 +12,9 @@ namespace {
 
 using Cell = FrameTemplate::Cell;
 
-/// XGT: byte 3 of the bracket (after header and station) is the main command; upper case has no
-/// check (Cnet EN 7.1.2 Note 5).
-bool check_vanishes(const FrameTemplate& frame, std::size_t begin) {
-  const std::size_t command = begin + 3;
-  return command < frame.bytes.size() && frame.cells[command].kind == Cell::Kind::literal &&
-         frame.bytes[command] >= 'A' && frame.bytes[command] <= 'Z';
-}
-
 class Builder {
  public:
-  explicit Builder(const Stations& stations) : stations_(stations) {
+  explicit Builder(const Fields& fields) : fields_(fields) {
     frames_.emplace_back();
     begins_.push_back(0);
   }
@@ -36,6 +31,8 @@ class Builder {
  private:
   Status add(const Item& item) {
     if (item.kind == Item::Kind::alternatives) return fork(item);
+    if (item.kind == Item::Kind::check && !find_check(fields_.checks, item.text))
+      return fail(unknown_check(item.text));
     for (std::size_t i = 0; i < frames_.size(); ++i) add_to(frames_[i], begins_[i], item);
     return ok();
   }
@@ -62,10 +59,10 @@ class Builder {
   void add_to(FrameTemplate& frame, std::size_t& begin, const Item& item) {
     switch (item.kind) {
       case Item::Kind::open: begin = frame.bytes.size(); break;
-      case Item::Kind::close: break;
+      case Item::Kind::close: settle_behind(frame, begin); break;
       case Item::Kind::literal: literal(frame, item.bytes); break;
       case Item::Kind::station:
-        literal(frame, item.number == 0 ? stations_.own : stations_.foreign);
+        literal(frame, item.number == 0 ? fields_.own : fields_.foreign);
         break;
       case Item::Kind::name:
         literal(frame, to_bytes(hex_number(item.text.size(), 2) + item.text));
@@ -109,35 +106,59 @@ class Builder {
     frame.open = true;
   }
 
-  static void check(FrameTemplate& frame, std::size_t begin, const Item& item) {
-    if (item.check == CheckKind::bcc && !item.wrong && check_vanishes(frame, begin)) return;
-    const bool settled =
-        std::all_of(frame.cells.begin() + static_cast<std::ptrdiff_t>(begin), frame.cells.end(),
-                    [](const Cell& cell) { return cell.kind == Cell::Kind::literal; });
-    if (settled) {
-      const ByteView covered = ByteView(frame.bytes).subspan(begin);
-      literal(frame, item.wrong ? compute_wrong_check(item.check, covered)
-                                : compute_check(item.check, covered));
+  std::string unknown_check(const std::string& name) const {
+    std::vector<std::string_view> names;
+    for (const Check& check : fields_.checks) names.push_back(check.name);
+    return fmt::format(
+        "unknown word '{}': it is no control character, and {}{}", name,
+        names.empty() ? "this protocol has no checks"
+                      : fmt::format("the checks of this protocol are {}", fmt::join(names, ", ")),
+        suggestion(name, names));
+  }
+
+  static bool is_literal(const FrameTemplate& frame, std::size_t from, std::size_t to) {
+    return std::all_of(frame.cells.begin() + static_cast<std::ptrdiff_t>(from),
+                       frame.cells.begin() + static_cast<std::ptrdiff_t>(to),
+                       [](const Cell& cell) { return cell.kind == Cell::Kind::literal; });
+  }
+
+  void check(FrameTemplate& frame, std::size_t begin, const Item& item) const {
+    const Check& kind = *find_check(fields_.checks, item.text);
+    const ByteView before = ByteView(frame.bytes).subspan(begin);
+    if (kind.absent && !item.wrong && kind.absent(before)) return;
+    if (!kind.behind && is_literal(frame, begin, frame.cells.size())) {
+      literal(frame, item.wrong ? kind.wrong_over(before) : kind.over(before));
       return;
     }
     const auto part = static_cast<std::uint16_t>(frame.checks.size());
-    frame.checks.push_back({item.check, item.wrong, begin, frame.bytes.size()});
-    for (std::size_t i = 0; i < check_size; ++i) {
+    frame.checks.push_back({&kind, item.wrong, begin, frame.bytes.size(), 0});
+    for (std::size_t i = 0; i < kind.size; ++i) {
       frame.bytes.push_back(0);
       frame.cells.push_back({Cell::Kind::check, part, static_cast<std::uint32_t>(i)});
     }
   }
 
-  const Stations& stations_;
+  /// The bracket is complete: checks of what is behind them are known where all of that is literal.
+  static void settle_behind(FrameTemplate& frame, std::size_t begin) {
+    for (FrameTemplate::Check& check : frame.checks) {
+      if (!check.kind->behind || check.begin != begin || check.end != 0) continue;
+      check.end = frame.bytes.size();
+      const std::size_t from = check.at + check.kind->size;
+      if (!is_literal(frame, from, check.end)) continue;
+      const ByteView covered = ByteView(frame.bytes).subspan(from);
+      std::ranges::copy(check.wrong ? check.kind->wrong_over(covered) : check.kind->over(covered),
+                        frame.bytes.begin() + static_cast<std::ptrdiff_t>(check.at));
+      for (std::size_t i = check.at; i < from; ++i) frame.cells[i] = {};
+    }
+  }
+
+  const Fields& fields_;
   std::vector<FrameTemplate> frames_;
   std::vector<std::size_t> begins_;  // of the bracket that is open, one a frame
 };
 
 Byte check_byte(const FrameTemplate& frame, const Cell& cell, ByteView bytes) {
-  const FrameTemplate::Check& check = frame.checks[cell.part];
-  const ByteView covered = bytes.subspan(check.begin, check.at - check.begin);
-  return (check.wrong ? compute_wrong_check(check.kind, covered)
-                      : compute_check(check.kind, covered))[cell.index];
+  return check_bytes(frame.checks[cell.part], bytes)[cell.index];
 }
 
 bool cell_matches(const FrameTemplate& frame, std::size_t i, ByteView received,
@@ -167,11 +188,17 @@ bool cell_matches(const FrameTemplate& frame, std::size_t i, ByteView received,
 
 }  // namespace
 
-Result<std::vector<FrameTemplate>> make_templates(const Notation& notation,
-                                                  const Stations& stations) {
-  Builder builder(stations);
+Result<std::vector<FrameTemplate>> make_templates(const Notation& notation, const Fields& fields) {
+  Builder builder(fields);
   if (Status added = builder.add_all(notation); !added) return added.error();
   return builder.take();
+}
+
+Bytes check_bytes(const FrameTemplate::Check& check, ByteView frame) {
+  const std::size_t from = check.kind->behind ? check.at + check.kind->size : check.begin;
+  const std::size_t to = std::min(check.kind->behind ? check.end : check.at, frame.size());
+  const ByteView covered = frame.subspan(std::min(from, to), to - std::min(from, to));
+  return check.wrong ? check.kind->wrong_over(covered) : check.kind->over(covered);
 }
 
 Result<Bytes> render(const FrameTemplate& frame, const Captures& captures) {

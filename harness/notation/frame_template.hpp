@@ -7,14 +7,16 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/notation/check.hpp"
 #include "harness/notation/notation.hpp"
 
 namespace fieldproof::notation {
 
 /// What the moving fields of a notation become.
-struct Stations {
-  Bytes own;      // st
-  Bytes foreign;  // st+1
+struct Fields {
+  Bytes own;        // st
+  Bytes foreign;    // st+1
+  Checks checks{};  // of the protocol; they outlive the templates
 };
 
 /// Texts captured by {id:4}, by id.
@@ -28,10 +30,11 @@ struct FrameTemplate {
     std::uint32_t index = 0;  // which byte of that part
   };
   struct Check {
-    CheckKind kind = CheckKind::bcc;
+    const notation::Check* kind = nullptr;
     bool wrong = false;
     std::size_t begin = 0;  // first byte of its bracket
     std::size_t at = 0;     // first byte of the check
+    std::size_t end = 0;    // the end of its bracket, for a check of what is behind it
   };
   struct Gap {
     std::size_t before = 0;  // byte that the pause precedes
@@ -49,9 +52,11 @@ struct FrameTemplate {
 };
 
 /// Every choice of named alternatives gives one template, the preferred one first.
-/// Errors: a check in a bracket of foreign shape, more than 64 alternatives.
-Result<std::vector<FrameTemplate>> make_templates(const Notation& notation,
-                                                  const Stations& stations);
+/// Errors: a check that the protocol does not have, more than 64 alternatives.
+Result<std::vector<FrameTemplate>> make_templates(const Notation& notation, const Fields& fields);
+
+/// What the check is in these bytes of its frame.
+Bytes check_bytes(const FrameTemplate::Check& check, ByteView frame);
 
 /// The bytes to send; an error when a place is open.
 Result<Bytes> render(const FrameTemplate& frame, const Captures& captures);

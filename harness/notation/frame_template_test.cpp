@@ -2,10 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
+#include "suites/checks/checks.hpp"
+
 namespace fieldproof::notation {
 namespace {
 
-const Stations station_1{to_bytes("01"), to_bytes("02")};
+const std::array<Check, 3> known{checks::bcc, checks::length, checks::sum};
+const Fields station_1{to_bytes("01"), to_bytes("02"), known};
 
 std::vector<FrameTemplate> templates(std::string_view text) {
   const Result<Notation> notation = parse_notation(text);
@@ -29,6 +34,25 @@ TEST(FrameTemplate, BccVanishesForUpperCaseAndStaysWhenWrong) {
   EXPECT_NE(hex("[ENQ st 'rSS' EOT BCC!]"), hex("[ENQ st 'rSS' EOT BCC]"));
 }
 
+TEST(FrameTemplate, ACheckOfWhatFollowsIsKnownAtTheEndOfItsBracket) {
+  EXPECT_EQ(hex("[00 01 00 00 LEN 01 03 00 63 00 01] 'x'"),
+            "00 01 00 00 00 06 01 03 00 63 00 01 78");
+  EXPECT_EQ(hex("[00 01 00 00 LEN! 01 03]"), "00 01 00 00 00 03 01 03");
+  const FrameTemplate frame = templates("[00 01 00 00 LEN 01 03 02 ?? ??]")[0];
+  Captures captures;
+  EXPECT_EQ(first_mismatch(frame, *from_hex("00 01 00 00 00 05 01 03 02 12 34"), captures),
+            std::nullopt);
+  EXPECT_EQ(first_mismatch(frame, *from_hex("00 01 00 00 00 06 01 03 02 12 34"), captures), 5u);
+}
+
+TEST(FrameTemplate, AnUnknownCheckNamesThoseOfTheProtocol) {
+  const auto made = make_templates(*parse_notation("[ENQ 'a' BCD]"), station_1);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().message,
+            "unknown word 'BCD': it is no control character, and the checks of this protocol are "
+            "BCC, LEN, SUM; did you mean 'BCC'?");
+}
+
 TEST(FrameTemplate, ACheckCoversItsOwnBracketAlone) {
   EXPECT_EQ(hex("'noise' [ENQ st 'rSS' EOT BCC]").substr(15), hex("[ENQ st 'rSS' EOT BCC]"));
 }
@@ -48,7 +72,7 @@ TEST(FrameTemplate, HolesMatchWhatTheyAllow) {
         "\x06"
         "01rSS" +
         data + "\x03");
-    const Bytes check = compute_check(CheckKind::bcc, bytes);
+    const Bytes check = checks::bcc.over(bytes);
     bytes.insert(bytes.end(), check.begin(), check.end());
     return bytes;
   };

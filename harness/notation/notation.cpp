@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <functional>
+#include <numeric>
 #include <optional>
 
 namespace fieldproof::notation {
@@ -17,10 +19,9 @@ struct Control {
 constexpr std::array controls{Control{"ENQ", 0x05}, Control{"ACK", 0x06}, Control{"NAK", 0x15},
                               Control{"EOT", 0x04}, Control{"ETX", 0x03}, Control{"STX", 0x02},
                               Control{"CR", 0x0D},  Control{"LF", 0x0A}};
-constexpr std::array checks{CheckKind::bcc, CheckKind::sum, CheckKind::crc, CheckKind::lrc};
 constexpr std::string_view words =
-    "ENQ ACK NAK EOT ETX STX CR LF, 'text', two hex digits, st, st+1, name(...), seq(n), BCC SUM "
-    "CRC LRC, ~20ms, ?? x:4 {id:4} (a:..|b:..)";
+    "ENQ ACK NAK EOT ETX STX CR LF, 'text', two hex digits, st, st+1, name(...), seq(n), a check "
+    "of the protocol (BCC), ~20ms, ?? x:4 {id:4} (a:..|b:..)";
 
 class Parser {
  public:
@@ -182,8 +183,6 @@ class Parser {
     if (letters == "name") return name(begin);
     if (letters == "seq") return sequence(begin);
     if (letters == "st") return station();
-    for (CheckKind kind : checks)
-      if (letters == to_string(kind)) return check(kind);
     Item item;
     item.text = letters;
     for (const Control& control : controls)
@@ -192,6 +191,7 @@ class Parser {
     const bool together = letters.size() % 2 == 0 && peek() == '*';
     if (item.bytes.empty() && (letters.size() == 2 || together))
       item.bytes = from_hex(letters).value_or(Bytes{});
+    if (item.bytes.empty() && may_be_check(letters)) return check(letters);
     if (item.bytes.empty())
       error_at(begin, fmt::format("unknown word '{}'; there are {}",
                                   letters.empty() ? text_.substr(begin, 1) : letters, words));
@@ -234,10 +234,23 @@ class Parser {
     return item;
   }
 
-  Item check(CheckKind kind) {
+  /// Which checks there are is the protocol's affair (make_templates). One letter away from a
+  /// control name is a slip of it.
+  static bool may_be_check(std::string_view letters) {
+    const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+    const auto is_slip_of = [&](const Control& control) {
+      return control.name.size() == letters.size() &&
+             std::inner_product(letters.begin(), letters.end(), control.name.begin(), 0,
+                                std::plus<>(), std::not_equal_to<>()) == 1;
+    };
+    return letters.size() >= 3 && std::ranges::all_of(letters, is_capital) &&
+           std::ranges::none_of(controls, is_slip_of);
+  }
+
+  Item check(std::string_view name) {
     Item item;
     item.kind = Item::Kind::check;
-    item.check = kind;
+    item.text = name;
     if (depth_ == 0) error_at(pos_, "a check stands inside '[ ]': it covers its own bracket");
     if (peek() == '!') {
       ++pos_;
@@ -291,8 +304,7 @@ std::string print_item(const Item& item) {
     case Item::Kind::station: return item.number ? fmt::format("st+{}", item.number) : "st";
     case Item::Kind::name: return fmt::format("name({})", item.text);
     case Item::Kind::sequence: return fmt::format("seq({})", item.number);
-    case Item::Kind::check:
-      return fmt::format("{}{}", to_string(item.check), item.wrong ? "!" : "");
+    case Item::Kind::check: return fmt::format("{}{}", item.text, item.wrong ? "!" : "");
     case Item::Kind::hex_digits: return fmt::format("x:{}", item.number);
     case Item::Kind::capture: return fmt::format("{{{}:{}}}", item.text, item.number);
     case Item::Kind::reuse: return fmt::format("{{{}}}", item.text);

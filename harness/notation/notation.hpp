@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/notation/checks.hpp"
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
@@ -29,7 +28,7 @@ struct Item {
     station,     // st, st+1: `number` is what is added
     name,        // name(%MW020): `text`
     sequence,    // seq(60): `number` words
-    check,       // BCC, BCC!: `check`, `wrong`
+    check,       // BCC, BCC!: `text` is its name, `wrong`
     pause,       // ~20ms
     any,         // ??
     hex_digits,  // x:4
@@ -43,7 +42,6 @@ struct Item {
   std::string text;  // as written, less the repetition
   Bytes bytes;
   int number = 0;
-  CheckKind check = CheckKind::bcc;
   bool wrong = false;
   Pause pause;
   std::vector<Alternative> alternatives;

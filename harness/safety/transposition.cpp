@@ -10,9 +10,9 @@
 namespace fieldproof::safety {
 
 using harness::Protocol;
+using notation::Fields;
 using notation::Item;
 using notation::Notation;
-using notation::Stations;
 using results::Move;
 using vectors::Case;
 using vectors::Frame;
@@ -27,12 +27,8 @@ using Memory = std::vector<std::pair<std::string, std::string>>;
 constexpr int alignment = 4;  // words: a long word stays a long word, a bit its place
 constexpr std::uint32_t last_word_of_any = 0xFFFF;
 
-Stations stations_of(int station, const Protocol& protocol) {
-  return {protocol.station_bytes(station), protocol.station_bytes((station + 1) % 256)};
-}
-
 /// The first of its alternatives; open places are 0.
-Result<Bytes> bytes_of(const Notation& notation, const Stations& stations) {
+Result<Bytes> bytes_of(const Notation& notation, const Fields& stations) {
   const Result<std::vector<notation::FrameTemplate>> templates =
       notation::make_templates(notation, stations);
   if (!templates) return templates.error();
@@ -46,7 +42,7 @@ struct Bracket {
   std::vector<Protocol::AddressField> fields;
 };
 
-std::vector<Bracket> brackets_of(const Notation& notation, bool reply, const Stations& stations,
+std::vector<Bracket> brackets_of(const Notation& notation, bool reply, const Fields& stations,
                                  const Protocol& protocol) {
   std::vector<Bracket> brackets;
   for (std::size_t i = 0; i < notation.size(); ++i) {
@@ -57,7 +53,8 @@ std::vector<Bracket> brackets_of(const Notation& notation, bool reply, const Sta
     const auto at = [&](std::size_t index) {
       return notation.begin() + static_cast<std::ptrdiff_t>(index);
     };
-    const Result<Bytes> bytes = bytes_of(Notation(at(bracket.begin), at(bracket.end)), stations);
+    const std::size_t closed = std::min(bracket.end + 1, notation.size());
+    const Result<Bytes> bytes = bytes_of(Notation(at(bracket.begin), at(closed)), stations);
     if (!bytes) continue;
     bracket.bytes = *bytes;
     bracket.fields = protocol.address_fields(bracket.bytes, reply);
@@ -68,7 +65,7 @@ std::vector<Bracket> brackets_of(const Notation& notation, bool reply, const Sta
 
 /// Puts `bytes` at `offset` of a bracket; false where that is not all literal bytes or a name.
 bool patch(Notation& notation, const Bracket& bracket, std::size_t offset, ByteView bytes,
-           const Stations& stations) {
+           const Fields& stations) {
   const Notation original = notation;
   std::size_t patched = 0;
   for (std::size_t i = bracket.begin; i < bracket.end; ++i) {
@@ -116,7 +113,7 @@ void for_each_frame(const Case& source,
     for (const Frame& frame : step.frames) visit(frame, step.kind == Step::Kind::expect);
 }
 
-std::vector<Spot> spots_of(const Case& source, const Stations& stations, const Protocol& protocol) {
+std::vector<Spot> spots_of(const Case& source, const Fields& stations, const Protocol& protocol) {
   std::vector<Spot> spots;
   for_each_memory(source, [&](const Memory& memory, bool) {
     for (const auto& [address, hex] : memory)
@@ -136,7 +133,7 @@ std::vector<Spot> spots_of(const Case& source, const Stations& stations, const P
 }
 
 /// What the case writes, as far as its requests can be made.
-std::vector<Written> writes_of(const Case& source, int station, const Stations& stations,
+std::vector<Written> writes_of(const Case& source, int station, const Fields& stations,
                                const Protocol& protocol) {
   std::vector<Written> writes;
   const auto add = [&](ByteView request) {
@@ -247,7 +244,7 @@ std::string text_of(const std::vector<Words>& all, const std::string& area,
 /// A device name that stands in a request where no address is read: moving the memory would part
 /// the two.
 std::string name_elsewhere(const Case& source, const std::vector<Spot>& spots,
-                           const Stations& stations, const Protocol& protocol) {
+                           const Fields& stations, const Protocol& protocol) {
   std::string found;
   for_each_frame(source, [&](const Frame& frame, bool reply) {
     if (reply) return;
@@ -290,8 +287,8 @@ Status move_memory(Memory& memory, const std::vector<Move>& moves, const Protoco
   return ok();
 }
 
-Status move_frame(Frame& frame, bool reply, const std::vector<Move>& moves,
-                  const Stations& stations, const Protocol& protocol) {
+Status move_frame(Frame& frame, bool reply, const std::vector<Move>& moves, const Fields& stations,
+                  const Protocol& protocol) {
   bool changed = false;
   for (const Bracket& bracket : brackets_of(frame.notation, reply, stations, protocol)) {
     for (const Protocol::AddressField& field : bracket.fields) {
@@ -314,7 +311,7 @@ Result<std::vector<Move>> plan_moves(const Case& source, int station, const Writ
                                      const Protocol& protocol) {
   std::vector<Move> moves;
   if (!source.transpose || source.config.value("role", "server") == "client") return moves;
-  const Stations stations = stations_of(station, protocol);
+  const Fields stations = protocol.fields_at(station);
   const std::vector<Spot> spots = spots_of(source, stations, protocol);
   std::vector<std::string> areas;
   for (const Written& write : writes_of(source, station, stations, protocol)) {
@@ -350,7 +347,7 @@ Result<std::vector<Move>> plan_moves(const Case& source, int station, const Writ
 
 Result<Case> moved_case(const Case& source, int station, const std::vector<Move>& moves,
                         const Protocol& protocol) {
-  const Stations stations = stations_of(station, protocol);
+  const Fields stations = protocol.fields_at(station);
   Case moved = source;
   if (moves.empty()) return moved;
   if (Status done = move_memory(moved.memory, moves, protocol); !done) return done.error();

@@ -24,8 +24,8 @@ class Transposed {
     vectors::load_vector_text(
         R"j({"id": ")j" + folder +
             R"j(/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed", )j" +
-            more + R"j("given": {"memory": {)j" + memory +
-            R"j(}}, "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "steps": [)j" +
+            more + (memory.empty() ? "" : R"j("given": {"memory": {)j" + memory + "}}, ") +
+            R"j("source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "steps": [)j" +
             steps + "]}",
         "f.json", set_);
     EXPECT_THAT(set_.problems, IsEmpty());

@@ -40,13 +40,12 @@ std::string compare_wire(const std::string& wire, const notation::FrameTemplate&
                      notation::to_hex_with_holes(frame));
 }
 
-notation::Stations stations_of(const Case& one, const harness::Protocol& protocol) {
-  const int station = config_station(one.config, 1).value_or(1);
-  return {protocol.station_bytes(station), protocol.station_bytes((station + 1) % 256)};
+notation::Fields stations_of(const Case& one, const harness::Protocol& protocol) {
+  return protocol.fields_at(config_station(one.config, 1).value_or(1));
 }
 
 /// `all`: every frame has literal bytes.
-void lint_step(const Case& one, std::size_t index, const notation::Stations& stations, bool all,
+void lint_step(const Case& one, std::size_t index, const notation::Fields& stations, bool all,
                std::vector<std::string>& problems) {
   for (const Frame& frame : one.steps[index].frames) {
     if (!frame.wire && !all) continue;
@@ -124,7 +123,7 @@ std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protoco
       if (!protocol->has_model(model))
         problems.push_back(
             fmt::format("{}: {}: {} has no model '{}'", one.file, one.id, one.protocol, model));
-    const notation::Stations stations = stations_of(one, *protocol);
+    const notation::Fields stations = stations_of(one, *protocol);
     for (std::size_t i = 0; i < one.steps.size(); ++i) {
       lint_step(one, i, stations, true, problems);
       lint_partner(one, i, *protocol, problems);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "harness/test_protocol.hpp"
+#include "suites/checks/checks.hpp"
 
 namespace fieldproof::vectors {
 namespace {
@@ -15,6 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 struct StationOnly : harness::TestProtocol {
+  notation::Checks checks() const override { return {&checks::bcc, 1}; }
   Status check_fact(const nlohmann::json& facts) const override {
     return facts.at("words") == 1024 ? ok() : Status(fail("the table has 1024 words"));
   }

@@ -271,13 +271,14 @@ TEST(Filter, LeavesStatementsThatNoCaseCites) {
 }
 
 TEST(Loader, OneCommaTooMuchIsOneProblemAtItsLine) {
-  for (const char* text : {"[\n{\"id\": \"a/b\"},\n,{}]", "[\n{\"id\": \"a/b\",\n,\"rev\": 1}]"}) {
+  for (const char* broken :
+       {"[\n{\"id\": \"a/b\"},\n,{}]", "[\n{\"id\": \"a/b\",\n,\"rev\": 1}]"}) {
     VectorSet set;
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "comma.json";
-    std::ofstream(file) << text;
+    std::ofstream(file) << broken;
     EXPECT_THAT(load_vectors(file).problems,
                 ElementsAre(testing::AllOf(HasSubstr("comma.json: "), HasSubstr("line 3"))))
-        << text;
+        << broken;
     std::filesystem::remove(file);
   }
 }

@@ -8,6 +8,7 @@
 #include "src/ls_bus/p2p_driver.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/config_reader.hpp"
+#include "suites/checks/checks.hpp"
 #include "suites/ls_bus/facts.hpp"
 #include "suites/ls_bus/frame_parts.hpp"
 #include "suites/ls_bus/memory_requests.hpp"
@@ -76,6 +77,7 @@ class LsBus : public Protocol {
     return ls_bus::make_inverter(config);
   }
 
+  notation::Checks checks() const override { return {&checks::sum, 1}; }
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return ls_bus_suite::frame_length(bytes);

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "harness/notation/checks.hpp"
 #include "harness/notation/notation.hpp"
 #include "src/base/letters.hpp"
+#include "suites/checks/checks.hpp"
 #include "suites/modbus/framing.hpp"
 #include "suites/modbus/message.hpp"
 
@@ -52,8 +52,7 @@ class Ascii : public Framing {
     std::string text = ":";
     for (Byte b : message) text += hex_number(b, 2);
     Bytes frame = to_bytes(text);
-    std::ranges::copy(notation::compute_check(notation::CheckKind::lrc, frame),
-                      std::back_inserter(frame));
+    std::ranges::copy(checks::lrc.over(frame), std::back_inserter(frame));
     frame.insert(frame.end(), {carriage_return, line_feed});
     return frame;
   }
@@ -89,7 +88,7 @@ class Ascii : public Framing {
       note_lower_case(frame, fields.back());
     }
     if (whole)
-      fields.push_back(check_field(frame, end - notation::check_size));
+      fields.push_back(check_field(frame, end - checks::lrc.size));
     else
       add_rest(frame, decoded_end, end, fields);
     add_tail(frame, end, fields);
@@ -126,10 +125,9 @@ class Ascii : public Framing {
   }
 
   static Field check_field(ByteView frame, std::size_t at) {
-    const std::string right =
-        to_text(notation::compute_check(notation::CheckKind::lrc, frame.first(at)));
-    const std::string text = to_text(frame.subspan(at, notation::check_size));
-    Field field{"LRC", at, notation::check_size, text, ""};
+    const std::string right = to_text(checks::lrc.over(frame.first(at)));
+    const std::string text = to_text(frame.subspan(at, checks::lrc.size));
+    Field field{"LRC", at, checks::lrc.size, text, ""};
     if (upper(text) == right) {
       note_lower_case(frame, field);
       return field;

@@ -1,4 +1,5 @@
 #include "suites/modbus/protocol.hpp"
+#include "suites/checks/checks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -43,6 +44,11 @@ class Modbus : public Protocol {
   }
 
   Bytes station_bytes(int station) const override { return framing_.station_bytes(station); }
+  /// Of all framings: a case may send a frame of another one.
+  notation::Checks checks() const override {
+    static const std::array all{checks::crc, checks::lrc, checks::length};
+    return all;
+  }
   const notation::Dressing* dressing() const override { return &framing_.dressing(); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return framing_.frame_length(bytes);

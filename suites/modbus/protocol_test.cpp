@@ -71,7 +71,7 @@ TEST(Monitor, TellsTheSidesApart) {
         Example{"01 83 02", false, true}, Example{"01 05 00 01 FF 00", true, true},
         Example{"01 10 00 01 00 01 02 12 34", true, false},
         Example{"01 10 00 01 00 01", false, true}, Example{"01 01 00 00 00 08", true, false}}) {
-    using enum FrameResult;
+    using enum plc::FrameResult;
     EXPECT_EQ(seen(one.message, true, true), one.request ? modbus_client : unknown) << one.message;
     EXPECT_EQ(seen(one.message, false, false), one.request ? modbus_server : unknown)
         << one.message;

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "harness/notation/checks.hpp"
+#include "suites/checks/checks.hpp"
 #include "suites/modbus/framing.hpp"
 #include "suites/modbus/message.hpp"
 
@@ -9,20 +9,19 @@ namespace fieldproof::modbus_suite {
 
 namespace {
 
-constexpr std::size_t shortest_frame = 2 + notation::check_size;
+constexpr std::size_t shortest_frame = 4;  // station, function code, CRC
 constexpr std::size_t longest_frame = 256;
 
 bool right_check(ByteView frame) {
-  const Bytes crc = notation::compute_check(notation::CheckKind::crc,
-                                            frame.first(frame.size() - notation::check_size));
-  return std::ranges::equal(crc, frame.last(notation::check_size));
+  const Bytes crc = checks::crc.over(frame.first(frame.size() - checks::crc.size));
+  return std::ranges::equal(crc, frame.last(checks::crc.size));
 }
 
 /// The length of a frame with a right CRC at the front of `bytes`.
 std::optional<std::size_t> right_length(ByteView bytes) {
   if (bytes.size() < shortest_frame) return std::nullopt;
   for (const std::size_t length : message_lengths(bytes))
-    if (const std::size_t size = length + notation::check_size;
+    if (const std::size_t size = length + checks::crc.size;
         size <= bytes.size() && right_check(bytes.first(size)))
       return size;
   return std::nullopt;
@@ -43,8 +42,7 @@ class Rtu : public Framing {
 
   Bytes wrap(ByteView message) const override {
     Bytes frame(message.begin(), message.end());
-    std::ranges::copy(notation::compute_check(notation::CheckKind::crc, message),
-                      std::back_inserter(frame));
+    std::ranges::copy(checks::crc.over(message), std::back_inserter(frame));
     return frame;
   }
 
@@ -59,9 +57,8 @@ class Rtu : public Framing {
       if (right_length(bytes.subspan(at))) return at;  // a frame after foreign bytes
     const std::vector<std::size_t> lengths =
         message_lengths(bytes);  // a wrong CRC ends a reply as well
-    if (lengths.empty() || lengths.front() + notation::check_size > bytes.size())
-      return std::nullopt;
-    return lengths.front() + notation::check_size;
+    if (lengths.empty() || lengths.front() + checks::crc.size > bytes.size()) return std::nullopt;
+    return lengths.front() + checks::crc.size;
   }
 
   std::vector<harness::Field> explain(ByteView frame) const override {
@@ -74,13 +71,13 @@ class Rtu : public Framing {
     if (rest.empty() && !fields.empty() && fields.back().problem.empty())
       fields.back().problem = "no CRC follows";
     if (rest.empty()) return fields;
-    const ByteView crc = rest.first(std::min(notation::check_size, rest.size()));
+    const ByteView crc = rest.first(std::min(checks::crc.size, rest.size()));
     fields.push_back({"CRC", size, crc.size(),
                       hex_number(crc[0], 2) + (crc.size() > 1 ? hex_number(crc[1], 2) : ""),
                       check_problem(frame.first(size), crc)});
-    if (rest.size() > notation::check_size)
-      fields.push_back({"surplus", size + notation::check_size, rest.size() - notation::check_size,
-                        to_hex(rest.subspan(notation::check_size)), "follows a complete frame"});
+    if (rest.size() > checks::crc.size)
+      fields.push_back({"surplus", size + checks::crc.size, rest.size() - checks::crc.size,
+                        to_hex(rest.subspan(checks::crc.size)), "follows a complete frame"});
     return fields;
   }
 
@@ -99,8 +96,8 @@ class Rtu : public Framing {
       const ByteView rest = bytes.subspan(at);
       const auto right = right_length(rest);
       if (right)
-        found.emplace_back(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(
-                                                            *right - notation::check_size));
+        found.emplace_back(rest.begin(),
+                           rest.begin() + static_cast<std::ptrdiff_t>(*right - checks::crc.size));
       else if (begins)
         found.emplace_back(rest.begin(), rest.end());  // damaged, or of an unknown function
       begins = right.has_value();
@@ -114,16 +111,16 @@ class Rtu : public Framing {
   static std::size_t message_size(ByteView frame) {
     if (frame.size() < shortest_frame) return frame.size();
     // The length first: the CRC over a frame with a right CRC and a zero byte is right as well.
-    if (const auto right = right_length(frame)) return *right - notation::check_size;
-    if (right_check(frame)) return frame.size() - notation::check_size;
+    if (const auto right = right_length(frame)) return *right - checks::crc.size;
+    if (right_check(frame)) return frame.size() - checks::crc.size;
     const std::vector<std::size_t> lengths = message_lengths(frame);
     const bool without_check = !lengths.empty() && lengths.front() == frame.size();
-    return without_check ? frame.size() : frame.size() - notation::check_size;
+    return without_check ? frame.size() : frame.size() - checks::crc.size;
   }
 
   static std::string check_problem(ByteView message, ByteView crc) {
-    if (crc.size() < notation::check_size) return "cut short";
-    const Bytes right = notation::compute_check(notation::CheckKind::crc, message);
+    if (crc.size() < checks::crc.size) return "cut short";
+    const Bytes right = checks::crc.over(message);
     if (std::ranges::equal(right, crc)) return {};
     const bool swapped = right[0] == crc[1] && right[1] == crc[0];
     return fmt::format("{:02X}{:02X} is right: the CRC-16 of the bytes before it, low byte first{}",

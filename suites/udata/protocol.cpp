@@ -6,6 +6,7 @@
 
 #include "src/udata/modem.hpp"
 #include "src/udata/port.hpp"
+#include "suites/checks/checks.hpp"
 
 namespace fieldproof::udata_suite {
 
@@ -26,6 +27,10 @@ class Udata : public harness::Protocol {
   }
 
   /// There is no station in the data; this is how XGT writes one.
+  notation::Checks checks() const override {
+    static const std::array all{checks::bcc, checks::sum, checks::crc, checks::lrc};
+    return all;
+  }
   Bytes station_bytes(int station) const override {
     return to_bytes(hex_number(static_cast<unsigned>(station), 2));
   }

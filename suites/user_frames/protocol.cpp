@@ -12,6 +12,7 @@
 #include "src/user_frames/codec.hpp"
 #include "src/user_frames/p2p_driver.hpp"
 #include "src/user_frames/port.hpp"
+#include "suites/checks/checks.hpp"
 #include "suites/user_frames/definition_files.hpp"
 #include "suites/user_frames/facts.hpp"
 #include "suites/user_frames/frame_parts.hpp"
@@ -50,6 +51,10 @@ class UserFrames : public Protocol {
       std::string_view model, const nlohmann::json& config) const override;
 
   /// Stations are constants of the frames; this is how XGT writes them.
+  notation::Checks checks() const override {
+    static const std::array all{checks::bcc, checks::sum, checks::crc, checks::lrc};
+    return all;
+  }
   Bytes station_bytes(int station) const override {
     return to_bytes(hex_number(static_cast<unsigned>(station), 2));
   }

@@ -9,6 +9,7 @@
 #include "src/xgt_cnet/p2p_driver.hpp"
 #include "src/xgt_cnet/plc.hpp"
 #include "src/xgt_cnet/plc_config.hpp"
+#include "suites/checks/checks.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
 #include "suites/xgt_cnet/memory_requests.hpp"
 #include "suites/xgt_cnet/p2p_facts.hpp"
@@ -51,6 +52,7 @@ class XgtCnet : public harness::Protocol {
     return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));
   }
 
+  notation::Checks checks() const override { return {&checks::bcc, 1}; }
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return xgt_cnet_suite::frame_length(bytes);
