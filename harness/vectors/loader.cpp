@@ -53,6 +53,7 @@ class FileLoader {
   bool is_wanted(const Piece& piece) const {
     if (options_.filter.empty() || piece.id.empty() || may_match_filter(piece.id, options_.filter))
       return true;
+    if (piece.text.find("\"framings\"") == std::string_view::npos) return false;
     return std::ranges::any_of(options_.protocols, [&](const harness::Protocol* protocol) {
       return protocol->dressing() &&
              may_match_filter(framed_id(piece.id, folder_of(*protocol)), options_.filter);
