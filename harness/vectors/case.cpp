@@ -7,11 +7,9 @@
 
 namespace fieldproof::vectors {
 
-using nlohmann::json;
-
-std::optional<int> config_station(const json& config, int fallback) {
+std::optional<int> config_station(const nlohmann::json& config, int fallback) {
   if (!config.contains("station")) return fallback;
-  const json& value = config["station"];
+  const nlohmann::json& value = config["station"];
   int station = -1;
   if (value.is_number_integer()) station = value.get<int>();
   if (value.is_string()) {

@@ -5,14 +5,16 @@
 #include <algorithm>
 
 #include "src/line/line.hpp"
+#include "src/line/test_settings.hpp"
 
 namespace fieldproof::line {
 namespace {
 
-const LineSettings n81{9600, 8, 'N', 1};
-const Duration ct = n81.character_time();
+using test::ct;
+using test::n81;
+
 const Bytes request{0x10, 0x11, 0x12, 0x13};
-const Bytes reply{0x20, 0x21, 0x22, 0x23, 0x24};
+const Bytes answer{0x20, 0x21, 0x22, 0x23, 0x24};
 
 /// Answers each burst at once.
 class Server : public Device {
@@ -25,7 +27,7 @@ class Server : public Device {
   Bytes advance(Time now) override {
     if (!due || *due > now) return {};
     due.reset();
-    return reply;
+    return answer;
   }
   std::vector<Burst> heard;
   std::optional<Time> due;
@@ -51,7 +53,7 @@ class Faults : public ::testing::Test {
 TEST_F(Faults, WithoutOptionsNothingChanges) {
   const auto heard = exchange({});
   ASSERT_EQ(heard.size(), 1u);
-  EXPECT_EQ(heard[0].bytes, reply);
+  EXPECT_EQ(heard[0].bytes, answer);
   EXPECT_EQ(heard[0].start, sent.end);
   ASSERT_EQ(server.heard.size(), 1u);
   EXPECT_EQ(server.heard[0].bytes, request);
@@ -64,14 +66,14 @@ TEST_F(Faults, FlipAtAByte) {
 }
 
 TEST_F(Faults, FlipBehindTheLastByteDoesNothing) {
-  EXPECT_EQ(exchange({.reply = {.flip = 5}}).at(0).bytes, reply);
+  EXPECT_EQ(exchange({.reply = {.flip = 5}}).at(0).bytes, answer);
 }
 
 TEST_F(Faults, NoiseFlipsOneBitAndTheSeedRepeatsIt) {
   const auto first = exchange({.reply = {.noise = 1.0}, .seed = 7});
-  ASSERT_EQ(first.at(0).bytes.size(), reply.size());
-  for (std::size_t i = 0; i < reply.size(); ++i) {
-    EXPECT_EQ(__builtin_popcount(static_cast<unsigned>(first[0].bytes[i] ^ reply[i])), 1);
+  ASSERT_EQ(first.at(0).bytes.size(), answer.size());
+  for (std::size_t i = 0; i < answer.size(); ++i) {
+    EXPECT_EQ(__builtin_popcount(static_cast<unsigned>(first[0].bytes[i] ^ answer[i])), 1);
   }
   EXPECT_EQ(exchange({.reply = {.noise = 1.0}, .seed = 7}).at(0).bytes, first[0].bytes);
   EXPECT_NE(exchange({.reply = {.noise = 1.0}, .seed = 8}).at(0).bytes, first[0].bytes);
@@ -109,7 +111,7 @@ TEST_F(Faults, EchoComesBeforeTheReply) {
   ASSERT_EQ(heard.size(), 2u);
   EXPECT_EQ(heard[0].bytes, request);
   EXPECT_EQ(heard[0].start, sent.end);
-  EXPECT_EQ(heard[1].bytes, reply);
+  EXPECT_EQ(heard[1].bytes, answer);
   EXPECT_EQ(heard[1].start, heard[0].end());
 }
 
@@ -144,8 +146,8 @@ TEST_F(Faults, Late) {
 TEST_F(Faults, Duplicate) {
   const auto heard = exchange({.duplicate = true});
   ASSERT_EQ(heard.size(), 2u);
-  EXPECT_EQ(heard[0].bytes, reply);
-  EXPECT_EQ(heard[1].bytes, reply);
+  EXPECT_EQ(heard[0].bytes, answer);
+  EXPECT_EQ(heard[1].bytes, answer);
   EXPECT_EQ(heard[1].start, heard[0].end());
 }
 

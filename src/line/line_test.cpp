@@ -7,11 +7,13 @@
 #include <random>
 #include <stdexcept>
 
+#include "src/line/test_settings.hpp"
+
 namespace fieldproof::line {
 namespace {
 
-const LineSettings n81{9600, 8, 'N', 1};
-const Duration ct = n81.character_time();
+using test::ct;
+using test::n81;
 
 /// Writes down what it hears and when it is advanced; transmits what the test has planned.
 class Station : public Device {

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "src/line/test_settings.hpp"
+
 namespace fieldproof::line {
 namespace {
 
-const LineSettings n81{9600, 8, 'N', 1};
+using test::n81;
 
 Burst burst_of(Bytes bytes, const LineSettings& sender, Time start = 1ms) {
   return {std::move(bytes), start, sender.character_time()};

@@ -5,7 +5,6 @@
 namespace fieldproof::ls_bus {
 
 namespace {
-constexpr std::size_t digits_of_a_word = 4;
 constexpr std::size_t shortest_frame = 1 + 2 + 1 + 2 + 1;  // header, station, command, sum, EOT
 
 std::optional<unsigned> hex_value(ByteView digits) {

@@ -26,6 +26,7 @@ namespace fieldproof::ls_bus {
 
 constexpr Byte ls_enq = 0x05, ls_ack = 0x06, ls_nak = 0x15, ls_eot = 0x04;
 
+constexpr std::size_t digits_of_a_word = 4;
 constexpr unsigned ls_max_words = 8;
 /// Cnet KO 8.1.1: the write of eight words.
 constexpr std::size_t ls_max_frame = 1 + 2 + 1 + 4 + 1 + 4 * ls_max_words + 2 + 1;

@@ -10,8 +10,6 @@
 namespace fieldproof::ls_bus {
 
 namespace {
-constexpr std::size_t digits_of_a_word = 4;
-
 /// The parameter at the back door's `address`, if `words` words exist from there on.
 Result<unsigned> find_parameter(const InverterParameters& parameters, std::string_view address,
                                 std::size_t words) {

@@ -105,7 +105,6 @@ std::optional<std::uint16_t> LsBusP2pDriver::take(const P2pBlock& block, ByteVie
 
 std::uint16_t LsBusP2pDriver::take_ack(const P2pBlock& block, const LsReply& reply,
                                        PlcMemory& memory) const {
-  constexpr std::size_t digits_of_a_word = 4;
   if (reply.content.size() != digits_of_a_word * sent_.count) return p2p::p2p_error::length;
   const std::optional<std::vector<std::uint16_t>> words = ls_words(reply.content);
   if (!words) return p2p::p2p_error::not_hex;

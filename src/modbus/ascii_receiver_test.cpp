@@ -13,8 +13,8 @@ namespace {
 using plc::test::Broken;
 using plc::test::Frames;
 using plc::test::Log;
+using test::character;
 
-constexpr Duration character = 1ms;
 constexpr std::uint16_t broken = plc::service_status::not_modbus;
 
 class AsciiReceiverTest : public ::testing::Test {

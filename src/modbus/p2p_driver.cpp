@@ -6,6 +6,7 @@
 
 #include "src/modbus/frame.hpp"
 #include "src/modbus/p2p_address.hpp"
+#include "src/modbus/pdu.hpp"
 #include "src/modbus/receiver.hpp"
 #include "src/plc/counters.hpp"
 
@@ -18,7 +19,6 @@ using plc::PlcMemory;
 namespace {
 
 constexpr Byte exception_bit = 0x80;
-constexpr unsigned coil_on = 0xFF00, coil_off = 0x0000;
 constexpr std::uint32_t data_addresses = 0x10000;
 
 /// Cnet KO 6.4.2 '6 data size'.
@@ -29,11 +29,6 @@ unsigned most_elements(ModbusMode mode, bool write, bool bits) {
 }
 
 bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function::write; }
-
-void put_word(Bytes& to, std::uint64_t value) {
-  to.push_back(static_cast<Byte>(value >> 8));
-  to.push_back(static_cast<Byte>(value));
-}
 
 /// The values of `count` elements as they stand in a frame: bits from bit 0 of the first byte on,
 /// words high byte first.

@@ -18,12 +18,12 @@ using p2p::test::p2p_write;
 using plc::test::Broken;
 using plc::test::Log;
 using test::ascii;
+using test::gap;
 using test::hex;
 using test::rtu;
 using testing::HasSubstr;
 
 const plc::PlcModel& xbc = *plc::find_plc_model("xbc-h");
-constexpr Duration gap = 4ms;
 
 class ModbusP2p : public testing::TestWithParam<ModbusMode> {
  protected:

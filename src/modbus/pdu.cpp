@@ -8,7 +8,6 @@ namespace fieldproof::modbus {
 namespace {
 constexpr Byte read_coils = 0x01, read_inputs = 0x02, write_coil = 0x05, write_register = 0x06,
                write_coils = 0x0F, write_registers = 0x10;
-constexpr unsigned coil_on = 0xFF00, coil_off = 0x0000;
 
 constexpr std::array functions{
     ModbusFunction{0x01, "Read Coil Status", ModbusBase::bit_write, 2000},
@@ -23,11 +22,6 @@ constexpr std::array functions{
 
 unsigned word_at(ByteView bytes, std::size_t at) {
   return static_cast<unsigned>(bytes[at] << 8 | bytes[at + 1]);
-}
-
-void put_word(Bytes& to, std::uint64_t value) {
-  to.push_back(static_cast<Byte>(value >> 8));
-  to.push_back(static_cast<Byte>(value));
 }
 
 bool writes(Byte code) {
@@ -100,6 +94,11 @@ Bytes write(const ModbusRequest& request, const plc::DeviceAddress& first, plc::
   return reply;
 }
 }  // namespace
+
+void put_word(Bytes& to, std::uint64_t value) {
+  to.push_back(static_cast<Byte>(value >> 8));
+  to.push_back(static_cast<Byte>(value));
+}
 
 std::span<const ModbusFunction> modbus_functions() { return functions; }
 

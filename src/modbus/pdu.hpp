@@ -22,6 +22,12 @@ namespace modbus_exception {
 constexpr Byte none = 0, function = 1, address = 2, value = 3;
 }
 
+/// The values of FC 05.
+constexpr unsigned coil_on = 0xFF00, coil_off = 0x0000;
+
+/// Appends the low 16 bits, high byte first.
+void put_word(Bytes& to, std::uint64_t value);
+
 struct ModbusFunction {
   Byte code = 0;
   std::string_view name;  // of table 6.1.1

@@ -11,10 +11,10 @@ namespace {
 using plc::test::Broken;
 using plc::test::Frames;
 using plc::test::Log;
+using test::character;
+using test::gap;
 using test::hex;
 using test::operator+;
-
-constexpr Duration character = 1ms, gap = 4ms;
 
 class RtuReceiverTest : public ::testing::Test {
  protected:

@@ -11,6 +11,8 @@
 
 namespace fieldproof::modbus::test {
 
+constexpr Duration character = 1ms, gap = 4ms;
+
 inline Bytes hex(std::string_view text) {
   const auto bytes = from_hex(text);
   if (!bytes) throw std::invalid_argument("a test has wrong hex: " + std::string(text));

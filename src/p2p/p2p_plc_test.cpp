@@ -34,7 +34,7 @@ std::unique_ptr<P2pPlc> plc_of(const json& with_config) {
   return plc ? std::move(*plc) : nullptr;
 }
 
-std::string error_of(const json& with_config) {
+std::string error_of_plc(const json& with_config) {
   const Result<std::unique_ptr<P2pPlc>> plc = make(with_config);
   return plc ? "" : plc.error().message;
 }
@@ -144,18 +144,18 @@ TEST(P2pPlc, ShowsItsParametersInN) {
 }
 
 TEST(P2pPlc, ErrorsNameTheKey) {
-  EXPECT_THAT(error_of(with({{"timeout", 1}})),
+  EXPECT_THAT(error_of_plc(with({{"timeout", 1}})),
               HasSubstr("the P2P client's configuration: there is no key 'timeout'"));
-  EXPECT_EQ(error_of(with({{"colour", 1}})), "");  // a key of the protocol's own
-  EXPECT_THAT(error_of(with({{"time_out", 51}})),
+  EXPECT_EQ(error_of_plc(with({{"colour", 1}})), "");  // a key of the protocol's own
+  EXPECT_THAT(error_of_plc(with({{"time_out", 51}})),
               HasSubstr("time_out is 51, which is not a number from 0 to 50"));
-  EXPECT_THAT(error_of(with({{"delay_ms", 15}})), HasSubstr("steps of 10 ms"));
-  EXPECT_EQ(error_of({{"role", "client"}}),
+  EXPECT_THAT(error_of_plc(with({{"delay_ms", 15}})), HasSubstr("steps of 10 ms"));
+  EXPECT_EQ(error_of_plc({{"role", "client"}}),
             "cannot make a P2P client: there is no p2p; give its blocks, or role server");
   EXPECT_THAT(make(config, "xbc_h").error().message, HasSubstr("did you mean 'xbc-h'"));
   json blocks = config;
   blocks["p2p"]["blocks"][1]["station"] = 99;
-  EXPECT_EQ(error_of(blocks),
+  EXPECT_EQ(error_of_plc(blocks),
             "cannot set up P2P block 1: station is 99, which this driver has not");
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view what = "the UDATA port's configuration";
+constexpr std::string_view config_name = "the UDATA port's configuration";
 constexpr double least_version = 1.4;  // of an external Cnet: status 7
 
 struct ModuleKind {
@@ -33,8 +33,8 @@ constexpr std::array<std::string_view, 8> drivers{
 template <std::size_t N>
 Error not_one_of(const char* key, const std::string& given,
                  const std::array<std::string_view, N>& names) {
-  return fail(fmt::format("cannot read {}: {} is '{}', which is none of {}{}", what, key, given,
-                          fmt::join(names, ", "), suggestion(given, names)));
+  return fail(fmt::format("cannot read {}: {} is '{}', which is none of {}{}", config_name, key,
+                          given, fmt::join(names, ", "), suggestion(given, names)));
 }
 
 Result<ModuleKind> module_kind(const std::string& name) {
@@ -53,7 +53,7 @@ Result<double> version_number(std::string text) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error == std::errc{} && end == digits.data() + digits.size() && number >= 0) return number;
   return fail(fmt::format("cannot read {}: version is '{}', which is not a version such as \"1.4\"",
-                          what, text));
+                          config_name, text));
 }
 
 Result<UdataModule> read_module(plc::ConfigReader& reader) {
@@ -74,10 +74,10 @@ Result<UdataModule> read_module(plc::ConfigReader& reader) {
   if (reader.error()) return *reader.error();
   if (known->built_in != (module.slot == 0))
     return fail(fmt::format(
-        "cannot read {}: slot is {}; the built-in channels are slot 0, and nothing else is", what,
-        module.slot));
+        "cannot read {}: slot is {}; the built-in channels are slot 0, and nothing else is",
+        config_name, module.slot));
   if (module.channel == 0)
-    return fail(fmt::format("cannot read {}: channel is 0; it is 1 or 2", what));
+    return fail(fmt::format("cannot read {}: channel is 0; it is 1 or 2", config_name));
   if (std::ranges::find(drivers, driver) == drivers.end())
     return not_one_of("driver", driver, drivers);
   module.user_frames = driver == "user-frames";
@@ -92,10 +92,10 @@ Result<UdataModule> read_module(plc::ConfigReader& reader) {
 Result<UdataConfig> parse_udata_config(std::string_view model, const json& config) {
   const auto keys = plc::port_keys(
       {"channel", "driver", "instructions", "link", "module", "module_hangs", "slot", "version"});
-  if (const Status known = plc::known_keys(config, what, keys); !known) return known.error();
+  if (const Status known = plc::known_keys(config, config_name, keys); !known) return known.error();
   UdataConfig parsed;
   parsed.port.model = model;
-  plc::ConfigReader reader(config, std::string(what));
+  plc::ConfigReader reader(config, std::string(config_name));
   plc::read_port_config(reader, parsed.port);
   if (reader.error()) return *reader.error();
   const Result<const plc::PlcModel*> plc = plc::check_port_config(parsed.port);
@@ -111,7 +111,7 @@ Result<UdataConfig> parse_udata_config(std::string_view model, const json& confi
   parsed.module = *module;
   const json instructions = config.value("instructions", json::array());
   if (!instructions.is_array())
-    return fail(fmt::format("cannot read {}: instructions is no array", what));
+    return fail(fmt::format("cannot read {}: instructions is no array", config_name));
   for (std::size_t i = 0; i < instructions.size(); ++i) {
     Result<UdataInstruction> one = read_udata_instruction(instructions[i], i, *parsed.plc);
     if (!one) return one.error();

@@ -9,7 +9,7 @@ namespace {
 
 using State = FrameMatch::State;
 
-constexpr const char* text = R"j({
+constexpr const char* definition_text = R"j({
   "title": "frames of every kind",
   "groups": {
     "R": {"type": "receive", "head": [{"hex": "02"}], "tail": [{"check": "byte_sum"}, {"hex": "0D 0A"}],
@@ -39,7 +39,7 @@ class Frames : public testing::Test {
     return check_holds(frame(name), match_frame(frame(name), bytes), bytes);
   }
 
-  Result<FrameDefinition> definition = parse_frame_definition(text, "test.json");
+  Result<FrameDefinition> definition = parse_frame_definition(definition_text, "test.json");
   plc::PlcMemory memory{*plc::find_plc_model("xbc-h")};
 };
 

@@ -42,10 +42,10 @@ P2pBlock block(Function function, std::string frame, std::vector<std::string_vie
     made.variables.push_back({"", plc::parse_address(xbc, name).address});
   return made;
 }
-P2pBlock send(std::string frame, std::vector<std::string_view> own = {}, unsigned size = 1) {
+P2pBlock send_block(std::string frame, std::vector<std::string_view> own = {}, unsigned size = 1) {
   return block(Function::send, std::move(frame), std::move(own), size);
 }
-P2pBlock receive(std::string frame, std::vector<std::string_view> own = {}) {
+P2pBlock receive_block(std::string frame, std::vector<std::string_view> own = {}) {
   return block(Function::receive, std::move(frame), std::move(own));
 }
 
@@ -107,8 +107,8 @@ class UserFrameP2p : public testing::Test, private plc::FrameSink {
 using Results = std::vector<std::string>;
 
 TEST_F(UserFrameP2p, SendsFromTheMemoryOfDefinitionOrBlock) {
-  set_up(
-      {send("TX.FIXED"), send("TX.SIZED", {"%MW300", "%MB605"}), send("TX.OPEN", {"%MW002"}, 2)});
+  set_up({send_block("TX.FIXED"), send_block("TX.SIZED", {"%MW300", "%MB605"}),
+          send_block("TX.OPEN", {"%MW002"}, 2)});
   set("%MW100", "1234");
   set("%MW300", "4142");
   set("%MB605", "43");
@@ -120,13 +120,14 @@ TEST_F(UserFrameP2p, SendsFromTheMemoryOfDefinitionOrBlock) {
 }
 
 TEST_F(UserFrameP2p, CannotSendWhatIsNoHex) {
-  set_up({send("TX.DIGITS")});
+  set_up({send_block("TX.DIGITS")});
   set("%MW100", "4758");
   EXPECT_THAT(ask(blocks[0]), HasSubstr("not ASCII hex digits"));
 }
 
 TEST_F(UserFrameP2p, StoresWhatComesUnasked) {
-  set_up({receive("RX.FIXED"), receive("RX.SIZED", {"%MW220"}), receive("RX.SHORT")});
+  set_up({receive_block("RX.FIXED"), receive_block("RX.SIZED", {"%MW220"}),
+          receive_block("RX.SHORT")});
   EXPECT_EQ(hear("02 46 12 34 03 91"), Results{"RX.FIXED 00"});
   EXPECT_EQ(get("%MW200"), "1234");
   EXPECT_EQ(hear("02 42 41 42 43 03 0D"), Results{"RX.SIZED 00"});
@@ -136,7 +137,7 @@ TEST_F(UserFrameP2p, StoresWhatComesUnasked) {
 }
 
 TEST_F(UserFrameP2p, OnlyFramesWithABlockAreArmed) {
-  set_up({receive("LINE.ONE")});
+  set_up({receive_block("LINE.ONE")});
   EXPECT_EQ(hear("3E 41"), Results{"LINE.ONE 00"})
       << "LINE.TWO, which stands first, would wait for one byte more";
   EXPECT_EQ(get("%MB440"), "41");
@@ -144,12 +145,12 @@ TEST_F(UserFrameP2p, OnlyFramesWithABlockAreArmed) {
 }
 
 TEST_F(UserFrameP2p, OneFrameIsOneBlocks) {
-  set_up({receive("LINE.ONE"), receive("LINE.TWO")});
+  set_up({receive_block("LINE.ONE"), receive_block("LINE.TWO")});
   EXPECT_EQ(hear("3E 41"), Results{"LINE.ONE 00"}) << "the one that is complete first";
 }
 
 TEST_F(UserFrameP2p, DropsAFrameWhoseCheckIsWrong) {
-  set_up({receive("RX.FIXED")});
+  set_up({receive_block("RX.FIXED")});
   EXPECT_EQ(hear("02 46 12 34 03 92"), Results{"broken 03"});
   EXPECT_EQ(get("%MW200"), "0000");
   EXPECT_EQ(hear("02 46 12", true), Results{"broken 02"});
@@ -161,7 +162,7 @@ TEST_F(UserFrameP2p, DropsAFrameWhoseCheckIsWrong) {
 }
 
 TEST_F(UserFrameP2p, SaysWhyNothingWasStored) {
-  set_up({receive("RX.REST", {"%MW1023"})});
+  set_up({receive_block("RX.REST", {"%MW1023"})});
   EXPECT_EQ(hear("02 52 31 32 03 BA"), Results{"RX.REST 00"});
   EXPECT_EQ(get("%MW1023"), "1200");
   EXPECT_EQ(hear("02 52 31 47 03 CF"), Results{"RX.REST 0D"});
@@ -171,21 +172,22 @@ TEST_F(UserFrameP2p, SaysWhyNothingWasStored) {
 
 TEST_F(UserFrameP2p, RefusesParametersThatDoNotFitTheDefinition) {
   set_up({});
-  EXPECT_THAT(why(send("TX.FIXE")), HasSubstr("there is no frame 'TX.FIXE'"));
-  EXPECT_THAT(why(send("TX.FIXE")), HasSubstr("did you mean 'TX.FIXED'"));
-  EXPECT_THAT(why(send("RX.FIXED")),
+  EXPECT_THAT(why(send_block("TX.FIXE")), HasSubstr("there is no frame 'TX.FIXE'"));
+  EXPECT_THAT(why(send_block("TX.FIXE")), HasSubstr("did you mean 'TX.FIXED'"));
+  EXPECT_THAT(why(send_block("RX.FIXED")),
               HasSubstr("frame RX.FIXED is received; name a frame of a send group"));
-  EXPECT_THAT(why(receive("TX.FIXED")), HasSubstr("is sent; name a frame of a receive group"));
-  EXPECT_THAT(why(send("TX.FIXED", {"%MW0"})),
+  EXPECT_THAT(why(receive_block("TX.FIXED")),
+              HasSubstr("is sent; name a frame of a receive group"));
+  EXPECT_THAT(why(send_block("TX.FIXED", {"%MW0"})),
               HasSubstr("read has 1 addresses, and frame TX.FIXED has 0 variables"));
-  EXPECT_THAT(why(send("TX.SIZED", {"%MW0"})),
+  EXPECT_THAT(why(send_block("TX.SIZED", {"%MW0"})),
               HasSubstr("has 2 variables whose memory is the block's; give one for each"));
-  EXPECT_THAT(why(receive("RX.SIZED", {"%MX00000"})), HasSubstr("save of body 1 is a bit"));
-  EXPECT_THAT(why(send("TX.OPEN", {"%MW1023"}, 4)),
+  EXPECT_THAT(why(receive_block("RX.SIZED", {"%MX00000"})), HasSubstr("save of body 1 is a bit"));
+  EXPECT_THAT(why(send_block("TX.OPEN", {"%MW1023"}, 4)),
               HasSubstr("read of body 1: the area ends before the last of 4 bytes"));
-  EXPECT_THAT(why(send("TX.OPEN", {"%MW0"}, 512)),
+  EXPECT_THAT(why(send_block("TX.OPEN", {"%MW0"}, 512)),
               HasSubstr("frame TX.OPEN has 1027 bytes; it may have 1024"));
-  EXPECT_THAT(why(send("TX.FIXED"), *plc::find_plc_model("xec-h")),
+  EXPECT_THAT(why(send_block("TX.FIXED"), *plc::find_plc_model("xec-h")),
               HasSubstr("the definition is for xbc-h, not for xec-h"));
 }
 

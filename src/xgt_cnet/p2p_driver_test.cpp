@@ -32,14 +32,14 @@ json block(const json& changes = json::object()) {
   return made;
 }
 
-std::string error_of(const json& changes) {
+std::string error_of_block(const json& changes) {
   const Result<std::unique_ptr<p2p::P2pPlc>> plc = make(block(changes));
   return plc ? "" : plc.error().message;
 }
 
 /// A client with one block, and its partner.
-struct Bench {
-  explicit Bench(const json& changes = json::object(), const std::string& model = "xbc-h") {
+struct ClientBench {
+  explicit ClientBench(const json& changes = json::object(), const std::string& model = "xbc-h") {
     Result<std::unique_ptr<p2p::P2pPlc>> made = make(block(changes), model);
     EXPECT_TRUE(made) << (made ? "" : made.error().message);
     if (made) plc = std::move(*made);
@@ -80,12 +80,12 @@ std::string ended(std::string_view status) {
 
 // Cnet EN 11.2.4: 'ENQ 01rSS0104%MW0 EOT 40'
 TEST(XgtP2pDriver, CaptureOfTheManual) {
-  Bench b(json{{"read", "%MW0"}, {"station", 1}});
+  ClientBench b(json{{"read", "%MW0"}, {"station", 1}});
   EXPECT_EQ(to_hex(b.request()), "05 30 31 72 53 53 30 31 30 34 25 4D 57 30 04 34 30");
 }
 
 TEST(XgtP2pDriver, ReadsASingleVariable) {
-  Bench b(json{{"read", "%MW00100"}});
+  ClientBench b(json{{"read", "%MW00100"}});
   EXPECT_EQ(b.request(), enq("02rSS0106%MW100"));
   b.reply(ack("02rSS0102A9F3"));
   EXPECT_EQ(b.get("%MW200"), "A9F3");
@@ -93,9 +93,9 @@ TEST(XgtP2pDriver, ReadsASingleVariable) {
 }
 
 TEST(XgtP2pDriver, ReadsFourVariablesAtOnce) {
-  Bench b(json{{"type", "dword"},
-               {"read", {"%MD1", "%DD2", "%LD3", "%KD4"}},
-               {"save", {"%DD10", "%DD0", "%MD5", "%DD11"}}});
+  ClientBench b(json{{"type", "dword"},
+                     {"read", {"%MD1", "%DD2", "%LD3", "%KD4"}},
+                     {"save", {"%DD10", "%DD0", "%MD5", "%DD11"}}});
   EXPECT_EQ(b.request(), enq("02rSS0404%MD104%DD204%LD304%KD4"));
   b.reply(
       ack("02rSS04"
@@ -109,31 +109,33 @@ TEST(XgtP2pDriver, ReadsFourVariablesAtOnce) {
 }
 
 TEST(XgtP2pDriver, ReadsBits) {
-  Bench b(json{{"type", "bit"}, {"read", {"%MX0010A", "%MX0"}}, {"save", {"%MX20F", "%MX210"}}});
+  ClientBench b(
+      json{{"type", "bit"}, {"read", {"%MX0010A", "%MX0"}}, {"save", {"%MX20F", "%MX210"}}});
   EXPECT_EQ(b.request(), enq("02rSS0206%MX10A04%MX0"));
   b.reply(ack("02rSS0201010100"));
   EXPECT_EQ(b.get("%MW20", 8), "80000000");
 }
 
 TEST(XgtP2pDriver, ReadsARun) {
-  Bench b(json{{"command", "continuous"},
-               {"type", "dword"},
-               {"size", 2},
-               {"read", "%MD50"},
-               {"save", "%DD10"},
-               {"station", 0x1F}});
+  ClientBench b(json{{"command", "continuous"},
+                     {"type", "dword"},
+                     {"size", 2},
+                     {"read", "%MD50"},
+                     {"save", "%DD10"},
+                     {"station", 0x1F}});
   EXPECT_EQ(b.request(), enq("1FrSB05%MD5002"));
   b.reply(ack("1FrSB010812345678CAFEBABE"));
   EXPECT_EQ(b.get("%DD10", 16), "12345678CAFEBABE");
 }
 
 TEST(XgtP2pDriver, ARunOfOneIsARun) {
-  Bench b(json{{"command", "continuous"}});
+  ClientBench b(json{{"command", "continuous"}});
   EXPECT_EQ(b.request(), enq("02rSB06%MW10001"));
 }
 
 TEST(XgtP2pDriver, WritesSingleVariables) {
-  Bench b(json{{"function", "write"}, {"read", {"%MW100", "%FW1"}}, {"save", {"%MW0000", "%DW5"}}});
+  ClientBench b(
+      json{{"function", "write"}, {"read", {"%MW100", "%FW1"}}, {"save", {"%MW0000", "%DW5"}}});
   b.set("%MW100", "00E2");
   b.set("%FW1", "ABCD");
   EXPECT_EQ(b.request(), enq("02wSS0204%MW000E204%DW5ABCD"));
@@ -143,12 +145,12 @@ TEST(XgtP2pDriver, WritesSingleVariables) {
 
 // Cnet EN 6.2.4: 10 bytes from M125 on are written from P20 on
 TEST(XgtP2pDriver, WritesARun) {
-  Bench b(json{{"function", "write"},
-               {"command", "continuous"},
-               {"type", "byte"},
-               {"size", 10},
-               {"read", "%MB250"},
-               {"save", "%PB40"}});
+  ClientBench b(json{{"function", "write"},
+                     {"command", "continuous"},
+                     {"type", "byte"},
+                     {"size", 10},
+                     {"read", "%MB250"},
+                     {"save", "%PB40"}});
   b.set("%MB250", "0102030405060708090A");
   EXPECT_EQ(b.request(), enq("02wSB05%PB400A0102030405060708090A"));
   b.reply(ack("02wSB"));
@@ -156,13 +158,13 @@ TEST(XgtP2pDriver, WritesARun) {
 }
 
 TEST(XgtP2pDriver, WritesABit) {
-  Bench b(json{{"function", "write"}, {"type", "bit"}, {"read", "%MX1"}, {"save", "%PX3"}});
+  ClientBench b(json{{"function", "write"}, {"type", "bit"}, {"read", "%MX1"}, {"save", "%PX3"}});
   b.set("%MX1", "01");
   EXPECT_EQ(b.request(), enq("02wSS0104%PX301"));
 }
 
 TEST(XgtP2pDriver, NamesOfAnIecPlc) {
-  Bench b(json{{"read", "%IW0.0.3"}, {"flag", "%MX0"}}, "xec-h");
+  ClientBench b(json{{"read", "%IW0.0.3"}, {"flag", "%MX0"}}, "xec-h");
   EXPECT_EQ(b.request(), enq("02rSS0108%IW0.0.3"));
 }
 
@@ -197,7 +199,7 @@ TEST(XgtP2pDriver, RepliesThatAreNotAccepted) {
       {Bytes{}, "000A"},
   };
   for (const BadReply& c : cases) {
-    Bench b;
+    ClientBench b;
     b.request();
     b.reply(c.bytes);
     EXPECT_EQ(b.result_in_the_end(), ended(c.status)) << to_hex(c.bytes);
@@ -210,7 +212,7 @@ TEST(XgtP2pDriver, RepliesToAWrite) {
                             {ack("02wSB"), "0005"},
                             {ack("02rSS"), "0005"},
                             {nak("02wSS1132"), "000F"}}) {
-    Bench b(json{{"function", "write"}});
+    ClientBench b(json{{"function", "write"}});
     b.request();
     b.reply(c.bytes);
     EXPECT_EQ(b.result(), ended(c.status)) << to_hex(c.bytes);
@@ -219,7 +221,7 @@ TEST(XgtP2pDriver, RepliesToAWrite) {
 
 TEST(XgtP2pDriver, ValuesBeyondTheSaveArea) {
   const auto status = [](const char* save) {
-    Bench b(json{{"save", save}});
+    ClientBench b(json{{"save", save}});
     b.request();
     b.reply(ack("02rSS0104A9F3A9F3"));
     return b.get("%LW513");
@@ -229,7 +231,7 @@ TEST(XgtP2pDriver, ValuesBeyondTheSaveArea) {
 }
 
 TEST(XgtP2pDriver, NoiseBeforeTheReplyIsPassedOver) {
-  Bench b;
+  ClientBench b;
   b.request();
   b.reply(to_bytes("??") + ack("02rSS0102A9F3"));
   EXPECT_EQ(b.get("%MW200"), "A9F3");
@@ -240,11 +242,11 @@ TEST(XgtP2pDriver, ARunHasAtMost120Bytes) {
   for (const auto& [type, letter, most] :
        {std::tuple{"byte", "B", 120}, {"word", "W", 60}, {"dword", "D", 30}, {"lword", "L", 15}}) {
     const auto error = [&, t = type, l = std::string(letter)](int size) {
-      return error_of({{"command", "continuous"},
-                       {"type", t},
-                       {"size", size},
-                       {"read", "%M" + l + "0"},
-                       {"save", "%D" + l + "0"}});
+      return error_of_block({{"command", "continuous"},
+                             {"type", t},
+                             {"size", size},
+                             {"read", "%M" + l + "0"},
+                             {"save", "%D" + l + "0"}});
     };
     EXPECT_EQ(error(most), "");
     EXPECT_THAT(error(most + 1), HasSubstr("P2P block 0: size is " + std::to_string(most + 1) +
@@ -253,19 +255,19 @@ TEST(XgtP2pDriver, ARunHasAtMost120Bytes) {
 }
 
 TEST(XgtP2pDriver, WhatIsRefused) {
-  EXPECT_EQ(error_of({{"read", "MW100"}}),
+  EXPECT_EQ(error_of_block({{"read", "MW100"}}),
             "cannot set up P2P block 0: read 'MW100' is no device name of the partner; give one "
             "such as %MW100");
   for (const char* name : {"%MW", "%MW10g", "%MZ100", "%MW00000000000001", ""})
-    EXPECT_THAT(error_of({{"read", name}}), HasSubstr("no device name")) << name;
-  EXPECT_EQ(error_of({{"read", "%MW0000000000001"}}), "");  // 16 characters
-  EXPECT_THAT(error_of({{"read", "%MD100"}}),
+    EXPECT_THAT(error_of_block({{"read", name}}), HasSubstr("no device name")) << name;
+  EXPECT_EQ(error_of_block({{"read", "%MW0000000000001"}}), "");  // 16 characters
+  EXPECT_THAT(error_of_block({{"read", "%MD100"}}),
               HasSubstr("read '%MD100' is not of the block's type; its type letter is W"));
-  EXPECT_THAT(error_of({{"function", "write"}, {"save", "%MD1"}}),
+  EXPECT_THAT(error_of_block({{"function", "write"}, {"save", "%MD1"}}),
               HasSubstr("save '%MD1' is not of the block's type"));
-  EXPECT_THAT(
-      error_of({{"command", "continuous"}, {"type", "bit"}, {"read", "%MX0"}, {"save", "%MX1"}}),
-      HasSubstr("use command single"));
+  EXPECT_THAT(error_of_block(
+                  {{"command", "continuous"}, {"type", "bit"}, {"read", "%MX0"}, {"save", "%MX1"}}),
+              HasSubstr("use command single"));
 }
 
 TEST(XgtP2pDriver, TalksToAServer) {

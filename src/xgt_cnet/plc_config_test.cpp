@@ -19,7 +19,7 @@ PortConfig parsed(const json& config) {
   return plc ? *plc : PortConfig{};
 }
 
-std::string error_of(const json& config) {
+std::string error_of_config(const json& config) {
   const Result<PortConfig> plc = parse_plc_config("xbc-h", config);
   return plc ? "" : plc.error().message;
 }
@@ -65,31 +65,32 @@ TEST(PlcConfig, KeysOfOthersArePassedOver) {
 }
 
 TEST(PlcConfig, ErrorsSayWhatIsAllowed) {
-  EXPECT_EQ(error_of({{"stations", 1}}),
+  EXPECT_EQ(error_of_config({{"stations", 1}}),
             "cannot read the PLC's configuration: there is no key 'stations'; the keys are "
             "bench_line, delay_ms, inter_character_floor_ms, "
             "inter_character_ms, line, mode, model, neighbours, protocol, role, rs485, station; "
             "did you mean 'station'?");
   EXPECT_EQ(
-      error_of({{"station", 256}}),
+      error_of_config({{"station", 256}}),
       "cannot read the PLC's configuration: station is 256, which is not a number from 0 to 255");
   for (const json& wrong : {json(-1), json("x"), json(""), json("1x"), json("nan"), json(true),
                             json(nullptr), json::array()}) {
-    EXPECT_THAT(error_of({{"station", wrong}}), HasSubstr("a number from 0 to 255")) << wrong;
+    EXPECT_THAT(error_of_config({{"station", wrong}}), HasSubstr("a number from 0 to 255"))
+        << wrong;
   }
-  EXPECT_THAT(error_of({{"station", 1.5}}), HasSubstr("a whole number"));
-  EXPECT_THAT(error_of({{"role", "master"}}),
+  EXPECT_THAT(error_of_config({{"station", 1.5}}), HasSubstr("a whole number"));
+  EXPECT_THAT(error_of_config({{"role", "master"}}),
               HasSubstr("role is 'master', which is not client or server"));
-  EXPECT_THAT(error_of({{"mode", 1}}), HasSubstr("mode is 1, which is not a text"));
-  EXPECT_THAT(error_of({{"mode", "pause"}}), HasSubstr("run or stop"));
-  EXPECT_THAT(error_of({{"line", "9601"}}), HasSubstr("cannot read line settings '9601'"));
-  EXPECT_THAT(error_of({{"rs485", "maybe"}}), HasSubstr("true or false"));
-  EXPECT_THAT(error_of({{"inter_character_ms", -1}}), HasSubstr("inter_character_ms is -1"));
-  EXPECT_THAT(error_of(json::array()), HasSubstr("not a JSON object"));
+  EXPECT_THAT(error_of_config({{"mode", 1}}), HasSubstr("mode is 1, which is not a text"));
+  EXPECT_THAT(error_of_config({{"mode", "pause"}}), HasSubstr("run or stop"));
+  EXPECT_THAT(error_of_config({{"line", "9601"}}), HasSubstr("cannot read line settings '9601'"));
+  EXPECT_THAT(error_of_config({{"rs485", "maybe"}}), HasSubstr("true or false"));
+  EXPECT_THAT(error_of_config({{"inter_character_ms", -1}}), HasSubstr("inter_character_ms is -1"));
+  EXPECT_THAT(error_of_config(json::array()), HasSubstr("not a JSON object"));
 }
 
 TEST(PlcConfig, AServerHasNoP2p) {
-  EXPECT_EQ(error_of({{"p2p", json::object()}}),
+  EXPECT_EQ(error_of_config({{"p2p", json::object()}}),
             "cannot make a PLC: a server has no p2p; remove it, or give role client");
 }
 

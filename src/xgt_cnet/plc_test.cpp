@@ -19,7 +19,7 @@ std::unique_ptr<Plc> plc_of(const plc::PortConfig& config) {
   return plc ? std::move(*plc) : nullptr;
 }
 
-std::string error_of(const plc::PortConfig& config) {
+std::string error_of_plc(const plc::PortConfig& config) {
   const Result<std::unique_ptr<Plc>> plc = make_plc(config);
   return plc ? "" : plc.error().message;
 }
@@ -161,13 +161,13 @@ TEST(PlcOnALine, MissingTailIsCountedBySilenceAlone) {
 // --- Configurations that make no PLC ---
 
 TEST(MakePlc, ErrorsNameTheParameter) {
-  EXPECT_EQ(error_of({.model = "xbc_h"}),
+  EXPECT_EQ(error_of_plc({.model = "xbc_h"}),
             "cannot make a PLC 'xbc_h': there is no such model; use one of xbc-h, xbm-s, xec-h; "
             "did you mean 'xbc-h'?");
-  EXPECT_THAT(error_of({.station = 256}), HasSubstr("station is not 0 to 255"));
-  EXPECT_THAT(error_of({.delay = 15ms}), HasSubstr("steps of 10 ms"));
-  EXPECT_THAT(error_of({.delay = 2560ms}), HasSubstr("0 to 2550 ms"));
-  EXPECT_THAT(error_of({.inter_character = -1ms}), HasSubstr("inter-character time"));
+  EXPECT_THAT(error_of_plc({.station = 256}), HasSubstr("station is not 0 to 255"));
+  EXPECT_THAT(error_of_plc({.delay = 15ms}), HasSubstr("steps of 10 ms"));
+  EXPECT_THAT(error_of_plc({.delay = 2560ms}), HasSubstr("0 to 2550 ms"));
+  EXPECT_THAT(error_of_plc({.inter_character = -1ms}), HasSubstr("inter-character time"));
 }
 
 }  // namespace

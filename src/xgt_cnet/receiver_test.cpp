@@ -15,12 +15,11 @@ using plc::test::Broken;
 using plc::test::Frames;
 using plc::test::Log;
 using test::ack;
+using test::character;
 using test::enq;
+using test::gap;
 using test::nak;
 using test::operator+;
-
-constexpr Duration character = 1ms;
-constexpr Duration gap = 4ms;
 
 class FrameReceiverTest : public ::testing::Test {
  protected:

@@ -9,16 +9,15 @@
 namespace fieldproof::xgt_cnet {
 namespace {
 
+using test::character;
 using test::enq;
+using test::gap;
 using test::shown;
 using test::operator+;
 
-constexpr Duration character = 1ms;
-constexpr Duration gap = 4ms;
-
 /// A server of one model; each request goes out after a second of silence.
-struct Bench {
-  explicit Bench(std::string_view model = "xbc-h", unsigned station = 1, Duration delay = {})
+struct ServerBench {
+  explicit ServerBench(std::string_view model = "xbc-h", unsigned station = 1, Duration delay = {})
       : memory(*plc::find_plc_model(model)), server(memory, station, gap, delay) {}
 
   /// The reply to raw bytes, as text.
@@ -55,7 +54,7 @@ std::string repeated(std::string_view text, int times) {
 std::string exchange(unsigned station,
                      const std::vector<std::pair<std::string, std::string>>& memory,
                      std::string_view request) {
-  Bench bench("xbc-h", station);
+  ServerBench bench("xbc-h", station);
   for (const auto& [address, hex] : memory) bench.set(address, hex);
   const Bytes bytes = *from_hex(request);
   bench.server.receive({bytes, 0ms, character});
@@ -96,7 +95,7 @@ TEST(XgtServerManual, Writes) {
 }
 
 TEST(XgtServerManual, RegistrationAndExecution) {
-  Bench bench;
+  ServerBench bench;
   const auto wire = [&bench](std::string_view hex) {
     const Bytes bytes = *from_hex(hex);
     bench.now += 1s;
@@ -119,7 +118,7 @@ TEST(XgtServerManual, RefusalOfAnArea) {
 // --- Services ---
 
 TEST(XgtServer, ReadsEveryType) {
-  Bench b;
+  ServerBench b;
   b.set("%MW100", "123456789ABCDEF0");
   EXPECT_EQ(b.ask("01RSS0107%MX1002"), "ACK 01RSS010101");
   EXPECT_EQ(b.ask("01RSS0107%MX1003"), "ACK 01RSS010100");
@@ -134,7 +133,7 @@ TEST(XgtServer, ReadsEveryType) {
 }
 
 TEST(XgtServer, WritesEveryType) {
-  Bench b;
+  ServerBench b;
   EXPECT_EQ(b.ask("01WSS0108%MX0010A01"), "ACK 01WSS");
   EXPECT_EQ(b.get("%MW10"), "0400");
   EXPECT_EQ(b.ask("01WSS0105%MB205A"), "ACK 01WSS");
@@ -158,7 +157,7 @@ TEST(XgtServer, WritesEveryType) {
 }
 
 TEST(XgtServer, WriteIsAllOrNothing) {
-  Bench b;
+  ServerBench b;
   EXPECT_EQ(b.ask("01WSS0205%MW10111105%MW1122223"), "NAK 01WSS1234");
   EXPECT_EQ(b.ask("01WSS0205%MW10111107%MW10242222"), "NAK 01WSS7132");
   EXPECT_EQ(b.ask("01WSS0205%MW10111105%MW1122G2"), "NAK 01WSS1432");
@@ -168,7 +167,7 @@ TEST(XgtServer, WriteIsAllOrNothing) {
 }
 
 TEST(XgtServer, LimitsOfBlocksAndNames) {
-  Bench b;
+  ServerBench b;
   b.set("%MW0", "1234");
   EXPECT_EQ(b.ask("01rSS10" + repeated("04%MW0", 16)), "ACK 01rSS10" + repeated("021234", 16));
   EXPECT_EQ(b.ask("01rSS11" + repeated("04%MW0", 17)), "NAK 01rSS0003");
@@ -182,7 +181,7 @@ TEST(XgtServer, LimitsOfBlocksAndNames) {
 }
 
 TEST(XgtServer, LimitsOfRuns) {
-  Bench b;
+  ServerBench b;
   b.set("%MW59", "5A5B");
   const auto data_size = [&](std::string_view body) { return b.ask(body).size(); };
   const std::size_t whole = std::string("ACK 01RSB0178").size() + 240;
@@ -207,7 +206,7 @@ TEST(XgtServer, LimitsOfRuns) {
 
 TEST(XgtServer, AllStations) {
   for (unsigned station = 0; station < 256; ++station) {
-    Bench b("xbc-h", station);
+    ServerBench b("xbc-h", station);
     const std::string st = hex_number(station, 2), other = hex_number((station + 1) & 0xFF, 2);
     EXPECT_EQ(b.ask(st + "wSS0104%MW01234"), "ACK " + st + "wSS");
     EXPECT_EQ(b.ask(other + "wSS0104%MW05678"), "");
@@ -217,7 +216,7 @@ TEST(XgtServer, AllStations) {
 }
 
 TEST(XgtServer, LetterCase) {
-  Bench b("xbc-h", 0x1F);
+  ServerBench b("xbc-h", 0x1F);
   b.set("%MW100", "ABCD");
   EXPECT_EQ(b.ask("1Frss0106%mw100"), "ACK 1Frss0102ABCD");
   EXPECT_EQ(b.ask("1fRsB06%Mw10001"),
@@ -278,7 +277,7 @@ TEST(XgtServerErrors, EveryCode) {
       {"01wSB07%MW10230211112222", "7132"},
   };
   for (const Refused& c : cases) {
-    Bench b;
+    ServerBench b;
     const std::string body = c.body;
     EXPECT_EQ(b.ask(body), "NAK " + body.substr(0, 5) + c.code) << body;
     std::string upper = body;
@@ -307,14 +306,14 @@ TEST(XgtServerErrors, OrderOfChecks) {
       {"01RSS0207%MW102404%ZW0", "1132"},  // each check goes over all blocks before the next one
   };
   for (const Refused& c : cases) {
-    Bench b;
+    ServerBench b;
     EXPECT_EQ(b.ask(c.body), std::string("NAK ") + std::string(c.body).substr(0, 5) + c.code)
         << c.body;
   }
 }
 
 TEST(XgtServerErrors, FAndNCanBeReadAndMonitored) {
-  Bench b;
+  ServerBench b;
   b.set("%FW10", "1234");
   b.set("%NW10", "5678");
   EXPECT_EQ(b.ask("01RSS0205%FW1005%NW10"), "ACK 01RSS02021234025678");
@@ -324,7 +323,7 @@ TEST(XgtServerErrors, FAndNCanBeReadAndMonitored) {
 
 TEST(XgtServerErrors, LastAndFirstInvalidOfEveryAreaInEveryModel) {
   for (const plc::PlcModel& model : plc::plc_models()) {
-    Bench b(model.name);
+    ServerBench b(model.name);
     for (const plc::DeviceArea& area : model.areas) {
       for (const char type : {'B', 'W', 'D', 'L'}) {
         const std::uint32_t elements = area.words * 2 / plc::type_bytes(type);
@@ -350,7 +349,7 @@ TEST(XgtServerErrors, LastAndFirstInvalidOfEveryAreaInEveryModel) {
 // --- Monitor ---
 
 TEST(XgtServerMonitor, SixteenRegistrationsReplacedAndExecuted) {
-  Bench b;
+  ServerBench b;
   for (unsigned i = 0; i < 16; ++i) {
     const std::string number = hex_number(i, 2);
     b.set("%MW" + std::to_string(i), hex_number(0x1000 + i, 4));
@@ -368,7 +367,7 @@ TEST(XgtServerMonitor, SixteenRegistrationsReplacedAndExecuted) {
 }
 
 TEST(XgtServerMonitor, ReadsTheValueOfTheMoment) {
-  Bench b;
+  ServerBench b;
   EXPECT_EQ(b.ask("01X09RSS0204%MB104%PB1"), "ACK 01X09");
   b.set("%MW0", "1200");
   b.set("%PW0", "3400");
@@ -403,7 +402,7 @@ TEST(XgtServerMonitor, Refusals) {
        "0190"},
   };
   for (const Refused& c : cases) {
-    Bench b;
+    ServerBench b;
     const std::string body = c.body;
     EXPECT_EQ(b.ask(body), "NAK " + body.substr(0, 5) + c.code) << body;
     EXPECT_EQ(b.ask("01y00"), "NAK 01y000090") << body;
@@ -411,7 +410,7 @@ TEST(XgtServerMonitor, Refusals) {
 }
 
 TEST(XgtServerMonitor, SurplusAndNumbersCutShort) {
-  Bench b;
+  ServerBench b;
   EXPECT_EQ(b.ask("01x00RSS0104%MW0"), "ACK 01x00");
   EXPECT_EQ(b.ask("01y0000"), "NAK 01y001234");
   EXPECT_EQ(b.ask("01x"), "NAK 01x000290");
@@ -423,7 +422,7 @@ TEST(XgtServerMonitor, SurplusAndNumbersCutShort) {
 }
 
 TEST(XgtServerMonitor, RegistrationsAreVolatile) {
-  Bench b;
+  ServerBench b;
   b.ask("01x00RSS0104%MW0");
   b.set("%MW0", "1234");
   b.server.power_cycle();
@@ -432,7 +431,7 @@ TEST(XgtServerMonitor, RegistrationsAreVolatile) {
 }
 
 TEST(XgtServerMonitor, RegistrationOfBitsContactsAndDottedNames) {
-  Bench b("xec-h");
+  ServerBench b("xec-h");
   b.set("%IW0.1.0", "0002");
   EXPECT_EQ(b.ask("01x00RSS0208%IX0.1.104%QX0"), "ACK 01x00");
   EXPECT_EQ(b.ask("01y00"), "ACK 01y000201010100");
@@ -443,7 +442,7 @@ TEST(XgtServerMonitor, RegistrationOfBitsContactsAndDottedNames) {
 // --- Silence and status by service ---
 
 TEST(XgtServerStatus, SilenceIsCounted) {
-  Bench b;
+  ServerBench b;
   Bytes wrong_bcc = enq("01rSS0104%MW0");
   wrong_bcc.back() ^= 1;
   const auto expect = [&b](std::uint16_t status, std::uint32_t errors, std::uint32_t services) {
@@ -481,7 +480,7 @@ TEST(XgtServerStatus, SilenceIsCounted) {
 }
 
 TEST(XgtServerStatus, WrongBccOfAnotherStationIsABccError) {
-  Bench b;
+  ServerBench b;
   Bytes bytes = enq("02rSS0104%MW0");
   bytes.back() ^= 1;
   EXPECT_EQ(b.send(bytes), "");
@@ -489,7 +488,7 @@ TEST(XgtServerStatus, WrongBccOfAnotherStationIsABccError) {
 }
 
 TEST(XgtServerStatus, BccAfterAnUpperCaseCommandIsNoPartOfTheFrame) {
-  Bench b;
+  ServerBench b;
   EXPECT_EQ(b.send(enq("01RSS0104%MW0") + to_bytes("20")), "ACK 01RSS01020000");
   EXPECT_EQ(b.server.counters().status, plc::service_status::head);
 }
@@ -497,14 +496,14 @@ TEST(XgtServerStatus, BccAfterAnUpperCaseCommandIsNoPartOfTheFrame) {
 // --- Time ---
 
 TEST(XgtServerTime, ReplyGoesOutAtTheEndOfTheRequest) {
-  Bench b;
+  ServerBench b;
   const Bytes request = enq("01RSS0104%MW0");
   b.server.receive({request + to_bytes("\r\n"), 10ms, character});
   EXPECT_EQ(b.server.wake_at(), 10ms + character * static_cast<int>(request.size()));
 }
 
 TEST(XgtServerTime, DelayIsAddedToTheEndOfTheRequest) {
-  Bench b("xbc-h", 1, 50ms);
+  ServerBench b("xbc-h", 1, 50ms);
   const Bytes request = enq("01RSS0104%MW0");
   b.server.receive({request, 10ms, character});
   const Time due = 10ms + character * static_cast<int>(request.size()) + 50ms;
@@ -515,7 +514,7 @@ TEST(XgtServerTime, DelayIsAddedToTheEndOfTheRequest) {
 }
 
 TEST(XgtServerTime, TwoRequestsBackToBackAreBothAnsweredInOrder) {
-  Bench b;
+  ServerBench b;
   b.set("%MW0", "12345678");
   b.server.receive({enq("01rSS0104%MW0") + enq("01RSS0104%MW1"), 0ms, character});
   EXPECT_EQ(shown(b.server.advance(1s)), "ACK 01rSS01021234");
@@ -525,7 +524,7 @@ TEST(XgtServerTime, TwoRequestsBackToBackAreBothAnsweredInOrder) {
 }
 
 TEST(XgtServerTime, NoWireTime) {
-  Bench b;
+  ServerBench b;
   b.server.receive({enq("01rSS0104%MW0"), 5ms, 0ms});
   EXPECT_EQ(b.server.wake_at(), 5ms);
   EXPECT_EQ(shown(b.server.advance(5ms)), "ACK 01rSS01020000");
@@ -536,7 +535,7 @@ TEST(XgtServerFuzz, RandomBytesAlwaysLeaveAServerThatAnswers) {
   constexpr std::string_view likely =
       "\x05\x05\x04\x04"
       "0101rRwWxXyYSSSBRSSRSB%MWXBDL0123456789ABCDEF.";
-  Bench b("xec-h");
+  ServerBench b("xec-h");
   for (int i = 0; i < 50'000; ++i) {
     Bytes bytes(random() % 60);
     for (Byte& byte : bytes)
@@ -568,7 +567,7 @@ TEST(XgtServerFuzz, NearlyRightRequestsAreAnsweredInOneForm) {
                                 "01X02RSB06%MB00010",
                                 "01Y01",
                                 "01Y02"};
-  Bench b;
+  ServerBench b;
   int answered = 0;
   for (int i = 0; i < 50'000; ++i) {
     std::string body = bodies[random() % std::size(bodies)];

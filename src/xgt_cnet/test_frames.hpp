@@ -9,6 +9,8 @@
 
 namespace fieldproof::xgt_cnet::test {
 
+constexpr Duration character = 1ms, gap = 4ms;
+
 /// Header, body, tail and, where the command letter of the body is lower case, BCC.
 inline Bytes framed(char head, std::string_view body, char tail) {
   std::string text = head + std::string(body) + tail;

@@ -13,8 +13,6 @@ namespace fieldproof::ls_bus_suite {
 namespace {
 
 constexpr std::size_t head_size = 4, sum_size = 2;  // header, station and command
-constexpr std::size_t digits_of_a_word = 4;
-constexpr unsigned max_words = 8;
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> errors{{
     {"FE", "frame: the sum is wrong"},

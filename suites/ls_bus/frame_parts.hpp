@@ -11,6 +11,7 @@
 namespace fieldproof::ls_bus_suite {
 
 constexpr Byte enq = 0x05, ack = 0x06, nak = 0x15, eot = 0x04;
+constexpr std::size_t max_words = 8, digits_of_a_word = 4;
 
 /// Length of the first complete frame: header to EOT (Cnet EN 8.1.1). A header inside a frame ends
 /// it, and so it does a run of bytes before a header.

@@ -16,8 +16,6 @@ using harness::Protocol;
 
 namespace {
 
-constexpr std::size_t max_words = 8, digits_of_a_word = 4;
-
 /// What inverters of LS tell of themselves and of their state (DECISIONS.md 'LS Bus').
 struct Range {
   std::uint32_t first = 0, last = 0;

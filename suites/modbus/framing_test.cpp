@@ -16,91 +16,92 @@ std::string part(const Framing& framing, ByteView frame, std::string_view name) 
       return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
   return "absent";
 }
-std::string rtu(std::string_view hex, std::string_view name) {
+std::string rtu_part(std::string_view hex, std::string_view name) {
   return part(rtu_framing(), bytes(hex), name);
 }
-std::string ascii(std::string_view text, std::string_view name) {
+std::string ascii_part(std::string_view text, std::string_view name) {
   return part(ascii_framing(), to_bytes(text), name);
 }
 
 // Published frames: Modbus over serial line 1.02, and the manual's examples (Cnet EN 9.4) with
 // their CRC.
-constexpr std::string_view read_request = "01 03 00 6B 00 03 74 17";
-constexpr std::string_view read_reply = "01 03 06 13 12 3D 12 40 4F 46 48";
-constexpr std::string_view ascii_request = ":0103006B00038E\r\n";
+constexpr std::string_view published_request = "01 03 00 6B 00 03 74 17";
+constexpr std::string_view published_reply = "01 03 06 13 12 3D 12 40 4F 46 48";
+constexpr std::string_view published_ascii_request = ":0103006B00038E\r\n";
 
 TEST(ExplainRtu, NamesThePartsOfTheManualsExamples) {
-  EXPECT_EQ(rtu(read_request, "station"), "01");
-  EXPECT_EQ(rtu(read_request, "function code"), "03 Read Holding Registers, request");
-  EXPECT_EQ(rtu(read_request, "address"), "006B");
-  EXPECT_EQ(rtu(read_request, "count"), "0003");
-  EXPECT_EQ(rtu(read_request, "CRC"), "7417");
-  EXPECT_EQ(rtu(read_reply, "function code"), "03 Read Holding Registers, reply");
-  EXPECT_EQ(rtu(read_reply, "byte count"), "06");
-  EXPECT_EQ(rtu(read_reply, "CRC"), "4648");
-  EXPECT_EQ(rtu(read_reply, "data"), "13123D12404F");
+  EXPECT_EQ(rtu_part(published_request, "station"), "01");
+  EXPECT_EQ(rtu_part(published_request, "function code"), "03 Read Holding Registers, request");
+  EXPECT_EQ(rtu_part(published_request, "address"), "006B");
+  EXPECT_EQ(rtu_part(published_request, "count"), "0003");
+  EXPECT_EQ(rtu_part(published_request, "CRC"), "7417");
+  EXPECT_EQ(rtu_part(published_reply, "function code"), "03 Read Holding Registers, reply");
+  EXPECT_EQ(rtu_part(published_reply, "byte count"), "06");
+  EXPECT_EQ(rtu_part(published_reply, "CRC"), "4648");
+  EXPECT_EQ(rtu_part(published_reply, "data"), "13123D12404F");
 }
 
 TEST(ExplainRtu, TellsRequestsFromRepliesOfTheSameLength) {
-  EXPECT_THAT(rtu("01 01 03 12 31 05 49 D8", "function code"), HasSubstr("reply"));
-  EXPECT_THAT(rtu("01 01 00 13 00 13 8C 02", "function code"), HasSubstr("request"));
-  EXPECT_THAT(rtu("01 01 03 00 00 01 FD 8E", "function code"), HasSubstr("reply"))
+  EXPECT_THAT(rtu_part("01 01 03 12 31 05 49 D8", "function code"), HasSubstr("reply"));
+  EXPECT_THAT(rtu_part("01 01 00 13 00 13 8C 02", "function code"), HasSubstr("request"));
+  EXPECT_THAT(rtu_part("01 01 03 00 00 01 FD 8E", "function code"), HasSubstr("reply"))
       << "both fit: 24 coils, or a request at 0300";
-  EXPECT_THAT(rtu("01 0F 00 13 00 0A 24 09", "function code"), HasSubstr("reply"));
-  EXPECT_THAT(rtu("01 0F 00 13 00 0A 02 CD 01 72 CB", "function code"), HasSubstr("request"));
+  EXPECT_THAT(rtu_part("01 0F 00 13 00 0A 24 09", "function code"), HasSubstr("reply"));
+  EXPECT_THAT(rtu_part("01 0F 00 13 00 0A 02 CD 01 72 CB", "function code"), HasSubstr("request"));
 }
 
 TEST(ExplainRtu, SaysWhatIsWrongWithACrc) {
-  EXPECT_THAT(rtu("01 03 00 6B 00 03 17 74", "CRC"), HasSubstr("7417 is right"));
-  EXPECT_THAT(rtu("01 03 00 6B 00 03 17 74", "CRC"), HasSubstr("high byte first"));
-  EXPECT_THAT(rtu("01 03 02 12 34", "data"), HasSubstr("no CRC follows"));
+  EXPECT_THAT(rtu_part("01 03 00 6B 00 03 17 74", "CRC"), HasSubstr("7417 is right"));
+  EXPECT_THAT(rtu_part("01 03 00 6B 00 03 17 74", "CRC"), HasSubstr("high byte first"));
+  EXPECT_THAT(rtu_part("01 03 02 12 34", "data"), HasSubstr("no CRC follows"));
 }
 
 TEST(ExplainRtu, SaysWhatIsWrongWithCountsAndValues) {
-  EXPECT_THAT(rtu("01 03 05 13 12 3D 12 40 4F 00 00", "byte count"),
+  EXPECT_THAT(rtu_part("01 03 05 13 12 3D 12 40 4F 00 00", "byte count"),
               HasSubstr("6 bytes of data follow"));
-  EXPECT_THAT(rtu("01 03 00 00 00 7E 00 00", "count"), HasSubstr("not 1 to 125 words"));
-  EXPECT_THAT(rtu("01 05 00 08 00 01 00 00", "value"), HasSubstr("neither FF00"));
-  EXPECT_THAT(rtu("01 0F 00 13 00 0A 01 CD 00 00", "byte count"), HasSubstr("02 is right"));
-  EXPECT_THAT(rtu("01 07 00 00", "function code"), HasSubstr("not a function code"));
+  EXPECT_THAT(rtu_part("01 03 00 00 00 7E 00 00", "count"), HasSubstr("not 1 to 125 words"));
+  EXPECT_THAT(rtu_part("01 05 00 08 00 01 00 00", "value"), HasSubstr("neither FF00"));
+  EXPECT_THAT(rtu_part("01 0F 00 13 00 0A 01 CD 00 00", "byte count"), HasSubstr("02 is right"));
+  EXPECT_THAT(rtu_part("01 07 00 00", "function code"), HasSubstr("not a function code"));
 }
 
 TEST(ExplainRtu, NamesExceptions) {
-  EXPECT_EQ(rtu("01 83 02 C0 F1", "function code"), "83 exception to Read Holding Registers");
-  EXPECT_EQ(rtu("01 83 02 C0 F1", "exception code"), "02 Illegal Address");
-  EXPECT_THAT(rtu("01 83 09 00 00", "exception code"), HasSubstr("not a code"));
+  EXPECT_EQ(rtu_part("01 83 02 C0 F1", "function code"), "83 exception to Read Holding Registers");
+  EXPECT_EQ(rtu_part("01 83 02 C0 F1", "exception code"), "02 Illegal Address");
+  EXPECT_THAT(rtu_part("01 83 09 00 00", "exception code"), HasSubstr("not a code"));
 }
 
 TEST(ExplainRtu, WhatFollowsACompleteFrameIsSurplus) {
-  EXPECT_EQ(rtu("01 83 02 C0 F1 00", "CRC"), "C0F1");
-  EXPECT_THAT(rtu("01 83 02 C0 F1 00", "surplus"), HasSubstr("00"));
+  EXPECT_EQ(rtu_part("01 83 02 C0 F1 00", "CRC"), "C0F1");
+  EXPECT_THAT(rtu_part("01 83 02 C0 F1 00", "surplus"), HasSubstr("00"));
 }
 
 TEST(ExplainAscii, NamesThePartsOfTheManualsExample) {
-  EXPECT_EQ(ascii(ascii_request, "function code"), "03 Read Holding Registers, request");
-  EXPECT_EQ(ascii(ascii_request, "address"), "006B");
-  EXPECT_EQ(ascii(ascii_request, "LRC"), "8E");
-  EXPECT_EQ(ascii(ascii_request, "tail"), "CR LF");
+  EXPECT_EQ(ascii_part(published_ascii_request, "function code"),
+            "03 Read Holding Registers, request");
+  EXPECT_EQ(ascii_part(published_ascii_request, "address"), "006B");
+  EXPECT_EQ(ascii_part(published_ascii_request, "LRC"), "8E");
+  EXPECT_EQ(ascii_part(published_ascii_request, "tail"), "CR LF");
 }
 
 TEST(ExplainAscii, SaysWhatIsWrongWithTheFrame) {
-  EXPECT_THAT(ascii(":0103006B00038F\r\n", "LRC"), HasSubstr("8E is right"));
-  EXPECT_THAT(ascii(":0103006B000372\r\n", "LRC"), HasSubstr("the sum itself"));
-  EXPECT_THAT(ascii(":0103006B00038e\r\n", "LRC"), HasSubstr("lower-case"));
-  EXPECT_THAT(ascii(":0103006b00038E\r\n", "address"), HasSubstr("006b ! lower-case"));
-  EXPECT_THAT(ascii(":0103006B00038\r\n", "odd digit"), HasSubstr("odd number"));
-  EXPECT_THAT(ascii(":01030G6B00038E\r\n", "not hex"), HasSubstr("0G6B"));
-  EXPECT_THAT(ascii(":0103006B00038E\r", "tail"), HasSubstr("CR LF"));
-  EXPECT_THAT(ascii(":0103006B00038E", "LRC"), HasSubstr("no CR LF"));
-  EXPECT_THAT(ascii("\r\n", "foreign bytes"), HasSubstr("colon"));
+  EXPECT_THAT(ascii_part(":0103006B00038F\r\n", "LRC"), HasSubstr("8E is right"));
+  EXPECT_THAT(ascii_part(":0103006B000372\r\n", "LRC"), HasSubstr("the sum itself"));
+  EXPECT_THAT(ascii_part(":0103006B00038e\r\n", "LRC"), HasSubstr("lower-case"));
+  EXPECT_THAT(ascii_part(":0103006b00038E\r\n", "address"), HasSubstr("006b ! lower-case"));
+  EXPECT_THAT(ascii_part(":0103006B00038\r\n", "odd digit"), HasSubstr("odd number"));
+  EXPECT_THAT(ascii_part(":01030G6B00038E\r\n", "not hex"), HasSubstr("0G6B"));
+  EXPECT_THAT(ascii_part(":0103006B00038E\r", "tail"), HasSubstr("CR LF"));
+  EXPECT_THAT(ascii_part(":0103006B00038E", "LRC"), HasSubstr("no CR LF"));
+  EXPECT_THAT(ascii_part("\r\n", "foreign bytes"), HasSubstr("colon"));
 }
 
 TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
-  for (const auto& [framing, frame] : {std::pair{&rtu_framing(), bytes(read_request)},
-                                       {&rtu_framing(), bytes(read_reply)},
+  for (const auto& [framing, frame] : {std::pair{&rtu_framing(), bytes(published_request)},
+                                       {&rtu_framing(), bytes(published_reply)},
                                        {&rtu_framing(), bytes("01 0F 00 13 00 0A 02 CD 01 72 CB")},
                                        {&rtu_framing(), bytes("01 83 02 C0 F1 00")},
-                                       {&ascii_framing(), to_bytes(ascii_request)},
+                                       {&ascii_framing(), to_bytes(published_ascii_request)},
                                        {&ascii_framing(), to_bytes(":01030G6B")}}) {
     std::size_t at = 0;
     for (const harness::Field& field : framing->explain(frame)) {
@@ -136,8 +137,8 @@ TEST(Explain, AnyBytesAreReadWithoutHarm) {
 
 TEST(FrameLength, RtuEndsByFunctionCodeAndCrc) {
   const auto length = [](std::string_view hex) { return rtu_framing().frame_length(bytes(hex)); };
-  EXPECT_EQ(length(read_request), 8u);
-  EXPECT_EQ(length(read_reply), 11u);
+  EXPECT_EQ(length(published_request), 8u);
+  EXPECT_EQ(length(published_reply), 11u);
   EXPECT_EQ(length("01 03 06 13 12 3D 12 40 4F 46"), std::nullopt);
   EXPECT_EQ(length("01 83 02 C0 F1 01 03"), 5u);
   EXPECT_EQ(length("01 83 02 C0 F0"), 5u) << "a wrong CRC ends a frame as well";
@@ -150,17 +151,17 @@ TEST(FrameLength, AsciiEndsAtLineFeedOrTheNextColon) {
   const auto length = [](std::string_view text) {
     return ascii_framing().frame_length(to_bytes(text));
   };
-  EXPECT_EQ(length(ascii_request), ascii_request.size());
+  EXPECT_EQ(length(published_ascii_request), published_ascii_request.size());
   EXPECT_EQ(length(":0103006B00038E\r"), std::nullopt);
   EXPECT_EQ(length(":01:0103"), 3u);
   EXPECT_EQ(length("xyz:0103"), 3u);
 }
 
 TEST(Wrap, AddsTheCheckThatThePublishedFramesHave) {
-  EXPECT_EQ(rtu_framing().wrap(bytes("01 03 00 6B 00 03")), bytes(read_request));
-  EXPECT_EQ(ascii_framing().wrap(bytes("01 03 00 6B 00 03")), to_bytes(ascii_request));
-  EXPECT_EQ(rtu_framing().unwrap(bytes(read_request)), bytes("01 03 00 6B 00 03"));
-  EXPECT_EQ(ascii_framing().unwrap(to_bytes(ascii_request)), bytes("01 03 00 6B 00 03"));
+  EXPECT_EQ(rtu_framing().wrap(bytes("01 03 00 6B 00 03")), bytes(published_request));
+  EXPECT_EQ(ascii_framing().wrap(bytes("01 03 00 6B 00 03")), to_bytes(published_ascii_request));
+  EXPECT_EQ(rtu_framing().unwrap(bytes(published_request)), bytes("01 03 00 6B 00 03"));
+  EXPECT_EQ(ascii_framing().unwrap(to_bytes(published_ascii_request)), bytes("01 03 00 6B 00 03"));
 }
 
 TEST(Messages, FindsEveryRequestThatADeviceCouldRead) {

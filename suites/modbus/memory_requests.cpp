@@ -9,6 +9,7 @@
 #include "harness/notation/notation.hpp"
 #include "src/plc/config_reader.hpp"
 #include "suites/modbus/functions.hpp"
+#include "suites/modbus/message.hpp"
 
 namespace fieldproof::modbus_suite {
 
@@ -126,8 +127,6 @@ std::optional<std::string> refusal(ByteView message, ByteView reply) {
   const Byte code = message.size() > 2 ? message[2] : Byte{};
   return fmt::format("the device answers exception {:02X} {}", code, exception_meaning(code));
 }
-
-unsigned word_at(ByteView bytes, std::size_t at) { return bytes[at] * 256u + bytes[at + 1]; }
 
 /// Functions of the Modbus standard that write and that the manual does not have: a file, a mask,
 /// read and write.

@@ -14,8 +14,6 @@ constexpr std::size_t acknowledgement =
     6;  // of a write: station, function code, address, value or count
 constexpr std::size_t exception_reply = 3;
 
-unsigned word_at(ByteView bytes, std::size_t at) { return bytes[at] * 256u + bytes[at + 1]; }
-
 std::string digits(ByteView bytes) {
   std::string text;
   for (Byte b : bytes) text += hex_number(b, 2);

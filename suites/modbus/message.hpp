@@ -19,6 +19,9 @@ struct Part {
   std::string problem;
 };
 
+/// High byte first; both bytes must be there.
+inline unsigned word_at(ByteView bytes, std::size_t at) { return bytes[at] * 256u + bytes[at + 1]; }
+
 /// The parts of a request, reply or exception (Cnet EN 9.4) as far as it can be read. Which one it
 /// is, is told by what fits its length: a reply where the byte count agrees, else a request. The
 /// parts cover the message.

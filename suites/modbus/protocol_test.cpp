@@ -11,7 +11,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-Bytes bytes(std::string_view hex) { return *from_hex(hex); }
+Bytes hex_bytes(std::string_view hex) { return *from_hex(hex); }
 
 TEST(Protocol, NamesItselfAndItsModels) {
   EXPECT_EQ(rtu().name(), "modbus-rtu");
@@ -37,22 +37,22 @@ TEST(Protocol, MakesTheDevicesOfBothModes) {
 }
 
 TEST(Probe, ReadsOneElementByAnotherFunctionCodeThanTheTestedOne) {
-  EXPECT_EQ(rtu().probe(1, {}), bytes("01 03 00 00 00 01 84 0A"));
+  EXPECT_EQ(rtu().probe(1, {}), hex_bytes("01 03 00 00 00 01 84 0A"));
   EXPECT_EQ(ascii().probe(1, {}), to_bytes(":010300000001FB\r\n"));
-  EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 74 17"))[1], 0x01);
-  EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 00 00"))[1], 0x01) << "a wrong CRC";
-  EXPECT_EQ(rtu().probe(1, bytes("01 03 00 6B 00 03 74 17 01 01 03 12 31 05 49 D8"))[1], 0x04)
+  EXPECT_EQ(rtu().probe(1, hex_bytes("01 03 00 6B 00 03 74 17"))[1], 0x01);
+  EXPECT_EQ(rtu().probe(1, hex_bytes("01 03 00 6B 00 03 00 00"))[1], 0x01) << "a wrong CRC";
+  EXPECT_EQ(rtu().probe(1, hex_bytes("01 03 00 6B 00 03 74 17 01 01 03 12 31 05 49 D8"))[1], 0x04)
       << "two frames";
   EXPECT_EQ(to_text(ascii().probe(1, to_bytes(":0183"))).substr(3, 2), "01");
 }
 
 TEST(Probe, KnowsItsReply) {
   const Bytes probe = rtu().probe(1, {});
-  EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 03 02 00 00 B8 44")));
-  EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 03 02 00 00 44 B8")))
+  EXPECT_TRUE(rtu().is_reply_to_probe(probe, hex_bytes("01 03 02 00 00 B8 44")));
+  EXPECT_TRUE(rtu().is_reply_to_probe(probe, hex_bytes("01 03 02 00 00 44 B8")))
       << "its check is not judged";
-  EXPECT_TRUE(rtu().is_reply_to_probe(probe, bytes("01 83 02 C0 F1")));
-  EXPECT_FALSE(rtu().is_reply_to_probe(probe, bytes("01 01 01 00 51 88")));
+  EXPECT_TRUE(rtu().is_reply_to_probe(probe, hex_bytes("01 83 02 C0 F1")));
+  EXPECT_FALSE(rtu().is_reply_to_probe(probe, hex_bytes("01 01 01 00 51 88")));
   EXPECT_FALSE(rtu().is_reply_to_probe(probe, Bytes{}));
   EXPECT_TRUE(ascii().is_reply_to_probe(ascii().probe(1, {}), to_bytes(":0103020000FA\r\n")));
   EXPECT_FALSE(ascii().is_reply_to_probe(ascii().probe(1, {}), to_bytes("0103020000FA\r\n")));
@@ -60,7 +60,7 @@ TEST(Probe, KnowsItsReply) {
 
 TEST(Monitor, TellsTheSidesApart) {
   const auto seen = [](std::string_view message, bool client, bool sent) {
-    return rtu().monitor_result(rtu_framing().wrap(bytes(message)), client, sent);
+    return rtu().monitor_result(rtu_framing().wrap(hex_bytes(message)), client, sent);
   };
   struct Example {
     std::string_view message;
@@ -78,7 +78,7 @@ TEST(Monitor, TellsTheSidesApart) {
     EXPECT_EQ(seen(one.message, true, false), one.reply ? modbus_client : unknown) << one.message;
     EXPECT_EQ(seen(one.message, false, true), one.reply ? modbus_server : unknown) << one.message;
   }
-  EXPECT_EQ(rtu().monitor_result(bytes("01 03 00 01 00 01 00 00"), true, true),
+  EXPECT_EQ(rtu().monitor_result(hex_bytes("01 03 00 01 00 01 00 00"), true, true),
             plc::FrameResult::unknown)
       << "its CRC is wrong";
   EXPECT_EQ(ascii().monitor_result(to_bytes(":010300010001FA\r\n"), true, true),

@@ -12,8 +12,6 @@ namespace fieldproof::xgt_cnet_suite {
 
 namespace {
 
-constexpr Byte enq = 0x05, ack = 0x06, nak = 0x15, eot = 0x04, etx = 0x03;
-
 bool is_header(Byte b) { return b == enq || b == ack || b == nak; }
 bool is_lower(Byte b) { return b >= 'a' && b <= 'z'; }
 

@@ -63,7 +63,6 @@ class XgtCnet : public harness::Protocol {
 
   /// Requests go from the client to the server.
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
-    constexpr Byte enq = 0x05;
     const bool request = !frame.empty() && frame[0] == enq;
     if (request != (client == sent) || !harness::faultless(explain(frame)))
       return plc::FrameResult::unknown;
@@ -86,7 +85,6 @@ class XgtCnet : public harness::Protocol {
   }
 
   bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
-    constexpr Byte ack = 0x06, nak = 0x15;
     return reply.size() > 3 && (reply[0] == ack || reply[0] == nak) && reply[3] == probe[3];
   }
 

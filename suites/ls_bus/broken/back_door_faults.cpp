@@ -6,8 +6,6 @@ namespace fieldproof::ls_bus_broken {
 
 namespace {
 
-constexpr std::size_t data_at = 5, word_size = 4;
-
 /// Executes a write that the good inverter refuses as read only: its first `words` words; then
 /// acknowledges, or not.
 MakeBehaviour writes_read_only(std::size_t words, bool acknowledges) {

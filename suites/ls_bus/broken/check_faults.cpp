@@ -16,12 +16,6 @@ MakeBehaviour another_sum(std::string (*sum)(const FrameText& reply)) {
   return spoil_frame([sum](FrameText& reply, const FrameText&) { reply.sum = sum(reply); });
 }
 
-std::string in_lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 std::string exclusive_or(const FrameText& reply) {
   unsigned value = 0;
   for (const char c : reply.body) value ^= static_cast<unsigned char>(c);

@@ -1,6 +1,15 @@
 #include "suites/ls_bus/broken/good_inverter.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 namespace fieldproof::ls_bus_broken {
+
+std::string in_lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
 
 std::string sum_of(std::string_view text) {
   unsigned sum = 0;

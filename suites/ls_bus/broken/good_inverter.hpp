@@ -19,6 +19,11 @@ class GoodInverter : public broken::GoodDevice {
   unsigned station_;
 };
 
+// Where parts stand in the content of a write with the address first, and the digits of a word.
+constexpr std::size_t count_at = 4, data_at = 5, word_size = 4;
+
+std::string in_lower_case(std::string text);
+
 /// A frame taken apart: what a fault edits as text.
 struct FrameText {
   char head = 0;

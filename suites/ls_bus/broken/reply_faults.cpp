@@ -29,12 +29,6 @@ MakeBehaviour other_code(std::string_view right, std::string_view wrong) {
   });
 }
 
-std::string in_lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 /// The words of the content in another order, or with their bytes in another order.
 void reverse_words(FrameText& reply, const FrameText&) {
   std::string reversed;

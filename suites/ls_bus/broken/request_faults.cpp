@@ -9,8 +9,6 @@ namespace fieldproof::ls_bus_broken {
 
 namespace {
 
-constexpr std::size_t count_at = 4, data_at = 5, word_size = 4;
-
 bool is_read(const FrameText& request) {
   return request.command() == 'R' && request.content().size() > count_at;
 }

@@ -68,7 +68,6 @@ Bytes one_based(const Bytes& request, GoodModbus& plc) {
 /// Writes what fits in before it refuses the rest.
 Bytes write_partly(const Bytes& request, GoodModbus& plc) {
   const Bytes reply = plc.ask(request);
-  constexpr Byte address_error = 2;
   if (exception_of(reply) != address_error || function_of(request) < 0x0F) return reply;
   const unsigned address = word_at(request, address_at), count = word_at(request, count_at);
   const Bytes data = data_of_write(request);

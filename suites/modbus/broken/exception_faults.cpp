@@ -5,8 +5,6 @@ namespace fieldproof::modbus_broken {
 
 namespace {
 
-constexpr Byte function_error = 1, address_error = 2, value_error = 3;
-
 MakeBehaviour edit_exception(void (*edit)(Bytes& reply)) {
   return edit_reply([edit](Bytes& reply, const Bytes&) {
     if (exception_of(reply)) edit(reply);

@@ -40,6 +40,7 @@ constexpr std::size_t address_at = 2, count_at = 4, value_at = 4;
 
 bool is_read(Byte function);
 bool is_bits(Byte function);
+constexpr Byte function_error = 1, address_error = 2, value_error = 3;
 /// 0: no exception.
 Byte exception_of(const Bytes& reply);
 Bytes exception_to(const Bytes& request, Byte code);

@@ -7,8 +7,6 @@ namespace fieldproof::modbus_broken {
 
 namespace {
 
-constexpr Byte address_error = 2, value_error = 3;
-
 /// Reads `limit` elements and one more, and joins them.
 Bytes read_in_two(const Bytes& request, GoodModbus& plc, unsigned limit) {
   Bytes first = request, rest = request;

@@ -31,8 +31,8 @@ std::optional<std::uint16_t> nak_is_normal(const p2p::P2pDriver& good, const P2p
   return error == p2p::p2p_error::nak ? p2p::p2p_error::none : error;
 }
 
-std::optional<std::uint16_t> echo_not_compared(const p2p::P2pDriver& good, const P2pBlock& block,
-                                               const Bytes& frame, plc::PlcMemory& memory) {
+std::optional<std::uint16_t> ls_echo_not_compared(const p2p::P2pDriver& good, const P2pBlock& block,
+                                                  const Bytes& frame, plc::PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
   return error == p2p::p2p_error::driver && ls_bus::parse_ls_reply(frame).command == 'W'
              ? p2p::p2p_error::none
@@ -81,7 +81,7 @@ std::vector<Fault> ls_bus_faults() {
       {"ls_nak_is_normal", "NAK is a normal end", takes(nak_is_normal),
        "ls_bus/client/error/nak/c00", "%LW512 holds 0001"},
       {"ls_echo_not_compared", "an ACK that repeats other data than written is a normal end",
-       takes(echo_not_compared), "ls_bus/client/error/other_echo/other", "%LW512 holds 0001"},
+       takes(ls_echo_not_compared), "ls_bus/client/error/other_echo/other", "%LW512 holds 0001"},
       {"ls_foreign_station", "the reply of another station is accepted", hears(set_station),
        "ls_bus/client/error/wrong_station/s0", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"ls_sum_ignored", "a wrong sum is accepted", hears(accept_any_sum),

@@ -85,7 +85,8 @@ Byte bits_reversed(Byte byte) {
 }
 
 /// Takes another reply for that which came.
-MakeBehaviour understands(std::function<void(ModbusFrame& reply, const P2pBlock& block)> edit) {
+MakeBehaviour understands_modbus(
+    std::function<void(ModbusFrame& reply, const P2pBlock& block)> edit) {
   return hears([=](Bytes& frame, const P2pBlock& block) {
     const ModbusMode mode = mode_of(frame);
     ModbusFrame reply = modbus::decode_modbus_frame(mode, frame);
@@ -205,14 +206,14 @@ std::vector<Fault> modbus_faults() {
        spoils([](Bytes& frame) { frame.pop_back(); }), "modbus_ascii/client/example/write_m100",
        "tail: expected"},
       {"read_words_swapped", "words that are read are saved low byte first",
-       understands([](ModbusFrame& reply, const P2pBlock&) {
+       understands_modbus([](ModbusFrame& reply, const P2pBlock&) {
          if (reply.pdu[0] != read_holding && reply.pdu[0] != read_input_words) return;
          for (std::size_t i = 2; i + 1 < reply.pdu.size(); i += 2)
            std::swap(reply.pdu[i], reply.pdu[i + 1]);
        }),
        "modbus_rtu/client/example/read_p0", "%MW149 holds 2468A5C36F5E120E379B1357"},
       {"read_bits_from_the_top", "bits that are read begin at bit 7 of each byte",
-       understands([](ModbusFrame& reply, const P2pBlock& block) {
+       understands_modbus([](ModbusFrame& reply, const P2pBlock& block) {
          for (std::size_t i = 2; reads_bits(block) && i < reply.pdu.size(); ++i)
            reply.pdu[i] = bits_reversed(reply.pdu[i]);
        }),
@@ -221,7 +222,7 @@ std::vector<Fault> modbus_faults() {
        after_saving(save_padding), "modbus_rtu/client/data/read_bits/b9_at_7",
        "%MW119 holds 13575BE89B8086427531FDB9"},
       {"modbus_foreign_station", "the reply of another station is accepted",
-       understands([](ModbusFrame& reply, const P2pBlock& block) {
+       understands_modbus([](ModbusFrame& reply, const P2pBlock& block) {
          reply.station = static_cast<Byte>(block.station);
        }),
        "modbus_rtu/client/error/wrong_station/s3", "%MW119 holds 13575ABC9BDF86427531FDB9"},

@@ -13,7 +13,7 @@ namespace {
 bool reads(const P2pBlock& block) { return block.function == P2pBlock::Function::read; }
 
 /// Takes another reply for that which came.
-MakeBehaviour understands(std::function<void(XgtReply& reply, const P2pBlock& block)> edit) {
+MakeBehaviour understands_xgt(std::function<void(XgtReply& reply, const P2pBlock& block)> edit) {
   return hears([=](Bytes& bytes, const P2pBlock& block) {
     const Bytes right = bytes;
     XgtReply reply = xgt_cnet::parse_reply(right);
@@ -157,20 +157,21 @@ std::vector<Fault> xgt_reply_faults() {
        instead_of(p2p::p2p_error::nak, p2p::p2p_error::none), "xgt_cnet/client/nak",
        "%LW512 holds 0001"},
       {"foreign_station", "the reply of another station is accepted",
-       understands([](XgtReply& reply, const P2pBlock& block) { reply.station = block.station; }),
+       understands_xgt(
+           [](XgtReply& reply, const P2pBlock& block) { reply.station = block.station; }),
        "xgt_cnet/client/error/wrong_station/next", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"foreign_station_ignored", "the reply of another station does not end the wait",
        takes(ignore_wrong), "xgt_cnet/client/error/wrong_station/next", "%LW513 holds 000A"},
       {"check_ignored", "a wrong BCC is accepted", hears(accept_any_check),
        "xgt_cnet/client/error/wrong_bcc/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"command_ignored", "a reply that repeats another command is accepted",
-       understands([](XgtReply& reply, const P2pBlock& block) {
+       understands_xgt([](XgtReply& reply, const P2pBlock& block) {
          reply.command = reads(block) ? 'r' : 'w';
          reply.kind = block.continuous ? "SB" : "SS";
        }),
        "xgt_cnet/client/error/wrong_driver/run", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"surplus_ignored", "a reply with too many values is accepted",
-       understands([](XgtReply& reply, const P2pBlock& block) {
+       understands_xgt([](XgtReply& reply, const P2pBlock& block) {
          for (std::string_view& data : reply.data)
            data = data.substr(0, std::size_t{2} * plc::type_bytes(block.type) * block.elements());
        }),
