@@ -144,13 +144,13 @@ class Speller {
 
   Item sequence(Item item) const {
     if (digits_) return item;
-    Bytes words;
+    Bytes spelled;
     for (int word = 1; word <= item.number; ++word) {
-      words.push_back(static_cast<Byte>(word >> 8));
-      words.push_back(static_cast<Byte>(word));
+      spelled.push_back(static_cast<Byte>(word >> 8));
+      spelled.push_back(static_cast<Byte>(word));
     }
     item.kind = Item::Kind::literal;
-    item.text = to_hex(words);
+    item.text = to_hex(spelled);
     if (item.repeat > 1) std::erase(item.text, ' ');
     return item;
   }
