@@ -88,7 +88,9 @@ class JsonSchema {
         if (value.is_object() && value.contains(key))
           check(part, value[key], path + "." + key, found);
     } else if (keyword == "additionalProperties") {
-      for (const auto& [key, part] : value.is_object() ? value.items() : json::object().items()) {
+      static const json nothing = json::object();
+      const json& members = value.is_object() ? value : nothing;
+      for (const auto& [key, part] : members.items()) {
         if (schema.contains("properties") && schema["properties"].contains(key)) continue;
         if (rule == false)
           found.push_back(path + ": unknown key " + key);

@@ -406,17 +406,17 @@ TEST_F(CompareCommand, WhatIsWrittenFollowsTheSchema) {
          "xgt_cnet/rss/refused/*:xgt_cnet/rss/two_words_refused/*:xgt_cnet/wss/*word*",
          {"--allow-write", "all", "--qualify"});
   const json document = json::parse(read_text(folder_ / "written/results.json"));
-  EXPECT_THAT(vectors::schema_problems(results_schema(), document), IsEmpty());
+  EXPECT_THAT(schema_problems(results_schema(), document), IsEmpty());
   const Results lines = read_results(folder_ / "written/results.ndjson");
-  EXPECT_THAT(vectors::schema_problems(schema_of("run"), lines.run), IsEmpty());
-  EXPECT_THAT(vectors::schema_problems(schema_of("end"), lines.end), IsEmpty());
+  EXPECT_THAT(schema_problems(schema_of("run"), lines.run), IsEmpty());
+  EXPECT_THAT(schema_problems(schema_of("end"), lines.end), IsEmpty());
   ASSERT_FALSE(lines.cases.empty());
   for (const json& one : lines.cases)
-    EXPECT_THAT(vectors::schema_problems(schema_of("case"), one), IsEmpty());
+    EXPECT_THAT(schema_problems(schema_of("case"), one), IsEmpty());
 }
 
 TEST(ResultsSchema, AnOldResultFollowsIt) {
-  EXPECT_THAT(vectors::schema_problems(results_schema(), json::parse(read_text(stored + ".json"))),
+  EXPECT_THAT(schema_problems(results_schema(), json::parse(read_text(stored + ".json"))),
               IsEmpty());
 }
 
@@ -425,7 +425,7 @@ TEST(ResultsSchema, RefusesWhatIsNotAResult) {
   const auto changed = [&](const char* pointer, const json& value) {
     json document = good;
     document[json::json_pointer(pointer)] = value;
-    return vectors::schema_problems(results_schema(), document);
+    return schema_problems(results_schema(), document);
   };
   EXPECT_THAT(changed("/schema", 2), Not(IsEmpty()));
   EXPECT_THAT(changed("/cases/0/verdict", "OK"), Not(IsEmpty()));
