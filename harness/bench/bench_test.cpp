@@ -319,7 +319,7 @@ TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
   EXPECT_EQ(result.replay, "fieldproof run --filter 'xgt_cnet/a/b'");
   EXPECT_EQ(result.expected, "'<answer>'");
   EXPECT_EQ(result.received, "'<no>'");
-  EXPECT_EQ(result.quote, "q");
+  EXPECT_EQ(result.quote, "as printed");
   EXPECT_FALSE(result.differences.empty());
   ASSERT_GE(result.exchange.size(), 2u);
   EXPECT_EQ(result.exchange[0].text, "'<ask>'");
