@@ -59,6 +59,8 @@ class JsonSchema {
         require(!value.is_string() || std::regex_search(value.get<std::string>(), regex(rule)));
       else if (keyword == "minItems")
         require(!value.is_array() || value.size() >= rule);
+      else if (keyword == "maxItems")
+        require(!value.is_array() || value.size() <= rule);
       else if (keyword == "minProperties")
         require(!value.is_object() || value.size() >= rule);
       else if (keyword == "required")

@@ -40,8 +40,14 @@ TEST_F(Installed, takes_its_own_vectors_and_profiles) {
   for (const char* protocol :
        {"xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus", "user_frames", "udata"})
     std::filesystem::remove_all(data + "/vectors/" + protocol);
+  nlohmann::ordered_json vector = small_vector("own/vector");
+  vector["source"] = {
+      {"manual", "xbl-c21a-en"},
+      {"section", "7-10"},
+      {"statement", "xbl-c21a-en/7-10-number"},
+      {"quote", "Number of data It means byte number of hex type, and is converted into ASCII"}};
   folder_.write("usr/share/fieldproof/vectors/xgt_cnet/test.json",
-                nlohmann::ordered_json::array({small_vector("own/vector")}).dump());
+                nlohmann::ordered_json::array({vector}).dump());
   std::filesystem::rename(data + "/profiles/xbc-h.json", data + "/profiles/own.json");
   const Finished list = run({"list"});
   EXPECT_EQ(list.code, 0) << list.err;
