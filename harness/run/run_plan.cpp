@@ -298,6 +298,23 @@ Status check_duts(const RunOptions& options) {
   return ok();
 }
 
+/// Words of the notation that only the protocol of a case knows.
+Status check_words(const std::vector<const vectors::Case*>& selected,
+                   const harness::Protocols& known) {
+  for (const vectors::Case* one : selected) {
+    const harness::Protocol* protocol = known.find(one->protocol);
+    for (std::size_t i = 0; protocol && i < one->steps.size(); ++i)
+      for (const vectors::Frame& frame : one->steps[i].frames)
+        for (const notation::Item& item : frame.notation)
+          if (item.kind == notation::Item::Kind::check &&
+              !notation::find_check(protocol->checks(), item.text))
+            return fail(fmt::format("{}: {}: steps[{}]: unknown word '{}': it is no control "
+                                    "character, and no check of {}",
+                                    one->file, one->id, i, item.text, one->protocol));
+  }
+  return ok();
+}
+
 }  // namespace
 
 Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocols& known) {
@@ -314,6 +331,8 @@ Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocol
   for (const Case& one : plan.vectors.cases)
     if (vectors::matches_filter(one.id, options.filter) && vectors::has_role(one, options.role))
       plan.selected.push_back(&one);
+  if (const Status known_checks = check_words(plan.selected, known); !known_checks)
+    return known_checks.error();
   std::string profile;
   Result<DutPlan> first = make_dut_plan(
       options, known, options.duts.empty() ? "" : options.duts.front(), plan.selected, profile);

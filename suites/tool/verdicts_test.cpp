@@ -30,7 +30,7 @@ ordered_json below_floor() {
 /// No endpoint of these has a link that a step opens.
 ordered_json needs_a_link() {
   ordered_json vector = small_vector("v/needs_a_link");
-  vector["steps"] = {{{"open", true}}};
+  vector["steps"] = {{{"open", "a"}}};
   return vector;
 }
 
