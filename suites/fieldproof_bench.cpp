@@ -205,16 +205,17 @@ void p2p_hour_on_two_channels(benchmark::State& state) {
     if (!client) throw std::runtime_error(client.error().message);
     const auto first = xgt_cnet::make_plc(partner), second = xgt_cnet::make_plc(partner);
     line::SimulatedLine lines[] = {line::SimulatedLine(settings), line::SimulatedLine(settings)};
-    lines[0].attach((*client)->channel(1), settings);
-    lines[0].attach(**first, settings);
-    lines[1].attach((*client)->channel(2), settings);
-    lines[1].attach(**second, settings);
+    lines[0].attach(*(*client)->line(1), settings);
+    lines[0].attach(*(*first)->line(), settings);
+    lines[1].attach(*(*client)->line(2), settings);
+    lines[1].attach(*(*second)->line(), settings);
     for (Time until = slice; until <= hour; until += slice)
       for (line::SimulatedLine& line : lines)
         while (line.now() < until) line.receive(until);
     for (unsigned channel : {1u, 2u}) {
-      services += (*client)->channel(channel).counters().services;
-      errors += (*client)->channel(channel).counters().errors;
+      const auto& counters = dynamic_cast<p2p::P2pClient&>(*(*client)->line(channel)).counters();
+      services += counters.services;
+      errors += counters.errors;
     }
   }
   if (errors > 0) throw std::runtime_error("a P2P service failed");

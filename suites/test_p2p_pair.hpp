@@ -22,8 +22,8 @@ class P2pPair {
       : client_(make(protocol, client)),
         partner_(make(protocol, partner)),
         line_(line::LineSettings{}) {
-    line_.attach(*partner_, {});
-    line_.attach(*client_, {});
+    line_.attach(*partner_->line(), {});
+    line_.attach(*client_->line(), {});
   }
 
   /// Lets time pass; what is said meanwhile, a burst a line in hex.

@@ -121,7 +121,7 @@ Status EmulatorEndpoint::attach(std::string_view model, const json& config) {
   Result<std::unique_ptr<plc::EmulatedDevice>> device = factory_(model, config);
   if (!device) return device.error();
   const bool under_test = devices_.empty();
-  line::Device& plain = *devices_.emplace_back(std::move(*device));
+  line::Device& plain = *devices_.emplace_back(std::move(*device))->line();
   if (under_test && decorate_) decorated_ = decorate_(plain, *settings);
   line_.attach(under_test && decorated_ ? *decorated_ : plain, *settings);
   return ok();

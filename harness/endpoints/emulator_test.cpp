@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 /// Answers frames that begin with its station with ACK, station and its one byte of memory; "%FLAG"
 /// makes it ask.
-class TinyDevice : public plc::EmulatedDevice {
+class TinyDevice : public plc::SerialDevice {
  public:
   explicit TinyDevice(int station) : station_(static_cast<Byte>(station)) {}
 

@@ -131,12 +131,13 @@ Result<Bytes> unanswerable(ByteView request, const Protocol& protocol) {
 
 /// What the device says to the request, and when.
 Partner::Answer ask(EmulatedDevice& device, const Burst& request) {
-  device.advance(request.start);
-  device.receive(request);
+  line::Device& line = *device.line();
+  line.advance(request.start);
+  line.receive(request);
   const Time give_up = request.end() + longest_think;
   for (Time now = request.end();;) {
-    if (Bytes bytes = device.advance(now); !bytes.empty()) return {std::move(bytes), now};
-    const std::optional<Time> wake = device.wake_at();
+    if (Bytes bytes = line.advance(now); !bytes.empty()) return {std::move(bytes), now};
+    const std::optional<Time> wake = line.wake_at();
     if (!wake || *wake > give_up) return {{}, now};
     now = std::max(now, *wake);
   }

@@ -72,6 +72,7 @@ Status DeviceHost::begin(const json& config) {
   merged.emplace("inter_character_floor_ms", options_.inter_character_floor_ms);
   Result<std::unique_ptr<plc::EmulatedDevice>> device = options_.make_device(merged);
   if (!device) return device.error();
+  if (!(*device)->line()) return fail("cannot host the device: it has no serial line");
   device_ = std::move(*device);
   port_.flush();
   return ok();
@@ -98,7 +99,7 @@ void DeviceHost::wait() {
   fds_.assign({{os::interrupt_fd(), POLLIN, 0}, {hangup_, POLLIN, 0}, {control_.get(), POLLIN, 0}});
   port_.add_to(fds_);
   timespec timeout{};
-  const std::optional<Time> wake = device_->wake_at();
+  const std::optional<Time> wake = device_->line()->wake_at();
   if (wake) {
     const Duration left = std::max(*wake - clock_.now(), Duration::zero());
     timeout = {static_cast<time_t>(left / 1s), static_cast<long>((left % 1s).count())};
@@ -119,20 +120,21 @@ Status DeviceHost::hear() {
     if (!bytes) return bytes.error();
     if (bytes->empty()) return ok();
     Time moment = clock_.now();
-    if (const std::optional<Time> wake = device_->wake_at()) moment = std::min(moment, *wake);
+    if (const std::optional<Time> wake = device_->line()->wake_at())
+      moment = std::min(moment, *wake);
     device_time_ = std::max(device_time_, moment);
     show(true, *bytes);
-    device_->receive(Burst{std::move(*bytes), device_time_, {}});
+    device_->line()->receive(Burst{std::move(*bytes), device_time_, {}});
     run_due(device_time_);  // not until now: more may be waiting to be read
   }
 }
 
 void DeviceHost::run_due(Time until) {
   for (int i = 0; i < most_at_once; ++i) {
-    const std::optional<Time> wake = device_->wake_at();
+    const std::optional<Time> wake = device_->line()->wake_at();
     if (!wake || *wake > until) return;
     device_time_ = std::max(device_time_, *wake);
-    transmit(device_->advance(device_time_));
+    transmit(device_->line()->advance(device_time_));
   }
 }
 
@@ -140,7 +142,7 @@ void DeviceHost::run_due(Time until) {
 /// do: a client whose flag rises counts its time-out from here.
 void DeviceHost::tell_time() {
   device_time_ = std::max(device_time_, clock_.now());
-  transmit(device_->advance(device_time_));
+  transmit(device_->line()->advance(device_time_));
 }
 
 void DeviceHost::transmit(const Bytes& bytes) {

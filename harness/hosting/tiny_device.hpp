@@ -15,7 +15,7 @@ namespace fieldproof::hosting::test {
 /// Keys of the configuration: model (tiny, xbc-h), station, delay_ms (of the reply),
 /// inter_character_floor_ms: a longer gap drops an unfinished frame. Addresses: any; @config is the
 /// configuration, @dropped counts dropped frames.
-class TinyDevice final : public plc::EmulatedDevice {
+class TinyDevice final : public plc::SerialDevice {
  public:
   explicit TinyDevice(const nlohmann::json& config)
       : config_(config),

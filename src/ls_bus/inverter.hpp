@@ -25,7 +25,7 @@ struct InverterConfig {
 /// over. The error for an unknown key lists those there are.
 Result<InverterConfig> parse_inverter_config(const nlohmann::json& config);
 
-class Inverter : public plc::EmulatedDevice {
+class Inverter : public plc::SerialDevice {
  public:
   explicit Inverter(const InverterConfig& config) : config_(config) {}
 

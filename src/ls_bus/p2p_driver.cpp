@@ -24,7 +24,7 @@ class LsBusP2pDriver : public p2p::P2pDriver {
 
   std::string_view name() const override { return "ls-bus-client"; }
   Status check(const P2pBlock& block, const plc::PlcModel& model) const override;
-  Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override;
+  Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) override;
   bool awaits_reply(const P2pBlock&) const override { return true; }
   std::optional<std::uint16_t> take(const P2pBlock& block, ByteView frame,
                                     PlcMemory& memory) const override;
@@ -47,7 +47,7 @@ class LsBusP2pDriver : public p2p::P2pDriver {
   bool noise_ = false;  // a run of bytes outside frames, already told
   Time last_end_{};
   Duration character_time_{};
-  mutable LsRequest sent_;  // the reply to a write repeats its data, whatever memory holds by then
+  LsRequest sent_;  // the reply to a write repeats its data, whatever memory holds by then
 };
 
 Status LsBusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
@@ -77,7 +77,7 @@ Status LsBusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const 
   return ok();
 }
 
-Result<Bytes> LsBusP2pDriver::request(const P2pBlock& block, const PlcMemory& memory) const {
+Result<Bytes> LsBusP2pDriver::request(const P2pBlock& block, const PlcMemory& memory) {
   const p2p::P2pVariable& variable = block.variables.front();
   sent_ = {.station = block.station,
            .command = writes(block) ? 'W' : 'R',

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "src/modbus/checks.hpp"
+#include "src/modbus/mbap.hpp"
 #include "src/plc/counters.hpp"
 
 namespace fieldproof::modbus {
@@ -39,13 +40,28 @@ ModbusFrame decode_ascii(ByteView frame) {
     return {plc::service_status::not_modbus};  // with its LRC the sum is 0
   return opened(ByteView(*bytes).first(bytes->size() - 1));
 }
+
+ModbusFrame decode_tcp(ByteView frame) {
+  const std::optional<MbapHeader> header = read_mbap(frame);
+  if (!header || header->protocol != 0 || header->frame_size() != frame.size())
+    return {plc::service_status::not_modbus};
+  ModbusFrame decoded = opened(frame.subspan(mbap_prefix));
+  decoded.transaction = header->transaction;
+  return decoded;
+}
 }  // namespace
 
 ModbusFrame decode_modbus_frame(ModbusMode mode, ByteView frame) {
-  return mode == ModbusMode::rtu ? decode_rtu(frame) : decode_ascii(frame);
+  switch (mode) {
+    case ModbusMode::rtu: return decode_rtu(frame);
+    case ModbusMode::ascii: return decode_ascii(frame);
+    case ModbusMode::tcp: break;
+  }
+  return decode_tcp(frame);
 }
 
-Bytes encode_modbus_frame(ModbusMode mode, Byte station, ByteView pdu) {
+Bytes encode_modbus_frame(ModbusMode mode, Byte station, ByteView pdu, std::uint16_t transaction) {
+  if (mode == ModbusMode::tcp) return encode_mbap(transaction, station, pdu);
   Bytes content{station};
   content.insert(content.end(), pdu.begin(), pdu.end());
   if (mode == ModbusMode::rtu) {

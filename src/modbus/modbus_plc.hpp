@@ -1,11 +1,5 @@
-// An emulated XGB PLC as Modbus RTU or ASCII server: one model's memory behind one Cnet channel
-// (Cnet EN and KO 6.1.3 and chapter 9; DECISIONS.md 'Modbus RTU and ASCII').
-//
-// It answers in RUN and STOP, and to its own station alone: a request to station 0 draws silence
-// from any other server and changes nothing. What draws silence is counted (service_status in
-// src/plc/counters.hpp); an exception is a service. The reply is due when the end of the request is
-// known, and after the delay: in RTU that is the inter-character time and one character after its
-// last byte (rtu_receiver.hpp).
+// An emulated XGB PLC as Modbus server: RTU or ASCII on a Cnet channel (server.hpp), or TCP by its
+// Ethernet module (tcp_server.hpp).
 #pragma once
 
 #include <memory>
@@ -14,16 +8,30 @@
 
 #include "src/base/result.hpp"
 #include "src/modbus/modbus_mode.hpp"
-#include "src/plc/emulated_device.hpp"
+#include "src/modbus/tcp_server.hpp"
+#include "src/plc/plc.hpp"
 
 namespace fieldproof::modbus {
 
-/// In its power-on state. `config` is `given.config` of a vector (vectors/README.md) with the basic
-/// parameters of a port (src/plc/port_config.hpp) and bit_read_base, bit_write_base, word_read_base
-/// and word_write_base (bases.hpp). Errors name the model, the key or the base. Role client is
-/// refused: that is p2p_driver.hpp.
+/// Puts the server on a channel, of no meaning for TCP. `config` is `given.config` of a vector
+/// (vectors/README.md): bit_read_base, bit_write_base, word_read_base and word_write_base
+/// (bases.hpp); for a channel the basic parameters of a port (src/plc/port_config.hpp), for TCP
+/// those of `read_tcp_config`. Errors name the key or the base. Role client is refused: that is
+/// p2p_driver.hpp.
+Status add_modbus_server(plc::Plc& plc, ModbusMode mode, unsigned channel,
+                         const nlohmann::json& config);
+
+/// A PLC in its power-on state with the server on channel 1. Errors also name the model.
 Result<std::unique_ptr<plc::EmulatedDevice>> make_modbus_plc(ModbusMode mode,
                                                              std::string_view model,
                                                              const nlohmann::json& config);
+
+/// Reads connections (1-4, FEnet EN table 6-1) and waiting_time (seconds, 2-255; FEnet EN 6.2.2).
+/// One that is absent leaves `to` as it is. Errors name the key.
+Status read_tcp_config(const nlohmann::json& config, TcpServerConfig& to);
+
+/// Of FEnet EN: four connections; a reception waiting time of 100 s (decision: no default is
+/// printed).
+TcpServerConfig fenet_server();
 
 }  // namespace fieldproof::modbus

@@ -37,12 +37,12 @@ std::string error_of(const json& config, std::string_view model = "xbc-h") {
 /// What is sent until nothing more is to come.
 Bytes drained(plc::EmulatedDevice& plc) {
   Bytes bytes;
-  while (const auto wake = plc.wake_at()) bytes = bytes + plc.advance(*wake);
+  while (const auto wake = plc.line()->wake_at()) bytes = bytes + plc.line()->advance(*wake);
   return bytes;
 }
 
 Bytes ask(plc::EmulatedDevice& plc, Time start, const Bytes& frame) {
-  plc.receive({frame, start, 1ms});
+  plc.line()->receive({frame, start, 1ms});
   return drained(plc);
 }
 
@@ -188,11 +188,11 @@ TEST(ModbusPlc, PowerCycleKeepsMemoryAlone) {
     const Device plc = plc_of(mode, {{"station", 1}, {"delay_ms", 1000}, {"rs485", true}});
     ask(*plc, 0s, test::framed(mode, "01 06 00 00 12 34"));
     const Bytes request = test::framed(mode, "01 06 00 01 00 01");
-    plc->receive({request, 3s, 1ms});
-    plc->receive({request, 4s, 1ms});
-    plc->receive({part(request, 0, 3), 5s, 1ms});
+    plc->line()->receive({request, 3s, 1ms});
+    plc->line()->receive({request, 4s, 1ms});
+    plc->line()->receive({part(request, 0, 3), 5s, 1ms});
     ASSERT_TRUE(plc->act("power_cycle"));
-    EXPECT_EQ(plc->wake_at(), std::nullopt);
+    EXPECT_EQ(plc->line()->wake_at(), std::nullopt);
     EXPECT_EQ(*plc->get("@services", 0), "0000");
     EXPECT_EQ(*plc->get("%MW0", 0), "1234");
     EXPECT_EQ(ask(*plc, 5010ms, request), request);
@@ -202,9 +202,9 @@ TEST(ModbusPlc, PowerCycleKeepsMemoryAlone) {
 TEST(ModbusPlc, DelayOnlyWithRs485) {
   const auto due = [](ModbusMode mode, const json& config) {
     const Device plc = plc_of(mode, config);
-    plc->receive({test::framed(mode, "01 03 00 00 00 01"), 0ms, {}});
-    for (std::optional<Time> wake; (wake = plc->wake_at());)
-      if (!plc->advance(*wake).empty()) return *wake;
+    plc->line()->receive({test::framed(mode, "01 03 00 00 00 01"), 0ms, {}});
+    for (std::optional<Time> wake; (wake = plc->line()->wake_at());)
+      if (!plc->line()->advance(*wake).empty()) return *wake;
     return Time(-1);
   };
   const json serial{{"station", 1}, {"delay_ms", 50}, {"inter_character_ms", 5}};
@@ -282,7 +282,7 @@ struct Wire {
       : settings(line), wire(line) {
     config["line"] = line::to_string(line);
     plc = plc_of(mode, config);
-    wire.attach(*plc, line);
+    wire.attach(*plc->line(), line);
   }
   Duration gap() const {
     return Duration(Duration::rep{385} * 100'000'000 / settings.baud);
@@ -366,7 +366,7 @@ TEST(ModbusOnALine, TwoRtuRequestsNeedASilence) {
 TEST(ModbusOnALine, RtuStationsShareALine) {
   Wire one(ModbusMode::rtu, {});
   const Device two = plc_of(ModbusMode::rtu, {{"station", 2}});
-  one.wire.attach(*two, {});
+  one.wire.attach(*two->line(), {});
   one.wire.transmit(rtu("02 06 00 00 00 01"));
   EXPECT_EQ(one.heard(), rtu("02 06 00 00 00 01"));  // which station 1 hears, too
   one.wire.transmit(rtu("01 06 00 00 00 02"));

@@ -21,11 +21,24 @@ namespace {
 constexpr Byte exception_bit = 0x80;
 constexpr std::uint32_t data_addresses = 0x10000;
 
-/// Cnet KO 6.4.2 '6 data size'.
-unsigned most_elements(ModbusMode mode, bool write, bool bits) {
-  const bool rtu = mode == ModbusMode::rtu;
-  if (bits) return write ? (rtu ? 1968 : 944) : (rtu ? 2000 : 976);
-  return write ? (rtu ? 120 : 59) : (rtu ? 120 : 61);
+struct DriverRules {
+  ModbusMode mode{};
+  std::string_view name;
+  unsigned read_bits = 0, read_words = 0, write_bits = 0, write_words = 0;  // at most
+
+  unsigned most_elements(bool write, bool bits) const {
+    return write ? (bits ? write_bits : write_words) : (bits ? read_bits : read_words);
+  }
+};
+
+/// Cnet KO 6.4.2 '6 data size'; TCP: what the protocol carries.
+constexpr DriverRules rules_of(ModbusMode mode) {
+  switch (mode) {
+    case ModbusMode::rtu: return {mode, "modbus-rtu-client", 2000, 120, 1968, 120};
+    case ModbusMode::ascii: return {mode, "modbus-ascii-client", 976, 61, 944, 59};
+    case ModbusMode::tcp: break;
+  }
+  return {mode, "modbus-tcp-client", 2000, 125, 1968, tcp_write_limit};
 }
 
 bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function::write; }
@@ -95,15 +108,14 @@ class ClientSink : public FrameSink {
 class ModbusP2pDriver : public p2p::P2pDriver {
  public:
   ModbusP2pDriver(ModbusMode mode, Duration gap)
-      : mode_(mode), receiver_(make_modbus_receiver(mode, gap)) {}
+      : rules_(rules_of(mode)), receiver_(make_modbus_receiver(mode, gap)) {}
 
-  std::string_view name() const override {
-    return mode_ == ModbusMode::rtu ? "modbus-rtu-client" : "modbus-ascii-client";
-  }
+  std::string_view name() const override { return rules_.name; }
   Status check(const P2pBlock& block, const plc::PlcModel& model) const override;
-  Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) const override {
+  Result<Bytes> request(const P2pBlock& block, const PlcMemory& memory) override {
     sent_ = request_pdu(block, memory);
-    return encode_modbus_frame(mode_, static_cast<Byte>(block.station), sent_);
+    return encode_modbus_frame(rules_.mode, static_cast<Byte>(block.station), sent_,
+                               ++transaction_);
   }
   bool awaits_reply(const P2pBlock&) const override { return true; }
   std::optional<std::uint16_t> take(const P2pBlock& block, ByteView bytes,
@@ -121,13 +133,14 @@ class ModbusP2pDriver : public p2p::P2pDriver {
   void reset() override { receiver_->reset(); }
 
  private:
+  bool is_for_us(const ModbusFrame& frame) const;
   std::uint16_t fault_of(const ModbusFrame& frame, ByteView bytes) const;
   std::uint16_t take_pdu(const P2pBlock& block, ByteView pdu, PlcMemory& memory) const;
 
-  ModbusMode mode_;
+  DriverRules rules_;
   std::unique_ptr<ModbusReceiver> receiver_;
-  mutable Bytes
-      sent_;  // the last PDU: the reply to a write repeats it, whatever memory holds by then
+  Bytes sent_;  // the last PDU: the reply to a write repeats it, whatever memory holds by then
+  std::uint16_t transaction_ = 0;  // the last
 };
 
 Status ModbusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
@@ -140,7 +153,7 @@ Status ModbusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const
     return fail(fmt::format("there are {} variables; a Modbus block has one (Cnet EN table 6.2.4)",
                             block.variables.size()));
   const bool bits = block.type == 'X';
-  const unsigned most = most_elements(mode_, writes(block), bits);
+  const unsigned most = rules_.most_elements(writes(block), bits);
   if (block.elements() == 0 || block.elements() > most)
     return fail(fmt::format("size is {}; a {} block {}s 1 to {} {}s (Cnet KO 6.4.2)", block.size,
                             name(), writes(block) ? "write" : "read", most, bits ? "bit" : "word"));
@@ -172,16 +185,22 @@ Status ModbusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const
   return ok();
 }
 
+/// By TCP the transaction tells replies apart; what is of another one, or no Modbus, is left alone.
+bool ModbusP2pDriver::is_for_us(const ModbusFrame& frame) const {
+  return frame.fault == plc::service_status::normal && frame.transaction == transaction_;
+}
+
 std::uint16_t ModbusP2pDriver::fault_of(const ModbusFrame& frame, ByteView bytes) const {
   if (frame.fault == plc::service_status::normal) return p2p::p2p_error::none;
   if (frame.fault == plc::service_status::not_hex) return p2p::p2p_error::not_hex;
-  const std::size_t shortest = encode_modbus_frame(mode_, 0, Bytes{0}).size();
+  const std::size_t shortest = encode_modbus_frame(rules_.mode, 0, Bytes{0}).size();
   return bytes.size() < shortest ? p2p::p2p_error::length : p2p::p2p_error::bcc;
 }
 
 std::optional<std::uint16_t> ModbusP2pDriver::take(const P2pBlock& block, ByteView bytes,
                                                    PlcMemory& memory) const {
-  const ModbusFrame frame = decode_modbus_frame(mode_, bytes);
+  const ModbusFrame frame = decode_modbus_frame(rules_.mode, bytes);
+  if (rules_.mode == ModbusMode::tcp && !is_for_us(frame)) return std::nullopt;
   if (const std::uint16_t fault = fault_of(frame, bytes); fault != p2p::p2p_error::none)
     return fault;
   if (frame.station != block.station) return p2p::p2p_error::station;

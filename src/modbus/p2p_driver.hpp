@@ -1,5 +1,5 @@
 // The P2P drivers 'Modbus RTU client' and 'Modbus ASCII client' (Cnet EN tables 6.2.1
-// to 6.2.4, 10.3; Cnet KO 6.4.2).
+// to 6.2.4, 10.3; Cnet KO 6.4.2), and 'Modbus TCP client' (FEnet EN 7.2, 7.3.2, table 7-4, 7.6).
 //
 // A block has one variable, of type bit or word, and sends one request: p2p_address.hpp says with
 // which function code. Most elements of a continuous block, so that no ASCII frame has more than
@@ -9,6 +9,10 @@
 //   RTU    2000        120          1968         120
 //   ASCII  976         61           944          59 (Cnet KO prints 120, which is 499 characters:
 //                                                DECISIONS.md modbus/ascii-length)
+//   TCP    2000        125          1968         123 (decision: what the protocol carries)
+//
+// By TCP, transactions are numbered from 1; a frame of another transaction, or of another protocol,
+// is no reply to the one under way, which goes on waiting.
 //
 // Where a parameter is what 11.1.4 calls 'Modbus address error' or 'commands except Read/Write'
 // (status FFFE), `check` refuses it: XG5000 takes the address apart when it is entered. So no block
@@ -31,6 +35,6 @@
 namespace fieldproof::modbus {
 
 /// `gap`: the inter-character time, by which RTU frames end (rtu_receiver.hpp).
-std::unique_ptr<p2p::P2pDriver> make_modbus_p2p_driver(ModbusMode mode, Duration gap);
+std::unique_ptr<p2p::P2pDriver> make_modbus_p2p_driver(ModbusMode mode, Duration gap = {});
 
 }  // namespace fieldproof::modbus

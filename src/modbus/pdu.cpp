@@ -17,7 +17,7 @@ constexpr std::array functions{
     ModbusFunction{0x05, "Force Single Coil", ModbusBase::bit_write, 1},
     ModbusFunction{0x06, "Preset Single Register", ModbusBase::word_write, 1},
     ModbusFunction{0x0F, "Force Multiple Coils", ModbusBase::bit_write, 1968},
-    ModbusFunction{0x10, "Preset Multiple Registers", ModbusBase::word_write, 120},
+    ModbusFunction{0x10, "Preset Multiple Registers", ModbusBase::word_write, line_write_limit},
 };
 
 unsigned word_at(ByteView bytes, std::size_t at) {
@@ -39,7 +39,7 @@ std::size_t data_bytes(Byte code, std::uint32_t count) {
 
 /// Everything that only the request itself can break: its length, count, byte count and the value
 /// of a coil.
-Byte check_form(ModbusRequest& request, ByteView pdu) {
+Byte check_form(ModbusRequest& request, ByteView pdu, unsigned write_limit) {
   constexpr std::size_t head = 5;  // function, address, count or value
   constexpr Byte wrong = modbus_exception::value;
   if (pdu.size() < head) return wrong;
@@ -54,7 +54,8 @@ Byte check_form(ModbusRequest& request, ByteView pdu) {
                : modbus_exception::none;
   }
   request.count = second;
-  if (request.count == 0 || request.count > request.function->limit) return wrong;
+  const unsigned most = request.code == write_registers ? write_limit : request.function->limit;
+  if (request.count == 0 || request.count > most) return wrong;
   if (!writes(request.code)) return pdu.size() != head ? wrong : modbus_exception::none;
   if (pdu.size() == head) return wrong;
   request.data = pdu.subspan(head + 1);
@@ -62,32 +63,35 @@ Byte check_form(ModbusRequest& request, ByteView pdu) {
   return pdu[head] != expected || request.data.size() != expected ? wrong : modbus_exception::none;
 }
 
-Bytes read(const ModbusRequest& request, const plc::DeviceAddress& first,
-           const plc::PlcMemory& memory) {
+Bytes read(const ModbusRequest& request, const DataSpace& data) {
+  const ModbusBase table = request.function->base;
   const std::size_t size = data_bytes(request.code, request.count);
   Bytes reply{request.code, static_cast<Byte>(size)};
   if (handles_bits(request.code)) {
     reply.resize(reply.size() + size);
     for (std::uint32_t i = 0; i < request.count; ++i) {
-      reply[2 + i / 8] = static_cast<Byte>(reply[2 + i / 8] | memory.read(first + i) << i % 8);
+      const unsigned bit = data.read(table, request.address + i);
+      reply[2 + i / 8] = static_cast<Byte>(reply[2 + i / 8] | bit << i % 8);
     }
   } else {
-    for (std::uint32_t i = 0; i < request.count; ++i) put_word(reply, memory.read(first + i));
+    for (std::uint32_t i = 0; i < request.count; ++i)
+      put_word(reply, data.read(table, request.address + i));
   }
   return reply;
 }
 
-Bytes write(const ModbusRequest& request, const plc::DeviceAddress& first, plc::PlcMemory& memory) {
+Bytes write(const ModbusRequest& request, DataSpace& data) {
   for (std::uint32_t i = 0; i < request.count; ++i) {
-    std::uint64_t value = 0;
+    unsigned value = 0;
     if (request.code == write_coil)
       value = word_at(request.data, 0) == coil_on;
     else if (request.code == write_coils)
       value = request.data[i / 8] >> i % 8 & 1;
     else
       value = word_at(request.data, std::size_t{2} * i);
-    memory.write(first + i, value);
+    data.write(request.function->base, request.address + i, value);
   }
+  data.written();
   Bytes reply{request.code};
   put_word(reply, request.address);
   put_word(reply, writes_one(request.code) ? word_at(request.data, 0) : request.count);
@@ -107,23 +111,20 @@ const ModbusFunction* find_modbus_function(Byte code) {
   return found == functions.end() ? nullptr : &*found;
 }
 
-ModbusRequest parse_modbus_request(ByteView pdu) {
+ModbusRequest parse_modbus_request(ByteView pdu, unsigned write_limit) {
   ModbusRequest request{.code = pdu.front(), .function = find_modbus_function(pdu.front())};
-  request.exception = request.function ? check_form(request, pdu) : modbus_exception::function;
+  request.exception =
+      request.function ? check_form(request, pdu, write_limit) : modbus_exception::function;
   return request;
 }
 
-Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& tables,
-                             plc::PlcMemory& memory) {
+Bytes execute_modbus_request(const ModbusRequest& request, DataSpace& data) {
   if (request.exception != modbus_exception::none)
     return modbus_exception_reply(request.code, request.exception);
-  const ModbusTable& table = tables[request.function->base];
-  const bool read_only = !memory.model().areas[table.first.area].write;
-  if (request.address + request.count > table.size || (writes(request.code) && read_only)) {
+  const bool to_write = writes(request.code);
+  if (!data.covers(request.function->base, request.address, request.count, to_write))
     return modbus_exception_reply(request.code, modbus_exception::address);
-  }
-  const plc::DeviceAddress first = table.first + request.address;
-  return writes(request.code) ? write(request, first, memory) : read(request, first, memory);
+  return to_write ? write(request, data) : read(request, data);
 }
 
 Bytes modbus_exception_reply(Byte code, Byte exception) {

@@ -11,8 +11,7 @@
 #include <string_view>
 
 #include "src/base/bytes.hpp"
-#include "src/modbus/bases.hpp"
-#include "src/plc/memory.hpp"
+#include "src/modbus/data_space.hpp"
 
 namespace fieldproof::modbus {
 
@@ -32,8 +31,11 @@ struct ModbusFunction {
   Byte code = 0;
   std::string_view name;  // of table 6.1.1
   ModbusBase base{};
-  unsigned limit = 0;  // bits or words
+  unsigned limit = 0;  // bits or words; FC 10: of a line
 };
+
+/// Words that FC 10 writes at most: on a line (Cnet KO 9.3.3), by TCP (FEnet EN table 5-41).
+constexpr unsigned line_write_limit = 120, tcp_write_limit = 123;
 
 /// 01 02 03 04 05 06 0F 10
 std::span<const ModbusFunction> modbus_functions();
@@ -52,11 +54,10 @@ struct ModbusRequest {
 
 /// Never fails: `exception` says what is wrong. `pdu` has at least one byte and must outlive the
 /// request.
-ModbusRequest parse_modbus_request(ByteView pdu);
+ModbusRequest parse_modbus_request(ByteView pdu, unsigned write_limit = line_write_limit);
 
 /// The PDU of the reply; a write has happened then, all of it or, with an exception, nothing.
-Bytes execute_modbus_request(const ModbusRequest& request, const ModbusTables& tables,
-                             plc::PlcMemory& memory);
+Bytes execute_modbus_request(const ModbusRequest& request, DataSpace& data);
 
 /// Function code with bit 7 set, and the exception code.
 Bytes modbus_exception_reply(Byte code, Byte exception);

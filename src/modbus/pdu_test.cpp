@@ -18,9 +18,7 @@ struct Server {
   Server(std::string_view model, const ModbusBases& bases)
       : memory(*plc::find_plc_model(model)), tables(*place_modbus_tables(memory.model(), bases)) {}
 
-  Bytes ask(const Bytes& pdu) {
-    return execute_modbus_request(parse_modbus_request(pdu), tables, memory);
-  }
+  Bytes ask(const Bytes& pdu) { return execute_modbus_request(parse_modbus_request(pdu), data); }
   std::string ask(std::string_view pdu) { return to_hex(ask(hex(pdu))); }
   void set(std::string_view address, std::string_view value) {
     ASSERT_TRUE(plc::set_by_name(memory, address, value)) << address;
@@ -37,6 +35,7 @@ struct Server {
 
   plc::PlcMemory memory;
   ModbusTables tables;
+  PlcDataSpace data{tables, memory};
 };
 
 Bytes request(unsigned code, unsigned address, unsigned count_or_value) {

@@ -22,7 +22,8 @@ class ModbusReceiver {
   virtual void reset() = 0;
 };
 
-/// `gap`: the inter-character time, by which RTU frames end. ASCII has a second of its own.
+/// `gap`: the inter-character time, by which RTU frames end. ASCII has a second of its own, TCP
+/// none.
 std::unique_ptr<ModbusReceiver> make_modbus_receiver(ModbusMode mode, Duration gap);
 
 }  // namespace fieldproof::modbus

@@ -43,7 +43,7 @@ struct P2pBlock {
   enum class Function { read, write, send, receive };
 
   unsigned number = 0;   // 0-31
-  unsigned channel = 1;  // 1 or 2
+  unsigned channel = 1;  // 1 or 2; of an Ethernet module 1 to 3
   Function function = Function::read;
   bool continuous =
       false;        // a run of `size` elements from one variable on, else up to four single values

@@ -22,7 +22,11 @@ std::uint16_t service_code(std::uint16_t error) {
 P2pClient::P2pClient(plc::PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
                      std::unique_ptr<P2pDriver> driver, const Timing& timing,
                      std::function<void()> saved)
-    : memory_(memory), driver_(std::move(driver)), timing_(timing), saved_(std::move(saved)) {
+    : memory_(memory),
+      driver_(std::move(driver)),
+      timing_(timing),
+      saved_(std::move(saved)),
+      link_(parameters.link) {
   for (const P2pBlock& block : parameters.blocks) {
     if (block.channel != channel) continue;
     const BlockSet bit = BlockSet{1} << blocks_.size();
@@ -60,7 +64,9 @@ Bytes P2pClient::advance(Time now) {
   driver_->advance(now_, *this);
   if (busy_ && now_ >= deadline_) {
     const std::uint16_t late = noise_ ? p2p_error::head : p2p_error::time_out;
-    finish(*busy_, awaits_reply_ ? late : p2p_error::none);
+    const bool timed_out = awaits_reply_;
+    finish(*busy_, timed_out ? late : p2p_error::none);
+    if (timed_out && on_time_out_) on_time_out_();
   }
   tick();
   while (!busy_ && now_ >= free_at()) {
@@ -130,6 +136,22 @@ void P2pClient::set_active(bool active) {
   if (active) return;
   busy_.reset();
   wanted_ = round_ = 0;
+}
+
+void P2pClient::set_run(bool run) {
+  run_ = run;
+  set_active(run_ && link_);
+}
+
+std::optional<Status> P2pClient::act(std::string_view action) {
+  if (action != "link on" && action != "link off") return std::nullopt;
+  link_ = action == "link on";
+  set_active(run_ && link_);
+  return ok();
+}
+
+void P2pClient::connection_lost() {
+  if (busy_) finish(*busy_, p2p_error::send);
 }
 
 void P2pClient::power_cycle() {

@@ -20,11 +20,11 @@
 #include "src/line/device.hpp"
 #include "src/p2p/driver.hpp"
 #include "src/p2p/registers.hpp"
-#include "src/plc/counters.hpp"
+#include "src/plc/service.hpp"
 
 namespace fieldproof::p2p {
 
-class P2pClient : public line::Device, private plc::FrameSink {
+class P2pClient : public plc::LineService, private plc::FrameSink {
  public:
   struct Timing {
     Duration time_out{};  // after the last byte sent
@@ -34,7 +34,7 @@ class P2pClient : public line::Device, private plc::FrameSink {
 
   /// The blocks of `parameters` that are of `channel`, checked with `driver` (parameters.hpp).
   /// `memory` outlives the client; `saved` is called when it has changed memory. It is off until
-  /// `set_active`.
+  /// `set_run` or `set_active`.
   P2pClient(plc::PlcMemory& memory, const P2pParameters& parameters, unsigned channel,
             std::unique_ptr<P2pDriver> driver, const Timing& timing, std::function<void()> saved);
 
@@ -42,16 +42,26 @@ class P2pClient : public line::Device, private plc::FrameSink {
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
-  /// Looks at the flags; to be called when memory may have changed.
-  void scan();
+  /// Looks at the flags.
+  void scan() override;
   /// RUN and link enabled. Otherwise it is silent, and what is under way is given up without a
   /// result.
   void set_active(bool active);
+  void set_run(bool run) override;
+  /// "link on", "link off" (Cnet EN 6.2.6); the parameter says how it begins.
+  std::vector<std::string> actions() const override { return {"link on", "link off"}; }
+  std::optional<Status> act(std::string_view action) override;
   /// Counters, and what is under way, are lost; clocks begin anew.
-  void power_cycle();
+  void power_cycle() override;
   /// Of all blocks. The status is that of the P2P service, Cnet EN 11.1.4: 4 station, 5 time-out,
   /// FFFE no such request; where it has no code, that of Appendix 3.3.
-  const plc::ServiceCounters& counters() const { return counters_; }
+  const plc::ServiceCounters& counters() const override { return counters_; }
+
+  // Where it is behind a connection (network_client.hpp):
+  /// `then` is called when a reply has not come in time.
+  void on_time_out(std::function<void()> then) { on_time_out_ = std::move(then); }
+  /// No reply to what is under way can come any more: it ends with STATUS 07.
+  void connection_lost();
 
  private:
   using BlockSet = std::uint32_t;  // bit i: block i of blocks_
@@ -77,9 +87,10 @@ class P2pClient : public line::Device, private plc::FrameSink {
   std::vector<P2pResultFlags> results_;
   std::unique_ptr<P2pDriver> driver_;
   Timing timing_;
-  std::function<void()> saved_;
+  std::function<void()> saved_, on_time_out_;
   std::vector<Clock> clocks_;
   bool clocks_run_ = false;
+  bool run_ = false, link_;
   bool active_ = false;
   BlockSet receivers_ = 0;
   BlockSet flags_on_ = 0;

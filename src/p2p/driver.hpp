@@ -29,9 +29,9 @@ class P2pDriver {
   /// partner, functions.
   virtual Status check(const P2pBlock& block, const plc::PlcModel& model) const = 0;
 
-  /// The request of a block, with the values of a write taken from memory. An error: it cannot be
-  /// sent (STATUS 07).
-  virtual Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory& memory) const = 0;
+  /// The request of a block, with the values of a write taken from memory; the driver remembers it
+  /// to tell its reply. An error: it cannot be sent (STATUS 07).
+  virtual Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory& memory) = 0;
 
   /// Does the request of such a block wait for a reply? A user frame that was sent is done.
   virtual bool awaits_reply(const P2pBlock& block) const = 0;

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-Result<std::unique_ptr<P2pPlc>> make(const json& config, std::string_view model = "xbc-h") {
+Result<std::unique_ptr<plc::Plc>> make(const json& config, std::string_view model = "xbc-h") {
   return make_p2p_plc(model, config,
                       [](const plc::PortConfig&) { return std::make_unique<test::TestDriver>(); },
                       {"colour"});
@@ -28,14 +28,14 @@ json with(const json& changes) {
   return changed;
 }
 
-std::unique_ptr<P2pPlc> plc_of(const json& with_config) {
-  Result<std::unique_ptr<P2pPlc>> plc = make(with_config);
+std::unique_ptr<plc::Plc> plc_of(const json& with_config) {
+  Result<std::unique_ptr<plc::Plc>> plc = make(with_config);
   EXPECT_TRUE(plc) << (plc ? "" : plc.error().message);
   return plc ? std::move(*plc) : nullptr;
 }
 
 std::string error_of_plc(const json& with_config) {
-  const Result<std::unique_ptr<P2pPlc>> plc = make(with_config);
+  const Result<std::unique_ptr<plc::Plc>> plc = make(with_config);
   return plc ? "" : plc.error().message;
 }
 
@@ -46,10 +46,10 @@ std::string sent(line::Device& device, Time now = {}) {
 
 TEST(P2pPlc, TheBackDoorRaisesFlags) {
   const auto plc = plc_of(config);
-  EXPECT_EQ(plc->wake_at(), std::nullopt);
+  EXPECT_EQ(plc->line()->wake_at(), std::nullopt);
   ASSERT_TRUE(plc->set("%MX0", "01"));
-  EXPECT_EQ(sent(*plc), "ask 0");
-  plc->receive({to_bytes("ok"), 1ms, 0ms});
+  EXPECT_EQ(sent(*plc->line()), "ask 0");
+  plc->line()->receive({to_bytes("ok"), 1ms, 0ms});
   EXPECT_EQ(*plc->get("%LX5120", 0), "01");
   EXPECT_EQ(*plc->get("@services", 0), "0001");
   EXPECT_FALSE(plc->set("%ZX0", "01"));
@@ -58,17 +58,17 @@ TEST(P2pPlc, TheBackDoorRaisesFlags) {
 TEST(P2pPlc, ChannelsShareMemory) {
   const auto plc = plc_of(config);
   ASSERT_TRUE(plc->set("%MX0", "01"));
-  EXPECT_EQ(sent(plc->channel(1)), "ask 0");
-  EXPECT_EQ(sent(plc->channel(2)), "");
-  plc->channel(1).receive({to_bytes("ok"), 1ms, 0ms});  // saves %MX1, the flag of channel 2
-  EXPECT_EQ(sent(plc->channel(2), 1ms), "ask 1");
+  EXPECT_EQ(sent(*plc->line(1)), "ask 0");
+  EXPECT_EQ(sent(*plc->line(2)), "");
+  plc->line(1)->receive({to_bytes("ok"), 1ms, 0ms});  // saves %MX1, the flag of channel 2
+  EXPECT_EQ(sent(*plc->line(2), 1ms), "ask 1");
   EXPECT_EQ(*plc->get("@services", 0), "0001");  // of the channel on the line
 }
 
 TEST(P2pPlc, TheLineLeadsToTheChannelOfTheParameter) {
   const auto plc = plc_of(with({{"p2p", {{"channel", 2}}}}));
   ASSERT_TRUE(plc->set("%MX1", "01"));
-  EXPECT_EQ(sent(*plc), "ask 1");
+  EXPECT_EQ(sent(*plc->line()), "ask 1");
 }
 
 TEST(P2pPlc, RunAndLinkAreRequired) {
@@ -76,37 +76,37 @@ TEST(P2pPlc, RunAndLinkAreRequired) {
     const auto plc = plc_of(config);
     ASSERT_TRUE(plc->act(off));
     ASSERT_TRUE(plc->set("%MX0", "01"));
-    EXPECT_EQ(sent(*plc), "") << off;
+    EXPECT_EQ(sent(*plc->line()), "") << off;
     ASSERT_TRUE(plc->act(on));
-    EXPECT_EQ(sent(*plc), "") << on;
+    EXPECT_EQ(sent(*plc->line()), "") << on;
     ASSERT_TRUE(plc->set("%MX0", "00"));
     ASSERT_TRUE(plc->set("%MX0", "01"));
-    EXPECT_EQ(sent(*plc), "ask 0") << on;
+    EXPECT_EQ(sent(*plc->line()), "ask 0") << on;
   }
   for (const json& off : {json{{"mode", "stop"}}, json{{"p2p", {{"link", false}}}}}) {
     const auto plc = plc_of(with(off));
     ASSERT_TRUE(plc->set("%MX0", "01"));
-    EXPECT_EQ(sent(*plc), "") << off;
+    EXPECT_EQ(sent(*plc->line()), "") << off;
   }
   const auto plc = plc_of(config);
   ASSERT_TRUE(plc->act("stop"));
   ASSERT_TRUE(plc->act("link on"));  // one alone does not do
   ASSERT_TRUE(plc->set("%MX0", "01"));
-  EXPECT_EQ(sent(*plc), "");
+  EXPECT_EQ(sent(*plc->line()), "");
 }
 
 TEST(P2pPlc, PowerCycleKeepsMemoryModeAndLink) {
   const auto plc = plc_of(config);
   ASSERT_TRUE(plc->set("%MX0", "01"));
-  EXPECT_EQ(sent(*plc), "ask 0");
-  plc->receive({to_bytes("error 0F"), 1ms, 0ms});
+  EXPECT_EQ(sent(*plc->line()), "ask 0");
+  plc->line()->receive({to_bytes("error 0F"), 1ms, 0ms});
   ASSERT_TRUE(plc->act("link off"));
   ASSERT_TRUE(plc->act("power_cycle"));
   EXPECT_EQ(*plc->get("@errors", 0), "0000");
   EXPECT_EQ(*plc->get("%LW513", 0), "000F");
   ASSERT_TRUE(plc->set("%MX0", "00"));
   ASSERT_TRUE(plc->set("%MX0", "01"));
-  EXPECT_EQ(sent(*plc, 1s), "");
+  EXPECT_EQ(sent(*plc->line(), 1s), "");
 }
 
 TEST(P2pPlc, UnknownActions) {
@@ -119,19 +119,19 @@ TEST(P2pPlc, UnknownActions) {
 TEST(P2pPlc, TimesOutByItsParameter) {
   const auto plc = plc_of(with({{"time_out", 3}, {"line", "9600-8N1"}}));
   ASSERT_TRUE(plc->set("%MX0", "01"));
-  EXPECT_EQ(sent(*plc), "ask 0");
-  EXPECT_EQ(plc->wake_at(), 5 * line::LineSettings{}.character_time() + 400ms);
+  EXPECT_EQ(sent(*plc->line()), "ask 0");
+  EXPECT_EQ(plc->line()->wake_at(), 5 * line::LineSettings{}.character_time() + 400ms);
 }
 
 TEST(P2pPlc, DelayHoldsWithRs485) {
   const auto next = [](bool rs485) {
     const auto plc = plc_of(with({{"rs485", rs485}, {"delay_ms", 50}}));
     EXPECT_TRUE(plc->set("%MX0", "01"));
-    sent(*plc, 1s);
-    plc->receive({to_bytes("ok"), 1100ms, 0ms});
+    sent(*plc->line(), 1s);
+    plc->line()->receive({to_bytes("ok"), 1100ms, 0ms});
     EXPECT_TRUE(plc->set("%MX0", "00"));
     EXPECT_TRUE(plc->set("%MX0", "01"));
-    return plc->wake_at();
+    return plc->line()->wake_at();
   };
   EXPECT_EQ(next(true), 1150ms);
   EXPECT_EQ(next(false), 1100ms);

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 using Function = P2pBlock::Function;
 
-constexpr unsigned channels = 2, highest_station = 255, most_elements = 2000;
+constexpr unsigned highest_station = 255, most_elements = 2000;
 
 struct Word {
   std::string_view text;
@@ -31,6 +31,10 @@ constexpr std::array commands{Word{"single", 0}, Word{"continuous", 1}};
 constexpr std::array types{Word{"bit", 'X'}, Word{"byte", 'B'}, Word{"word", 'W'},
                            Word{"dword", 'D'}, Word{"lword", 'L'}};
 
+std::string channel_numbers(const P2pRules& rules) {
+  return fmt::format("1 {} {}", rules.channels == 2 ? "or" : "to", rules.channels);
+}
+
 std::string_view type_name(char type) {
   return std::ranges::find(types, int(type), &Word::meaning)->text;
 }
@@ -38,9 +42,11 @@ std::string_view type_name(char type) {
 /// Reads one block; the first error stays.
 class BlockReader {
  public:
-  BlockReader(const json& object, const plc::PlcModel& model, P2pBlock& block, std::string what)
+  BlockReader(const json& object, const plc::PlcModel& model, const P2pRules& rules,
+              P2pBlock& block, std::string what)
       : object_(object),
         model_(model),
+        rules_(rules),
         block_(block),
         reader_(object, what),
         what_(std::move(what)) {}
@@ -51,7 +57,7 @@ class BlockReader {
                                                     "size",  "station",  "type"};
     if (const Status known = plc::known_keys(object_, what_, keys); !known) return known;
     int function = int(block_.function), continuous = block_.continuous, type = block_.type;
-    reader_.whole("channel", channels, block_.channel);
+    reader_.whole("channel", rules_.channels, block_.channel);
     reader_.whole("station", highest_station, block_.station);
     reader_.whole("size", most_elements, block_.size);
     if (reader_.error()) return *reader_.error();
@@ -61,7 +67,7 @@ class BlockReader {
     block_.function = static_cast<Function>(function);
     block_.continuous = continuous != 0;
     block_.type = static_cast<char>(type);
-    if (block_.channel == 0) return wrong("channel is 0; use 1 or 2");
+    if (block_.channel == 0) return wrong("channel is 0; use " + channel_numbers(rules_));
     if (block_.size == 0) return wrong("size is 0; give at least 1");
     if (const Status status = read_condition(); !status) return status;
     return block_.is_user_frame() ? read_user_frame() : read_variables();
@@ -188,6 +194,7 @@ class BlockReader {
 
   const json& object_;
   const plc::PlcModel& model_;
+  const P2pRules& rules_;
   P2pBlock& block_;
   plc::ConfigReader reader_;
   std::string what_;
@@ -212,7 +219,7 @@ Status check_together(const P2pParameters& parameters) {
           fmt::format(
               "frame {} has a receive block already; one block receives a frame (Cnet EN 6.2.4)",
               block.frame));
-    if (parameters.parameter != 1 && block.channel != first_channel)
+    if (!parameters.network && parameters.parameter != 1 && block.channel != first_channel)
       return wrong_block(
           block.number,
           fmt::format(
@@ -223,17 +230,22 @@ Status check_together(const P2pParameters& parameters) {
 }
 }  // namespace
 
-Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel& model) {
-  constexpr std::array<std::string_view, 4> keys{"blocks", "channel", "link", "parameter"};
-  if (const Status known = plc::known_keys(p2p, "p2p", keys); !known) return known.error();
+Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel& model,
+                                           const P2pRules& rules) {
+  constexpr std::array<std::string_view, 5> keys{"blocks", "channel", "link", "parameter",
+                                                 "partner"};
+  const auto own_keys = std::span(keys).first(rules.network ? keys.size() : keys.size() - 1);
+  if (const Status known = plc::known_keys(p2p, "p2p", own_keys); !known) return known.error();
   P2pParameters parameters;
+  parameters.network = rules.network;
   plc::ConfigReader reader(p2p, "p2p");
   reader.whole("parameter", p2p_parameters, parameters.parameter);
-  reader.whole("channel", channels, parameters.channel);
+  reader.whole("channel", rules.channels, parameters.channel);
   reader.boolean("link", parameters.link);
+  reader.text("partner", parameters.partner);
   if (reader.error()) return *reader.error();
   if (parameters.parameter == 0 || parameters.channel == 0)
-    return fail("cannot read p2p: parameter is 1 to 3, and channel 1 or 2");
+    return fail("cannot read p2p: parameter is 1 to 3, and channel " + channel_numbers(rules));
   const auto list = p2p.find("blocks");
   if (list == p2p.end() || !list->is_array() || list->empty())
     return fail("cannot read p2p: there are no blocks; give a list of them");
@@ -244,11 +256,12 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel&
     P2pBlock block;
     block.number = static_cast<unsigned>(parameters.blocks.size());
     block.channel = parameters.channel;
+    block.station = rules.station;
     plc::ConfigReader number(object, fmt::format("p2p.blocks[{}]", block.number));
     if (object.is_object()) number.whole("block", p2p_blocks - 1, block.number);
     if (number.error()) return *number.error();
     const Status status =
-        BlockReader(object, model, block, fmt::format("P2P block {}", block.number)).read();
+        BlockReader(object, model, rules, block, fmt::format("P2P block {}", block.number)).read();
     if (!status) return status.error();
     parameters.blocks.push_back(std::move(block));
   }

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "src/base/result.hpp"
@@ -22,16 +23,28 @@ namespace fieldproof::p2p {
 
 class P2pDriver;
 
+/// What differs between the Cnet channels and those of an Ethernet module.
+struct P2pRules {
+  bool network = false;   // parameters 1 to 3 each have all channels; `partner` is a key of p2p
+  unsigned channels = 2;  // 1 to so many
+  unsigned station = 0;   // of a block that gives none
+};
+/// FEnet EN 7.1.1: three channels. A block gives no station; Modbus TCP carries it as the unit.
+constexpr P2pRules network_p2p_rules() { return {.network = true, .channels = 3, .station = 1}; }
+
 struct P2pParameters {
   unsigned parameter = 1;          // 1-3
   unsigned channel = 1;            // the one that an endpoint leads to
   bool link = true;                // link enable (Cnet EN 6.2.6)
   std::vector<P2pBlock> blocks{};  // in the order of their numbers
+  bool network = false;            // of an Ethernet module
+  std::string partner{};           // its address; empty: whoever is there
 };
 
 /// What holds whatever the driver is. Errors name the block and the key: "cannot set up P2P block
 /// 3: ...".
-Result<P2pParameters> parse_p2p_parameters(const nlohmann::json& p2p, const plc::PlcModel& model);
+Result<P2pParameters> parse_p2p_parameters(const nlohmann::json& p2p, const plc::PlcModel& model,
+                                           const P2pRules& rules = {});
 
 /// What the driver of `channel` adds: user frames are for the driver user-frames alone, which has
 /// nothing else (6.2.3); and P2pDriver::check of each block of that channel.

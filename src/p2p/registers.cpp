@@ -22,9 +22,9 @@ void write_name(plc::PlcMemory& memory, const plc::DeviceAddress& first, unsigne
   }
 }
 
-void write_block(plc::PlcMemory& memory, unsigned parameter, const P2pBlock& block) {
-  const P2pRegisters registers = p2p_registers(memory.model(), parameter, block.number);
-  memory.write(registers.station, block.station);
+void write_block(plc::PlcMemory& memory, const P2pParameters& parameters, const P2pBlock& block) {
+  const P2pRegisters registers = p2p_registers(memory.model(), parameters.parameter, block.number);
+  memory.write(registers.station, parameters.network ? block.channel : block.station);
   const bool own_is_saved =
       block.function == P2pBlock::Function::read || block.function == P2pBlock::Function::receive;
   const unsigned bytes =
@@ -70,7 +70,7 @@ P2pRegisters p2p_registers(const plc::PlcModel& model, unsigned parameter, unsig
 }
 
 void write_p2p_registers(plc::PlcMemory& memory, const P2pParameters& parameters) {
-  for (const P2pBlock& block : parameters.blocks) write_block(memory, parameters.parameter, block);
+  for (const P2pBlock& block : parameters.blocks) write_block(memory, parameters, block);
 }
 
 std::string device_name(const plc::PlcModel& model, const plc::DeviceAddress& address) {

@@ -21,6 +21,8 @@
 
 namespace fieldproof::p2p {
 
+// A channel of an Ethernet module has no station; its number stands there (decision).
+
 struct P2pResultFlags {
   plc::DeviceAddress ndr, err;          // bits: the last service ended normally, or not
   plc::DeviceAddress status;            // word: p2p_error

@@ -22,7 +22,7 @@ class TestDriver : public P2pDriver {
   Status check(const P2pBlock& block, const plc::PlcModel&) const override {
     return block.station == 99 ? Status(fail("station is 99, which this driver has not")) : ok();
   }
-  Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory&) const override {
+  Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory&) override {
     if (block.station == 255) return fail("no such request");
     return to_bytes(block.is_user_frame() ? "send " + block.frame
                                           : "ask " + std::to_string(block.number));

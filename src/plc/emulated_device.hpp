@@ -7,11 +7,19 @@
 
 #include "src/base/result.hpp"
 #include "src/line/device.hpp"
+#include "src/net/host.hpp"
 
 namespace fieldproof::plc {
 
-class EmulatedDevice : public line::Device {
+class EmulatedDevice {
  public:
+  virtual ~EmulatedDevice() = default;
+
+  /// What it has on a serial channel, and on its network; nullptr: nothing. Both belong to the
+  /// device. Channel 0 is the one that its configuration leads to, else 1.
+  virtual line::Device* line([[maybe_unused]] unsigned channel = 0) { return nullptr; }
+  virtual net::Host* network() { return nullptr; }
+
   /// Sets memory at a device address ("%MW100", "%MX0010A") to hex digits, most significant first.
   /// More digits than the type has fill the following elements. Rights do not bind the back door.
   /// Errors name the address.
@@ -25,6 +33,12 @@ class EmulatedDevice : public line::Device {
 
   /// "run", "stop" or "power_cycle".
   virtual Status act(std::string_view action) = 0;
+};
+
+/// A device that is one serial line and nothing else.
+class SerialDevice : public EmulatedDevice, public line::Device {
+ public:
+  line::Device* line(unsigned channel = 0) override { return channel <= 1 ? this : nullptr; }
 };
 
 }  // namespace fieldproof::plc

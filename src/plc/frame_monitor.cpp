@@ -67,7 +67,7 @@ void FrameMonitor::receive(const Burst& burst) {
   last_end_ = burst.end();
   character_time_ = burst.character_time;
   take_frames(burst.character_time);
-  device_->receive(burst);
+  line_->receive(burst);
 }
 
 void FrameMonitor::take_frames(Duration character_time) {
@@ -93,7 +93,7 @@ void FrameMonitor::record(bool sent, Time time, Bytes data) {
 }
 
 std::optional<Time> FrameMonitor::wake_at() const {
-  const std::optional<Time> wake = device_->wake_at();
+  const std::optional<Time> wake = line_->wake_at();
   if (heard_.empty()) return wake;
   // A character that begins at the last moment is heard one character time later.
   const Time over = silent_from() + character_time_ + Duration(1);
@@ -102,7 +102,7 @@ std::optional<Time> FrameMonitor::wake_at() const {
 
 Bytes FrameMonitor::advance(Time now) {
   if (now > silent_from() + character_time_) close();
-  Bytes bytes = device_->advance(now);
+  Bytes bytes = line_->advance(now);
   if (bytes.empty()) return bytes;
   close();
   record(true, now, bytes);

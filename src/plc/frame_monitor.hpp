@@ -53,14 +53,24 @@ struct MonitorRules {
   Duration silence{};  // ends what is no complete frame
 };
 
-/// Passes everything on to its device, and back. Also a name of the back door: "@monitor" is the
-/// number of the last frame's result, 00 before there is one.
-class FrameMonitor : public EmulatedDevice {
+/// Passes everything on to its device, and back; what crosses its first line is monitored. Also a
+/// name of the back door: "@monitor" is the number of the last frame's result, 00 before there is
+/// one.
+class FrameMonitor : public EmulatedDevice, public line::Device {
  public:
   using Record = std::function<void(const MonitoredFrame&)>;
 
   FrameMonitor(std::unique_ptr<EmulatedDevice> device, MonitorRules rules, Record record = {})
-      : device_(std::move(device)), rules_(std::move(rules)), record_(std::move(record)) {}
+      : device_(std::move(device)),
+        line_(device_->line()),
+        rules_(std::move(rules)),
+        record_(std::move(record)) {}
+
+  line::Device* line(unsigned channel = 0) override {
+    line::Device* const of_device = device_->line(channel);
+    return of_device && of_device == line_ ? this : of_device;
+  }
+  net::Host* network() override { return device_->network(); }
 
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
@@ -79,6 +89,7 @@ class FrameMonitor : public EmulatedDevice {
   void record(bool sent, Time time, Bytes data);
 
   std::unique_ptr<EmulatedDevice> device_;
+  line::Device* line_;  // the one that is monitored; nullptr: the device has none
   MonitorRules rules_;
   Record record_;
   Bytes heard_;  // since the last reception

@@ -12,7 +12,7 @@ namespace {
 constexpr Duration character = 1ms;
 
 /// Sends what it is told to, 10 ms after it has heard the last byte.
-class Answerer : public EmulatedDevice {
+class Answerer : public SerialDevice {
  public:
   explicit Answerer(Bytes answer) : answer_(std::move(answer)) {}
   void receive(const Burst& burst) override { due_ = burst.end() + 10ms; }

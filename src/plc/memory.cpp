@@ -114,6 +114,7 @@ Status set_by_name(PlcMemory& memory, std::string_view address, std::string_view
     values.push_back(value);
   }
   for (std::uint32_t i = 0; i < values.size(); ++i) memory.write(elements->first + i, values[i]);
+  memory.written();
   return ok();
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,13 @@ class PlcMemory {
   std::uint64_t read(const DeviceAddress& address) const;
   void write(const DeviceAddress& address, std::uint64_t value);
 
+  /// Who writes says so when all that belongs together is written: `watcher`, where there is one,
+  /// looks at memory then. P2P fires by the bits of memory.
+  void written() const {
+    if (watcher_) watcher_();
+  }
+  void watch(std::function<void()> watcher) { watcher_ = std::move(watcher); }
+
  private:
   void check(const DeviceAddress& address) const;
 
@@ -33,10 +41,11 @@ class PlcMemory {
   std::array<std::uint32_t, 16> first_contact_{};  // of each area in contacts_
   std::vector<std::uint16_t> words_;
   std::vector<std::uint8_t> contacts_;
+  std::function<void()> watcher_;
 };
 
-/// The back door (emulated_device.hpp): `hex` fills as many elements as it has digits for; a bit is
-/// "00" or "01".
+/// The back door (emulated_device.hpp), which says `written`: `hex` fills as many elements as it
+/// has digits for; a bit is "00" or "01".
 Status set_by_name(PlcMemory& memory, std::string_view address, std::string_view hex);
 /// `digits` 0: one element.
 Result<std::string> get_by_name(const PlcMemory& memory, std::string_view address,

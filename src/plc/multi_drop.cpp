@@ -5,23 +5,24 @@
 namespace fieldproof::plc {
 
 void MultiDrop::receive(const Burst& burst) {
-  for (const auto& device : devices_) device->receive(burst);
+  for (const auto& device : devices_) device->line()->receive(burst);
 }
 
 std::optional<Time> MultiDrop::wake_at() const {
   std::optional<Time> first;
   for (const auto& device : devices_)
-    if (const std::optional<Time> wake = device->wake_at(); wake && (!first || *wake < *first))
+    if (const std::optional<Time> wake = device->line()->wake_at();
+        wake && (!first || *wake < *first))
       first = wake;
   return first;
 }
 
 Bytes MultiDrop::advance(Time now) {
   for (const auto& sender : devices_) {
-    Bytes bytes = sender->advance(now);
+    Bytes bytes = sender->line()->advance(now);
     if (bytes.empty()) continue;
     for (const auto& listener : devices_)
-      if (listener != sender) listener->receive({bytes, now, Duration{}});
+      if (listener != sender) listener->line()->receive({bytes, now, Duration{}});
     return bytes;  // whoever else has something to send is still awake
   }
   return {};

@@ -9,16 +9,19 @@
 
 namespace fieldproof::plc {
 
-/// All hear what arrives, and what the others send. The back door leads to the first.
-class MultiDrop : public EmulatedDevice {
+/// All hear what arrives, and what the others send. The back door and the network lead to the
+/// first.
+class MultiDrop : public SerialDevice {
  public:
-  /// At least one device.
+  /// At least one device, each with a line.
   explicit MultiDrop(std::vector<std::unique_ptr<EmulatedDevice>> devices)
       : devices_(std::move(devices)) {}
 
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
+
+  net::Host* network() override { return devices_.front()->network(); }
 
   Status set(std::string_view address, std::string_view hex) override {
     return devices_.front()->set(address, hex);

@@ -6,7 +6,7 @@ namespace fieldproof::plc {
 namespace {
 
 /// Says its name once it has heard it; keeps all that it hears.
-class Talker : public EmulatedDevice {
+class Talker : public SerialDevice {
  public:
   Talker(std::string name, std::string& heard) : name_(std::move(name)), heard_(heard) {}
   void receive(const Burst& burst) override {

@@ -40,6 +40,14 @@ std::vector<std::string_view> port_keys(std::initializer_list<std::string_view> 
   return keys;
 }
 
+std::vector<std::string_view> network_keys(std::initializer_list<std::string_view> more) {
+  std::vector<std::string_view> keys{
+      "inter_character_floor_ms", "mode", "model", "protocol", "role", "station"};
+  keys.insert(keys.end(), more);
+  std::ranges::sort(keys);
+  return keys;
+}
+
 void read_port_config(ConfigReader& reader, PortConfig& to) {
   bool client = to.role == PortConfig::Role::client;
   reader.whole("station", 255, to.station);
@@ -53,14 +61,17 @@ void read_port_config(ConfigReader& reader, PortConfig& to) {
   to.role = client ? PortConfig::Role::client : PortConfig::Role::server;
 }
 
+Result<const PlcModel*> known_plc_model(std::string_view name) {
+  if (const PlcModel* model = find_plc_model(name)) return model;
+  std::vector<std::string_view> names;
+  for (const PlcModel& m : plc_models()) names.push_back(m.name);
+  return fail(fmt::format("cannot make a PLC '{}': there is no such model; use one of {}{}", name,
+                          plc_model_names(), suggestion(name, names)));
+}
+
 Result<const PlcModel*> check_port_config(const PortConfig& config) {
-  const PlcModel* model = find_plc_model(config.model);
-  if (!model) {
-    std::vector<std::string_view> names;
-    for (const PlcModel& m : plc_models()) names.push_back(m.name);
-    return fail(fmt::format("cannot make a PLC '{}': there is no such model; use one of {}{}",
-                            config.model, plc_model_names(), suggestion(config.model, names)));
-  }
+  const Result<const PlcModel*> model = known_plc_model(config.model);
+  if (!model) return model;
   const auto wrong = [](const std::string& what) { return fail("cannot make a PLC: " + what); };
   if (config.station > 255) return wrong("station is not 0 to 255");
   if (config.inter_character < Duration::zero() ||

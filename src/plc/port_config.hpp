@@ -44,8 +44,15 @@ Duration effective_gap(Duration parameter, Duration floor, const line::LineSetti
 /// which are passed over, and `more`: for `known_keys`.
 std::vector<std::string_view> port_keys(std::initializer_list<std::string_view> more = {});
 
+/// The keys that a service of the Ethernet module passes over or reads itself (mode, role, station,
+/// and the others of `port_keys` that are no affair of a line), and `more`.
+std::vector<std::string_view> network_keys(std::initializer_list<std::string_view> more = {});
+
 /// station, role, mode, line, inter_character_ms, inter_character_floor_ms, delay_ms, rs485.
 void read_port_config(ConfigReader& reader, PortConfig& to);
+
+/// The error names it, and those there are.
+Result<const PlcModel*> known_plc_model(std::string_view name);
 
 /// The model. Errors name it, or the parameter that is out of its range.
 Result<const PlcModel*> check_port_config(const PortConfig& config);

@@ -37,7 +37,7 @@ struct ModemConfig {
        rts = true;  // set by the PLC ('SET(1)'); without them the modem is deaf and mute
 };
 
-class Modem : public plc::EmulatedDevice {
+class Modem : public plc::SerialDevice {
  public:
   explicit Modem(ModemConfig config)
       : config_(std::move(config)), dtr_(config_.dtr), rts_(config_.rts) {}

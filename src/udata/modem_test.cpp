@@ -20,7 +20,7 @@ class Wired {
 
   /// What comes back at once.
   std::string say(std::string_view text) {
-    modem->receive({to_bytes(text), now_, character});
+    modem->line()->receive({to_bytes(text), now_, character});
     now_ += character * static_cast<Duration::rep>(text.size());
     return hear({});
   }
@@ -28,12 +28,13 @@ class Wired {
   std::string hear(Duration patience) {
     Bytes out;
     const Time until = now_ + patience;
-    for (auto wake = modem->wake_at(); wake && *wake <= until; wake = modem->wake_at()) {
-      const Bytes part = modem->advance(std::max(*wake, now_));
+    for (auto wake = modem->line()->wake_at(); wake && *wake <= until;
+         wake = modem->line()->wake_at()) {
+      const Bytes part = modem->line()->advance(std::max(*wake, now_));
       out.insert(out.end(), part.begin(), part.end());
     }
     now_ = until;
-    modem->advance(now_);
+    modem->line()->advance(now_);
     return to_text(out);
   }
 

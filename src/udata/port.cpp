@@ -3,27 +3,30 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "src/plc/device_action.hpp"
-
 namespace fieldproof::udata {
 
 namespace {
 constexpr std::size_t most_held = 16;  // DECISIONS.md udata/held
 }  // namespace
 
+std::unique_ptr<plc::Plc> make_udata_plc(const UdataConfig& config) {
+  auto plc = std::make_unique<plc::Plc>(*config.plc, config.port.run);
+  (void)plc->add(1, std::make_unique<UdataPort>(config, plc->memory()));  // the channel is free
+  return plc;
+}
+
 Result<std::unique_ptr<plc::EmulatedDevice>> make_udata_port(std::string_view model,
                                                              const nlohmann::json& config) {
   const Result<UdataConfig> parsed = parse_udata_config(model, config);
   if (!parsed) return parsed.error();
-  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<UdataPort>(*parsed));
+  return std::unique_ptr<plc::EmulatedDevice>(make_udata_plc(*parsed));
 }
 
-UdataPort::UdataPort(const UdataConfig& config)
-    : memory_(*config.plc),
+UdataPort::UdataPort(const UdataConfig& config, plc::PlcMemory& memory)
+    : memory_(memory),
       module_(config.module),
       program_(config.instructions, config.module),
-      gap_(config.port.gap()),
-      run_(config.port.run) {}
+      gap_(config.port.gap()) {}
 
 void UdataPort::receive(const Burst& burst) {
   if (burst.bytes.empty()) return;
@@ -82,39 +85,32 @@ std::optional<Bytes> UdataPort::take_received() {
   return oldest;
 }
 
-Status UdataPort::set(std::string_view address, std::string_view hex) {
-  if (Status done = plc::set_by_name(memory_, address, hex); !done) return done;
-  scan();
-  return ok();
-}
-
-Result<std::string> UdataPort::get(std::string_view address, std::size_t digits) const {
+Result<std::string> UdataPort::get(std::string_view name, std::size_t digits) const {
   const auto level = [digits](bool on) {
     return hex_number(on, static_cast<int>(digits == 0 ? 2 : digits));
   };
-  if (address == "@dtr") return level(dtr_);
-  if (address == "@rts") return level(rts_);
-  return address.starts_with('@') ? plc::get_counter(counters_, address, digits)
-                                  : plc::get_by_name(memory_, address, digits);
+  if (name == "@dtr") return level(dtr_);
+  if (name == "@rts") return level(rts_);
+  return plc::get_counter(counters_, name, digits);
 }
 
-Status UdataPort::act(std::string_view action) {
-  const Result<plc::DeviceAction> known = plc::parse_device_action(action);
-  if (!known) return known.error();
-  switch (*known) {
-    case plc::DeviceAction::run: run_ = true; return ok();
-    case plc::DeviceAction::stop: run_ = false; break;
-    case plc::DeviceAction::power_cycle:
-      counters_ = {};
-      dtr_ = rts_ = false;
-      received_.clear();
-      program_.reset();
-      program_.look(memory_);
-      break;
-  }
+void UdataPort::set_run(bool run) {
+  run_ = run;
+  if (!run) forget();
+}
+
+void UdataPort::power_cycle() {
+  counters_ = {};
+  dtr_ = rts_ = false;
+  received_.clear();
+  program_.reset();
+  program_.look(memory_);
+  forget();
+}
+
+void UdataPort::forget() {
   heard_.clear();
   queue_.clear();
-  return ok();
 }
 
 }  // namespace fieldproof::udata

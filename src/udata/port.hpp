@@ -5,17 +5,17 @@
 #include <deque>
 #include <memory>
 
-#include "src/plc/counters.hpp"
-#include "src/plc/emulated_device.hpp"
+#include "src/plc/plc.hpp"
 #include "src/plc/reply_queue.hpp"
 #include "src/udata/config.hpp"
 #include "src/udata/program.hpp"
 
 namespace fieldproof::udata {
 
-class UdataPort : public plc::EmulatedDevice, private UdataChannel {
+class UdataPort : public plc::LineService, private UdataChannel {
  public:
-  explicit UdataPort(const UdataConfig& config);
+  /// `memory` outlives the port.
+  UdataPort(const UdataConfig& config, plc::PlcMemory& memory);
 
   /// A datum ends when the line is silent for the inter-character time (Cnet KO 4.3.1), or is 1024
   /// bytes long.
@@ -23,13 +23,16 @@ class UdataPort : public plc::EmulatedDevice, private UdataChannel {
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
-  Status set(std::string_view address, std::string_view hex) override;
-  /// Also "@dtr" and "@rts": 01 while the control line is set. Counters: each datum sent or
-  /// received is a service, one that is lost because nothing takes them an error.
-  Result<std::string> get(std::string_view address, std::size_t digits) const override;
-  /// power_cycle: what was received, the counters and the control lines are lost; memory and mode
-  /// stay.
-  Status act(std::string_view action) override;
+  /// Each datum sent or received is a service, one that is lost because nothing takes them an
+  /// error.
+  const plc::ServiceCounters& counters() const override { return counters_; }
+  /// Also "@dtr" and "@rts": 01 while the control line is set.
+  Result<std::string> get(std::string_view name, std::size_t digits) const override;
+  /// What was received, the counters and the control lines are lost.
+  void power_cycle() override;
+  void set_run(bool run) override;
+  /// The program of the PLC runs.
+  void scan() override;
 
  private:
   void send(Bytes data) override;
@@ -39,13 +42,13 @@ class UdataPort : public plc::EmulatedDevice, private UdataChannel {
 
   bool hears() const { return run_ && module_.cnet && module_.user_frames && module_.link; }
   void end_datum();
-  void scan();
+  void forget();
 
-  plc::PlcMemory memory_;
+  plc::PlcMemory& memory_;
   UdataModule module_;
   UdataProgram program_;
   Duration gap_;
-  bool run_;
+  bool run_ = true;
   bool dtr_ = false, rts_ = false;
   Bytes heard_;                 // of the datum that arrives
   std::deque<Bytes> received_;  // oldest first
@@ -55,7 +58,9 @@ class UdataPort : public plc::EmulatedDevice, private UdataChannel {
   plc::ServiceCounters counters_;
 };
 
-/// In its power-on state. Errors: parse_udata_config.
+/// A PLC with that port, in its power-on state.
+std::unique_ptr<plc::Plc> make_udata_plc(const UdataConfig& config);
+/// The same of a configuration in JSON. Errors: parse_udata_config.
 Result<std::unique_ptr<plc::EmulatedDevice>> make_udata_port(std::string_view model,
                                                              const nlohmann::json& config);
 

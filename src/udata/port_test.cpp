@@ -28,7 +28,7 @@ class Port {
     auto made = make_udata_port(model, config);
     if (!made) throw std::runtime_error(made.error().message);
     device_ = std::move(*made);
-    line_.attach(*device_, {});
+    line_.attach(*device_->line(), {});
   }
 
   void set(std::string_view address, std::string_view hex) {

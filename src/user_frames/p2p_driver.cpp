@@ -39,7 +39,7 @@ class UserFrameP2pDriver : public p2p::P2pDriver {
     return frame ? ok() : Status(frame.error());
   }
 
-  Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory& memory) const override {
+  Result<Bytes> request(const P2pBlock& block, const plc::PlcMemory& memory) override {
     return build_frame(*frame_of_block(definition_, block), memory);
   }
   bool awaits_reply(const P2pBlock&) const override { return false; }

@@ -7,7 +7,6 @@
 
 #include "src/base/spelling.hpp"
 #include "src/plc/config_reader.hpp"
-#include "src/plc/device_action.hpp"
 
 namespace fieldproof::user_frames {
 
@@ -15,11 +14,11 @@ namespace {
 constexpr std::string_view send_verb = "send ";
 }  // namespace
 
-UserFramePort::UserFramePort(const FrameDefinition& definition, const plc::PortConfig& config)
+UserFramePort::UserFramePort(const FrameDefinition& definition, plc::PlcMemory& memory,
+                             const plc::PortConfig& config)
     : definition_(definition),
-      memory_(*definition.plc),
+      memory_(memory),
       delay_(config.reply_delay()),
-      run_(config.run),
       finder_(user_frames::received_frames(definition_), config.gap()) {}
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(
@@ -33,7 +32,9 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(
   plc::read_port_config(reader, port);
   if (reader.error()) return *reader.error();
   if (const auto model = plc::check_port_config(port); !model) return model.error();
-  return std::unique_ptr<plc::EmulatedDevice>(new UserFramePort(definition, port));
+  auto plc = std::make_unique<plc::Plc>(*definition.plc, port.run);
+  (void)plc->add(1, std::make_unique<UserFramePort>(definition, plc->memory(), port));
+  return std::unique_ptr<plc::EmulatedDevice>(std::move(plc));
 }
 
 void UserFramePort::receive(const Burst& burst) {
@@ -46,6 +47,7 @@ void UserFramePort::on_user_frame(const UserFrame& frame, const FrameMatch& matc
   if (store(frame, match, bytes, memory_) != Stored::yes)
     return counters_.count_error(plc::service_status::not_hex);
   counters_.count_service();
+  memory_.written();
   if (frame.answer.empty()) return;
   Result<Bytes> answer = build_frame(*definition_.find(frame.answer), memory_);
   if (!answer) return counters_.count_error(plc::service_status::not_hex);
@@ -59,15 +61,6 @@ Bytes UserFramePort::advance(Time now) {
   now_ = std::max(now_, now);
   finder_.advance(now, *this);
   return queue_.take(now);
-}
-
-Status UserFramePort::set(std::string_view address, std::string_view hex) {
-  return plc::set_by_name(memory_, address, hex);
-}
-
-Result<std::string> UserFramePort::get(std::string_view address, std::size_t digits) const {
-  return address.starts_with('@') ? plc::get_counter(counters_, address, digits)
-                                  : plc::get_by_name(memory_, address, digits);
 }
 
 Status UserFramePort::send(std::string_view name) {
@@ -91,18 +84,24 @@ Status UserFramePort::send(std::string_view name) {
   return ok();
 }
 
-Status UserFramePort::act(std::string_view action) {
-  if (action.starts_with(send_verb)) return send(action.substr(send_verb.size()));
-  const Result<plc::DeviceAction> known = plc::parse_device_action(action);
-  if (!known) return fail(known.error().message + "; or send GROUP.FRAME");
-  switch (*known) {
-    case plc::DeviceAction::run: run_ = true; return ok();
-    case plc::DeviceAction::stop: run_ = false; break;
-    case plc::DeviceAction::power_cycle: counters_ = {}; break;
-  }
+std::optional<Status> UserFramePort::act(std::string_view action) {
+  if (!action.starts_with(send_verb)) return std::nullopt;
+  return send(action.substr(send_verb.size()));
+}
+
+void UserFramePort::set_run(bool run) {
+  run_ = run;
+  if (!run) forget();
+}
+
+void UserFramePort::power_cycle() {
+  counters_ = {};
+  forget();
+}
+
+void UserFramePort::forget() {
   finder_.reset();
   queue_.clear();
-  return ok();
 }
 
 }  // namespace fieldproof::user_frames

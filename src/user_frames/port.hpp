@@ -4,9 +4,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 
-#include "src/plc/counters.hpp"
-#include "src/plc/emulated_device.hpp"
-#include "src/plc/memory.hpp"
+#include "src/plc/plc.hpp"
 #include "src/plc/port_config.hpp"
 #include "src/plc/reply_queue.hpp"
 #include "src/user_frames/finder.hpp"
@@ -14,41 +12,44 @@
 
 namespace fieldproof::user_frames {
 
-class UserFramePort : public plc::EmulatedDevice, private FrameFinder::Sink {
+class UserFramePort : public plc::LineService, private FrameFinder::Sink {
  public:
+  /// `memory` is that of the definition's PLC, and outlives the port.
+  UserFramePort(const FrameDefinition& definition, plc::PlcMemory& memory,
+                const plc::PortConfig& config);
+
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
-  /// Memory of the definition's PLC.
-  Status set(std::string_view address, std::string_view hex) override;
-  Result<std::string> get(std::string_view address, std::size_t digits) const override;
-  /// Also "send GROUP.FRAME". power_cycle: what was half received and the counters are lost; memory
-  /// and mode stay.
-  Status act(std::string_view action) override;
+  const plc::ServiceCounters& counters() const override { return counters_; }
+  /// What was half received and the counters are lost.
+  void power_cycle() override;
+  /// P2P rests in STOP: what was half received is lost.
+  void set_run(bool run) override;
+  /// "send GROUP.FRAME".
+  std::vector<std::string> actions() const override { return {"send GROUP.FRAME"}; }
+  std::optional<Status> act(std::string_view action) override;
 
  private:
-  friend Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(const FrameDefinition&,
-                                                                             const nlohmann::json&);
-  UserFramePort(const FrameDefinition& definition, const plc::PortConfig& config);
-
   void on_user_frame(const UserFrame& frame, const FrameMatch& match, ByteView bytes,
                      Time end) override;
   void on_no_frame(std::uint16_t why) override { counters_.count_error(why); }
   Status send(std::string_view name);
+  void forget();
 
   const FrameDefinition definition_;
-  plc::PlcMemory memory_;
+  plc::PlcMemory& memory_;
   Duration delay_;
-  bool run_;
+  bool run_ = true;
   FrameFinder finder_;
   Time now_{};
   plc::ReplyQueue queue_;
   plc::ServiceCounters counters_;
 };
 
-/// In its power-on state. `config`: port_config.hpp; station and role change nothing. Errors name
-/// the key.
+/// A PLC with that port, in its power-on state. `config`: port_config.hpp; station and role change
+/// nothing. Errors name the key.
 Result<std::unique_ptr<plc::EmulatedDevice>> make_user_frame_device(
     const FrameDefinition& definition, const nlohmann::json& config);
 

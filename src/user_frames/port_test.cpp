@@ -40,7 +40,7 @@ class Port {
   std::string say(std::string_view hex, Duration pause = 100ms) {
     now_ += pause;
     const Bytes bytes = *from_hex(hex);
-    device_->receive({bytes, now_, character});
+    device_->line()->receive({bytes, now_, character});
     now_ += character * static_cast<Duration::rep>(bytes.size());
     return hear();
   }
@@ -48,10 +48,10 @@ class Port {
   /// Until nothing happens any more.
   std::string hear() {
     Bytes out;
-    while (const auto wake = device_->wake_at()) {
+    while (const auto wake = device_->line()->wake_at()) {
       if (*wake > now_ + 3s) break;
       if (*wake > now_ && out.empty()) spoke_after = *wake - now_;
-      const Bytes part = device_->advance(std::max(*wake, now_));
+      const Bytes part = device_->line()->advance(std::max(*wake, now_));
       out.insert(out.end(), part.begin(), part.end());
     }
     return to_hex(out);
@@ -111,7 +111,7 @@ TEST(UserFramePort, AnUnknownFrameIsAnErrorThatNamesTheNearest) {
       HasSubstr(
           "there is no such frame; the first one to send is OUT.DATA; did you mean 'OUT.DATA'?"));
   EXPECT_THAT(port.act("send IN.SET"), HasSubstr("this frame is received"));
-  EXPECT_THAT(port.act("sned OUT.DATA"), HasSubstr("or send GROUP.FRAME"));
+  EXPECT_THAT(port.act("sned OUT.DATA"), HasSubstr("send GROUP.FRAME"));
 }
 
 TEST(UserFramePort, StoresAndAnswers) {
@@ -163,8 +163,8 @@ TEST(UserFramePort, AFrameMayComeInPieces) {
 TEST(UserFramePort, TheInterCharacterTimeEndsAFrame) {
   const auto second_piece_after = [](Duration pause) {
     Port port(talker, {{"inter_character_ms", 50}});
-    port.device().receive({{0x02, 0x53, 0x12}, 1s, 1ms});
-    port.device().receive({{0x34, 0x03, 0x9E}, 1s + 3ms + pause, 1ms});
+    port.device().line()->receive({{0x02, 0x53, 0x12}, 1s, 1ms});
+    port.device().line()->receive({{0x34, 0x03, 0x9E}, 1s + 3ms + pause, 1ms});
     return port.get("%MW200");
   };
   EXPECT_EQ(second_piece_after(50ms), "1234");
@@ -235,9 +235,9 @@ TEST(UserFramePort, InStopItIsDeafAndDumb) {
 TEST(UserFramePort, APowerCycleForgetsWhatWasHalfReceived) {
   Port port(talker, {{"inter_character_ms", 500}});
   port.set("%MW100", "1234");
-  port.device().receive({{0x02, 0x53, 0x12}, 1s, 1ms});
+  port.device().line()->receive({{0x02, 0x53, 0x12}, 1s, 1ms});
   ASSERT_TRUE(port.device().act("power_cycle"));
-  port.device().receive({{0x34, 0x03, 0x9E}, 1s + 3ms, 1ms});
+  port.device().line()->receive({{0x34, 0x03, 0x9E}, 1s + 3ms, 1ms});
   EXPECT_EQ(port.get("%MW200"), "0000");
   EXPECT_EQ(port.get("%MW100"), "1234");
 }

@@ -109,7 +109,7 @@ Status XgtP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
   return ok();
 }
 
-Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const plc::PlcMemory& memory) const {
+Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const plc::PlcMemory& memory) {
   XgtRequest request{.station = block.station,
                      .command = writes(block) ? 'w' : 'r',
                      .kind = block.continuous ? "SB" : "SS"};

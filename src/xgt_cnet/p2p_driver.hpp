@@ -23,7 +23,7 @@ class XgtP2pDriver : public p2p::P2pDriver {
 
   std::string_view name() const override { return "xgt-client"; }
   Status check(const p2p::P2pBlock& block, const plc::PlcModel& model) const override;
-  Result<Bytes> request(const p2p::P2pBlock& block, const plc::PlcMemory& memory) const override;
+  Result<Bytes> request(const p2p::P2pBlock& block, const plc::PlcMemory& memory) override;
   bool awaits_reply(const p2p::P2pBlock&) const override { return true; }
   std::optional<std::uint16_t> take(const p2p::P2pBlock& block, ByteView frame,
                                     plc::PlcMemory& memory) const override;

@@ -19,7 +19,7 @@ using test::nak;
 using test::operator+;
 using ::testing::HasSubstr;
 
-Result<std::unique_ptr<p2p::P2pPlc>> make(const json& block, const std::string& model = "xbc-h") {
+Result<std::unique_ptr<plc::Plc>> make(const json& block, const std::string& model = "xbc-h") {
   const json config{{"p2p", {{"blocks", json::array({block})}}}};
   return p2p::make_p2p_plc(model, config, [](const plc::PortConfig& port) {
     return std::make_unique<XgtP2pDriver>(port.gap());
@@ -33,14 +33,14 @@ json block(const json& changes = json::object()) {
 }
 
 std::string error_of_block(const json& changes) {
-  const Result<std::unique_ptr<p2p::P2pPlc>> plc = make(block(changes));
+  const Result<std::unique_ptr<plc::Plc>> plc = make(block(changes));
   return plc ? "" : plc.error().message;
 }
 
 /// A client with one block, and its partner.
 struct ClientBench {
   explicit ClientBench(const json& changes = json::object(), const std::string& model = "xbc-h") {
-    Result<std::unique_ptr<p2p::P2pPlc>> made = make(block(changes), model);
+    Result<std::unique_ptr<plc::Plc>> made = make(block(changes), model);
     EXPECT_TRUE(made) << (made ? "" : made.error().message);
     if (made) plc = std::move(*made);
   }
@@ -52,10 +52,10 @@ struct ClientBench {
   Bytes request() {
     set("%MX0", "00");
     set("%MX0", "01");
-    return plc->wake_at() == now ? plc->advance(now) : Bytes{};
+    return plc->line()->wake_at() == now ? plc->line()->advance(now) : Bytes{};
   }
   void reply(const Bytes& bytes) {
-    plc->receive({bytes, now + 10ms, 1ms});
+    plc->line()->receive({bytes, now + 10ms, 1ms});
     now += 10ms + 1ms * bytes.size();
   }
   /// "NDR ERR STATUS services errors"
@@ -65,11 +65,12 @@ struct ClientBench {
   }
   /// Time passes until the block has ended.
   std::string result_in_the_end() {
-    while (get("%LW512") == "0000" && plc->wake_at()) plc->advance(*plc->wake_at());
+    while (get("%LW512") == "0000" && plc->line()->wake_at())
+      plc->line()->advance(*plc->line()->wake_at());
     return result();
   }
 
-  std::unique_ptr<p2p::P2pPlc> plc;
+  std::unique_ptr<plc::Plc> plc;
   Time now{};
 };
 
@@ -283,8 +284,8 @@ TEST(XgtP2pDriver, TalksToAServer) {
   });
   ASSERT_TRUE(client) << client.error().message;
   line::SimulatedLine wire(line);
-  wire.attach(**client, line);
-  wire.attach(**server, line);
+  wire.attach(*(*client)->line(), line);
+  wire.attach(*(*server)->line(), line);
   ASSERT_TRUE((*server)->set("%MW100", "CAFE"));
   ASSERT_TRUE((*server)->set("%DW5", "F00D"));
   ASSERT_TRUE((*client)->set("%DW59", "1234"));

@@ -1,25 +1,22 @@
 #include "src/xgt_cnet/plc.hpp"
 
-#include "src/plc/device_action.hpp"
+#include "src/xgt_cnet/server.hpp"
 
 namespace fieldproof::xgt_cnet {
 
-Result<std::unique_ptr<Plc>> make_plc(const plc::PortConfig& config) {
-  const Result<const plc::PlcModel*> known = plc::check_port_config(config);
-  if (!known) return known.error();
-  return std::unique_ptr<Plc>(new Plc(**known, config));
+Status add_server(plc::Plc& plc, unsigned channel, const plc::PortConfig& config) {
+  if (const Result<const plc::PlcModel*> right = plc::check_port_config(config); !right)
+    return right.error();
+  return plc.add(channel, std::make_unique<XgtServer>(plc.memory(), config.station, config.gap(),
+                                                      config.reply_delay()));
 }
 
-Result<std::string> Plc::get(std::string_view address, std::size_t digits) const {
-  if (address.starts_with('@')) return plc::get_counter(server_.counters(), address, digits);
-  return plc::get_by_name(memory_, address, digits);
-}
-
-Status Plc::act(std::string_view action) {
-  const Result<plc::DeviceAction> known = plc::parse_device_action(action);
-  if (!known) return known.error();
-  if (*known == plc::DeviceAction::power_cycle) server_.power_cycle();
-  return ok();
+Result<std::unique_ptr<plc::Plc>> make_plc(const plc::PortConfig& config) {
+  const Result<const plc::PlcModel*> model = plc::check_port_config(config);
+  if (!model) return model.error();
+  auto plc = std::make_unique<plc::Plc>(**model, config.run);
+  if (const Status added = add_server(*plc, 1, config); !added) return added.error();
+  return plc;
 }
 
 }  // namespace fieldproof::xgt_cnet

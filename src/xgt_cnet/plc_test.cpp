@@ -13,22 +13,22 @@ using test::enq;
 using test::shown;
 using ::testing::HasSubstr;
 
-std::unique_ptr<Plc> plc_of(const plc::PortConfig& config) {
-  Result<std::unique_ptr<Plc>> plc = make_plc(config);
+std::unique_ptr<plc::Plc> plc_of(const plc::PortConfig& config) {
+  Result<std::unique_ptr<plc::Plc>> plc = make_plc(config);
   EXPECT_TRUE(plc) << (plc ? "" : plc.error().message);
   return plc ? std::move(*plc) : nullptr;
 }
 
 std::string error_of_plc(const plc::PortConfig& config) {
-  const Result<std::unique_ptr<Plc>> plc = make_plc(config);
+  const Result<std::unique_ptr<plc::Plc>> plc = make_plc(config);
   return plc ? "" : plc.error().message;
 }
 
 /// A request at `start` and what is answered at the moment the PLC asks for.
-std::string ask(Plc& plc, Time start, std::string_view body, Duration character = 1ms) {
-  plc.receive({enq(body), start, character});
-  const auto wake = plc.wake_at();
-  return wake ? shown(plc.advance(*wake)) : "";
+std::string ask(plc::Plc& plc, Time start, std::string_view body, Duration character = 1ms) {
+  plc.line()->receive({enq(body), start, character});
+  const auto wake = plc.line()->wake_at();
+  return wake ? shown(plc.line()->advance(*wake)) : "";
 }
 
 TEST(Plc, ServesItsMemory) {
@@ -69,11 +69,11 @@ TEST(Plc, PowerCycleKeepsMemoryAlone) {
   const auto plc = plc_of({.station = 1});
   ASSERT_TRUE(plc->set("%MW0", "1234"));
   EXPECT_EQ(ask(*plc, 0ms, "01X00RSS0104%MW0"), "ACK 01X00");
-  plc->receive({to_bytes("\x05"
-                         "01"),
-                1s, 1ms});
+  plc->line()->receive({to_bytes("\x05"
+                                 "01"),
+                        1s, 1ms});
   ASSERT_TRUE(plc->act("power_cycle"));
-  EXPECT_EQ(plc->wake_at(), std::nullopt);
+  EXPECT_EQ(plc->line()->wake_at(), std::nullopt);
   EXPECT_EQ(*plc->get("@services", 0), "0000");
   EXPECT_EQ(ask(*plc, 2s, "01Y00"), "NAK 01Y000090");
   EXPECT_EQ(ask(*plc, 3s, "01RSS0104%MW0"), "ACK 01RSS01021234");
@@ -84,8 +84,8 @@ TEST(Plc, DelayOnlyWithRs485) {
   const Bytes request = enq("01RSS0104%MW0");
   const auto due = [&request](bool rs485) {
     const auto plc = plc_of({.station = 1, .delay = 50ms, .rs485 = rs485});
-    plc->receive({request, 0ms, 0ms});
-    return plc->wake_at();
+    plc->line()->receive({request, 0ms, 0ms});
+    return plc->line()->wake_at();
   };
   EXPECT_EQ(due(true), 50ms);
   EXPECT_EQ(due(false), 0ms);
@@ -94,12 +94,12 @@ TEST(Plc, DelayOnlyWithRs485) {
 TEST(Plc, InterCharacterTimeAndItsFloor) {
   const auto answers = [](const plc::PortConfig& config, Duration silence) {
     const auto plc = plc_of(config);
-    plc->receive({to_bytes("\x05"
-                           "01RSS"),
-                  0ms, 1ms});
-    plc->receive({to_bytes("0104%MW0\x04"), 6ms + silence, 1ms});
-    const auto wake = plc->wake_at();
-    return wake && !plc->advance(*wake).empty();
+    plc->line()->receive({to_bytes("\x05"
+                                   "01RSS"),
+                          0ms, 1ms});
+    plc->line()->receive({to_bytes("0104%MW0\x04"), 6ms + silence, 1ms});
+    const auto wake = plc->line()->wake_at();
+    return wake && !plc->line()->advance(*wake).empty();
   };
   EXPECT_TRUE(answers({.station = 1}, Duration(4'010'416)));  // 38.5 bits at 9600 bit/s
   EXPECT_FALSE(answers({.station = 1}, Duration(4'010'417)));
@@ -117,8 +117,8 @@ TEST(PlcOnALine, OnlyTheAddressedStationAnswersAndAtOnce) {
   const line::LineSettings line;
   const auto one = plc_of({.station = 1}), two = plc_of({.station = 2});
   line::SimulatedLine wire(line);
-  wire.attach(*one, line);
-  wire.attach(*two, line);
+  wire.attach(*one->line(), line);
+  wire.attach(*two->line(), line);
   ASSERT_TRUE(two->set("%MW0", "2222"));
   const auto sent = wire.transmit(enq("02rSS0104%MW0"));
   const Burst reply = wire.receive(sent.end + 1s);
@@ -135,7 +135,7 @@ TEST(PlcOnALine, GapsAreJudgedToTheNanosecond) {
     for (std::size_t cut = 1; cut < request.size(); ++cut) {
       const auto plc = plc_of({.station = 1, .line = line, .inter_character = 10ms});
       line::SimulatedLine wire(line);
-      wire.attach(*plc, line);
+      wire.attach(*plc->line(), line);
       const auto at = request.begin() + static_cast<std::ptrdiff_t>(cut);
       const auto sent = wire.transmit(Bytes(request.begin(), at));
       ASSERT_TRUE(wire.receive(sent.end + 10ms + longer).bytes.empty());
@@ -150,7 +150,7 @@ TEST(PlcOnALine, MissingTailIsCountedBySilenceAlone) {
   const line::LineSettings line;
   const auto plc = plc_of({.station = 1});
   line::SimulatedLine wire(line);
-  wire.attach(*plc, line);
+  wire.attach(*plc->line(), line);
   wire.transmit(
       to_bytes("\x05"
                "01RSS0104%MW0"));

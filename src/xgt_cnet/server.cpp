@@ -189,12 +189,13 @@ void XgtServer::write(const XgtRequest& request, const Addresses& addresses) {
   if (request.content == XgtService::write_blocks) {
     for (unsigned i = 0; i < request.blocks; ++i)
       memory_.write(addresses[i], value_of(request.block[i].data));
-    return;
+    return memory_.written();
   }
   const std::size_t digits = 2 * plc::type_bytes(addresses[0].type);
   for (unsigned i = 0; i < request.count; ++i) {
     memory_.write(addresses[0] + i, value_of(request.block[0].data.substr(i * digits, digits)));
   }
+  memory_.written();
 }
 
 }  // namespace fieldproof::xgt_cnet

@@ -11,24 +11,25 @@
 #include "src/plc/counters.hpp"
 #include "src/plc/memory.hpp"
 #include "src/plc/reply_queue.hpp"
+#include "src/plc/service.hpp"
 #include "src/xgt_cnet/codec.hpp"
 #include "src/xgt_cnet/receiver.hpp"
 
 namespace fieldproof::xgt_cnet {
 
-class XgtServer : private plc::FrameSink {
+class XgtServer : public plc::LineService, private plc::FrameSink {
  public:
   /// `gap`: inter-character time. `delay`: from the end of a request to its reply. `memory`
   /// outlives the server.
   XgtServer(plc::PlcMemory& memory, unsigned station, Duration gap, Duration delay);
 
-  void receive(const Burst& burst) { receiver_.receive(burst, *this); }
-  std::optional<Time> wake_at() const { return replies_.wake_at(receiver_.wake_at()); }
-  Bytes advance(Time now);
+  void receive(const Burst& burst) override { receiver_.receive(burst, *this); }
+  std::optional<Time> wake_at() const override { return replies_.wake_at(receiver_.wake_at()); }
+  Bytes advance(Time now) override;
 
-  const plc::ServiceCounters& counters() const { return counters_; }
+  const plc::ServiceCounters& counters() const override { return counters_; }
   /// Registrations, counters and frames in progress are lost.
-  void power_cycle();
+  void power_cycle() override;
 
  private:
   using Addresses = std::array<plc::DeviceAddress, xgt_max_blocks>;

@@ -14,8 +14,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 Bytes answer_of(plc::EmulatedDevice& device, const Bytes& request) {
-  device.receive({request, 0ms, {}});
-  return device.wake_at() ? device.advance(*device.wake_at()) : Bytes{};
+  device.line()->receive({request, 0ms, {}});
+  return device.line()->wake_at() ? device.line()->advance(*device.line()->wake_at()) : Bytes{};
 }
 
 TEST(LsBusProtocol, MakesAnInverter) {

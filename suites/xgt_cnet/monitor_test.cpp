@@ -51,10 +51,10 @@ std::vector<std::string> monitored(const line::LineFaults& faults,
                        std::string(plc::to_string(frame.result)) + ' ' + plc::ascii_view(frame));
       });
   const auto server = make(partner);
-  line::FaultyDevice line(*server, faults, character);
-  connect(*client, line, 10ms);
+  line::FaultyDevice line(*server->line(), faults, character);
+  connect(*client->line(), line, 10ms);
   if (!client->set("%MX00000", "01")) throw std::runtime_error("no flag");
-  connect(*client, line, 2s);
+  connect(*client->line(), line, 2s);
   return seen;
 }
 
@@ -82,16 +82,16 @@ TEST(XgtMonitor, ADamagedReplyIsUnknown) {
 TEST(XgtMonitor, AServerKnowsRequests) {
   const auto server = make({{"station", 1}, {"monitor", true}});
   EXPECT_EQ(*server->get("@monitor", 2), "00");
-  server->receive({to_bytes("\x05"
-                            "01rSS0104%MW0\x04"
-                            "40"),
-                   {},
-                   character});
+  server->line()->receive({to_bytes("\x05"
+                                    "01rSS0104%MW0\x04"
+                                    "40"),
+                           {},
+                           character});
   EXPECT_EQ(*server->get("@monitor", 2), "01");
-  server->receive({to_bytes("\x06"
-                            "01rSS01020000\x03"
-                            "05"),
-                   100ms, character});
+  server->line()->receive({to_bytes("\x06"
+                                    "01rSS01020000\x03"
+                                    "05"),
+                           100ms, character});
   EXPECT_EQ(*server->get("@monitor", 2), "06") << "the reply of another station";
   EXPECT_FALSE(make({{"station", 1}})->get("@monitor", 2)) << "only where it is asked for";
 }

@@ -38,16 +38,13 @@ class XgtCnet : public harness::Protocol {
   Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
       std::string_view model, const nlohmann::json& config) const override {
     if (p2p::is_p2p_client(config)) {
-      Result<std::unique_ptr<p2p::P2pPlc>> client =
-          p2p::make_p2p_plc(model, config, [](const plc::PortConfig& port) {
-            return std::make_unique<xgt_cnet::XgtP2pDriver>(port.gap());
-          });
-      if (!client) return client.error();
-      return std::unique_ptr<plc::EmulatedDevice>(std::move(*client));
+      return p2p::make_p2p_device(model, config, [](const plc::PortConfig& port) {
+        return std::make_unique<xgt_cnet::XgtP2pDriver>(port.gap());
+      });
     }
     Result<plc::PortConfig> parsed = xgt_cnet::parse_plc_config(model, config);
     if (!parsed) return parsed.error();
-    Result<std::unique_ptr<xgt_cnet::Plc>> plc = xgt_cnet::make_plc(*parsed);
+    Result<std::unique_ptr<plc::Plc>> plc = xgt_cnet::make_plc(*parsed);
     if (!plc) return plc.error();
     return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));
   }

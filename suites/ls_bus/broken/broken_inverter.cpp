@@ -10,7 +10,7 @@ namespace fieldproof::ls_bus_broken {
 
 namespace {
 
-class BrokenInverter : public plc::EmulatedDevice {
+class BrokenInverter : public plc::SerialDevice {
  public:
   BrokenInverter(Behaviour behaviour, GoodInverter inverter)
       : behaviour_(std::move(behaviour)), inverter_(std::move(inverter)) {}

@@ -12,7 +12,7 @@ namespace fieldproof::modbus_broken {
 
 namespace {
 
-class BrokenServer : public plc::EmulatedDevice, private plc::FrameSink {
+class BrokenServer : public plc::SerialDevice, private plc::FrameSink {
  public:
   BrokenServer(Behaviour behaviour, GoodModbus plc, Duration gap)
       : behaviour_(std::move(behaviour)),

@@ -16,7 +16,7 @@ using p2p::P2pParameters;
 
 namespace {
 
-class BrokenClient : public plc::EmulatedDevice {
+class BrokenClient : public plc::SerialDevice {
  public:
   using DriverFactory = std::function<std::unique_ptr<p2p::P2pDriver>(BrokenDriver::Asked asked)>;
 

@@ -44,7 +44,7 @@ struct Behaviour {
   std::function<void(p2p::P2pClient::Timing& timing)> timing{};
   Trigger trigger = Trigger::rising_edge;
   /// The request of a block, and the judgement of its reply, in its own way.
-  std::function<Result<Bytes>(const p2p::P2pDriver& good, const p2p::P2pBlock& block,
+  std::function<Result<Bytes>(p2p::P2pDriver& good, const p2p::P2pBlock& block,
                               const plc::PlcMemory& memory)>
       asks{};
   std::function<std::optional<std::uint16_t>(const p2p::P2pDriver& good, const p2p::P2pBlock& block,

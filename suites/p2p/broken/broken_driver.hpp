@@ -19,7 +19,7 @@ class BrokenDriver : public p2p::P2pDriver {
   Status check(const p2p::P2pBlock& block, const plc::PlcModel& model) const override {
     return good_->check(block, model);
   }
-  Result<Bytes> request(const p2p::P2pBlock& block, const plc::PlcMemory& memory) const override {
+  Result<Bytes> request(const p2p::P2pBlock& block, const plc::PlcMemory& memory) override {
     asked_(block);
     return behaviour_.asks ? behaviour_.asks(*good_, block, memory) : good_->request(block, memory);
   }

@@ -8,34 +8,34 @@ namespace fieldproof::p2p_broken {
 namespace {
 
 /// The good port, which hears or says other bytes.
-class BrokenUdataPort : public plc::EmulatedDevice {
+class BrokenUdataPort : public plc::SerialDevice {
  public:
   BrokenUdataPort(const udata::UdataConfig& config, Behaviour behaviour)
-      : port_(config), behaviour_(std::move(behaviour)) {}
+      : port_(udata::make_udata_plc(config)), behaviour_(std::move(behaviour)) {}
 
   void receive(const Burst& burst) override {
     Burst heard = burst;
     if (behaviour_.hears) behaviour_.hears(heard.bytes);
-    port_.receive(heard);
+    port_->line()->receive(heard);
   }
-  std::optional<Time> wake_at() const override { return port_.wake_at(); }
+  std::optional<Time> wake_at() const override { return port_->line()->wake_at(); }
   Bytes advance(Time now) override {
-    Bytes bytes = port_.advance(now);
+    Bytes bytes = port_->line()->advance(now);
     if (behaviour_.says && !bytes.empty()) behaviour_.says(bytes);
     return bytes;
   }
   Status set(std::string_view address, std::string_view hex) override {
-    return port_.set(address, hex);
+    return port_->set(address, hex);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
-    return port_.get(address, digits);
+    return port_->get(address, digits);
   }
   Status act(std::string_view action) override {
-    return action == behaviour_.deaf_to ? ok() : port_.act(action);
+    return action == behaviour_.deaf_to ? ok() : port_->act(action);
   }
 
  private:
-  udata::UdataPort port_;
+  std::unique_ptr<plc::Plc> port_;
   Behaviour behaviour_;
 };
 

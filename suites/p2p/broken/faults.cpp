@@ -51,7 +51,7 @@ MakeBehaviour ends(std::function<void(const Outcome& before, Outcome& now)> edit
 
 MakeBehaviour asks_for(std::function<void(P2pBlock& block)> edit) {
   return [=] {
-    return Behaviour{.asks = [=](const P2pDriver& good, P2pBlock block, const PlcMemory& memory) {
+    return Behaviour{.asks = [=](P2pDriver& good, P2pBlock block, const PlcMemory& memory) {
       edit(block);
       return good.request(block, memory);
     }};
@@ -60,12 +60,11 @@ MakeBehaviour asks_for(std::function<void(P2pBlock& block)> edit) {
 
 MakeBehaviour spoils(std::function<void(Bytes& request)> edit) {
   return [=] {
-    return Behaviour{
-        .asks = [=](const P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
-          Result<Bytes> request = good.request(block, memory);
-          if (request) edit(*request);
-          return request;
-        }};
+    return Behaviour{.asks = [=](P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
+      Result<Bytes> request = good.request(block, memory);
+      if (request) edit(*request);
+      return request;
+    }};
   };
 }
 

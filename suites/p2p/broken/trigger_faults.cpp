@@ -28,7 +28,7 @@ Behaviour retry() {
 /// Asks nothing after three time-outs in a row.
 Behaviour gives_up() {
   const auto time_outs = std::make_shared<int>(0);
-  return {.asks = [=](const p2p::P2pDriver& good, const P2pBlock& block,
+  return {.asks = [=](p2p::P2pDriver& good, const P2pBlock& block,
                       const plc::PlcMemory& memory) -> Result<Bytes> {
             if (*time_outs >= 3) return fail("the partner is taken for dead");
             return good.request(block, memory);

@@ -19,7 +19,7 @@ void without_receive(p2p::P2pParameters& parameters) {
 Behaviour only_when_asked() {
   const auto asked = std::make_shared<bool>(false);
   return {.asks =
-              [=](const p2p::P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
+              [=](p2p::P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
                 *asked = true;
                 return good.request(block, memory);
               },

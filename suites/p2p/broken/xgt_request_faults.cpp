@@ -94,7 +94,7 @@ MakeBehaviour spoils_with_bcc(std::function<void(Bytes& request)> edit) {
 /// Writes what memory held at the first request.
 Behaviour remembers() {
   const auto first = std::make_shared<std::map<unsigned, Bytes>>();
-  return {.asks = [=](const p2p::P2pDriver& good, const P2pBlock& block,
+  return {.asks = [=](p2p::P2pDriver& good, const P2pBlock& block,
                       const plc::PlcMemory& memory) -> Result<Bytes> {
     const Result<Bytes> request = good.request(block, memory);
     return request ? Result<Bytes>(first->try_emplace(block.number, *request).first->second)
@@ -105,7 +105,7 @@ Behaviour remembers() {
 /// All blocks ask the station of the block that was asked first.
 Behaviour one_station() {
   const auto station = std::make_shared<std::optional<unsigned>>();
-  return {.asks = [=](const p2p::P2pDriver& good, P2pBlock block, const plc::PlcMemory& memory) {
+  return {.asks = [=](p2p::P2pDriver& good, P2pBlock block, const plc::PlcMemory& memory) {
     if (!*station) *station = block.station;
     block.station = **station;
     return good.request(block, memory);

@@ -79,15 +79,15 @@ void insert_behind(UserFrame& frame, std::size_t position, Segment segment) {
 namespace {
 
 /// A port that speaks otherwise than it should, or does not listen to its switch.
-class MisspeakingPort : public EmulatedDevice {
+class MisspeakingPort : public plc::SerialDevice {
  public:
   MisspeakingPort(std::unique_ptr<EmulatedDevice> port, Behaviour behaviour)
       : port_(std::move(port)), behaviour_(std::move(behaviour)) {}
 
-  void receive(const Burst& burst) override { port_->receive(burst); }
-  std::optional<Time> wake_at() const override { return port_->wake_at(); }
+  void receive(const Burst& burst) override { port_->line()->receive(burst); }
+  std::optional<Time> wake_at() const override { return port_->line()->wake_at(); }
   Bytes advance(Time now) override {
-    const Bytes bytes = port_->advance(now);
+    const Bytes bytes = port_->line()->advance(now);
     return behaviour_.says && !bytes.empty() ? behaviour_.says(bytes) : bytes;
   }
   Status set(std::string_view address, std::string_view hex) override {

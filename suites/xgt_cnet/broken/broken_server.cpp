@@ -79,7 +79,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_plc(std::string_view fa
         fmt::format("cannot break a server by '{}': there is no such fault; --list shows them{}",
                     fault, suggestion(fault, names)));
   }
-  Result<std::unique_ptr<xgt_cnet::Plc>> plc = xgt_cnet::make_plc(config);
+  Result<std::unique_ptr<plc::Plc>> plc = xgt_cnet::make_plc(config);
   if (!plc) return plc.error();
   GoodPlc good(std::move(*plc), *plc::find_plc_model(config.model), config.station);
   const Duration gap =

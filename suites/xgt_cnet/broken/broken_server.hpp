@@ -10,7 +10,7 @@
 
 namespace fieldproof::xgt_cnet_broken {
 
-class BrokenPlc : public plc::EmulatedDevice, private plc::FrameSink {
+class BrokenPlc : public plc::SerialDevice, private plc::FrameSink {
  public:
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;

@@ -16,7 +16,7 @@ namespace fieldproof::xgt_cnet_broken {
 
 class GoodPlc : public broken::GoodDevice {
  public:
-  GoodPlc(std::unique_ptr<xgt_cnet::Plc> plc, const plc::PlcModel& model, unsigned station)
+  GoodPlc(std::unique_ptr<plc::Plc> plc, const plc::PlcModel& model, unsigned station)
       : broken::GoodDevice(std::move(plc)), model_(&model), station_(station) {}
 
   /// What the name means on this model.

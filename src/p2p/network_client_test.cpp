@@ -1,0 +1,196 @@
+#include "src/p2p/network_client.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "src/net/network.hpp"
+#include "src/p2p/p2p_plc.hpp"
+#include "src/p2p/test_driver.hpp"
+
+namespace fieldproof::p2p {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+constexpr std::uint16_t port = 502;
+
+Result<std::unique_ptr<plc::Plc>> make_plc(const json& p2p) {
+  const json config{{"role", "client"}, {"p2p", p2p}};
+  Result<std::unique_ptr<plc::Plc>> plc = plc::make_plc("xbc-h", config);
+  if (!plc) return plc;
+  const Status added =
+      add_network_clients(**plc, config, port, [] { return std::make_unique<test::TestDriver>(); });
+  if (!added) return added.error();
+  return plc;
+}
+
+/// A PLC that asks its blocks 0 and 1 on channel 1 by %MX0 and %MX1, block 2 on channel 2 by %MX2.
+/// The driver's requests are "ask N", its replies "ok", or "error NN".
+class Client : public testing::Test {
+ protected:
+  Client() {
+    const json p2p = json::parse(R"({"partner": "10.0.0.9", "blocks": [
+      {"flag": "%MX0", "read": "%MW0", "save": "%DW0"},
+      {"flag": "%MX1", "read": "%MW0", "save": "%DW1"},
+      {"flag": "%MX2", "channel": 2, "read": "%MW0", "save": "%DW2"}]})");
+    Result<std::unique_ptr<plc::Plc>> made = make_plc(p2p);
+    if (!made) throw std::runtime_error(made.error().message);
+    plc = std::move(*made);
+    network.attach(*plc->network());
+  }
+
+  void pulse(unsigned block) {
+    const std::string flag = "%MX" + std::to_string(block);
+    ASSERT_TRUE(plc->set(flag, "01"));
+    ASSERT_TRUE(plc->set(flag, "00"));
+  }
+  /// "0:opened", "0:ask 1", "0:closed" (link by its number among those of the device) until then.
+  std::string heard(Duration within = 0ms) {
+    std::string all;
+    for (const Time until = network.now() + within;;) {
+      const Burst burst = network.receive(until);
+      if (burst.bytes.empty() && burst.event == LinkEvent::data) return all;
+      all += all.empty() ? "" : " ";
+      all += std::to_string(burst.link - first_own_link) + ":" +
+             (burst.event == LinkEvent::opened   ? "opened"
+              : burst.event == LinkEvent::closed ? "closed"
+              : burst.event == LinkEvent::reset  ? "reset"
+                                                 : to_text(burst.bytes));
+    }
+  }
+  void reply(unsigned link, std::string_view text) {
+    ASSERT_TRUE(network.send(first_own_link + link, to_bytes(text)));
+  }
+  /// NDR and ERR, STATUS of a block.
+  std::string result(unsigned block) {
+    return *plc->get("%LW" + std::to_string(512 + 6 * block), 0) + ' ' +
+           *plc->get("%LW" + std::to_string(513 + 6 * block), 0);
+  }
+
+  std::unique_ptr<plc::Plc> plc;
+  net::SimulatedNetwork network;
+};
+
+TEST_F(Client, OpensAtTheFirstRequestAndKeepsTheConnection) {
+  EXPECT_EQ(heard(10s), "");
+  pulse(0);
+  const Burst opened = network.receive(network.now());
+  EXPECT_EQ(opened.event, LinkEvent::opened);
+  EXPECT_EQ(opened.port, port);
+  EXPECT_EQ(opened.peer, "10.0.0.9");
+  EXPECT_EQ(heard(), "0:ask 0");
+  reply(0, "ok");
+  EXPECT_EQ(result(0), "0001 0000");
+  pulse(1);
+  EXPECT_EQ(heard(1s), "0:ask 1");
+}
+
+TEST_F(Client, EachChannelHasItsOwnConnection) {
+  pulse(0);
+  pulse(2);
+  EXPECT_EQ(heard(), "0:opened 0:ask 0 1:opened 1:ask 2");
+  reply(1, "ok");
+  EXPECT_EQ(result(2), "0001 0000");
+  EXPECT_EQ(result(0), "0000 0000");
+}
+
+TEST_F(Client, ARefusedConnectionEndsTheRequestAndTheNextOpensAgain) {
+  network.take_connections(false);
+  pulse(0);
+  EXPECT_EQ(heard(1s), "");
+  EXPECT_EQ(result(0), "0002 0007");
+  network.take_connections(true);
+  pulse(0);
+  EXPECT_EQ(heard(), "1:opened 1:ask 0");
+}
+
+TEST_F(Client, ALostConnectionEndsTheRequest) {
+  for (const Closing how : {Closing::rst, Closing::fin}) {
+    pulse(0);
+    (void)heard();
+    const LinkId link = first_own_link + (how == Closing::rst ? 0 : 1);
+    ASSERT_TRUE(network.close(link, how));
+    EXPECT_EQ(result(0), "0002 0007");
+    EXPECT_EQ(heard(10s), how == Closing::rst ? "" : "1:closed");
+  }
+  pulse(0);
+  EXPECT_EQ(heard(), "2:opened 2:ask 0");
+}
+
+TEST_F(Client, AConnectionLostBetweenRequestsIsNoError) {
+  pulse(0);
+  (void)heard();
+  reply(0, "ok");
+  ASSERT_TRUE(network.close(first_own_link, Closing::rst));
+  EXPECT_EQ(result(0), "0001 0000");
+  pulse(0);
+  EXPECT_EQ(heard(), "1:opened 1:ask 0");
+}
+
+TEST_F(Client, TimesOutAfterFiveSecondsAndClosesTheConnection) {
+  pulse(0);
+  (void)heard();
+  EXPECT_EQ(heard(5s - 1ns), "");
+  EXPECT_EQ(result(0), "0000 0000");
+  EXPECT_EQ(heard(1ns), "0:closed");
+  EXPECT_EQ(result(0), "0002 000A");
+  reply(0, "ok");  // late: it belongs to no request, and nobody is there any more
+  EXPECT_EQ(heard(1s), "0:reset");
+  EXPECT_EQ(result(0), "0002 000A");
+  pulse(0);
+  EXPECT_EQ(heard(), "1:opened 1:ask 0");
+}
+
+TEST_F(Client, RestsInStopAndWithTheLinkOff) {
+  for (const auto& [off, on] : {std::pair{"stop", "run"}, {"link off", "link on"}}) {
+    ASSERT_TRUE(plc->act(off));
+    pulse(0);
+    EXPECT_EQ(heard(1s), "") << off;
+    ASSERT_TRUE(plc->act(on));
+    EXPECT_EQ(heard(1s), "") << on;
+  }
+  pulse(0);
+  EXPECT_EQ(heard(), "0:opened 0:ask 0");
+}
+
+TEST_F(Client, APowerCycleForgetsTheConnection) {
+  pulse(0);
+  (void)heard();
+  ASSERT_TRUE(plc->act("power_cycle"));
+  EXPECT_EQ(heard(10s), "") << "it is gone without a word";
+  reply(0, "ok");
+  EXPECT_EQ(heard(), "0:reset");
+  EXPECT_EQ(result(0), "0000 0000");
+  pulse(0);
+  EXPECT_EQ(heard(), "1:opened 1:ask 0");
+}
+
+TEST_F(Client, ShowsTheChannelWhereAStationWouldBe) {
+  EXPECT_EQ(*plc->get("%NW0", 0), "0001");
+  EXPECT_EQ(*plc->get("%NW82", 0), "0002");
+}
+
+TEST(NetworkClients, HaveThreeChannels) {
+  const auto error = [](const json& p2p) {
+    const auto plc = make_plc(p2p);
+    return plc ? "" : plc.error().message;
+  };
+  const json block{{"flag", "%MX0"}, {"read", "%MW0"}, {"save", "%DW0"}};
+  const auto on_channels = [&block](std::initializer_list<unsigned> channels) {
+    json blocks = json::array();
+    for (const unsigned channel : channels) {
+      blocks.push_back(block);
+      blocks.back()["channel"] = channel;
+    }
+    return json{{"parameter", 2}, {"blocks", blocks}};
+  };
+  EXPECT_EQ(error(on_channels({1, 2, 3})), "");
+  EXPECT_THAT(error(on_channels({4})), HasSubstr("channel is 4"));
+  EXPECT_THAT(error(on_channels({0})), HasSubstr("channel is 0; use 1 to 3"));
+  EXPECT_THAT(error({{"blocks", json::array()}}), HasSubstr("there are no blocks"));
+}
+
+}  // namespace
+}  // namespace fieldproof::p2p
