@@ -19,11 +19,12 @@ Bytes question(const Trial& t) { return t.protocol->probe(t.station, {}); }
 Bytes answer(const Trial& t, int asked = -1) {
   auto device = t.protocol->make_device(t.protocol->models().front(), {{"station", t.station}});
   Bytes bytes = t.protocol->probe(asked < 0 ? t.station : asked, {});
-  (*device)->receive({bytes, 0s, 0s});
+  line::Device& line = *(*device)->line();
+  line.receive({bytes, 0s, 0s});
   for (int i = 0; i < 20; ++i) {
-    const auto wake = (*device)->wake_at();
+    const auto wake = line.wake_at();
     if (!wake) break;
-    if (Bytes reply = (*device)->advance(*wake); !reply.empty()) return reply;
+    if (Bytes reply = line.advance(*wake); !reply.empty()) return reply;
   }
   return {};
 }

@@ -11,18 +11,18 @@
 namespace fieldproof::net {
 
 /// What arrives, and what the host does, are bursts (src/base/burst.hpp), each on a link:
-///
-///   event      arrives                                the host does it
-///   opened     a client has connected to `port`;      it connects to `port` of `peer`, on a link
-///   of
-///              the link is new                        its own (first_own_link and up, never twice)
-///   data       bytes of a connection, in any pieces   bytes; those for a link that is gone are
-///   lost datagram   one datagram to `port` from `peer`;    an answer on the link that it came on,
-///   or one
-///              a link is one peer of one port         of its own to `port` of `peer`
-///   closed     the client sends no more (FIN)         it sends no more, and still hears
-///   reset      the link is gone, or the connection    the link is gone at once (RST); also of a
-///              of its own was refused                 client that it does not want
+// clang-format off
+///   event     arrives                              the host does it
+///   opened    a client has connected to `port`;    it connects to `port` of `peer`, on a link of
+///             the link is new                      its own (first_own_link and up, never twice)
+///   data      bytes of a connection, in any        bytes; those for a link that is gone are lost
+///             pieces
+///   datagram  one datagram to `port` from `peer`;  an answer on the link that it came on, or one
+///             a link is one peer of one port       of its own to `port` of `peer`
+///   closed    the client sends no more (FIN)       it sends no more, and still hears
+///   reset     the link is gone, or the connection  the link is gone at once (RST); also of a
+///             of its own was refused               client that it does not want
+// clang-format on
 ///
 /// A link is gone after a reset by either side, and after both have closed. Nothing arrives on it
 /// then. A connection of the host's own may be used at once: bytes go out when it stands. Whether
