@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "reports/captured_network.hpp"
 #include "reports/pcapng.hpp"
 #include "reports/results/ndjson.hpp"
 #include "reports/text/case_text.hpp"
@@ -29,7 +30,9 @@ bool continues(const Event& event, const Event& before) {
 
 std::string comment_of(const CaseResult& result, const Event& event) {
   std::string part;
-  if (event.surplus)
+  if (event.kind != Event::Kind::sent && event.kind != Event::Kind::received)
+    part = "";  // what happened on a link
+  else if (event.surplus)
     part = ", surplus";
   else if (event.step >= 0)
     part = fmt::format(", step {}", event.step + 1);
@@ -98,26 +101,44 @@ class Capture {
 
   void add(const CaseResult& result) {
     const std::vector<CapturedFrame> frames = captured_frames(result);
-    if (frames.empty()) return;
-    calendar_.begin_case(frames.front().start);
-    const std::uint32_t interface = interface_of(result.protocol);
-    for (const CapturedFrame& frame : frames)
-      out_ << pcapng_packet(
-          {interface, calendar_.pass(frame.end), frame.sent, frame.bytes, frame.comment});
+    const std::vector<CapturedPacket> packets = network_.packets(
+        result.exchange, [&](const Event& event) { return comment_of(result, event); });
+    if (frames.empty() && packets.empty()) return;
+    const Time first = std::min(frames.empty() ? Time::max() : frames.front().start,
+                                packets.empty() ? Time::max() : packets.front().time);
+    calendar_.begin_case(first);
+    auto frame = frames.begin();
+    for (const CapturedPacket& packet : packets) {
+      for (; frame != frames.end() && frame->end <= packet.time; ++frame) add(result, *frame);
+      add(result, packet);
+    }
+    for (; frame != frames.end(); ++frame) add(result, *frame);
   }
 
  private:
-  std::uint32_t interface_of(const std::string& protocol) {
-    const auto [found, added] =
-        interfaces_.emplace(protocol, static_cast<std::uint32_t>(interfaces_.size()));
-    if (added) out_ << pcapng_interface(linktype_rtac_serial, text::xml_line(protocol), endpoint_);
+  void add(const CaseResult& result, const CapturedFrame& frame) {
+    const std::uint32_t interface = interface_of(result.protocol, linktype_rtac_serial);
+    out_ << pcapng_serial_packet(
+        {interface, calendar_.pass(frame.end), frame.sent, frame.bytes, frame.comment});
+  }
+  void add(const CaseResult& result, const CapturedPacket& packet) {
+    const std::uint32_t interface = interface_of(result.protocol, linktype_ipv4);
+    out_ << pcapng_packet(
+        {interface, calendar_.pass(packet.time), packet.sent, packet.bytes, packet.comment});
+  }
+
+  std::uint32_t interface_of(const std::string& protocol, std::uint16_t linktype) {
+    const auto [found, added] = interfaces_.emplace(std::pair(protocol, linktype),
+                                                    static_cast<std::uint32_t>(interfaces_.size()));
+    if (added) out_ << pcapng_interface(linktype, text::xml_line(protocol), endpoint_);
     return found->second;
   }
 
   std::ostream& out_;
   std::string endpoint_;
   Calendar calendar_;
-  std::map<std::string, std::uint32_t> interfaces_;
+  CapturedNetwork network_;
+  std::map<std::pair<std::string, std::uint16_t>, std::uint32_t> interfaces_;
 };
 
 }  // namespace
@@ -126,7 +147,7 @@ std::vector<CapturedFrame> captured_frames(const CaseResult& result) {
   std::vector<CapturedFrame> frames;
   const Event* before = nullptr;
   for (const Event& event : result.exchange) {
-    if (event.kind == Event::Kind::note || event.bytes.empty()) continue;
+    if (event.bytes.empty() || CapturedNetwork::is_of_network(event)) continue;
     if (before && continues(event, *before))
       join(frames.back(), event);
     else

@@ -11,8 +11,10 @@
 namespace fieldproof::reports {
 
 /// Reads the results in `ndjson` (of a killed run too) and writes `path`: the frames of all cases
-/// in both directions, as RTAC serial (linktype 250), one interface a protocol, with step, case and
-/// verdict as comment. `path` appears whole or not at all. Returns the counts of what was read.
+/// in both directions, with step, case and verdict as comment. Lines are RTAC serial (linktype
+/// 250), links of a network IPv4 with TCP or UDP (linktype 228, see CapturedNetwork); one interface
+/// a protocol and linktype. `path` appears whole or not at all. Returns the counts of what was
+/// read.
 ///   tshark -r FILE -d rtacser.data,mbrtu -o mbrtu.crc_verification:TRUE   decodes Modbus RTU
 ///   the display filter frame.comment contains "FAIL"   shows the cases that failed
 ///

@@ -69,7 +69,8 @@ TEST(Pcapng, BlocksAreWholeWordsBetweenTheirLengths) {
   for (const std::string& block :
        {pcapng_section("application", "hardware"), pcapng_section("", ""),
         pcapng_interface(linktype_rtac_serial, "xgt-cnet", "x"),
-        pcapng_packet({0, 0, true, frame, "comment"})}) {
+        pcapng_packet({0, 0, true, frame, "comment"}),
+        pcapng_serial_packet({0, 0, true, frame, "comment"})}) {
     EXPECT_EQ(0u, block.size() % 4);
     EXPECT_EQ(block.substr(4, 4), block.substr(block.size() - 4));
     EXPECT_EQ(block.size(),

@@ -6,7 +6,6 @@ namespace fieldproof::reports {
 namespace {
 
 constexpr std::size_t largest_packet = 262'144;  // WTAP_MAX_PACKET_SIZE_STANDARD of Wireshark
-constexpr std::size_t rtac_header = 12;
 
 // Block types and option codes of the draft.
 constexpr std::uint32_t section_header = 0x0A0D0D0A, interface_description = 1, enhanced_packet = 6;
@@ -52,13 +51,32 @@ std::string finish(std::uint32_t type, std::string body) {
   return block;
 }
 
-std::string rtac(const SerialPacket& packet) {
+std::string rtac(const PcapngPacket& packet) {
   std::string header;
   put_big_endian(header, static_cast<std::uint32_t>(packet.time / 1'000'000'000));
   put_big_endian(header, static_cast<std::uint32_t>(packet.time % 1'000'000'000 / 1000));
   header += packet.sent ? '\1' : '\2';  // DATA_TX_START, DATA_RX_START
   header.append(3, '\0');               // control lines, footer
   return header;
+}
+
+/// `header` goes before the bytes.
+std::string enhanced(const PcapngPacket& packet, const std::string& header) {
+  const std::size_t kept = std::min(packet.bytes.size(), largest_packet - header.size());
+  std::string body;
+  put(body, packet.interface);
+  put(body, static_cast<std::uint32_t>(packet.time >> 32));
+  put(body, static_cast<std::uint32_t>(packet.time));
+  put(body, static_cast<std::uint32_t>(header.size() + kept));
+  put(body, static_cast<std::uint32_t>(header.size() + packet.bytes.size()));
+  body += header;
+  body.append(packet.bytes.begin(), packet.bytes.begin() + static_cast<std::ptrdiff_t>(kept));
+  pad(body);
+  put_text(body, comment_option, packet.comment);
+  std::string flags;
+  put(flags, packet.sent ? outbound : inbound);
+  put_option(body, flags_option, flags);
+  return finish(enhanced_packet, std::move(body));
 }
 
 }  // namespace
@@ -86,22 +104,8 @@ std::string pcapng_interface(std::uint16_t linktype, std::string_view name,
   return finish(interface_description, std::move(body));
 }
 
-std::string pcapng_packet(const SerialPacket& packet) {
-  const std::size_t kept = std::min(packet.bytes.size(), largest_packet - rtac_header);
-  std::string body;
-  put(body, packet.interface);
-  put(body, static_cast<std::uint32_t>(packet.time >> 32));
-  put(body, static_cast<std::uint32_t>(packet.time));
-  put(body, static_cast<std::uint32_t>(rtac_header + kept));
-  put(body, static_cast<std::uint32_t>(rtac_header + packet.bytes.size()));
-  body += rtac(packet);
-  body.append(packet.bytes.begin(), packet.bytes.begin() + static_cast<std::ptrdiff_t>(kept));
-  pad(body);
-  put_text(body, comment_option, packet.comment);
-  std::string flags;
-  put(flags, packet.sent ? outbound : inbound);
-  put_option(body, flags_option, flags);
-  return finish(enhanced_packet, std::move(body));
-}
+std::string pcapng_packet(const PcapngPacket& packet) { return enhanced(packet, {}); }
+
+std::string pcapng_serial_packet(const PcapngPacket& frame) { return enhanced(frame, rtac(frame)); }
 
 }  // namespace fieldproof::reports

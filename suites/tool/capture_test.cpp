@@ -179,6 +179,88 @@ TEST(Capture, clocks_of_several_protocols_run_one_after_the_other) {
   EXPECT_EQ(interfaces, (std::set<std::string>{"modbus-rtu", "xgt-cnet"}));
 }
 
+nlohmann::ordered_json link_event(const char* kind, const char* link, double at,
+                                  const std::string& hex = "") {
+  nlohmann::ordered_json event{{"kind", kind}, {"start_ms", at}, {"end_ms", at}, {"text", ""},
+                               {"link", link}, {"port", 502},    {"step", 0}};
+  if (!hex.empty()) event["hex"] = hex;
+  return event;
+}
+
+nlohmann::ordered_json by_device(nlohmann::ordered_json event) {
+  event["by_device"] = true;
+  return event;
+}
+
+/// Results with this exchange, as a capture.
+std::string captured(const TestFolder& folder, const nlohmann::ordered_json& exchange) {
+  const nlohmann::ordered_json run{{"tool_version", "0"}, {"started", "2026-11-21T12:00:00+00:00"}};
+  const nlohmann::ordered_json one{{"id", "modbus_tcp/a"},
+                                   {"verdict", "PASS"},
+                                   {"protocol", "modbus-tcp"},
+                                   {"exchange", exchange}};
+  folder.write("results.ndjson", nlohmann::ordered_json{{"run", run}}.dump() + '\n' +
+                                     nlohmann::ordered_json{{"case", one}}.dump() + '\n');
+  const Finished finished =
+      run_tool({"report", folder / "results.ndjson", "--capture", folder / "run.pcapng"});
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  return folder / "run.pcapng";
+}
+
+/// Two clients of a Modbus TCP server, one of them resets: no option tells tshark what it is.
+TEST(Capture, modbus_tcp_is_decoded_without_options) {
+  const TestFolder folder;
+  const std::string request = "00 01 00 00 00 06 01 03 00 63 00 01";
+  const std::string reply = "00 01 00 00 00 05 01 03 02 12 34";
+  const std::string capture = captured(
+      folder, {link_event("opened", "a", 0), link_event("opened", "b", 1),
+               link_event("sent", "a", 2, request), link_event("sent", "b", 3, request),
+               link_event("received", "b", 4, reply), link_event("received", "a", 5, reply),
+               link_event("closed", "a", 6), by_device(link_event("closed", "a", 7)),
+               by_device(link_event("reset", "b", 8))});
+  const auto rows = fields(
+      capture, {"frame.protocols", "modbus.func_code", "modbus.request_frame", "tcp.analysis.flags",
+                "tcp.stream", "frame.number", "mbtcp.trans_id", "tcp.flags.reset"});
+  ASSERT_EQ(rows.size(), 6u + 4 + 4 + 1);
+  std::map<std::string, std::string> request_of;  // frame, by stream
+  int answers = 0, resets = 0;
+  for (const auto& row : rows) {
+    EXPECT_EQ(row[3], "") << "frame " << row[5] << ": sequence or acknowledge number is wrong";
+    resets += row[7] == "1" || row[7] == "True";
+    if (row[6].empty()) continue;
+    EXPECT_THAT(row[0], HasSubstr("mbtcp:modbus"));
+    EXPECT_EQ(row[1], "3");
+    EXPECT_EQ(row[6], "1");
+    if (row[2].empty()) {
+      request_of[row[4]] = row[5];
+    } else {
+      EXPECT_EQ(row[2], request_of[row[4]]) << "each answer is paired with its own request";
+      ++answers;
+    }
+  }
+  EXPECT_EQ(answers, 2);
+  EXPECT_EQ(resets, 1);
+}
+
+TEST(Capture, packets_of_a_network_have_right_checksums) {
+  const TestFolder folder;
+  nlohmann::ordered_json udp = link_event("sent", "u", 3, "00 01 00 00 00 06 01 03 00 63 00");
+  udp["transport"] = "udp";
+  const std::string capture =
+      captured(folder, {link_event("opened", "a", 0), link_event("sent", "a", 1, "00 01 FF"),
+                        by_device(link_event("closed", "a", 2)), udp});
+  const auto rows = fields(
+      capture,
+      {"ip.checksum.status", "tcp.checksum.status", "udp.checksum.status", "_ws.expert.message"},
+      {"-o", "ip.check_checksum:TRUE", "-o", "tcp.check_checksum:TRUE", "-o",
+       "udp.check_checksum:TRUE"});
+  ASSERT_EQ(rows.size(), 3u + 1 + 2 + 1);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row[0], "1");
+    EXPECT_EQ(row[1] + row[2], "1");
+  }
+}
+
 /// Names, texts and sizes that a file format may stumble over.
 TEST(Capture, hostile_results_stay_readable) {
   const TestFolder folder;
