@@ -3,14 +3,14 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
-#include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstring>
 
 #include "harness/system/fd_link.hpp"
 #include "harness/system/interrupt.hpp"
-#include "harness/system/socket_address.hpp"
 #include "harness/system/system_calls.hpp"
 
 namespace fieldproof::os {
@@ -31,40 +31,86 @@ int finish_connect(int fd) {
   return ::getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
 }
 
-int connect_to(const addrinfo& address, int type, UniqueFd& fd) {
-  fd.reset(::socket(address.ai_family, type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+/// 0: it stands, or is on its way.
+int begin_connect(const sockaddr* address, socklen_t size, int type, UniqueFd& fd) {
+  fd.reset(::socket(address->sa_family, type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!fd) return errno;
-  if (::connect(fd.get(), address.ai_addr, address.ai_addrlen) == 0) return 0;
-  return errno == EINPROGRESS || errno == EINTR ? finish_connect(fd.get()) : errno;
+  const int yes = 1;
+  if (type == SOCK_STREAM) ::setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  if (::connect(fd.get(), address, size) == 0 || errno == EINPROGRESS || errno == EINTR) return 0;
+  return errno;
+}
+
+int connect_to(const SocketAddress& address, int type, UniqueFd& fd) {
+  const int error = begin_connect(address.get(), address.size, type, fd);
+  return error == 0 ? finish_connect(fd.get()) : error;
 }
 
 std::string advice(int error) {
   switch (error) {
-    case ECONNREFUSED:
-      return "nothing listens there; start the device or serial server, or correct the port";
     case ETIMEDOUT:
       return "no answer within 3 s; see that the host is on and that no firewall drops the "
              "connection";
+    case EHOSTUNREACH:
+    case ENETUNREACH:
+      return errno_text(error) +
+             "; see that this computer is on the device's network, or correct the address";
     default: return errno_text(error) + "; correct the address";
   }
 }
 
+/// A connection that ends before it is known to stand was refused, too.
+bool is_refusal(int error) { return error == ECONNREFUSED || error == ECONNRESET; }
+
 }  // namespace
+
+Result<RemoteHost> RemoteHost::find(const std::string& host) {
+  const Result<AddressInfo> list = resolve(SocketName{host, std::nullopt}, false);
+  if (!list) return list.error();
+  RemoteHost found;
+  found.host_ = host;
+  for (const addrinfo* one = list->get(); one; one = one->ai_next) {
+    SocketAddress& address = found.addresses_.emplace_back();
+    std::memcpy(&address.storage, one->ai_addr, one->ai_addrlen);
+    address.size = one->ai_addrlen;
+  }
+  return found;
+}
+
+Result<UniqueFd> RemoteHost::connect(std::uint16_t port, int type) {
+  const std::string where = to_string(SocketName{host_, port});
+  if (port == 0)
+    return fail("cannot connect to " + where + ": 0 is no port; write a number from 1 to 65535");
+  UniqueFd fd;
+  int error = EADDRNOTAVAIL;
+  for (auto one = addresses_.begin(); one != addresses_.end() && error != 0; ++one) {
+    one->set_port(port);
+    error = connect_to(*one, type, fd);
+    if (interrupted()) return interrupted_error("connect to", where);
+    if (error == 0) std::rotate(addresses_.begin(), one, one + 1);  // asked first from now on
+  }
+  if (is_refusal(error)) return UniqueFd();
+  if (error != 0) return fail("cannot connect to " + where + ": " + advice(error));
+  return fd;
+}
+
+UniqueFd begin_connecting(const SocketName& name, int type) {
+  const Result<AddressInfo> list = resolve(name, false);
+  UniqueFd fd;
+  if (!list || begin_connect((*list)->ai_addr, (*list)->ai_addrlen, type, fd) != 0)
+    return UniqueFd();
+  return fd;
+}
 
 Result<UniqueFd> connect_socket(const std::string& where, int type) {
   const std::string start = "cannot connect to " + where + ": ";
-  const Result<AddressInfo> list = resolve(where, false);
-  if (!list) return fail(start + list.error().message);
-  UniqueFd fd;
-  int error = 0;
-  for (const addrinfo* one = list->get(); one; one = one->ai_next) {
-    error = connect_to(*one, type, fd);
-    if (error == 0 || interrupted()) break;
-  }
-  if (interrupted()) return interrupted_error("connect to", where);
-  if (error != 0) return fail(start + advice(error));
-  const int yes = 1;
-  if (type == SOCK_STREAM) ::setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  const Result<SocketName> name = parse_socket_name(where);
+  if (!name) return fail(start + name.error().message);
+  if (!name->port) return fail(start + "there is no port; write HOST:PORT");
+  Result<RemoteHost> host = RemoteHost::find(name->host);
+  if (!host) return fail(start + host.error().message);
+  Result<UniqueFd> fd = host->connect(*name->port, type);
+  if (fd && !*fd) return fail(start + refused_advice);
   return fd;
 }
 
