@@ -49,6 +49,9 @@ class Protocol {
   virtual Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
       std::string_view model, const nlohmann::json& config) const = 0;
 
+  /// The port of its servers; 0: it runs on a serial line.
+  virtual std::uint16_t default_port() const { return 0; }
+
   /// The station number as it stands in a frame.
   virtual Bytes station_bytes(int station) const = 0;
 

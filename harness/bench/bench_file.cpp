@@ -12,7 +12,7 @@
 #include <span>
 
 #include "harness/bench/profile.hpp"
-#include "harness/endpoints/endpoint.hpp"
+#include "harness/endpoints/kinds.hpp"
 #include "harness/safety/fence.hpp"
 #include "src/base/spelling.hpp"
 #include "src/line/settings.hpp"
@@ -108,6 +108,12 @@ std::string resolve_profile(const std::string& profile, const fs::path& folder) 
                                                     : profile;
 }
 
+/// What tells the endpoint its line; nothing where it sets none.
+std::map<std::string, std::string> line_options(const endpoints::EndpointName& name,
+                                                const line::LineSettings& line) {
+  return endpoints::with_line({name.kind, name.target, {}}, line).options;
+}
+
 /// The endpoint may say station and line itself, but not otherwise than the keys.
 void check_endpoint(const BenchDevice& device, const std::string& where) {
   if (device.endpoint.empty())
@@ -118,9 +124,9 @@ void check_endpoint(const BenchDevice& device, const std::string& where) {
   if (device.station && name->options.contains("station"))
     refuse(where + ".station", "the endpoint says a station, too; leave one of the two");
   if (device.line.empty()) return;
-  if (const auto line = line::parse_line_settings(device.line); !line)
-    refuse(where + ".line", line.error().message);
-  for (const char* option : {"line", "baud", "frame"})
+  const auto line = line::parse_line_settings(device.line);
+  if (!line) refuse(where + ".line", line.error().message);
+  for (const auto& [option, value] : line_options(*name, *line))
     if (name->options.contains(option))
       refuse(where + ".line",
              fmt::format("the endpoint says '{}', too; leave one of the two", option));
@@ -202,11 +208,7 @@ std::string endpoint_of(const BenchDevice& device) {
   if (!name) return device.endpoint;
   if (device.station) add(fmt::format("station={}", *device.station));
   if (const auto line = line::parse_line_settings(device.line); line && !device.line.empty()) {
-    const std::string text = line::to_string(*line);
-    const std::size_t dash = text.find('-');
-    if (name->kind == "serial")
-      add(fmt::format("baud={}&frame={}", text.substr(0, dash), text.substr(dash + 1)));
-    if (name->kind == "emulator" || name->kind == "pty") add("line=" + text);
+    for (const auto& [key, value] : line_options(*name, *line)) add(key + '=' + value);
   }
   if (options.empty()) return device.endpoint;
   return device.endpoint + (name->options.empty() ? "?" : "&") + options;

@@ -68,6 +68,9 @@ TEST(BenchFile, StationAndLineBecomeOptionsOfTheEndpoint) {
         "d"));
   };
   EXPECT_EQ(of("emulator:xbc-h"), "emulator:xbc-h?station=0&line=9600-8N1");
+  EXPECT_EQ(of("pty:xbc-h"), "pty:xbc-h?station=0&line=9600-8N1");
+  EXPECT_EQ(of("rfc2217:host:2000"), "rfc2217:host:2000?station=0&baud=9600&frame=8N1")
+      << "what the report says is what the port is opened with";
   EXPECT_EQ(of("tcp:host:2000"), "tcp:host:2000?station=0");
   EXPECT_EQ(of("exec:tool --what? {tty}"), "exec:tool --what? {tty}?station=0");
   EXPECT_EQ(endpoints::parse_endpoint(of("exec:tool --what? {tty}"))->option("station", ""), "0");

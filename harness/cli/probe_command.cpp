@@ -6,6 +6,7 @@
 
 #include "harness/bench/benches.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/endpoints/kinds.hpp"
 #include "harness/probe/conclusion.hpp"
 #include "harness/probe/target.hpp"
 #include "harness/system/interrupt.hpp"
@@ -207,7 +208,7 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
         open(probe::make_plan(*space, protocols).front().line);
     if (!first) return run::complain(first.error().message, run::exit_code::trouble);
     const endpoints::Capabilities& link = (*first)->capabilities();
-    if (endpoint->kind == "serial" && !link.wire) space->settable = false;  // a pty
+    if (endpoints::kind_of(*endpoint).local_port && !link.wire) space->settable = false;  // a pty
   }
   const std::vector<probe::Trial> plan = probe::make_plan(*space, protocols);
   const Duration longest = probe::longest_time(plan, timing.wait) + timing.listen;

@@ -3,16 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <array>
 #include <span>
 #include <vector>
 
-#include "harness/endpoints/emulator.hpp"
-#include "harness/endpoints/exec.hpp"
-#include "harness/endpoints/pty.hpp"
-#include "harness/endpoints/rfc2217.hpp"
-#include "harness/endpoints/serial.hpp"
-#include "harness/endpoints/tcp.hpp"
+#include "harness/endpoints/kinds.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof::endpoints {
@@ -21,44 +15,9 @@ namespace {
 
 using Options = std::span<const std::string_view>;
 
-constexpr std::array<std::string_view, 3> link_keys{"protocol", "station", "floor_ms"};
-constexpr std::array<std::string_view, 6> serial_keys{"protocol", "station", "floor_ms",
-                                                      "baud",     "frame",   "rs485"};
-
-/// Real ways to a device make no device.
-template <Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&)>
-Result<std::unique_ptr<Endpoint>> real(const EndpointName& name, const harness::Protocol&) {
-  return open(name);
-}
-
-struct Kind {
-  std::string_view name;
-  std::string_view target;  // what stands behind the colon, for messages; empty: it may be left out
-  Options options;          // empty: the emulated device checks them (keys of `given.config`)
-  bool free_target;  // the target may hold '?' and '&' of its own: only known options count as
-                     // options
-  Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&, const harness::Protocol&);
-};
-
-// One more endpoint is one line here and one file.
-constexpr std::array kinds{
-    Kind{"emulator", "", {}, false, open_emulator},
-    Kind{"pty", "", {}, false, real<open_pty>},
-    Kind{"serial", "/dev/ttyUSB0", serial_keys, false, real<open_serial>},
-    Kind{"exec", "COMMAND", link_keys, true, real<open_exec>},
-    Kind{"tcp", "HOST:PORT", link_keys, false, real<open_tcp>},
-    Kind{"udp", "HOST:PORT", link_keys, false, real<open_udp>},
-    Kind{"rfc2217", "HOST:PORT", serial_keys, false, real<open_rfc2217>},
-};
-
-const Kind* find_kind(std::string_view name) {
-  const auto kind = std::ranges::find(kinds, name, &Kind::name);
-  return kind == kinds.end() ? nullptr : &*kind;
-}
-
 std::string unknown_kind(std::string_view name) {
   std::vector<std::string_view> names;
-  for (const Kind& kind : kinds) names.push_back(kind.name);
+  for (const KindOf& kind : all_kinds()) names.push_back(kind.name);
   return fmt::format("unknown kind '{}'; the kinds are {}{}", name, fmt::join(names, ", "),
                      suggestion(name, names));
 }
@@ -68,7 +27,7 @@ bool known(Options options, std::string_view key) {
 }
 
 /// Reads "station=1&protocol=xgt-cnet" into `options`; what is wrong with it, or empty.
-std::string read_options(std::string_view text, const Kind& kind,
+std::string read_options(std::string_view text, const KindOf& kind,
                          std::map<std::string, std::string>& options) {
   while (!text.empty()) {
     const std::string_view one = text.substr(0, text.find('&'));
@@ -88,7 +47,7 @@ std::string read_options(std::string_view text, const Kind& kind,
 
 /// A command keeps its own '?': behind the last one there are options only if it reads as such, and
 /// no option of ours has a space (`exec:tool emulate xbc-h?station=1 --pty {tty}` is all command).
-std::size_t options_of_command(std::string_view rest, const Kind& kind) {
+std::size_t options_of_command(std::string_view rest, const KindOf& kind) {
   const std::size_t mark = rest.rfind('?');
   if (mark == std::string_view::npos || mark + 1 == rest.size() ||
       rest.find(' ', mark) != std::string_view::npos)
@@ -139,28 +98,31 @@ Result<EndpointName> parse_endpoint(std::string_view text) {
   };
   EndpointName name;
   name.kind = text.substr(0, text.find_first_of(":?"));
-  const Kind* kind = find_kind(name.kind);
-  if (!kind) return wrong(unknown_kind(name.kind));
+  const KindOf& kind = kind_of(name);
+  if (kind.name.empty()) return wrong(unknown_kind(name.kind));
   std::string_view rest = text.substr(name.kind.size());
   if (rest.starts_with(':')) rest.remove_prefix(1);
-  const std::size_t mark = kind->free_target ? options_of_command(rest, *kind) : rest.find('?');
+  const std::size_t mark = kind.free_target ? options_of_command(rest, kind) : rest.find('?');
   name.target = rest.substr(0, mark);
-  if (name.target.empty() && !kind->target.empty()) {
+  if (name.target.empty() && !kind.target.empty()) {
     return wrong(
-        fmt::format("nothing stands behind the colon; write {}:{}", kind->name, kind->target));
+        fmt::format("nothing stands behind the colon; write {}:{}", kind.name, kind.target));
   }
-  if (mark == std::string_view::npos) return name;
-  if (const std::string why = read_options(rest.substr(mark + 1), *kind, name.options);
-      !why.empty())
-    return wrong(why);
+  if (mark != std::string_view::npos)
+    if (const std::string why = read_options(rest.substr(mark + 1), kind, name.options);
+        !why.empty())
+      return wrong(why);
+  if (kind.check)
+    if (const Status checked = kind.check(name); !checked) return wrong(checked.error().message);
   return name;
 }
 
 Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name,
                                                 const harness::Protocol& protocol) {
-  const Kind* kind = find_kind(name.kind);
-  if (!kind) return fail("cannot open an endpoint: " + unknown_kind(name.kind));
-  return kind->open(name, protocol);
+  const KindOf& kind = kind_of(name);
+  if (kind.name.empty()) return fail("cannot open an endpoint: " + unknown_kind(name.kind));
+  if (const Status fits = check_endpoint(name, protocol); !fits) return fits.error();
+  return kind.open(name, protocol);
 }
 
 }  // namespace fieldproof::endpoints

@@ -75,10 +75,10 @@ TEST(EndpointName, ACommandMayBeFollowedByKnownOptions) {
 }
 
 TEST(EndpointName, AnUnknownKindGetsASuggestion) {
-  EXPECT_EQ(
-      refusal("emulater:xbc-h"),
-      "cannot read endpoint 'emulater:xbc-h': unknown kind 'emulater'; "
-      "the kinds are emulator, pty, serial, exec, tcp, udp, rfc2217; did you mean 'emulator'?");
+  EXPECT_EQ(refusal("emulater:xbc-h"),
+            "cannot read endpoint 'emulater:xbc-h': unknown kind 'emulater'; "
+            "the kinds are emulator, pty, serial, exec, tcp, udp, listen, rfc2217; did you mean "
+            "'emulator'?");
   EXPECT_THAT(refusal("/dev/ttyUSB0"), HasSubstr("unknown kind '/dev/ttyUSB0'; the kinds are"));
   EXPECT_THAT(refusal(""), HasSubstr("unknown kind ''"));
 }
@@ -110,11 +110,9 @@ TEST(Endpoint, OpeningAnUnknownKindNamesTheKinds) {
   const auto endpoint = open_endpoint({.kind = "serail", .target = "/dev/ttyUSB0", .options = {}},
                                       harness::TestProtocol());
   ASSERT_FALSE(endpoint);
-  EXPECT_THAT(
-      endpoint.error().message,
-      HasSubstr(
-          "cannot open an endpoint: unknown kind 'serail'; "
-          "the kinds are emulator, pty, serial, exec, tcp, udp, rfc2217; did you mean 'serial'?"));
+  EXPECT_THAT(endpoint.error().message, HasSubstr("cannot open an endpoint: unknown kind 'serail'; "
+                                                  "the kinds are emulator, pty, serial, exec, tcp, "
+                                                  "udp, listen, rfc2217; did you mean 'serial'?"));
 }
 
 class Plain : public Endpoint {

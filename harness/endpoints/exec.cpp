@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
+#include "harness/protocol.hpp"
 #include "harness/system/child_process.hpp"
 #include "harness/system/fd_link.hpp"
 #include "harness/system/line_pipe.hpp"
@@ -15,14 +17,10 @@ namespace fieldproof::endpoints {
 
 namespace {
 
-constexpr std::string_view tty_mark = "{tty}";
+constexpr std::string_view tty_mark = "{tty}", port_mark = "{port}";
 
-std::string with_tty(std::string command, const std::string& path) {
-  for (std::size_t at = 0; (at = command.find(tty_mark, at)) != std::string::npos;
-       at += path.size()) {
-    command.replace(at, tty_mark.size(), path);
-  }
-  return command;
+bool uses(const EndpointName& name, std::string_view mark) {
+  return name.target.find(mark) != std::string::npos;
 }
 
 class ExecEndpoint final : public Endpoint {
@@ -32,8 +30,7 @@ class ExecEndpoint final : public Endpoint {
         slave_(std::move(pty.slave)),
         path_(pty.path),
         link_(std::move(pty.master), describe()) {
-    capabilities_.real_device = true;
-    capabilities_.can_power_cycle = true;
+    capabilities_ = capabilities_of(name);
     capabilities_.timing_floor = floor;
   }
 
@@ -44,7 +41,7 @@ class ExecEndpoint final : public Endpoint {
     os::drop_waiting_bytes(slave_.get());
     os::set_raw(slave_.get());
     os::ChildOptions options;
-    const std::string command = with_tty(command_, path_);
+    const std::string command = with_mark(command_, tty_mark, path_);
     options.arguments = os::shell(command);
     options.terminal = slave_.get();
     options.terminal_is_stdio = command == command_;
@@ -97,12 +94,35 @@ class ExecEndpoint final : public Endpoint {
 
 }  // namespace
 
-Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name) {
+Status check_command(const EndpointName& name) {
+  if (uses(name, port_mark) && uses(name, tty_mark))
+    return fail("{port} and {tty} exclude each other: the device is on a network or on a line");
+  return ok();
+}
+
+Status check_command_for(const EndpointName& name, const harness::Protocol& protocol) {
+  const bool network = protocol.default_port() != 0;
+  if (network && !uses(name, port_mark))
+    return fail("it runs on a network; write {port} where the command takes the port");
+  if (!network && uses(name, port_mark))
+    return fail("it runs on a serial line; write {tty} where the command takes its path");
+  return ok();
+}
+
+std::string with_mark(std::string command, std::string_view mark, const std::string& value) {
+  for (std::size_t at = 0; (at = command.find(mark, at)) != std::string::npos; at += value.size())
+    command.replace(at, mark.size(), value);
+  return command;
+}
+
+Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name,
+                                            const harness::Protocol& protocol) {
   if (name.target.empty()) {
     return fail(
         "cannot open exec: there is no command; write exec:COMMAND, with {tty} for the path of its "
         "port");
   }
+  if (uses(name, port_mark)) return open_exec_network(name, protocol);
   const Result<Duration> floor = timing_floor(name);
   if (!floor) return floor.error();
   Result<os::PtyPair> pty = os::open_pty_pair();

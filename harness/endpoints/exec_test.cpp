@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/endpoints/test_endpoint_name.hpp"
+#include "harness/test_protocol.hpp"
 
 namespace fieldproof::endpoints {
 namespace {
@@ -15,7 +16,8 @@ using os::test::receive_text;
 using testing::HasSubstr;
 
 std::unique_ptr<Endpoint> open(const std::string& command) {
-  Result<std::unique_ptr<Endpoint>> endpoint = open_exec(endpoint_name("exec", command));
+  Result<std::unique_ptr<Endpoint>> endpoint =
+      open_exec(endpoint_name("exec", command), harness::TestProtocol());
   EXPECT_TRUE(endpoint) << endpoint.error().message;
   return endpoint ? std::move(*endpoint) : nullptr;
 }
@@ -115,9 +117,11 @@ TEST(Exec, SaysWhatItIs) {
 }
 
 TEST(Exec, RefusesNoCommandAndNoFloor) {
-  EXPECT_THAT(open_exec(endpoint_name("exec", "")).error().message,
+  EXPECT_THAT(open_exec(endpoint_name("exec", ""), harness::TestProtocol()).error().message,
               HasSubstr("there is no command"));
-  EXPECT_THAT(open_exec(endpoint_name("exec", "cat", {{"floor_ms", "x"}})).error().message,
+  EXPECT_THAT(open_exec(endpoint_name("exec", "cat", {{"floor_ms", "x"}}), harness::TestProtocol())
+                  .error()
+                  .message,
               HasSubstr("floor_ms is 'x'"));
 }
 

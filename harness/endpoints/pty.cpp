@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/endpoints/device_control.hpp"
+#include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
 #include "harness/system/child_process.hpp"
 #include "harness/system/fd_link.hpp"
@@ -48,7 +49,7 @@ class PtyEndpoint final : public Endpoint {
         slave_(std::move(pty.slave)),
         link_(std::move(pty.master), "pty:" + name.target),
         control_(std::move(control), "the emulator behind pty:" + name.target) {
-    capabilities_.back_door = true;
+    capabilities_ = capabilities_of(name);
     capabilities_.timing_floor = floor;
     link_.set_far_end(child_.get());
     control_.set_far_end(child_.get());

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
 #include "harness/endpoints/rfc2217_session.hpp"
 
@@ -15,11 +16,11 @@ constexpr Duration default_patience = 3s;
 
 class Rfc2217Endpoint final : public Endpoint {
  public:
-  Rfc2217Endpoint(const std::string& where, const SerialOptions& options, Duration patience)
-      : where_(where),
+  Rfc2217Endpoint(const EndpointName& name, const SerialOptions& options, Duration patience)
+      : where_(name.target),
         settings_(options.settings),
-        session_(where, options.settings, options.direction, patience) {
-    capabilities_.real_device = true;
+        session_(name.target, options.settings, options.direction, patience) {
+    capabilities_ = capabilities_of(name);
     capabilities_.timing_floor = options.floor;
   }
 
@@ -75,7 +76,7 @@ Result<std::unique_ptr<Endpoint>> open_rfc2217(const EndpointName& name, Duratio
                     "out here, or use rs485=rts",
                     name.target));
   }
-  auto endpoint = std::make_unique<Rfc2217Endpoint>(name.target, *options, patience);
+  auto endpoint = std::make_unique<Rfc2217Endpoint>(name, *options, patience);
   if (const Status opened = endpoint->open(); !opened) return opened.error();
   return std::unique_ptr<Endpoint>(std::move(endpoint));
 }

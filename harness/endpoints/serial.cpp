@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
 #include "harness/endpoints/serial_settings.hpp"
 #include "harness/system/fd_link.hpp"
@@ -68,15 +69,15 @@ Error open_error(const std::string& path, int error) {
 
 class SerialEndpoint final : public Endpoint {
  public:
-  SerialEndpoint(const os::SystemCalls& calls, os::UniqueFd fd, os::PortLock lock, std::string path,
-                 const SerialOptions& options)
+  SerialEndpoint(const os::SystemCalls& calls, os::UniqueFd fd, os::PortLock lock,
+                 const EndpointName& name, const SerialOptions& options)
       : calls_(calls),
         lock_(std::move(lock)),
-        path_(std::move(path)),
+        path_(name.target),
         settings_(options.settings),
         direction_(options.direction),
         link_(std::move(fd), "serial:" + path_) {
-    capabilities_.real_device = true;
+    capabilities_ = capabilities_of(name);
     capabilities_.wire = !is_pty(calls_, link_.fd());
     capabilities_.timing_floor = options.floor;
     if (capabilities_.wire) link_.set_character_time(settings_.character_time());
@@ -165,7 +166,7 @@ Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name,
     return done.error();
   calls.ioctl(fd.get(), TCFLSH, number(TCIOFLUSH));
   return std::unique_ptr<Endpoint>(
-      std::make_unique<SerialEndpoint>(calls, std::move(fd), std::move(*lock), path, *options));
+      std::make_unique<SerialEndpoint>(calls, std::move(fd), std::move(*lock), name, *options));
 }
 
 }  // namespace fieldproof::endpoints

@@ -10,6 +10,7 @@
 #include "harness/system/fd_link.hpp"
 #include "harness/system/interrupt.hpp"
 #include "harness/system/socket_address.hpp"
+#include "harness/test_protocol.hpp"
 
 namespace fieldproof::endpoints {
 
@@ -43,7 +44,8 @@ class Tcp : public testing::Test {
 };
 
 TEST_F(Tcp, CarriesBytesBothWays) {
-  auto endpoint = open_tcp(endpoint_name("tcp", where, {{"station", "1"}, {"floor_ms", "5"}}));
+  auto endpoint = open_tcp(endpoint_name("tcp", where, {{"station", "1"}, {"floor_ms", "5"}}),
+                           harness::TestProtocol());
   ASSERT_TRUE(endpoint) << endpoint.error().message;
   EXPECT_EQ((*endpoint)->describe(), "tcp:" + where);
   EXPECT_TRUE((*endpoint)->capabilities().real_device);
@@ -56,12 +58,14 @@ TEST_F(Tcp, CarriesBytesBothWays) {
 }
 
 TEST_F(Tcp, AClosedConnectionIsAnErrorUntilTheNextCase) {
-  auto endpoint = open_tcp(endpoint_name("tcp", where));
+  auto endpoint = open_tcp(endpoint_name("tcp", where), harness::TestProtocol());
   ASSERT_TRUE(endpoint);
   { FdLink device = accept(); }
   EXPECT_THAT(os::test::receive_error(**endpoint).message,
               HasSubstr("the far end closed the connection"));
   ASSERT_TRUE((*endpoint)->begin(nlohmann::json::object()));
+  EXPECT_EQ((*endpoint)->line_errors(), "1 lost connection") << "not opened again in silence";
+  EXPECT_EQ((*endpoint)->line_errors(), "");
   FdLink device = accept();
   ASSERT_TRUE((*endpoint)->send(to_bytes("again")));
   EXPECT_EQ(receive_text(device, "again"), "again");
@@ -75,7 +79,7 @@ TEST_F(Tcp, AClosedConnectionIsAnErrorUntilTheNextCase) {
 
 TEST_F(Tcp, SaysThatNothingListens) {
   listener.reset();
-  const auto endpoint = open_tcp(endpoint_name("tcp", where));
+  const auto endpoint = open_tcp(endpoint_name("tcp", where), harness::TestProtocol());
   ASSERT_FALSE(endpoint);
   EXPECT_EQ(endpoint.error().message,
             "cannot connect to " + where +
@@ -84,7 +88,7 @@ TEST_F(Tcp, SaysThatNothingListens) {
 
 TEST_F(Tcp, RefusesWhatIsNoAddress) {
   const auto message = [](const std::string& target) {
-    return open_tcp(endpoint_name("tcp", target)).error().message;
+    return open_tcp(endpoint_name("tcp", target), harness::TestProtocol()).error().message;
   };
   EXPECT_EQ(message("plc"), "cannot connect to plc: there is no port; write HOST:PORT");
   EXPECT_EQ(message("plc:"), "cannot connect to plc:: there is no port; write HOST:PORT");
@@ -95,7 +99,7 @@ TEST_F(Tcp, RefusesWhatIsNoAddress) {
 
 TEST_F(Tcp, AnInterruptEndsConnecting) {
   os::interrupt();
-  const auto endpoint = open_tcp(endpoint_name("tcp", where));
+  const auto endpoint = open_tcp(endpoint_name("tcp", where), harness::TestProtocol());
   os::clear_interrupt();
   ASSERT_FALSE(endpoint);
   EXPECT_TRUE(endpoint.error().interrupted);
@@ -132,10 +136,10 @@ class Udp : public testing::Test {
 };
 
 TEST_F(Udp, OneSendIsOneDatagramAndOneBurstIsOne) {
-  auto endpoint = open_udp(endpoint_name("udp", where));
+  auto endpoint = open_udp(endpoint_name("udp", where), harness::TestProtocol());
   ASSERT_TRUE(endpoint) << endpoint.error().message;
   EXPECT_EQ((*endpoint)->describe(), "udp:" + where);
-  EXPECT_TRUE((*endpoint)->capabilities().datagrams);
+  EXPECT_FALSE((*endpoint)->capabilities().datagrams) << "it is one line";
   ASSERT_TRUE((*endpoint)->send(to_bytes("one")));
   ASSERT_TRUE((*endpoint)->send(to_bytes("two")));
   EXPECT_EQ(hear(), "one");
@@ -150,7 +154,7 @@ TEST_F(Udp, OneSendIsOneDatagramAndOneBurstIsOne) {
 }
 
 TEST_F(Udp, ADeviceThatIsGoneIsSaidAndMayComeBack) {
-  auto endpoint = open_udp(endpoint_name("udp", where));
+  auto endpoint = open_udp(endpoint_name("udp", where), harness::TestProtocol());
   ASSERT_TRUE(endpoint);
   sockaddr_in address{};
   socklen_t size = sizeof address;

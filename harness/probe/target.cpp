@@ -1,25 +1,22 @@
 #include "harness/probe/target.hpp"
 
+#include "harness/endpoints/kinds.hpp"
+
 namespace fieldproof::probe {
 
 using endpoints::EndpointName;
 
-bool is_emulator(const EndpointName& name) { return name.kind == "emulator" || name.kind == "pty"; }
+bool is_emulator(const EndpointName& name) { return endpoints::kind_of(name).emulated; }
 
 bool has_line_settings(const EndpointName& name) {
-  return name.kind == "emulator" || name.kind == "serial" || name.kind == "rfc2217";
+  const endpoints::KindOf& kind = endpoints::kind_of(name);
+  return kind.simulated || kind.line == endpoints::LineOption::port;
 }
 
 EndpointName with_settings(EndpointName name, const line::LineSettings& line) {
   if (!has_line_settings(name)) return name;
-  const std::string text = line::to_string(line);
-  if (is_emulator(name)) {
-    name.options["bench_line"] = text;
-    return name;
-  }
-  const std::size_t dash = text.find('-');
-  name.options["baud"] = text.substr(0, dash);
-  name.options["frame"] = text.substr(dash + 1);
+  if (!is_emulator(name)) return endpoints::with_line(std::move(name), line);
+  name.options["bench_line"] = to_string(line);
   return name;
 }
 

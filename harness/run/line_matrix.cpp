@@ -60,18 +60,4 @@ std::string matrix_text(const LineSettings& step) {
   return text.replace(text.find('-'), 1, " x ");
 }
 
-endpoints::EndpointName at_line(endpoints::EndpointName endpoint, const LineSettings& step) {
-  const std::string text = line::to_string(step);
-  const std::size_t dash = text.find('-');
-  if (sets_device(endpoint)) endpoint.options["line"] = text;
-  if (endpoint.kind != "serial" && endpoint.kind != "rfc2217") return endpoint;
-  endpoint.options["baud"] = text.substr(0, dash);
-  endpoint.options["frame"] = text.substr(dash + 1);
-  return endpoint;
-}
-
-bool sets_device(const endpoints::EndpointName& endpoint) {
-  return endpoint.kind == "emulator" || endpoint.kind == "pty";
-}
-
 }  // namespace fieldproof::run

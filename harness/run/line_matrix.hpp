@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/endpoints/endpoint.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof::run {
@@ -17,12 +16,5 @@ Result<std::vector<line::LineSettings>> parse_line_matrix(std::string_view text)
 
 /// "38400 x 8N1": the matrix of this step alone.
 std::string matrix_text(const line::LineSettings& step);
-
-/// The endpoint with the bench's own side of the line, and of an emulator the device's too, set so.
-/// Kinds without line settings (tcp, udp, exec) stay as they are.
-endpoints::EndpointName at_line(endpoints::EndpointName endpoint, const line::LineSettings& step);
-
-/// Does the endpoint set the device itself, so that nobody need be asked?
-bool sets_device(const endpoints::EndpointName& endpoint);
 
 }  // namespace fieldproof::run

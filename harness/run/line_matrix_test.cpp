@@ -33,16 +33,8 @@ TEST(LineMatrix, ErrorsNameThePart) {
   EXPECT_THAT(steps("9600 x 8N1,8n1"), testing::HasSubstr("9600-8N1 stands there twice"));
 }
 
-TEST(LineMatrix, EachKindTakesWhatItCanSet) {
-  const line::LineSettings step{38400, 7, 'E', 2};
-  EXPECT_EQ("38400-7E2", at_line({"emulator", "xbc-h", {}}, step).option("line", ""));
-  EXPECT_EQ("38400-7E2", at_line({"pty", "xbc-h", {}}, step).option("line", ""));
-  const endpoints::EndpointName serial =
-      at_line({"serial", "/dev/ttyUSB0", {{"baud", "9600"}}}, step);
-  EXPECT_EQ("38400", serial.option("baud", ""));
-  EXPECT_EQ("7E2", serial.option("frame", ""));
-  EXPECT_TRUE(at_line({"tcp", "h:1", {}}, step).options.empty());
-  EXPECT_EQ("38400 x 7E2", matrix_text(step));
+TEST(LineMatrix, AStepIsAMatrixOfItsOwn) {
+  EXPECT_EQ("38400 x 7E2", matrix_text({38400, 7, 'E', 2}));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "harness/endpoints/kinds.hpp"
 #include "harness/run/exit_code.hpp"
 #include "harness/run/line_matrix.hpp"
 #include "harness/system/hook.hpp"
@@ -49,7 +50,7 @@ Status LineSteps::enter(std::size_t step,
 
 Result<std::string> LineSteps::reconfigure(const LineSettings& step, std::size_t number) {
   if (!quit_.empty()) return quit_;
-  if (sets_device(plan_.endpoint)) return std::string();
+  if (endpoints::kind_of(plan_.endpoint).emulated) return std::string();
   const std::string text = line::to_string(step);
   const std::string speed = text.substr(0, text.find('-')), frame = text.substr(text.find('-') + 1);
   if (!command_.empty()) {
@@ -76,7 +77,7 @@ Status LineSteps::open(const LineSettings& step) {
   options.replay = replay_of_step(options.replay, step);
   benches_.close();
   Result<bench::Benches> opened =
-      bench::Benches::open(at_line(plan_.endpoint, step), plan_.protocols, options);
+      bench::Benches::open(endpoints::with_line(plan_.endpoint, step), plan_.protocols, options);
   if (!opened) return opened.error();
   benches_ = std::move(*opened);
   return ok();
@@ -88,7 +89,7 @@ std::string LineSteps::names_other_line(const vectors::Case& source) const {
   if (line == source.config.end() || !line->is_string() || *line == name()) return {};
   const bool has_step = std::ranges::any_of(
       plan_.matrix, [&](const LineSettings& one) { return line::to_string(one) == *line; });
-  if (has_step || sets_device(plan_.endpoint))
+  if (has_step || endpoints::kind_of(plan_.endpoint).emulated)
     return fmt::format("names its own line, {}; this step is {}", line->get<std::string>(), name());
   return {};
 }

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "harness/endpoints/kinds.hpp"
 #include "harness/run/exit_code.hpp"
-#include "harness/run/line_matrix.hpp"
 
 namespace fieldproof::run {
 
@@ -104,9 +104,10 @@ Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan) {
 Result<std::vector<Benches>> open_ports(const RunPlan& plan) {
   std::vector<Benches> ports;
   const auto open = [&](const DutPlan& dut) -> Status {
-    Result<Benches> port = Benches::open(
-        plan.matrix.empty() ? dut.endpoint : at_line(dut.endpoint, plan.matrix.front()),
-        dut.protocols, dut.bench);
+    Result<Benches> port =
+        Benches::open(plan.matrix.empty() ? dut.endpoint
+                                          : endpoints::with_line(dut.endpoint, plan.matrix.front()),
+                      dut.protocols, dut.bench);
     if (!port) return port.error();
     ports.push_back(std::move(*port));
     return ok();

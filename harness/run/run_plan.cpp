@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "harness/bench/bench_file.hpp"
+#include "harness/endpoints/kinds.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/exit_code.hpp"
 #include "harness/run/line_matrix.hpp"
@@ -27,9 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_emulated(const EndpointName& endpoint) {
-  return endpoint.kind == "emulator" || endpoint.kind == "pty";
-}
+bool is_emulated(const EndpointName& endpoint) { return endpoints::kind_of(endpoint).emulated; }
 
 /// A model without a profile of its own: what a user-defined frame file describes.
 bool is_bare_model(const EndpointName& endpoint, const DataPaths& data,
@@ -140,7 +139,7 @@ Status read_timing_options(const RunOptions& options, RunPlan& plan) {
     Result<std::vector<line::LineSettings>> steps = parse_line_matrix(options.matrix);
     if (!steps) return steps.error();
     plan.matrix = std::move(*steps);
-    if (!sets_device(plan.endpoint) && options.reconfigure.empty() && !isatty(STDIN_FILENO))
+    if (!is_emulated(plan.endpoint) && options.reconfigure.empty() && !isatty(STDIN_FILENO))
       return fail(
           "--matrix needs somebody who sets the device at each step: run it in a terminal, or give "
           "--reconfigure COMMAND");
@@ -191,13 +190,20 @@ Result<std::vector<const Protocol*>> protocols_of(const DutPlan& plan,
   const std::string& model =
       is_emulated(plan.endpoint) ? plan.endpoint.target : plan.bench.profile.model;
   std::vector<const Protocol*> protocols;
+  Status fits = ok();
   for (const std::string& name : names) {
     const Result<const Protocol*> protocol = plan.known.choose(name, model);
     if (!protocol)
       return fail(fmt::format("cannot run on {}:{}: {}", plan.endpoint.kind, plan.endpoint.target,
                               protocol.error().message));
-    protocols.push_back(*protocol);
+    const Status one = endpoints::check_endpoint(plan.endpoint, **protocol);
+    if (one)
+      protocols.push_back(*protocol);
+    else
+      fits = one;
   }
+  // Of several, those that this way does not carry are for another one.
+  if (protocols.empty()) return fits.error();
   return protocols;
 }
 
@@ -223,7 +229,7 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   if (!endpoint) return endpoint.error();
   plan.endpoint = std::move(*endpoint);
   if (const std::string stable =
-          plan.endpoint.kind == "serial" ? os::stable_name(plan.endpoint.target) : "";
+          endpoints::kind_of(plan.endpoint).local_port ? os::stable_name(plan.endpoint.target) : "";
       !stable.empty())
     complain(fmt::format("{} may be another adapter next time; its stable name is {}",
                          plan.endpoint.target, stable),
@@ -241,6 +247,11 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   plan.protocols = std::move(*spoken);
   if (std::ranges::all_of(selected, [](const Case* one) { return vectors::is_client_case(*one); }))
     plan.bench.client_cases = selected;
+  else if (endpoints::kind_of(plan.endpoint).listens)
+    return fail(
+        fmt::format("cannot run on {}:{}: there the device connects to the bench, which is "
+                    "for cases of clients alone; add --role client",
+                    plan.endpoint.kind, plan.endpoint.target));
   plan.stimulus = options->stimulus;
   if (!options->aux.empty()) {
     Result<EndpointName> aux = endpoints::parse_endpoint(options->aux);
@@ -308,9 +319,10 @@ Status check_words(const std::vector<const vectors::Case*>& selected,
         for (const notation::Item& item : frame.notation)
           if (item.kind == notation::Item::Kind::check &&
               !notation::find_check(protocol->checks(), item.text))
-            return fail(fmt::format("{}: {}: steps[{}]: unknown word '{}': it is no control "
-                                    "character, and no check of {}",
-                                    one->file, one->id, i, item.text, one->protocol));
+            return fail(
+                fmt::format("{}: {}: steps[{}]: unknown word '{}': it is no control "
+                            "character, and no check of {}",
+                            one->file, one->id, i, item.text, one->protocol));
   }
   return ok();
 }

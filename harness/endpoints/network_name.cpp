@@ -1,0 +1,73 @@
+#include "harness/endpoints/network_name.hpp"
+
+#include <fmt/format.h>
+
+#include "harness/endpoints/kinds.hpp"
+#include "harness/protocol.hpp"
+#include "harness/system/socket_address.hpp"
+
+namespace fieldproof::endpoints {
+
+namespace {
+
+constexpr const char* ports = "write a number from 1 to 65535";
+
+/// Option `udp` as a port; 0 where it is none.
+std::uint16_t udp_option(const EndpointName& name) {
+  const Result<os::SocketName> read = os::parse_socket_name(':' + name.option("udp", ""));
+  return read ? read->port.value_or(0) : 0;
+}
+
+Status check_options(const EndpointName& name) {
+  if (name.options.contains("udp") && udp_option(name) == 0)
+    return fail(fmt::format("udp is '{}', which is no port; {}", name.option("udp", ""), ports));
+  const std::string line = name.option("line", "raw");
+  if (line != "raw")
+    return fail(
+        fmt::format("line is '{}'; a socket has no speed and format: write line=raw (one "
+                    "line over the connection), or leave it out",
+                    line));
+  return ok();
+}
+
+Result<os::SocketName> read_target(const EndpointName& name) {
+  Result<os::SocketName> read = os::parse_socket_name(name.target);
+  if (read && read->host.empty()) return fail("there is no host; write HOST:PORT");
+  return read;
+}
+
+}  // namespace
+
+bool is_network(const harness::Protocol& protocol) { return protocol.default_port() != 0; }
+
+Status check_network_name(const EndpointName& name) {
+  const Result<os::SocketName> read = read_target(name);
+  if (!read) return read.error();
+  if (read->port == 0) return fail(fmt::format("0 is no port; {}", ports));
+  return check_options(name);
+}
+
+Status check_network_use(const EndpointName& name, const harness::Protocol& protocol) {
+  if (!is_network(protocol) && !os::parse_socket_name(name.target)->port)
+    return fail(
+        fmt::format("there is no port, and a serial server has none of its own; write "
+                    "{}:{}:PORT",
+                    name.kind, name.target));
+  if (is_network(protocol) && name.options.contains("line"))
+    return fail("it needs links, and line=raw makes one line of a connection; leave line=raw out");
+  return ok();
+}
+
+Status check_listen_name(const EndpointName& name) {
+  const Result<os::SocketName> read = read_target(name);
+  return read ? check_options(name) : read.error();
+}
+
+NetworkPorts network_ports(const EndpointName& name, const harness::Protocol& protocol) {
+  const os::SocketName read = *os::parse_socket_name(name.target);
+  const std::uint16_t port = read.port.value_or(protocol.default_port());
+  if (!kind_of(name).connections) return {read.host, 0, port};
+  return {read.host, port, udp_option(name)};
+}
+
+}  // namespace fieldproof::endpoints
