@@ -195,9 +195,12 @@ int run_tool(int argc, char** argv) {
       ->add_option("model", emulate.model,
                    "MODEL[?station=1&protocol=...]: xbc-h, xbm-s, xec-h, inverter, modem")
       ->required();
-  CLI::Option* tcp = emulate_app->add_option("--tcp", emulate.tcp, "Listen on HOST:PORT");
+  CLI::Option* tcp = emulate_app->add_option(
+      "--tcp", emulate.tcp, "Listen on [HOST:]PORT; without HOST for programs here alone");
+  CLI::Option* udp = emulate_app->add_option("--udp", emulate.udp, "The same for datagrams");
   emulate_app->add_option("--pty", emulate.pty, "A terminal to open, or the link to a new pty")
-      ->excludes(tcp);
+      ->excludes(tcp)
+      ->excludes(udp);
   emulate_app->add_option("--p2p", emulate.p2p,
                           "P2P parameters, a JSON file: the device is the client that asks");
   emulate_app->add_option(

@@ -32,7 +32,8 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
 
 struct EmulateOptions {
   std::string model;     // "xbc-h?station=1&protocol=xgt-cnet"
-  std::string tcp, pty;  // 127.0.0.1:PORT, PATH
+  std::string tcp, udp;  // [HOST]:PORT, or HOST where the protocol has a port of its own
+  std::string pty;       // PATH
   std::string p2p;       // JSON file of P2P parameters: the device is the client
   std::string monitor;   // CSV file of the frames that cross the line
   int control = -1;      // internal: the harness' back door

@@ -7,6 +7,7 @@
 #include "harness/cli/p2p_file.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/hosting/device_host.hpp"
+#include "harness/hosting/listening.hpp"
 #include "harness/monitored_device.hpp"
 #include "harness/notation/notation.hpp"
 #include "harness/protocol.hpp"
@@ -20,7 +21,8 @@ using plc::EmulatedDevice;
 namespace {
 
 void print_traffic(const hosting::Traffic& traffic) {
-  fmt::print("{}\n    {}\n", hosting::monitor_line(traffic), notation::print_bytes(traffic.bytes));
+  fmt::print("{}\n", hosting::monitor_line(traffic));
+  if (!traffic.bytes.empty()) fmt::print("    {}\n", notation::print_bytes(traffic.bytes));
   std::fflush(stdout);
 }
 
@@ -47,6 +49,25 @@ Result<std::unique_ptr<EmulatedDevice>> make_stations(const harness::Protocol& p
     devices.push_back(std::move(*device));
   }
   return std::unique_ptr<EmulatedDevice>(std::make_unique<plc::MultiDrop>(std::move(devices)));
+}
+
+/// Is the device given a way that its protocol runs on?
+Status check_addresses(const EmulateOptions& options, const harness::Protocol& protocol) {
+  const auto wrong = [&](const std::string& why) {
+    return fail(fmt::format("cannot emulate {}: {} {}", options.model, protocol.name(), why));
+  };
+  const std::uint16_t port = protocol.default_port();
+  const bool socket = !options.tcp.empty() || !options.udp.empty();
+  if (port == 0 && !options.udp.empty())
+    return wrong("runs on a serial line, which datagrams do not carry; leave --udp out");
+  const bool only_asks = !options.p2p.empty() && options.pty.empty() && options.tty.empty();
+  if (port != 0 && !socket && !only_asks)
+    return wrong(fmt::format("runs on a network; give --tcp 127.0.0.1:{}, or another port", port));
+  const std::optional<std::uint16_t> usual = port != 0 ? std::optional(port) : std::nullopt;
+  for (const std::string& address : {options.tcp, options.udp})
+    if (!address.empty())
+      if (const auto read = hosting::read_address(address, usual); !read) return read.error();
+  return ok();
 }
 
 }  // namespace
@@ -83,7 +104,11 @@ int emulate_command(const EmulateOptions& options, const harness::Protocols& pro
     host.make_device = naming_file(std::move(host.make_device),
                                    fmt::format("{}, as {} (MODEL?protocol=... for another)",
                                                options.p2p, (*protocol)->name()));
+  host.port = (*protocol)->default_port();
+  if (const Status address = check_addresses(options, **protocol); !address)
+    return run::complain(address.error().message, run::exit_code::usage);
   host.tcp = options.tcp;
+  host.udp = options.udp;
   host.tty = options.tty.empty() ? options.pty : options.tty;
   host.control = options.control;
   if (options.verbose) host.monitor = print_traffic;

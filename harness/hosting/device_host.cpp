@@ -13,6 +13,7 @@
 
 #include "harness/endpoints/device_control.hpp"
 #include "harness/hosting/host_port.hpp"
+#include "harness/hosting/party.hpp"
 #include "harness/system/fd_link.hpp"
 #include "harness/system/interrupt.hpp"
 #include "src/line/settings.hpp"
@@ -27,6 +28,8 @@ constexpr int exit_usage = 2;
 constexpr int exit_trouble = 3;
 /// A device that is due again and again must not keep the host from listening.
 constexpr int most_at_once = 1000;
+/// So many links have names in the monitor.
+constexpr std::size_t most_names = 1000;
 
 void complain(const std::string& message) { fmt::print(stderr, "fieldproof: {}\n", message); }
 
@@ -43,13 +46,14 @@ class DeviceHost {
 
   void wait();
   Status hear();
+  bool is_unwanted(const Burst& burst);
   void run_due(Time until);
   void tell_time();
-  void transmit(const Bytes& bytes);
+  void transmit(std::vector<Burst> bursts);
   void serve_control();
   void answer_lines();
   void power_cycle();
-  void show(bool to_device, ByteView bytes);
+  void show(bool to_device, const Burst& burst);
 
   const HostOptions& options_;
   HostPort& port_;
@@ -57,10 +61,12 @@ class DeviceHost {
   int hangup_;
   os::RunClock clock_;
   std::unique_ptr<plc::EmulatedDevice> device_;
+  std::unique_ptr<Party> party_;  // of device_
   Time device_time_{};
   std::string control_text_;
   bool control_closed_ = false;
   std::vector<pollfd> fds_;
+  std::map<LinkId, std::string> names_;  // of links, for the monitor
 };
 
 /// Replaces the device by a fresh one. What waits on the line belongs to the old one.
@@ -72,7 +78,12 @@ Status DeviceHost::begin(const json& config) {
   merged.emplace("inter_character_floor_ms", options_.inter_character_floor_ms);
   Result<std::unique_ptr<plc::EmulatedDevice>> device = options_.make_device(merged);
   if (!device) return device.error();
-  if (!(*device)->line()) return fail("cannot host the device: it has no serial line");
+  std::unique_ptr<Party> party = party_of(**device, options_.port != 0);
+  if (!party)
+    return fail(fmt::format("cannot emulate {}: it has no {}", merged.value("model", "the device"),
+                            options_.port != 0 ? "network; leave --tcp and --udp out"
+                                               : "serial line; give --tcp HOST:PORT"));
+  party_ = std::move(party);
   device_ = std::move(*device);
   port_.flush();
   return ok();
@@ -99,7 +110,7 @@ void DeviceHost::wait() {
   fds_.assign({{os::interrupt_fd(), POLLIN, 0}, {hangup_, POLLIN, 0}, {control_.get(), POLLIN, 0}});
   port_.add_to(fds_);
   timespec timeout{};
-  const std::optional<Time> wake = device_->line()->wake_at();
+  const std::optional<Time> wake = party_->wake_at();
   if (wake) {
     const Duration left = std::max(*wake - clock_.now(), Duration::zero());
     timeout = {static_cast<time_t>(left / 1s), static_cast<long>((left % 1s).count())};
@@ -112,29 +123,38 @@ void DeviceHost::wait() {
 /// may have come in time: they count as come at that moment, so that a busy machine does not look
 /// like a gap on the line.
 Status DeviceHost::hear() {
-  if (std::none_of(fds_.begin() + first_port_slot, fds_.end(),
-                   [](const pollfd& one) { return one.revents != 0; }))
-    return ok();
-  for (;;) {
-    Result<Bytes> bytes = port_.read();
-    if (!bytes) return bytes.error();
-    if (bytes->empty()) return ok();
+  for (int i = 0; i < most_at_once; ++i) {
+    Result<std::optional<Burst>> burst = port_.read();
+    if (!burst) return burst.error();
+    if (!*burst) return ok();
+    if (is_unwanted(**burst)) continue;
     Time moment = clock_.now();
-    if (const std::optional<Time> wake = device_->line()->wake_at())
-      moment = std::min(moment, *wake);
+    if (const std::optional<Time> wake = party_->wake_at()) moment = std::min(moment, *wake);
     device_time_ = std::max(device_time_, moment);
-    show(true, *bytes);
-    device_->line()->receive(Burst{std::move(*bytes), device_time_, {}});
+    (*burst)->start = device_time_;
+    show(true, **burst);
+    party_->receive(**burst);
     run_due(device_time_);  // not until now: more may be waiting to be read
   }
+  return ok();
+}
+
+/// Is it for a port that the device does not have? A connection is refused then.
+bool DeviceHost::is_unwanted(const Burst& burst) {
+  const bool connection = burst.event == LinkEvent::opened;
+  if (!connection && burst.event != LinkEvent::datagram) return false;
+  if (burst.link >= first_own_link) return false;
+  if (party_->listens(connection ? Transport::tcp : Transport::udp, burst.port)) return false;
+  if (connection) port_.write(Burst{.bytes = {}, .link = burst.link, .event = LinkEvent::reset});
+  return true;
 }
 
 void DeviceHost::run_due(Time until) {
   for (int i = 0; i < most_at_once; ++i) {
-    const std::optional<Time> wake = device_->line()->wake_at();
+    const std::optional<Time> wake = party_->wake_at();
     if (!wake || *wake > until) return;
     device_time_ = std::max(device_time_, *wake);
-    transmit(device_->line()->advance(device_time_));
+    transmit(party_->advance(device_time_));
   }
 }
 
@@ -142,13 +162,14 @@ void DeviceHost::run_due(Time until) {
 /// do: a client whose flag rises counts its time-out from here.
 void DeviceHost::tell_time() {
   device_time_ = std::max(device_time_, clock_.now());
-  transmit(device_->line()->advance(device_time_));
+  transmit(party_->advance(device_time_));
 }
 
-void DeviceHost::transmit(const Bytes& bytes) {
-  if (bytes.empty()) return;
-  port_.write(bytes);
-  show(false, bytes);
+void DeviceHost::transmit(std::vector<Burst> bursts) {
+  for (const Burst& burst : bursts) {
+    port_.write(burst);
+    show(false, burst);
+  }
 }
 
 void DeviceHost::serve_control() {
@@ -187,8 +208,31 @@ void DeviceHost::power_cycle() {
   if (const Status done = device_->act("power_cycle"); !done) complain(done.error().message);
 }
 
-void DeviceHost::show(bool to_device, ByteView bytes) {
-  if (options_.monitor) options_.monitor({clock_.now(), to_device, bytes});
+void DeviceHost::show(bool to_device, const Burst& burst) {
+  if (!options_.monitor) return;
+  if (burst.link != line_link && !burst.peer.empty()) {
+    if (names_.size() >= most_names) names_.erase(names_.begin());
+    names_[burst.link] = burst.link < first_own_link
+                             ? fmt::format("#{} {}", burst.link, burst.peer)
+                             : fmt::format("#own {} to {}:{}", burst.link - first_own_link + 1,
+                                           burst.peer, burst.port);
+  }
+  const auto name = names_.find(burst.link);
+  options_.monitor({clock_.now(), to_device, burst.bytes, burst.event,
+                    name == names_.end() ? "" : name->second});
+}
+
+/// What happened on a link; empty: bytes were sent.
+std::string happening(const Traffic& traffic) {
+  const char* by = traffic.to_device ? "the other side" : "the device";
+  switch (traffic.event) {
+    case LinkEvent::opened: return traffic.to_device ? "connected" : "connects";
+    case LinkEvent::closed: return fmt::format("closed by {} (FIN)", by);
+    case LinkEvent::reset: return fmt::format("reset by {} (RST)", by);
+    case LinkEvent::data:
+    case LinkEvent::datagram: break;
+  }
+  return {};
 }
 
 void announce(const HostOptions& options, const std::string& where) {
@@ -219,7 +263,10 @@ std::string monitor_line(const Traffic& traffic) {
   std::string text = to_text(traffic.bytes);
   std::ranges::replace_if(
       text, [](char c) { return c < ' ' || c > '~'; }, '.');
-  return fmt::format("{:>12.3f} ms  {}  {:>4}  {}  {}", to_ms(traffic.moment),
+  const std::string link = traffic.link.empty() ? "" : traffic.link + "  ";
+  if (const std::string what = happening(traffic); !what.empty())
+    return fmt::format("{:>12.3f} ms  {}{}", to_ms(traffic.moment), link, what);
+  return fmt::format("{:>12.3f} ms  {}{}  {:>4}  {}  {}", to_ms(traffic.moment), link,
                      traffic.to_device ? "received" : "sent    ", traffic.bytes.size(),
                      to_hex(traffic.bytes), text);
 }
@@ -231,10 +278,13 @@ int host_on_tty(const HostOptions& options) {
                                                         : line::to_string(line::LineSettings{})));
 }
 
-int host_on_tcp(const HostOptions& options) { return host(options, open_tcp_port(options.tcp)); }
+int host_on_socket(const HostOptions& options) {
+  if (options.port == 0) return host(options, open_line_socket(options.tcp));
+  return host(options, open_network_port({options.tcp, options.udp, options.port}));
+}
 
 int host_device(const HostOptions& options) {
-  return options.tcp.empty() ? host_on_tty(options) : host_on_tcp(options);
+  return options.port == 0 && options.tcp.empty() ? host_on_tty(options) : host_on_socket(options);
 }
 
 }  // namespace fieldproof::hosting

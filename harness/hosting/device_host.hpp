@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "src/base/burst.hpp"
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
@@ -21,14 +22,18 @@ namespace fieldproof::hosting {
 using HostedFactory =
     std::function<Result<std::unique_ptr<plc::EmulatedDevice>>(const nlohmann::json& config)>;
 
-/// Bytes that crossed the line at once, as a frame monitor shows them.
+/// What crossed at once, as a frame monitor shows it.
 struct Traffic {
   Time moment{};           // since the start
-  bool to_device = false;  // received by the device, or sent by it
-  ByteView bytes;
+  bool to_device = false;  // received by the device, or done by it
+  ByteView bytes{};
+  LinkEvent event = LinkEvent::data;
+  std::string link{};  // "#1 127.0.0.1:40312"; empty: the line
 };
 
-/// "    12.345 ms  received   20  05 30 31 ...  .01rSS..." on one line, without newline.
+/// "    12.345 ms  received   20  05 30 31 ...  .01rSS..." on one line, without newline; of a link
+/// "    12.345 ms  #1 127.0.0.1:40312  received ...", or what happened on it: "connected", "closed
+/// by the client (FIN)", "reset by the device (RST)".
 std::string monitor_line(const Traffic& traffic);
 
 struct HostOptions {
@@ -37,7 +42,8 @@ struct HostOptions {
   nlohmann::json config =
       nlohmann::json::object();  // of the first device, and defaults for those of `begin`
   std::string tty;               // --tty PATH, see host_on_tty
-  std::string tcp;               // --tcp HOST:PORT; port 0: any
+  std::string tcp, udp;          // --tcp and --udp HOST:PORT; port 0: any; no host: loopback
+  std::uint16_t port = 0;        // of the device's protocol: it runs on a network; 0: on a line
   int control = -1;              // --control FD, taken over; its end ends the host
   int inter_character_floor_ms = 20;
   std::function<void(const Traffic&)> monitor;     // -v; may be empty
@@ -53,11 +59,12 @@ struct HostOptions {
 /// removed at the end. Without `tty`, a new pty is made and its path said.
 int host_on_tty(const HostOptions& options);
 
-/// The same behind a listening socket. Several clients may be connected: the device hears them all,
-/// and what it sends goes to the one it heard last (to all before it heard any).
-int host_on_tcp(const HostOptions& options);
+/// The same behind a listening socket. To a device on a line several clients may be connected: it
+/// hears them all, and what it sends goes to the one it heard last (to all before it heard any). To
+/// a device on a network each connection is a link, and each sender of datagrams to `options.udp`.
+int host_on_socket(const HostOptions& options);
 
-/// By `options.tcp` or `options.tty`.
+/// On sockets where the device runs on a network, or `options.tcp` is given; else on a tty.
 int host_device(const HostOptions& options);
 
 }  // namespace fieldproof::hosting

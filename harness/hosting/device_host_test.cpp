@@ -17,6 +17,8 @@
 #include "harness/system/fd_link.hpp"
 #include "harness/system/interrupt.hpp"
 #include "harness/system/pty_pair.hpp"
+#include "harness/system/test_sockets.hpp"
+#include "harness/test_protocol.hpp"
 
 namespace fieldproof::hosting {
 
@@ -25,7 +27,10 @@ using os::FdLink;
 namespace {
 
 using endpoints::test::endpoint_name;
+using os::test::connected;
+using os::test::hear;
 using os::test::receive_text;
+using os::test::say;
 using testing::HasSubstr;
 
 namespace fs = std::filesystem;
@@ -215,13 +220,13 @@ TEST(DeviceHost, ServesSocketsOneAfterAnotherAndTogether) {
   ASSERT_THAT(host.where, testing::StartsWith("tcp 127.0.0.1:"));
   const endpoints::EndpointName name = endpoint_name("tcp", host.where.substr(4));
   {
-    auto first = endpoints::open_tcp(name);
+    auto first = endpoints::open_tcp(name, harness::TestProtocol());
     ASSERT_TRUE(first) << first.error().message;
     ASSERT_TRUE((*first)->send(to_bytes("first.")));
     EXPECT_EQ(receive_text(**first, ">"), "<first>");
   }
-  auto one = endpoints::open_tcp(name);
-  auto two = endpoints::open_tcp(name);
+  auto one = endpoints::open_tcp(name, harness::TestProtocol());
+  auto two = endpoints::open_tcp(name, harness::TestProtocol());
   ASSERT_TRUE(one && two);
   for (const auto& client : {one->get(), two->get(), one->get()}) {
     ASSERT_TRUE(client->send(to_bytes("in turn.")));
@@ -230,6 +235,94 @@ TEST(DeviceHost, ServesSocketsOneAfterAnotherAndTogether) {
   const Result<Burst> nothing = (*two)->receive(Time{0});
   ASSERT_TRUE(nothing);
   EXPECT_TRUE(nothing->bytes.empty()) << "a reply went to another client";
+}
+
+/// An EchoDevice on a port of loopback, and what its monitor shows.
+struct HostedNetwork {
+  HostedNetwork() {
+    HostOptions options;
+    options.make_device = hosting::test::make_echo_device;
+    options.model = "echo";
+    options.tcp = options.udp = ":0";
+    options.port = 7;
+    options.monitor = [this](const Traffic& traffic) {
+      shown.push_back(monitor_line(traffic).substr(17));
+    };
+    host.emplace(options);
+  }
+  std::uint16_t port(const std::string& transport) const {
+    const std::size_t at = host->where.find(transport + " 127.0.0.1:");
+    EXPECT_NE(at, std::string::npos) << host->where;
+    return static_cast<std::uint16_t>(std::stoi(host->where.substr(at + transport.size() + 11)));
+  }
+  std::vector<std::string> shown;
+  std::optional<Hosted> host;
+};
+
+TEST(DeviceHost, EachConnectionToANetworkDeviceIsALink) {
+  HostedNetwork network;
+  const os::UniqueFd one = connected(SOCK_STREAM, network.port("tcp"));
+  const os::UniqueFd two = connected(SOCK_STREAM, network.port("tcp"));
+  say(one, "one");
+  EXPECT_EQ(hear(one), "one");
+  say(two, "two");
+  EXPECT_EQ(hear(two), "two") << "not to whoever spoke last";
+  say(one, "rst");
+  EXPECT_EQ(hear(one), "ECONNRESET");
+  say(two, "bye");
+  EXPECT_EQ(hear(two), "FIN");
+  say(two, "half");
+  EXPECT_EQ(hear(two), "FIN");
+  network.host->end();
+  const std::string first = "#1 127.0.0.1:" + std::to_string(os::test::port_of(one));
+  EXPECT_THAT(network.shown, testing::IsSupersetOf({first + "  connected",
+                                                    first + "  received     3  6F 6E 65  one",
+                                                    first + "  sent         3  6F 6E 65  one",
+                                                    first + "  reset by the device (RST)"}));
+  EXPECT_THAT(network.shown, testing::Contains(testing::MatchesRegex(
+                                 "#2 127.0.0.1:[0-9]+  closed by the device \\(FIN\\)")));
+}
+
+TEST(DeviceHost, DatagramsAreAnsweredToTheirSender) {
+  HostedNetwork network;
+  const os::UniqueFd one = connected(SOCK_DGRAM, network.port("udp"));
+  const os::UniqueFd two = connected(SOCK_DGRAM, network.port("udp"));
+  say(one, "one");
+  say(two, "two");
+  EXPECT_EQ(hear(one), "one");
+  EXPECT_EQ(hear(two), "two");
+}
+
+TEST(DeviceHost, WhatTheDeviceDoesNotListenForIsRefused) {
+  HostOptions options;
+  options.make_device = hosting::test::make_echo_device;
+  options.model = "echo";
+  options.tcp = ":0";
+  options.port = 9;
+  Hosted host(options);
+  const os::UniqueFd client =
+      connected(SOCK_STREAM, static_cast<std::uint16_t>(std::stoi(host.where.substr(14))));
+  EXPECT_EQ(hear(client), "ECONNRESET");
+}
+
+TEST(DeviceHost, ADeviceWithoutThatWayIsAUsageError) {
+  HostOptions options;
+  options.make_device = hosting::test::make_echo_device;
+  EXPECT_EQ(host_on_tty(options), 2) << "it has no line";
+  options.make_device = hosting::test::make_tiny_device;
+  options.model = "tiny";
+  options.tcp = ":0";
+  options.port = 7;
+  EXPECT_EQ(host_on_socket(options), 2) << "it has no network";
+}
+
+TEST(DeviceHost, APortInUseIsTrouble) {
+  const os::UniqueFd taken = os::test::bound(SOCK_STREAM);
+  HostOptions options;
+  options.make_device = hosting::test::make_echo_device;
+  options.tcp = ":" + std::to_string(os::test::port_of(taken));
+  options.port = 7;
+  EXPECT_EQ(host_on_socket(options), 3);
 }
 
 TEST(DeviceHost, ShowsTheTraffic) {

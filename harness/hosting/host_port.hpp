@@ -1,19 +1,21 @@
-// Where a hosted device hears and speaks: a terminal, or the clients of a listening socket.
+// Where a hosted device hears and speaks: a terminal, the clients of a socket on one line, or the
+// connections and datagrams of a network.
 #pragma once
 
 #include <poll.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "src/base/bytes.hpp"
+#include "src/base/burst.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof::hosting {
 
+/// Bursts are those of a device: on a line `data` on line_link, on a network as net::Host has them.
+/// Their `start` is left to the host.
 class HostPort {
  public:
   virtual ~HostPort() = default;
@@ -22,16 +24,25 @@ class HostPort {
   virtual std::string describe() const = 0;
   /// What to wait for.
   virtual void add_to(std::vector<pollfd>& fds) const = 0;
-  /// The bytes that are there, of one speaker; empty: none. An error ends the host.
-  virtual Result<Bytes> read() = 0;
-  /// Sends what the line takes; the rest is lost, as on a line to which nobody listens.
-  virtual void write(ByteView bytes) = 0;
-  /// Drops what waits in either direction.
+  /// What came next, of one speaker; nothing: nothing is there. An error ends the host.
+  virtual Result<std::optional<Burst>> read() = 0;
+  /// What the device does. What nobody takes is lost, as on a line to which nobody listens.
+  virtual void write(const Burst& burst) = 0;
+  /// A fresh device begins: drops what waits in either direction, and all links.
   virtual void flush() = 0;
 };
 
 /// See host_on_tty; `line` is for a real terminal ("9600-8N1").
 Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const std::string& line);
-Result<std::unique_ptr<HostPort>> open_tcp_port(const std::string& host_and_port);
+/// The clients of a listening socket, on one line together. HOST:PORT; without HOST: loopback.
+Result<std::unique_ptr<HostPort>> open_line_socket(const std::string& host_and_port);
+
+struct NetworkPortOptions {
+  std::string tcp, udp;    // HOST:PORT each; empty: not over this transport; without HOST: loopback
+  std::uint16_t port = 0;  // of the device: what comes there comes to this one, and it stands for
+                           // the PORT that is left out
+};
+/// Each connection and each peer of datagrams is a link.
+Result<std::unique_ptr<HostPort>> open_network_port(const NetworkPortOptions& options);
 
 }  // namespace fieldproof::hosting

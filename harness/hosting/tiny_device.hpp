@@ -1,4 +1,5 @@
-// A device for tests of the endpoints: answers "abc." with "<abc>". Memory is what was set.
+// Devices for tests of the endpoints: one answers "abc." with "<abc>", its memory is what was set;
+// one on a network echoes.
 #pragma once
 
 #include <cstdlib>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "harness/hosting/device_host.hpp"
+#include "src/net/test_echo_host.hpp"
 #include "src/plc/emulated_device.hpp"
 
 namespace fieldproof::hosting::test {
@@ -81,6 +83,24 @@ class TinyDevice final : public plc::SerialDevice {
   Time heard_at_{}, reply_at_{};
   int dropped_ = 0;
 };
+
+/// A device on a network, and on no line: echoes on port 7, see EchoHost. It has no back door.
+class EchoDevice final : public plc::EmulatedDevice {
+ public:
+  net::Host* network() override { return &host_; }
+  Status set(std::string_view, std::string_view) override { return fail("no memory"); }
+  Result<std::string> get(std::string_view, std::size_t) const override {
+    return fail("no memory");
+  }
+  Status act(std::string_view) override { return fail("no switch"); }
+
+ private:
+  net::test::EchoHost host_;
+};
+
+inline Result<std::unique_ptr<plc::EmulatedDevice>> make_echo_device(const nlohmann::json&) {
+  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<EchoDevice>());
+}
 
 inline Result<std::unique_ptr<plc::EmulatedDevice>> make_tiny_device(const nlohmann::json& config) {
   const std::string model = config.value("model", "xbc-h");

@@ -1,0 +1,25 @@
+// An emulated device on one of its ways, as its host deals with it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "src/plc/emulated_device.hpp"
+
+namespace fieldproof::hosting {
+
+/// As line::Device and net::Host say.
+class Party {
+ public:
+  virtual ~Party() = default;
+  virtual void receive(const Burst& burst) = 0;
+  virtual std::optional<Time> wake_at() const = 0;
+  virtual std::vector<Burst> advance(Time now) = 0;
+  virtual bool listens(Transport transport, std::uint16_t port) const = 0;
+};
+
+/// The device's serial line, or its network; it must outlive the party. nullptr: it has none.
+std::unique_ptr<Party> party_of(plc::EmulatedDevice& device, bool network);
+
+}  // namespace fieldproof::hosting
