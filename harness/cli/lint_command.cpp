@@ -80,6 +80,7 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
   vectors::load_wires(folder, set);
   std::vector<std::string> problems = set.problems;
   add(problems, vectors::lint_wires(set, protocols));
+  add(problems, vectors::lint_links(set, protocols));
   add(problems, vectors::lint_statements(set));
   add(problems, vectors::lint_readings(set));
   add(problems, vectors::lint_tables(set, protocols));

@@ -133,7 +133,7 @@ std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protoco
 }
 
 std::vector<std::string> contradictions(const VectorSet& set, const harness::Protocols& protocols) {
-  std::vector<std::string> problems;
+  std::vector<std::string> problems = lint_links(set, protocols);
   for (const Case& one : set.cases)
     if (const harness::Protocol* protocol = protocols.find(one.protocol);
         protocol && prints_bytes(one))

@@ -17,9 +17,12 @@ namespace fieldproof::vectors {
 /// sends or expects has literal bytes, so that no byte of a vector can change unnoticed.
 std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protocols& protocols);
 
+/// A serial line is neither opened nor closed by a step.
+std::vector<std::string> lint_links(const VectorSet& set, const harness::Protocols& protocols);
+
 /// What makes verdicts of these cases worthless, checked before a run: literal bytes that a vector
-/// prints contradict its notation, or it cites a manual or a statement that there is not (in a set
-/// that has manuals).
+/// prints contradict its notation, it cites a manual or a statement that there is not (in a set
+/// that has manuals), or it closes a serial line.
 std::vector<std::string> contradictions(const VectorSet& set, const harness::Protocols& protocols);
 
 /// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are

@@ -43,6 +43,36 @@ std::vector<std::string> wires(const std::string& step) {
   return lint_wires(with_step(step), harness::Protocols(table));
 }
 
+struct Networked : harness::TestProtocol {
+  std::string_view name() const override { return "networked"; }
+  std::uint16_t default_port() const override { return 502; }
+};
+
+std::vector<std::string> links(const std::string& steps) {
+  static const Networked networked;
+  static const std::array<const harness::Protocol*, 2> both{&protocol, &networked};
+  return lint_links(with_step(steps), harness::Protocols(both));
+}
+
+TEST(LintLinks, ASerialLineIsNeitherOpenedNorClosed) {
+  EXPECT_THAT(links(R"j({"send": "ENQ"}, {"expect_close": "fin", "within": "1s"})j"),
+              ElementsAre(HasSubstr("f.json: xgt_cnet/a/b: steps[1]: xgt-cnet runs on a serial "
+                                    "line, which neither side can close; take \"expect_close\" "
+                                    "out, or name a link of a protocol of a network (\"on\")")));
+  EXPECT_THAT(links(R"j({"close": "rst"})j"), ElementsAre(HasSubstr("take \"close\" out")));
+  EXPECT_THAT(links(R"j({"open": "a"})j"), ElementsAre(HasSubstr("which is always open")));
+}
+
+TEST(LintLinks, AnotherServiceOfTheDeviceMayHaveConnections) {
+  EXPECT_THAT(links(R"j({"open": {"name": "a", "protocol": "networked"}}, {"close": "fin"},
+                        {"expect_close": "any", "on": "a", "within": "1s"})j"),
+              IsEmpty());
+  EXPECT_THAT(links(R"j({"open": {"name": "a", "protocol": "networked"}},
+                        {"open": {"name": "b", "protocol": "xgt-cnet"}},
+                        {"close": "fin", "on": "b"})j"),
+              ElementsAre(HasSubstr("steps[2]: xgt-cnet runs on a serial line")));
+}
+
 // Cnet EN 7.1.5 (1)(b): the worked example whose BCC is A4.
 TEST(LintWires, AgreesWithTheManualsBytes) {
   EXPECT_THAT(

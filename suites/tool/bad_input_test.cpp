@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "harness/system/pty_pair.hpp"
+#include "harness/system/test_sockets.hpp"
 #include "suites/tool/tool_files.hpp"
 
 namespace fieldproof::tool_tests {
@@ -84,6 +85,36 @@ std::vector<BadInput> bad_inputs() {
                   {"xgt_cnet/bad/one", "${r}"}),
       bad_vectors("duplicate_id", ordered_json::array({good, good}).dump(),
                   {"xgt_cnet/bad/one", "twice"}),
+      bad_vectors("close_of_a_line",
+                  text_of(with(good, "steps",
+                               ordered_json::array({{{"expect_close", "fin"}, {"within", "1s"}}}))),
+                  {"xgt_cnet/bad/one", "steps[0]", "serial line", "take \"expect_close\" out"}),
+      bad_vectors(
+          "link_that_is_not_open",
+          text_of(with(good, "steps",
+                       ordered_json::array({{{"open", {{"name", "a"}, {"protocol", "xgt-cnet"}}}},
+                                            {{"send", ask_word}, {"on", "b"}}}))),
+          {"xgt_cnet/bad/one", "steps[1]", "no link 'b' is open; open: 'a'"}),
+      bad_option("port_out_of_range", {"--endpoint", "tcp:127.0.0.1:65536"},
+                 {"'65536' is no port", "write a number up to 65535"}),
+      bad_option("port_zero", {"--endpoint", "tcp:127.0.0.1:0"},
+                 {"0 is no port; write a number from 1 to 65535"}),
+      bad_option("port_that_is_no_number", {"--endpoint", "udp:127.0.0.1:modbus"},
+                 {"'modbus' is no port"}),
+      bad_option("no_port_of_a_serial_server",
+                 {"--endpoint", "tcp:127.0.0.1?protocol=xgt-cnet", "--profile", "xbc-h"},
+                 {"there is no port", "write tcp:127.0.0.1:PORT"}),
+      bad_option("no_host", {"--endpoint", "tcp::502"}, {"there is no host; write HOST:PORT"}),
+      bad_option("address_of_several_colons", {"--endpoint", "tcp:::1:502"},
+                 {"several colons", "[::1]:502"}),
+      bad_option("open_bracket_of_an_address", {"--endpoint", "tcp:[::1:502"},
+                 {"brackets", "[IPV6]:PORT"}),
+      bad_option("second_port_out_of_range", {"--endpoint", "tcp:127.0.0.1:2004?udp=0"},
+                 {"udp is '0'", "1 to 65535"}),
+      bad_option("speed_of_a_socket", {"--endpoint", "tcp:127.0.0.1:4001?line=9600-8N1"},
+                 {"a socket has no speed", "line=raw"}),
+      bad_option("datagrams_of_a_line", {"--endpoint", "tcp:127.0.0.1:4001?line=raws"},
+                 {"line is 'raws'"}),
       bad_option("vectors_absent", {"--vectors", "FOLDER/nowhere"},
                  {"FOLDER/nowhere", "--vectors"}),
       bad_option("unknown_option", {"--endpiont", "emulator:"}, {"--endpiont"}),
@@ -285,6 +316,41 @@ TEST_F(BadDevices, port_in_use) {
   EXPECT_THAT(finished.err, AllOf(HasSubstr(pty->path), HasSubstr("in use")));
   char byte = 0;
   EXPECT_LE(::read(pty->master.get(), &byte, 1), 0) << "something was sent";
+}
+
+TEST_F(BadDevices, host_that_does_not_resolve) {
+  const Finished finished = run("tcp:plc.invalid:4001", 1);
+  EXPECT_EQ(finished.code, 3);
+  EXPECT_THAT(finished.err,
+              AllOf(HasSubstr("cannot find host 'plc.invalid'"), HasSubstr("write its address")));
+}
+
+TEST_F(BadDevices, refused_connection) {
+  os::UniqueFd nobody = os::test::bound(SOCK_STREAM);
+  const std::string where = "127.0.0.1:" + std::to_string(os::test::port_of(nobody));
+  nobody.reset();
+  const Finished finished = run("tcp:" + where, 1);
+  EXPECT_EQ(finished.code, 3);
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("cannot connect to " + where), HasSubstr("port")));
+  EXPECT_THAT(finished.err, testing::Not(HasSubstr("parity")));
+}
+
+TEST(BadEmulate, addresses_and_ports) {
+  const os::UniqueFd taken = os::test::bound(SOCK_STREAM);
+  const std::string in_use = "127.0.0.1:" + std::to_string(os::test::port_of(taken));
+  const auto expect = [](const std::string& address, int code, const std::string& message) {
+    const Finished finished = run_tool({"emulate", "xbc-h", "--tcp", address});
+    EXPECT_EQ(finished.code, code) << address;
+    EXPECT_THAT(finished.err, HasSubstr(message));
+  };
+  expect(in_use, 3,
+         "cannot listen on " + in_use +
+             ": the port is in use; end the program that has it, or choose another port");
+  expect("127.0.0.1:65536", 2, "'65536' is no port; write a number up to 65535");
+  expect("127.0.0.1", 2, "there is no port; write PORT or HOST:PORT");
+  expect("::1:4001", 2, "several colons");
+  expect("plc.invalid:4001", 3, "cannot find host 'plc.invalid'");
+  expect("192.0.2.7:4001", 3, "this is no address of this computer");
 }
 
 TEST_F(BadDevices, no_terminal) {
