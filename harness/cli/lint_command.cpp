@@ -9,6 +9,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/tool_vectors.hpp"
+#include "harness/vectors/decisions.hpp"
 #include "harness/vectors/lint.hpp"
 #include "harness/vectors/loader.hpp"
 
@@ -78,10 +79,12 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
   const fs::path folder = run::vectors_path(options.vectors);
   vectors::VectorSet set = vectors::load_vectors(folder, {protocols});
   vectors::load_wires(folder, set);
+  run::add_decisions(folder, set);
   std::vector<std::string> problems = set.problems;
   add(problems, vectors::lint_wires(set, protocols));
   add(problems, vectors::lint_links(set, protocols));
   add(problems, vectors::lint_statements(set));
+  add(problems, vectors::lint_decisions(set));
   add(problems, vectors::lint_readings(set));
   add(problems, vectors::lint_tables(set, protocols));
   if (fs::is_directory(data.profiles))

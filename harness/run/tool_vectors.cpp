@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "harness/paths.hpp"
+#include "harness/vectors/decisions.hpp"
 #include "harness/vectors/lint.hpp"
 
 namespace fieldproof::run {
@@ -16,12 +17,21 @@ Result<vectors::VectorSet> load_sound_vectors(const std::string& option,
                                               const harness::Protocols& protocols,
                                               const std::string& filter) {
   vectors::VectorSet set = vectors::load_vectors(vectors_path(option), {protocols, filter});
+  add_decisions(vectors_path(option), set);
   if (set.problems.empty()) set.problems = vectors::contradictions(set, protocols);
   if (set.problems.empty()) return set;
   return fail(fmt::format(
       "{}\n{} in the vectors; nothing was sent. `fieldproof lint` shows them all",
       fmt::join(set.problems, "\n"),
       set.problems.size() == 1 ? "1 problem" : fmt::format("{} problems", set.problems.size())));
+}
+
+void add_decisions(const std::filesystem::path& from, vectors::VectorSet& set) {
+  constexpr const char* file = "DECISIONS.md";
+  const bool folder = std::filesystem::is_directory(from);
+  vectors::load_decisions((folder ? from : from.parent_path()) / file, set);
+  const std::filesystem::path own = harness::find_data().vectors;
+  if (from != own) vectors::load_decisions(own / file, set);
 }
 
 std::vector<std::string> case_ids(const vectors::VectorSet& set) {

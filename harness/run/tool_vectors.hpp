@@ -19,6 +19,10 @@ Result<vectors::VectorSet> load_sound_vectors(const std::string& option,
                                               const harness::Protocols& protocols,
                                               const std::string& filter = {});
 
+/// Gives the cases the sentences of the decisions that they cite: those of DECISIONS.md in
+/// `from` (the folder, or beside the one file, of the vectors), and of the tool's own.
+void add_decisions(const std::filesystem::path& from, vectors::VectorSet& set);
+
 std::vector<std::string> case_ids(const vectors::VectorSet& set);
 
 results::ErratumInfo erratum_info(const vectors::Erratum& erratum);

@@ -14,6 +14,12 @@
 
 namespace fieldproof::vectors {
 
+/// What this project decided where the manuals are silent: an entry of DECISIONS.md.
+struct Decision {
+  std::string id;        // "cnet/order-of-checks"
+  std::string sentence;  // the first of the entry; empty until load_decisions has found it
+};
+
 struct Source {
   std::string manual, section, quote;
   std::vector<std::string> statements;
@@ -87,6 +93,7 @@ struct Case {
   std::string protocol;  // "xgt-cnet", from the folder of the id
   Source source;
   std::string level, basis, why;
+  std::vector<Decision> decisions;  // that it rests on
   std::vector<std::string> models;  // empty: all
   nlohmann::json config = nlohmann::json::object();
   std::vector<std::pair<std::string, std::string>> memory;

@@ -266,6 +266,8 @@ Case CaseReader::read(const Combination& combination) const {
   result.level = text_of(vector_.at("level"), row);
   result.basis = text_of(vector_.at("basis"), row);
   result.why = text_of(vector_, "why", row);
+  if (vector_.contains("decision"))
+    for (const json& id : vector_["decision"]) result.decisions.push_back({id, {}});
   if (vector_.contains("models"))
     for (const json& model : vector_["models"]) result.models.push_back(text_of(model, row));
   result.transpose = vector_.value("transpose", true);

@@ -36,6 +36,7 @@ struct VectorSet {
   std::vector<Erratum> errata;
   std::vector<Statement> statements;
   std::vector<Manual> manuals;
+  std::vector<Decision> decisions;  // load_decisions
   std::vector<std::string> problems;
   std::string hash;  // of all files, to tell vector sets apart
 };
