@@ -26,7 +26,7 @@ struct Trial {
   std::string name;    // unique
   std::string device;  // command that starts it, with {tty} and options: "PROGRAM {tty}?station=1"
   std::string profile = "xbc-h";
-  std::string vectors{};  // a file; empty: all
+  std::string vectors{};  // a file or a folder; empty: the whole suite, which starts first
   std::string filter{};   // empty: all
   std::string waivers{};  // a file; empty: none
 };
