@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -14,6 +12,7 @@
 #include "harness/bench/profile.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/safety/fence.hpp"
+#include "reports/results/whole_file.hpp"
 #include "src/base/spelling.hpp"
 #include "src/line/settings.hpp"
 
@@ -185,9 +184,8 @@ Result<BenchFile> parse_bench_file(const std::string& text, const std::string& p
 }
 
 Result<BenchFile> load_bench_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return fail(fmt::format("cannot read bench file {}; is it there and readable?", path));
-  return parse_bench_file(std::string(std::istreambuf_iterator<char>(in), {}), path);
+  const Result<std::string> text = results::read_whole_file(path, "bench file");
+  return text ? parse_bench_file(*text, path) : text.error();
 }
 
 Result<BenchDevice> find_device(const BenchFile& file, const std::string& name) {

@@ -162,8 +162,9 @@ TEST(BenchFile, WhatIsNoBenchFileIsRefused) {
   EXPECT_THAT(refused(R"({"devices": []})"), HasSubstr("has no \"devices\""));
   EXPECT_THAT(refused(R"({"devices": {"d": []}})"), HasSubstr("devices.d: must be an object"));
   EXPECT_THAT(refused(""), HasSubstr("cannot read bench file bench.json"));
-  EXPECT_THAT(load_bench_file("/nonexistent/bench.json").error().message,
-              HasSubstr("cannot read bench file /nonexistent/bench.json; is it there"));
+  EXPECT_THAT(
+      load_bench_file("/nonexistent/bench.json").error().message,
+      HasSubstr("cannot read bench file /nonexistent/bench.json: no such file or directory"));
 }
 
 TEST(BenchFile, AnUnknownDeviceSuggestsANearOne) {

@@ -4,10 +4,9 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
+#include "reports/results/whole_file.hpp"
 #include "src/base/duration.hpp"
 #include "src/base/spelling.hpp"
 
@@ -101,13 +100,6 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
   }
 }
 
-Result<std::string> read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    return fail(fmt::format("cannot read profile {}; is it there and readable?", path.string()));
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
 std::string known_profiles(const std::string& name, const fs::path& folder) {
   std::vector<std::string> names;
   if (fs::is_directory(folder))
@@ -143,7 +135,7 @@ Result<Profile> load(const std::string& name, const fs::path& folder,
   if (circle)
     return fail(fmt::format("cannot read profile {}: it extends itself: {}", path.string(),
                             fmt::join(chain, " extends ")));
-  const Result<std::string> text = read_text(path);
+  const Result<std::string> text = results::read_whole_file(path, "profile");
   if (!text) return text.error();
   const Result<std::optional<std::string>> extends = extended_by(*text, path);
   if (!extends) return extends.error();

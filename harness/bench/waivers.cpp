@@ -5,11 +5,10 @@
 #include <array>
 #include <charconv>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "harness/vectors/loader.hpp"
+#include "reports/results/whole_file.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof::bench {
@@ -128,9 +127,8 @@ Result<std::vector<Waiver>> parse_waivers(const std::string& text, const std::st
 
 Result<std::vector<Waiver>> load_waivers(const std::string& path) {
   if (path.empty()) return std::vector<Waiver>{};
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return fail(fmt::format("cannot read waivers {}; is it there and readable?", path));
-  return parse_waivers(std::string(std::istreambuf_iterator<char>(in), {}), path);
+  const Result<std::string> text = results::read_whole_file(path, "waivers");
+  return text ? parse_waivers(*text, path) : text.error();
 }
 
 std::vector<std::string> unknown_targets(const std::vector<Waiver>& waivers,

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "harness/bench/profile.hpp"
 #include "harness/cli/commands.hpp"
@@ -12,6 +11,7 @@
 #include "harness/vectors/decisions.hpp"
 #include "harness/vectors/lint.hpp"
 #include "harness/vectors/loader.hpp"
+#include "reports/results/whole_file.hpp"
 
 namespace fieldproof::cli {
 
@@ -68,8 +68,8 @@ std::vector<std::string> lint_profiles(const fs::path& folder, const vectors::Ve
 }
 
 std::string read_lock(const fs::path& folder) {
-  std::ifstream in(folder / "quotes.lock", std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(in), {});
+  const Result<std::string> lock = results::read_whole_file(folder / "quotes.lock");
+  return lock ? *lock : "";
 }
 
 }  // namespace

@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include "reports/results/whole_file.hpp"
 
 namespace fieldproof::cli {
 
 Result<nlohmann::json> read_p2p_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!in) return fail(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+  const Result<std::string> text = results::read_whole_file(path);
+  if (!text) return text.error();
   nlohmann::json config;
   try {
-    config = nlohmann::json::parse(text);
+    config = nlohmann::json::parse(*text);
   } catch (const nlohmann::json::parse_error& error) {
     return fail(fmt::format("cannot read {}: it is no JSON: {}", path, error.what()));
   }

@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "reports/compare/junit_reader.hpp"
-#include "reports/results/file_error.hpp"
 #include "reports/results/ndjson.hpp"
+#include "reports/results/whole_file.hpp"
 
 namespace fieldproof::compare {
 namespace {
@@ -17,20 +14,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int newest_schema = 1;
-
-Result<std::string> read_text(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return results::file_error("read", path, errno);
-  std::string text;
-  try {
-    text.assign(std::istreambuf_iterator<char>(file), {});
-  } catch (const std::ios_base::failure&) {  // a folder opens, but does not read
-    return results::file_error("read", path, errno != 0 ? errno : EIO);
-  }
-  if (file.bad()) return results::file_error("read", path, errno != 0 ? errno : EIO);
-  return text;
-}
 
 /// The first line of NDJSON is {"run": ...} and nothing else.
 bool is_ndjson(const std::string& text) {
@@ -87,7 +70,7 @@ Result<ResultFile> from_json_text(const std::string& path, const std::string& te
 }  // namespace
 
 Result<ResultFile> read_result_file(const std::string& path) {
-  const Result<std::string> text = read_text(path);
+  const Result<std::string> text = results::read_whole_file(path);
   if (!text) return text.error();
   const std::size_t start = text->starts_with("\xEF\xBB\xBF") ? 3 : 0;
   const std::size_t first = text->find_first_not_of(" \t\r\n", start);

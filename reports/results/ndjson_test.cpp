@@ -6,7 +6,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+
+#include "reports/results/whole_file.hpp"
 
 namespace fieldproof::results {
 namespace {
@@ -28,9 +29,8 @@ class Ndjson : public testing::Test {
   void store(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
 
   std::string content() const {
-    std::ostringstream text;
-    text << std::ifstream(path_, std::ios::binary).rdbuf();
-    return text.str();
+    const Result<std::string> text = read_whole_file(path_);
+    return text ? *text : "";
   }
 
   Result<RunLog> read() {

@@ -8,8 +8,10 @@
 
 namespace fieldproof::results {
 
-Result<std::string> read_whole_file(const std::filesystem::path& path) {
-  const auto failed = [&] { return file_error("read", path.string(), errno); };
+Result<std::string> read_whole_file(const std::filesystem::path& path, std::string_view kind) {
+  const auto failed = [&] {
+    return file_error(kind.empty() ? "read" : "read " + std::string(kind), path.string(), errno);
+  };
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (!file) return failed();

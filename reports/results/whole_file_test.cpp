@@ -20,6 +20,8 @@ TEST(WholeFile, HasEveryByte) {
 TEST(WholeFile, NamesFileAndCause) {
   EXPECT_THAT(read_whole_file("no/such.json").error().message,
               testing::StartsWith("cannot read no/such.json: no such file or directory; check"));
+  EXPECT_THAT(read_whole_file("no/such.json", "profile").error().message,
+              testing::StartsWith("cannot read profile no/such.json: "));
   EXPECT_THAT(read_whole_file(testing::TempDir()).error().message,
               testing::HasSubstr("is a directory; name a file in it"));
 }

@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "reports/results/case_result.hpp"
 #include "reports/results/ndjson.hpp"
+#include "reports/results/whole_file.hpp"
 
 namespace fieldproof::samples {
 
@@ -96,9 +95,8 @@ class Folder {
 };
 
 inline std::string read_file(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
+  const Result<std::string> text = results::read_whole_file(path);
+  return text ? *text : "";
 }
 
 /// A file of results as a run leaves it; without `end` as a killed run does.

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
-#include <sstream>
+
+#include "reports/results/whole_file.hpp"
 
 namespace fieldproof::text {
 namespace {
@@ -22,9 +23,8 @@ class ReportFileTest : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string content() const {
-    std::ostringstream text;
-    text << std::ifstream(path_).rdbuf();
-    return text.str();
+    const Result<std::string> text = results::read_whole_file(path_);
+    return text ? *text : "";
   }
   long files() const {
     return std::distance(std::filesystem::directory_iterator(folder_),

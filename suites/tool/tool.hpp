@@ -19,10 +19,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "reports/results/whole_file.hpp"
 
 namespace fieldproof::tool_tests {
 
@@ -67,8 +68,8 @@ class TestFolder {
 };
 
 inline std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(in), {});
+  const Result<std::string> text = results::read_whole_file(path);
+  return text ? *text : "";
 }
 
 struct ProcessOptions {

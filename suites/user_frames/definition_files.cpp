@@ -4,12 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "harness/paths.hpp"
+#include "reports/results/whole_file.hpp"
 #include "src/base/spelling.hpp"
 #include "src/user_frames/definition.hpp"
 
@@ -38,13 +35,10 @@ Result<NamedDefinition> load_definition(std::string_view model, const fs::path& 
   const fs::path path = is_definition_path(model)
                             ? fs::path(model)
                             : folder / (std::string(model) + std::string(extension));
-  std::ifstream file(path, std::ios::binary);
-  const int reason = errno;
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || text.empty()) {
+  const Result<std::string> text = results::read_whole_file(path);
+  if (!text || text->empty()) {
     if (is_definition_path(model))
-      return fail(fmt::format("cannot read {}: {}", path.string(),
-                              file.is_open() ? "it is empty, or a folder" : std::strerror(reason)));
+      return text ? fail(fmt::format("cannot read {}: it is empty", path.string())) : text.error();
     const std::vector<std::string> shipped = definition_names(folder);
     const std::vector<std::string_view> names(shipped.begin(), shipped.end());
     return fail(fmt::format(
@@ -52,7 +46,7 @@ Result<NamedDefinition> load_definition(std::string_view model, const fs::path& 
         model, fmt::join(names, ", "), suggestion(model, names)));
   }
   Result<user_frames::FrameDefinition> definition =
-      user_frames::parse_frame_definition(text, path.filename());
+      user_frames::parse_frame_definition(*text, path.filename());
   if (!definition) return definition.error();
   return NamedDefinition{path.stem(), std::move(*definition)};
 }
