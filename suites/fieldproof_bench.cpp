@@ -73,7 +73,7 @@ void in_process_exchange(benchmark::State& state) {
   exchange::Exchange exchange(*endpoint, xgt(), {});
   for (auto _ : state) {
     (void)_;
-    judge_or_throw(one.prepared, exchange.run(one.prepared));
+    judge_or_throw(one.prepared, exchange.run_steps(one.prepared));
   }
   state.SetItemsProcessed(state.iterations());
 }
@@ -159,7 +159,7 @@ void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
     (void)_;
     bare.push_back(bare_round_trip_us(pair->master.get(), request, reply));
     const auto started = Clock::now();
-    const exchange::Transcript transcript = exchange.run(one.prepared);
+    const exchange::Transcript transcript = exchange.run_steps(one.prepared);
     ours.push_back(std::chrono::duration<double, std::micro>(Clock::now() - started).count());
     judge_or_throw(one.prepared, transcript);
   }

@@ -12,9 +12,10 @@ namespace fieldproof::suites {
 
 harness::Protocols protocols() {
   // One line each; the first is the default.
-  static const std::array table{&xgt_cnet_suite::protocol(),    &modbus_suite::rtu(),
-                                &modbus_suite::ascii(),         &ls_bus_suite::protocol(),
-                                &user_frames_suite::protocol(), &udata_suite::protocol()};
+  static const std::array table{&xgt_cnet_suite::protocol(), &modbus_suite::rtu(),
+                                &modbus_suite::ascii(),      &modbus_suite::tcp(),
+                                &ls_bus_suite::protocol(),   &user_frames_suite::protocol(),
+                                &udata_suite::protocol()};
   return std::span<const harness::Protocol* const>(table);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "harness/bench/what_to_check.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/judge/recording.hpp"
 #include "harness/safety/transposition.hpp"
@@ -56,7 +57,8 @@ Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptio
                              : options_.stimulus,
                          exchange::complete_blocks(options_.profile.prepared_blocks),
                          options_.aux.endpoint != nullptr}),
-      memory_(endpoint, protocol, options_.profile.response_max, options_.aux, &arming_),
+      memory_({&endpoint, &protocol, options_.station}, options_.profile.response_max, options_.aux,
+              &arming_),
       exchange_(endpoint, protocol, timing(), options_.aux, &arming_),
       saved_(endpoint, protocol, options_.profile.response_max, options_.device, options_.journal),
       saved_over_aux_(options_.aux.endpoint ? *options_.aux.endpoint : endpoint,
@@ -96,24 +98,17 @@ Status Bench::start() {
   if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
   if (Status begun = endpoint_.begin(config); !begun) return begun;
   const bool listens = endpoint_.capabilities().real_device && !options_.client_cases.empty();
-  const Result<bool> alive =
-      listens ? wait_for_request() : exchange_.anything_answers(station, start_patience);
-  port_failed_ = !alive;
-  if (!alive) return alive.error();
-  answers_ = *alive && !listens;
-  if (*alive) return ok();
-  if (listens)
-    return fail(
-        fmt::format("nothing is asked on {}: check that the PLC is in RUN, that P2P has its link "
-                    "enable (Cnet EN 11.2.2), that the block's condition "
-                    "flag rises, that speed, data bits, parity and stop bits are the same on both "
-                    "sides and that A and B are not swapped",
-                    endpoint_.describe()));
-  return fail(
-      fmt::format("nothing answers on {} at station {}: check that the device has power, that "
-                  "speed, data bits, parity and stop bits are "
-                  "its own, that its station number is {} and that A and B are not swapped",
-                  endpoint_.describe(), station, station));
+  if (listens) {
+    const Result<bool> asked = wait_for_request();
+    port_failed_ = !asked;
+    if (!asked) return asked.error();
+    return *asked ? ok() : Status(fail(why_nothing_is_asked({&endpoint_, &protocol_, station})));
+  }
+  const Result<exchange::Sign> sign = exchange_.anything_answers(station, start_patience);
+  port_failed_ = !sign;
+  if (!sign) return sign.error();
+  answers_ = *sign == exchange::Sign::alive;
+  return answers_ ? ok() : Status(fail(why_silent({&endpoint_, &protocol_, station}, *sign)));
 }
 
 /// Clocks of a stimulus stop with their case; what they asked last is given up before the next one
@@ -130,7 +125,8 @@ Status Bench::end_asking(const PreparedCase& prepared) {
 Result<bool> Bench::wait_for_request() {
   for (const Case* one : options_.client_cases) {
     if (outside_profile(*one).verdict != Verdict::pass) continue;
-    const Result<PreparedCase> prepared = exchange::prepare(*one, options_.station, protocol_);
+    const Result<PreparedCase> prepared =
+        exchange::prepare(*one, options_.station, protocol_, {options_.known, options_.aux});
     if (!prepared || !prepared->expects_requests() ||
         blocked(*one, *prepared).verdict != Verdict::pass ||
         below_floor(*prepared).verdict != Verdict::pass)
@@ -157,6 +153,10 @@ Result<std::optional<AdapterFloor>> Bench::measure_floor() {
 Result<Fingerprint> Bench::fingerprint() {
   if (Status alive = start(); !alive) return alive.error();
   return read_fingerprint(endpoint_, protocol_, options_.station, options_.profile.response_max);
+}
+
+Result<PreparedCase> Bench::prepare(const Case& source) const {
+  return exchange::prepare(source, station_for(source), protocol_, {options_.known, options_.aux});
 }
 
 int Bench::station_for(const Case& source) const {
@@ -209,7 +209,7 @@ std::string Bench::undeclared(const json& config) const {
 /// error: it cannot be set.
 Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCase& prepared) const {
   std::vector<Protocol::Written> written;
-  const exchange::AuxLink& aux = options_.aux;
+  const exchange::Channel& aux = options_.aux;
   if (!aux.endpoint) return written;
   std::vector<std::pair<std::string, std::string>> memory = prepared.source->memory;
   for (const nlohmann::json& block : exchange::p2p_blocks(prepared.source->config))
@@ -255,20 +255,21 @@ std::string Bench::fence_objection(const PreparedCase& prepared) const {
 std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) const {
   if (prepared.is_client()) return *written_over_aux(prepared);  // the fence has let it pass
   std::vector<Protocol::Written> written;
-  const auto add = [&](ByteView request) {
-    std::ranges::move(protocol_.written_by(request), std::back_inserter(written));
+  const auto add = [&](ByteView request, const Protocol& protocol) {
+    std::ranges::move(protocol.written_by(request), std::back_inserter(written));
   };
   const auto add_memory = [&](const std::vector<std::pair<std::string, std::string>>& memory) {
     for (const auto& [address, hex] : memory)
       if (const Result<std::vector<Bytes>> requests =
               protocol_.write_requests(prepared.station, address, hex);
           requests)
-        for (const Bytes& request : *requests) add(request);
+        for (const Bytes& request : *requests) add(request, protocol_);
   };
   add_memory(prepared.source->memory);
   for (const exchange::PreparedStep& step : prepared.steps) {
     if (step.step->kind == vectors::Step::Kind::set) add_memory(step.step->memory);
-    if (step.step->kind == vectors::Step::Kind::send) add(step.frames.front().frame.bytes);
+    if (step.step->kind == vectors::Step::Kind::send)
+      add(step.frames.front().frame.bytes, *step.protocol);
   }
   return written;
 }
@@ -320,7 +321,7 @@ CaseResult Bench::run(const Case& source) {
   };
   if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass)
     return decline(outside);
-  const Result<PreparedCase> as_printed = exchange::prepare(source, station_for(source), protocol_);
+  const Result<PreparedCase> as_printed = prepare(source);
   if (!as_printed) return decline({Verdict::error, as_printed.error().message});
   if (const Eligibility why = blocked(source, *as_printed); why.verdict != Verdict::pass)
     return decline(why);
@@ -338,8 +339,7 @@ CaseResult Bench::run(const Case& source) {
     if (!moved) return decline({Verdict::blocked, moved.error().message});
     elsewhere = std::move(*moved);
   }
-  const Result<PreparedCase> prepared =
-      elsewhere ? exchange::prepare(*elsewhere, station_for(source), protocol_) : as_printed;
+  const Result<PreparedCase> prepared = elsewhere ? prepare(*elsewhere) : as_printed;
   if (!prepared) return decline({Verdict::error, prepared.error().message});
   if (endpoint_.capabilities().real_device)
     if (std::string why = fence_objection(*prepared); !why.empty())
@@ -368,7 +368,6 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
 
 void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
   exchange::Transcript transcript = exchange_.run(prepared);
-  exchange_.close(prepared, transcript);
   if (!transcript.trouble)
     if (const Status over = end_asking(prepared); !over) transcript.trouble = over.error();
   judge_exchange(prepared, transcript, result);
@@ -478,8 +477,9 @@ void Bench::judge_exchange(const PreparedCase& prepared, const exchange::Transcr
                            CaseResult& result) {
   judging::take_judgement(judging::judge(prepared, transcript, rules(), protocol_), result);
   result.recording = judging::make_recording(prepared, transcript, rules());
-  for (results::Event& event : judging::recorded_events(transcript)) {
-    if (event.kind != results::Event::Kind::note) event.text = notation::print_bytes(event.bytes);
+  for (results::Event event : transcript.events) {
+    if (event.kind == results::Event::Kind::sent || event.kind == results::Event::Kind::received)
+      event.text = notation::print_bytes(event.bytes);
     result.exchange.push_back(std::move(event));
   }
   if (const std::string errors = endpoint_.line_errors(); !errors.empty())
@@ -496,12 +496,12 @@ void Bench::after(const PreparedCase& prepared, const exchange::Transcript& tran
   // the case was one.
   const bool negative = prepared.listens_for_silence() || result.verdict == Verdict::fail;
   if (endpoint_.capabilities().simulated && negative && prepared.answers_probes()) {
-    const Result<bool> alive = exchange_.anything_answers(
+    const Result<exchange::Sign> alive = exchange_.anything_answers(
         prepared.station, 3 * options_.profile.response_max, prepared.reply_delay());
     if (!alive)
       return stop("the port failed after " + result.id + ": " + alive.error().message,
                   &alive.error());
-    dead = !*alive;
+    dead = *alive != exchange::Sign::alive;
     if (dead) result.recording.dead = "nothing answers any more";
     if (dead && result.verdict != Verdict::fail) {
       result.verdict = Verdict::fail;
@@ -514,11 +514,11 @@ void Bench::after(const PreparedCase& prepared, const exchange::Transcript& tran
 
 /// It did not answer when its memory was read or set for a case: does it still answer anything?
 void Bench::look_for_device(CaseResult& result) {
-  const Result<bool> alive =
+  const Result<exchange::Sign> alive =
       exchange_.anything_answers(options_.station, 3 * options_.profile.response_max);
   if (!alive)
     return stop("the port failed in " + result.id + ": " + alive.error().message, &alive.error());
-  if (*alive) return;
+  if (*alive == exchange::Sign::alive) return;
   result.message += "; nothing answers any more";
   revive(result);
 }
@@ -539,8 +539,9 @@ bool Bench::power_cycle(CaseResult& result) {
   if (!hook && (!endpoint_.capabilities().can_power_cycle || !endpoint_.act("power_cycle")))
     return false;
   result.notes.push_back("power-cycled the device");
-  const Result<bool> alive = exchange_.anything_answers(options_.station, revive_patience);
-  return alive && *alive;
+  const Result<exchange::Sign> sign =
+      exchange_.anything_answers(options_.station, revive_patience, {}, true);
+  return sign && *sign == exchange::Sign::alive;
 }
 
 void Bench::stop(std::string why, const Error* error) {

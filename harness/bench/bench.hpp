@@ -27,7 +27,8 @@ struct BenchOptions {
   int station = 1;  // the device's, where the endpoint cannot become another station
   std::string power_cycle_command;    // --power-cycle: what switches a real device off and on
   std::string replay;                 // command line that the id of the case completes
-  exchange::AuxLink aux;              // --aux: a second channel of the PLC under test
+  exchange::Channel aux;              // --aux: a second channel of the PLC under test
+  harness::Protocols known{{}};       // of further services that a case speaks to
   exchange::TellStimulus stimulus;    // --stimulus: what makes the device ask; empty: none
   bool endpoint_is_stimulus = false;  // --stimulus -: the endpoint's own program is told
   std::vector<const vectors::Case*>
@@ -84,6 +85,7 @@ class Bench {
       const exchange::PreparedCase& prepared) const;
   std::string fence_objection(const exchange::PreparedCase& prepared) const;
 
+  Result<exchange::PreparedCase> prepare(const vectors::Case& source) const;
   int station_for(const vectors::Case& source) const;
   nlohmann::json device_config(const vectors::Case& source) const;
   judging::JudgeRules rules() const;

@@ -26,7 +26,9 @@ std::string address_of(const std::string& area, std::uint32_t word) {
 class Reader {
  public:
   Reader(endpoints::Endpoint& endpoint, const Protocol& protocol, int station, Duration patience)
-      : protocol_(protocol), station_(station), memory_(endpoint, protocol, patience) {}
+      : protocol_(protocol),
+        station_(station),
+        memory_({&endpoint, &protocol, station}, patience) {}
 
   /// The last word of an area; nothing where the device has no such area.
   Result<std::optional<std::uint32_t>> last_word(const Protocol::Area& area) {
@@ -60,7 +62,7 @@ class Reader {
     if (!requests) return false;
     Bytes reply;
     for (int attempt = 0; attempt < attempts; ++attempt) {
-      Result<Bytes> came = memory_.ask(station_, requests->front());
+      Result<Bytes> came = memory_.ask(requests->front());
       if (!came) return came.error();
       reply = std::move(*came);
       if (protocol_.frame_length(reply) == reply.size()) return bool(protocol_.read_reply(reply));

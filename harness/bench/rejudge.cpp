@@ -51,7 +51,7 @@ Rejudge::Outcome Rejudge::judge(const results::CaseResult& recorded) {
       *source->second, recorded.recording.station, recorded.recording.moves, declared);
   if (!moved) return not_judged(recorded, moved.error().message);
   const Result<exchange::PreparedCase> prepared =
-      exchange::prepare(*moved, recorded.recording.station, *protocol);
+      exchange::prepare(*moved, recorded.recording.station, *protocol, {protocols_});
   if (!prepared) return not_judged(recorded, prepared.error().message);
   const Result<exchange::Transcript> transcript =
       judging::replay(recorded, *prepared, profile_.response_max);

@@ -31,6 +31,22 @@ ordered_json partner_json(const vectors::PartnerSpec& partner) {
   return result;
 }
 
+ordered_json open_json(const exchange::PreparedStep& step) {
+  ordered_json link{{"name", step.link}, {"protocol", step.protocol->name()}};
+  if (step.network) {
+    link["transport"] = step.step->link.transport == Transport::udp ? "udp" : "tcp";
+    link["port"] = step.port;
+  }
+  return {{"open", std::move(link)}};
+}
+
+const char* name_of(Closing how) {
+  return how == Closing::fin ? "fin" : how == Closing::rst ? "rst" : "vanish";
+}
+const char* name_of(const std::optional<LinkEvent>& ending) {
+  return !ending ? "any" : *ending == LinkEvent::closed ? "fin" : "rst";
+}
+
 ordered_json kind_json(const exchange::PreparedStep& step) {
   const Step& source = *step.step;
   switch (source.kind) {
@@ -53,9 +69,11 @@ ordered_json kind_json(const exchange::PreparedStep& step) {
     case Step::Kind::set: return {{"set", memory_json(source.memory)}};
     case Step::Kind::check: return {{"check", memory_json(source.memory)}};
     case Step::Kind::act: return {{"do", source.action}};
-    case Step::Kind::open: return {{"open", true}};
-    case Step::Kind::close: return {{"close", true}};
-    case Step::Kind::expect_close: return {{"expect_close", true}};
+    case Step::Kind::open: return open_json(step);
+    case Step::Kind::close: return {{"close", name_of(source.closing)}};
+    case Step::Kind::expect_close:
+      return {{"expect_close", source.may_stay ? "may" : name_of(source.ending)}};
+    case Step::Kind::expect_open: return {{"expect_open", step.link}};
     case Step::Kind::partner: return ordered_json::object();
   }
   return {};
@@ -64,6 +82,9 @@ ordered_json kind_json(const exchange::PreparedStep& step) {
 ordered_json step_json(const exchange::PreparedStep& step) {
   const Step& source = *step.step;
   ordered_json result = kind_json(step);
+  if (!source.on.empty() && source.kind != Step::Kind::open &&
+      source.kind != Step::Kind::expect_open)
+    result["on"] = source.on;
   if (source.partner) result["partner"] = partner_json(*source.partner);
   if (source.every) result["every"] = fmt::format("{}ms", to_ms(*source.every));
   if (source.times > 1) result["times"] = source.times;
@@ -88,8 +109,8 @@ ordered_json case_json(const vectors::Case& one, const harness::Protocols& proto
   result["steps"] = ordered_json::array();
   const harness::Protocol* protocol = protocols.find(one.protocol);
   if (!protocol) return result;
-  const Result<exchange::PreparedCase> prepared =
-      exchange::prepare(one, vectors::config_station(one.config, 1).value_or(1), *protocol);
+  const Result<exchange::PreparedCase> prepared = exchange::prepare(
+      one, vectors::config_station(one.config, 1).value_or(1), *protocol, {protocols});
   if (!prepared) return result;
   for (const exchange::PreparedStep& step : prepared->steps)
     result["steps"].push_back(step_json(step));

@@ -43,9 +43,9 @@ Result<Connection> connect(const safety::JournalDevice& device, const std::strin
       !begun)
     return begun.error();
   exchange::Exchange exchange(*connection.endpoint, declared, {});
-  const Result<bool> alive = exchange.anything_answers(device.station, start_patience);
+  const Result<exchange::Sign> alive = exchange.anything_answers(device.station, start_patience);
   if (!alive) return alive.error();
-  if (!*alive)
+  if (*alive != exchange::Sign::alive)
     return fail(
         fmt::format("nothing answers on {} at station {}: check power, wiring and line settings",
                     endpoint_text, device.station));

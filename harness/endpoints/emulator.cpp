@@ -19,7 +19,7 @@ namespace {
 Capabilities emulator_capabilities() {
   Capabilities capabilities;
   capabilities.simulated = capabilities.wire = capabilities.back_door =
-      capabilities.can_power_cycle = true;
+      capabilities.can_power_cycle = capabilities.connections = capabilities.datagrams = true;
   return capabilities;
 }
 
@@ -77,13 +77,13 @@ Error before_begin(std::string_view what) {
 }  // namespace
 
 EmulatorEndpoint::EmulatorEndpoint(const EndpointName& name, DeviceFactory factory,
-                                   Decorator decorate)
+                                   Decorator decorate, std::uint16_t port)
     : model_(name.target),
       defaults_(defaults_of(name)),
       factory_(std::move(factory)),
       decorate_(std::move(decorate)),
       capabilities_(emulator_capabilities()),
-      line_(LineSettings{}) {}
+      port_(port) {}
 
 std::string EmulatorEndpoint::describe() const {
   return model_.empty() ? "emulator of the model of each case" : "emulator " + model_;
@@ -105,8 +105,7 @@ Status EmulatorEndpoint::begin(const json& given) {
   const Result<LineSettings> bench =
       bench_line.is_null() ? line_of(config) : settings_of(bench_line, "bench_line");
   if (!bench) return bench.error();
-  line_ = line::SimulatedLine(
-      *bench, is_on(config, "rs485") ? line::Duplex::half : line::Duplex::full, line_.now());
+  ways_.renew(*bench, is_on(config, "rs485") ? line::Duplex::half : line::Duplex::full);
   if (Status attached = attach(model, config); !attached) return attached;
   if (Status attached = attach_neighbours(model, neighbours, config); !attached) {
     devices_.clear();
@@ -121,10 +120,20 @@ Status EmulatorEndpoint::attach(std::string_view model, const json& config) {
   Result<std::unique_ptr<plc::EmulatedDevice>> device = factory_(model, config);
   if (!device) return device.error();
   const bool under_test = devices_.empty();
-  line::Device& plain = *devices_.emplace_back(std::move(*device))->line();
-  if (under_test && decorate_) decorated_ = decorate_(plain, *settings);
-  line_.attach(under_test && decorated_ ? *decorated_ : plain, *settings);
+  line::Device* const line = (*device)->line();
+  if (!line && !under_test)
+    return fail("a device without a serial line has no place on the one of another");
+  devices_.push_back(std::move(*device));
+  if (net::Host* const host = under_test ? devices_.back()->network() : nullptr)
+    ways_.attach(*host);
+  if (line) attach_to_line(*line, *settings);
   return ok();
+}
+
+void EmulatorEndpoint::attach_to_line(line::Device& plain, const LineSettings& settings) {
+  const bool under_test = devices_.size() == 1;
+  if (under_test && decorate_) decorated_ = decorate_(plain, settings);
+  ways_.line().attach(under_test && decorated_ ? *decorated_ : plain, settings);
 }
 
 Status EmulatorEndpoint::attach_neighbours(std::string_view model, const json& neighbours,
@@ -144,15 +153,38 @@ Status EmulatorEndpoint::attach_neighbours(std::string_view model, const json& n
   return ok();
 }
 
-Result<Sent> EmulatorEndpoint::send(ByteView bytes, LinkId) {
+Result<LinkId> EmulatorEndpoint::open(Transport transport, std::uint16_t port) {
+  if (devices_.empty()) return before_begin("open a link");
+  net::SimulatedNetwork* const network = ways_.network();
+  if (!network)
+    return fail(fmt::format("cannot open a link: {} is on no network; it runs on a serial line",
+                            describe()));
+  return network->open(transport, port == 0 ? port_ : port);
+}
+
+Result<LinkId> EmulatorEndpoint::open_line(unsigned channel) {
+  if (devices_.empty()) return before_begin("open a line");
+  line::Device* const line = devices_.front()->line(channel);
+  if (!line)
+    return fail(
+        fmt::format("cannot open a line: channel {} of {} has no service", channel, describe()));
+  return ways_.add_line(*line, LineSettings{});
+}
+
+Status EmulatorEndpoint::close(LinkId link, Closing how) {
+  if (devices_.empty()) return before_begin("close a link");
+  if (net::SimulatedNetwork* const network = ways_.network()) return network->close(link, how);
+  return Endpoint::close(link, how);
+}
+
+Result<Sent> EmulatorEndpoint::send(ByteView bytes, LinkId link) {
   if (devices_.empty()) return before_begin("send");
-  const auto [start, end] = line_.transmit(bytes);
-  return Sent{start, end};
+  return ways_.send(bytes, link);
 }
 
 Result<Burst> EmulatorEndpoint::receive(Time deadline) {
   if (devices_.empty()) return before_begin("receive");
-  return line_.receive(deadline);
+  return ways_.receive(deadline);
 }
 
 Status EmulatorEndpoint::set(std::string_view address, std::string_view hex) {
@@ -171,7 +203,7 @@ Status EmulatorEndpoint::act(std::string_view action) {
 }
 
 std::string EmulatorEndpoint::line_errors() {
-  const line::LineErrors errors = line_.take_errors();
+  const line::LineErrors errors = ways_.line().take_errors();
   std::string text;
   if (errors.parity) text = counted(errors.parity, "parity");
   if (errors.framing) text += (text.empty() ? "" : ", ") + counted(errors.framing, "framing");
@@ -181,10 +213,12 @@ std::string EmulatorEndpoint::line_errors() {
 Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name,
                                                 const harness::Protocol& protocol) {
   auto endpoint = std::make_unique<EmulatorEndpoint>(
-      name, [&protocol](std::string_view model, const json& config) {
+      name,
+      [&protocol](std::string_view model, const json& config) {
         return harness::make_monitored_device(
             protocol, model.empty() ? protocol.models().front() : model, config);
-      });
+      },
+      Decorator{}, protocol.default_port());
   if (const Status begun = endpoint->begin(json::object()); !begun) {
     return fail(fmt::format("cannot open emulator:{}: {}", name.target, begun.error().message));
   }

@@ -1,4 +1,5 @@
-// emulator:MODEL: an emulated device in process, on a simulated line and in simulated time.
+// emulator:MODEL: an emulated device in process, on simulated lines and a simulated network and in
+// simulated time.
 #pragma once
 
 #include <functional>
@@ -9,7 +10,7 @@
 #include <vector>
 
 #include "harness/endpoints/endpoint.hpp"
-#include "src/line/line.hpp"
+#include "harness/endpoints/simulated_ways.hpp"
 #include "src/plc/emulated_device.hpp"
 
 namespace fieldproof::endpoints {
@@ -27,21 +28,27 @@ class EmulatorEndpoint : public Endpoint {
  public:
   /// The target of `name` is the model; without one it is the key "model" of each case, or empty.
   /// Options are defaults for the keys of `given.config` and are overridden by it; "[...]" and
-  /// "{...}" are read as JSON.
-  EmulatorEndpoint(const EndpointName& name, DeviceFactory factory, Decorator decorate = {});
+  /// "{...}" are read as JSON. `port`: which a link is opened to that names none.
+  EmulatorEndpoint(const EndpointName& name, DeviceFactory factory, Decorator decorate = {},
+                   std::uint16_t port = 0);
 
   const Capabilities& capabilities() const override { return capabilities_; }
   std::string describe() const override;
-  Time now() const override { return line_.now(); }
-  Duration character_time() const override { return line_.bench_settings().character_time(); }
+  Time now() const override { return ways_.now(); }
+  Duration character_time() const override {
+    return ways_.line().bench_settings().character_time();
+  }
 
-  /// New devices on a new line; simulated time goes on. `line` is the device's setting,
+  /// New devices on a new line and a new network; simulated time goes on. `line` is the device's setting,
   /// `bench_line` the bench's (the same when absent); `rs485` makes the line half duplex.
   /// `neighbours`: stations, or objects of config keys, of further devices of the same model on the
   /// same line. Errors name the key.
   Status begin(const nlohmann::json& config) override;
+  Result<LinkId> open(Transport transport, std::uint16_t port) override;
+  Result<LinkId> open_line(unsigned channel) override;
+  Status close(LinkId link, Closing how) override;
   using Endpoint::send;
-  Result<Sent> send(ByteView bytes, LinkId) override;
+  Result<Sent> send(ByteView bytes, LinkId link) override;
   Result<Burst> receive(Time deadline) override;
 
   Status set(std::string_view address, std::string_view hex) override;
@@ -52,6 +59,7 @@ class EmulatorEndpoint : public Endpoint {
 
  private:
   Status attach(std::string_view model, const nlohmann::json& config);
+  void attach_to_line(line::Device& device, const line::LineSettings& settings);
   Status attach_neighbours(std::string_view model, const nlohmann::json& neighbours,
                            const nlohmann::json& config);
 
@@ -60,9 +68,10 @@ class EmulatorEndpoint : public Endpoint {
   DeviceFactory factory_;
   Decorator decorate_;
   Capabilities capabilities_;
-  line::SimulatedLine line_;
-  std::vector<std::unique_ptr<plc::EmulatedDevice>>
-      devices_;  // the device under test, then its neighbours
+  std::uint16_t port_;
+  SimulatedWays ways_;
+  // The device under test, then its neighbours.
+  std::vector<std::unique_ptr<plc::EmulatedDevice>> devices_;
   std::unique_ptr<line::Device> decorated_;
 };
 

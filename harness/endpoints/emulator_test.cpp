@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
+#include <utility>
 
 #include "harness/protocol.hpp"
 #include "src/line/faults.hpp"
@@ -155,7 +157,8 @@ TEST_F(Emulator, SaysWhatItCan) {
   auto endpoint = open("emulator:tiny");
   const Capabilities& can = endpoint->capabilities();
   EXPECT_TRUE(can.simulated && can.wire && can.back_door && can.can_power_cycle);
-  EXPECT_FALSE(can.real_device || can.datagrams);
+  EXPECT_TRUE(can.connections && can.datagrams);
+  EXPECT_FALSE(can.real_device);
   EXPECT_EQ(can.timing_floor, 0ns);
   EXPECT_EQ(endpoint->describe(), "emulator tiny");
 }
@@ -295,6 +298,106 @@ TEST_F(Emulator, OpeningReportsAWrongModelOrOption) {
             "cannot open emulator:huge: unknown model 'huge'");
   EXPECT_EQ(message("emulator:tiny?protocol=tiny&colour=red"),
             "cannot open emulator:tiny: unknown key 'colour'");
+}
+
+/// Answers each segment at once on its link, and a FIN with a FIN.
+class TinyHost : public net::Host {
+ public:
+  bool listens(Transport transport, std::uint16_t port) const override {
+    return transport == Transport::tcp && port == 502;
+  }
+  void receive(const Burst& burst) override {
+    now_ = burst.start;
+    if (burst.event == LinkEvent::data) does_.push_back({.bytes = {0x55}, .link = burst.link});
+    if (burst.event == LinkEvent::closed)
+      does_.push_back({.bytes = {}, .link = burst.link, .event = LinkEvent::closed});
+  }
+  std::optional<Time> wake_at() const override {
+    return does_.empty() ? std::nullopt : std::optional(now_);
+  }
+  std::vector<Burst> advance(Time) override { return std::exchange(does_, {}); }
+
+ private:
+  Time now_{};
+  std::vector<Burst> does_;
+};
+
+/// Two lines and a network.
+class ThreeWays : public plc::EmulatedDevice {
+ public:
+  line::Device* line(unsigned channel) override {
+    return channel == 2 ? &second_ : channel < 2 ? &first_ : nullptr;
+  }
+  net::Host* network() override { return &host_; }
+  Status set(std::string_view address, std::string_view hex) override {
+    return first_.set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    return first_.get(address, digits);
+  }
+  Status act(std::string_view action) override { return first_.act(action); }
+
+ private:
+  TinyDevice first_{1}, second_{2};
+  TinyHost host_;
+};
+
+struct EmulatorOnNetwork : Emulator {
+  EmulatorEndpoint endpoint{
+      named("emulator:"),
+      [](std::string_view, const json&) {
+        return Result<std::unique_ptr<plc::EmulatedDevice>>(std::make_unique<ThreeWays>());
+      },
+      {},
+      502};
+  EmulatorOnNetwork() { EXPECT_TRUE(endpoint.begin(json::object())); }
+};
+
+TEST_F(EmulatorOnNetwork, LinksAreApart) {
+  const Result<LinkId> a = endpoint.open(Transport::tcp, 0), b = endpoint.open(Transport::tcp, 502);
+  ASSERT_TRUE(a && b);
+  ASSERT_TRUE(endpoint.send(Bytes{1}, *b));
+  const auto answer = endpoint.receive(endpoint.now() + 1s);
+  EXPECT_EQ(answer->link, *b);
+  EXPECT_EQ(answer->bytes, Bytes{0x55});
+  ASSERT_TRUE(endpoint.close(*a, Closing::fin));
+  const auto end = endpoint.receive(endpoint.now() + 1s);
+  EXPECT_EQ(end->link, *a);
+  EXPECT_EQ(end->event, LinkEvent::closed);
+  EXPECT_FALSE(endpoint.send(Bytes{1}, *a));
+}
+
+TEST_F(EmulatorOnNetwork, APortThatDoesNotListenRefuses) {
+  const Result<LinkId> link = endpoint.open(Transport::tcp, 503);
+  ASSERT_TRUE(link);
+  EXPECT_EQ(endpoint.receive(endpoint.now() + 1s)->event, LinkEvent::reset);
+}
+
+TEST_F(EmulatorOnNetwork, LinesAndNetworkRunInStep) {
+  const Result<LinkId> link = endpoint.open(Transport::tcp, 0);
+  const Result<LinkId> second = endpoint.open_line(2);
+  ASSERT_TRUE(link && second);
+  ASSERT_TRUE(endpoint.send(Bytes{2}, *second));
+  const Time sent = endpoint.now();
+  EXPECT_EQ(sent, ct) << "on a line, sending takes time";
+  ASSERT_TRUE(endpoint.send(Bytes{7}, *link));
+  EXPECT_EQ(endpoint.now(), sent) << "on a network it takes none";
+  ASSERT_TRUE(endpoint.send(Bytes{1}));  // while both are answering
+  std::map<LinkId, Bytes> heard;
+  for (Result<Burst> burst = endpoint.receive(1s); !burst->bytes.empty();
+       burst = endpoint.receive(1s))
+    heard[burst->link].insert(heard[burst->link].end(), burst->bytes.begin(), burst->bytes.end());
+  EXPECT_EQ(heard[*link], Bytes{0x55});
+  EXPECT_EQ(heard[*second], (Bytes{0x06, 2, 0}));
+  EXPECT_EQ(heard[line_link], (Bytes{0x06, 1, 0}));
+  EXPECT_EQ(endpoint.now(), 1s);
+}
+
+TEST_F(EmulatorOnNetwork, WhatIsNotThereIsNamed) {
+  EXPECT_THAT(endpoint.open_line(3).error().message, HasSubstr("channel 3"));
+  auto serial = open("emulator:tiny");
+  EXPECT_THAT(serial->open(Transport::tcp, 502).error().message, HasSubstr("is on no network"));
+  EXPECT_THAT(serial->send(Bytes{1}, 7).error().message, HasSubstr("link 7"));
 }
 
 }  // namespace

@@ -62,6 +62,10 @@ Result<LinkId> Endpoint::open(Transport, std::uint16_t) {
   return fail(fmt::format("cannot open a link: {} is one line that is always open", describe()));
 }
 
+Result<LinkId> Endpoint::open_line(unsigned channel) {
+  return fail(fmt::format("cannot reach channel {}: {} leads to one alone", channel, describe()));
+}
+
 Status Endpoint::close(LinkId, Closing) {
   return fail(fmt::format("cannot close a link: {} is one line that is always open", describe()));
 }

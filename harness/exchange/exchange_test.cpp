@@ -41,8 +41,7 @@ class ExchangeTest : public testing::Test {
     const Result<PreparedCase> prepared = prepare(set_.cases.at(0), 1, protocol);
     EXPECT_TRUE(prepared);
     Exchange exchange(endpoint, protocol, {});
-    Transcript transcript = exchange.run(*prepared);
-    exchange.close(*prepared, transcript);
+    const Transcript transcript = exchange.run(*prepared);
     std::vector<std::string> sent;
     Time quiet_since{};
     for (const results::Event& event : transcript.events) {

@@ -2,17 +2,33 @@
 
 namespace fieldproof::exchange {
 
-Result<Bytes> MemoryAccess::ask(const Server& server, ByteView request) {
-  endpoints::Endpoint& endpoint = server.endpoint;
-  if (const Duration gap = server.protocol.frame_gap(endpoint.character_time());
+MemoryAccess::MemoryAccess(Channel device, Duration patience, Channel aux, Arming* arming,
+                           Visit::Elsewhere elsewhere)
+    : device_(device),
+      patience_(patience),
+      aux_(aux),
+      arming_(arming),
+      visit_(device, std::move(elsewhere)) {
+  if (aux_) aux_visit_.emplace(aux_);
+}
+
+void MemoryAccess::leave() {
+  visit_.leave();
+  if (aux_visit_) aux_visit_->leave();
+}
+
+Result<Bytes> MemoryAccess::ask(const Channel& server, ByteView request) {
+  Visit& visit = aux_ && server.endpoint == aux_.endpoint ? *aux_visit_ : visit_;
+  const endpoints::Endpoint& endpoint = *server.endpoint;
+  if (const Duration gap = server.protocol->frame_gap(endpoint.character_time());
       gap > 0ns && endpoint.capabilities().wire)
-    if (const Result<Burst> quiet = endpoint.receive(endpoint.now() + gap); !quiet)
+    if (const Result<Burst> quiet = visit.receive(endpoint.now() + gap); !quiet)
       return quiet.error();
-  const Result<Sent> sent = endpoint.send(request);
+  const Result<Sent> sent = visit.send(request);
   if (!sent) return sent.error();
   Bytes reply;
-  while (!server.protocol.frame_length(reply)) {
-    const Result<Burst> burst = endpoint.receive(sent->end + patience_);
+  while (!server.protocol->frame_length(reply)) {
+    const Result<Burst> burst = visit.receive(sent->end + patience_);
     if (!burst) return burst.error();
     if (burst->bytes.empty()) break;
     reply.insert(reply.end(), burst->bytes.begin(), burst->bytes.end());
@@ -21,31 +37,31 @@ Result<Bytes> MemoryAccess::ask(const Server& server, ByteView request) {
   return reply;
 }
 
-Status MemoryAccess::write(const Server& server, const std::string& address,
+Status MemoryAccess::write(const Channel& server, const std::string& address,
                            const std::string& hex) {
   const Result<std::vector<Bytes>> requests =
-      server.protocol.write_requests(server.station, address, hex);
+      server.protocol->write_requests(server.station, address, hex);
   if (!requests) return requests.error();
   for (const Bytes& request : *requests) {
     const Result<Bytes> reply = ask(server, request);
     if (!reply) return reply.error();
-    const Status accepted = server.protocol.write_reply(*reply);
+    const Status accepted = server.protocol->write_reply(*reply);
     refused_ = !accepted;
     if (!accepted) return fail("cannot set " + address + ": " + accepted.error().message);
   }
   return ok();
 }
 
-Result<std::string> MemoryAccess::read(const Server& server, const std::string& address,
+Result<std::string> MemoryAccess::read(const Channel& server, const std::string& address,
                                        std::size_t digits) {
   const Result<std::vector<Bytes>> requests =
-      server.protocol.read_requests(server.station, address, digits);
+      server.protocol->read_requests(server.station, address, digits);
   if (!requests) return requests.error();
   std::string value;
   for (const Bytes& request : *requests) {
     const Result<Bytes> reply = ask(server, request);
     if (!reply) return reply.error();
-    const Result<std::string> part = server.protocol.read_reply(*reply);
+    const Result<std::string> part = server.protocol->read_reply(*reply);
     refused_ = !part;
     if (!part) return fail("cannot read " + address + ": " + part.error().message);
     value += *part;
@@ -55,25 +71,25 @@ Result<std::string> MemoryAccess::read(const Server& server, const std::string& 
 
 Status MemoryAccess::set(int station, const std::string& address, const std::string& hex) {
   refused_ = false;
-  return write({endpoint_, protocol_, station}, address, hex);
+  return write({device_.endpoint, device_.protocol, station}, address, hex);
 }
 
 Result<std::string> MemoryAccess::get(int station, const std::string& address, std::size_t digits) {
   refused_ = false;
-  return read({endpoint_, protocol_, station}, address, digits);
+  return read({device_.endpoint, device_.protocol, station}, address, digits);
 }
 
 Status MemoryAccess::set(const PreparedCase& prepared, const std::string& address,
                          const std::string& hex) {
   refused_ = false;
-  if (endpoint_.capabilities().back_door) return endpoint_.set(address, hex);
+  if (device_.endpoint->capabilities().back_door) return device_.endpoint->set(address, hex);
   if (!prepared.is_client()) {
-    if (!aux_.endpoint || protocol_.write_requests(prepared.station, address, hex))
+    if (!aux_ || device_.protocol->write_requests(prepared.station, address, hex))
       return write(own(prepared), address, hex);
-    return write(aux(), address, hex);
+    return write(aux_, address, hex);
   }
-  if (aux_.endpoint) {
-    const Status written = write(aux(), address, hex);
+  if (aux_) {
+    const Status written = write(aux_, address, hex);
     refused_ = false;  // a second channel that fails is trouble of the bench
     if (!written) return fail("--aux: " + written.error().message);
   }
@@ -81,19 +97,18 @@ Status MemoryAccess::set(const PreparedCase& prepared, const std::string& addres
 }
 
 bool MemoryAccess::can_read(const PreparedCase& prepared, const std::string& address) const {
-  if (!prepared.is_client() || endpoint_.capabilities().back_door) return true;
-  return aux_.endpoint && !address.starts_with('@');
+  if (!prepared.is_client() || device_.endpoint->capabilities().back_door) return true;
+  return aux_ && !address.starts_with('@');
 }
 
 Result<std::string> MemoryAccess::get(const PreparedCase& prepared, const std::string& address,
                                       std::size_t digits) {
   refused_ = false;
-  if (endpoint_.capabilities().back_door) return endpoint_.get(address, digits);
-  const bool by_itself =
-      !prepared.is_client() &&
-      (!aux_.endpoint || protocol_.read_requests(prepared.station, address, digits));
+  if (device_.endpoint->capabilities().back_door) return device_.endpoint->get(address, digits);
+  const bool by_itself = !prepared.is_client() && (!aux_ || device_.protocol->read_requests(
+                                                                prepared.station, address, digits));
   Result<std::string> value =
-      by_itself ? read(own(prepared), address, digits) : read(aux(), address, digits);
+      by_itself ? read(own(prepared), address, digits) : read(aux_, address, digits);
   if (by_itself) return value;
   refused_ = false;
   return value ? value : Result<std::string>(fail("--aux: " + value.error().message));

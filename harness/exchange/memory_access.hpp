@@ -4,26 +4,19 @@
 
 #include <string>
 
-#include "harness/endpoints/endpoint.hpp"
 #include "harness/exchange/arming.hpp"
+#include "harness/exchange/channel.hpp"
 #include "harness/exchange/prepared_case.hpp"
-#include "harness/protocol.hpp"
+#include "harness/exchange/visit.hpp"
 
 namespace fieldproof::exchange {
 
-/// --aux: a second channel of the PLC under test, as server. Nothing is owned.
-struct AuxLink {
-  endpoints::Endpoint* endpoint = nullptr;  // none
-  const harness::Protocol* protocol = nullptr;
-  int station = 1;
-};
-
 class MemoryAccess {
  public:
-  /// `arming` may be nullptr: then sets ask for nothing.
-  MemoryAccess(endpoints::Endpoint& endpoint, const harness::Protocol& protocol, Duration patience,
-               AuxLink aux = {}, Arming* arming = nullptr)
-      : endpoint_(endpoint), protocol_(protocol), patience_(patience), aux_(aux), arming_(arming) {}
+  /// `aux`: a second channel of the PLC under test, as server. `arming` may be nullptr: then sets
+  /// ask for nothing. `elsewhere`: Visit.
+  MemoryAccess(Channel device, Duration patience, Channel aux = {}, Arming* arming = nullptr,
+               Visit::Elsewhere elsewhere = {});
 
   /// Errors name the address and the reason; `refused()` then tells whether the device itself
   /// refused. Memory of a real client that nobody can set is left: the bench has seen that the line
@@ -42,30 +35,27 @@ class MemoryAccess {
   Status set(int station, const std::string& address, const std::string& hex);
   Result<std::string> get(int station, const std::string& address, std::size_t digits);
   /// What comes back to a request over the wire, as far as it came in time; empty: nothing.
-  Result<Bytes> ask(int station, ByteView request) {
-    return ask(Server{endpoint_, protocol_, station}, request);
-  }
+  Result<Bytes> ask(ByteView request) { return ask(device_, request); }
+
+  /// Requests go over this link of a case, on a network, until leave().
+  void borrow(LinkId link) { visit_.borrow(link); }
+  /// After the last request for now: closes what was opened for them.
+  void leave();
 
  private:
-  /// A server that holds the memory.
-  struct Server {
-    endpoints::Endpoint& endpoint;
-    const harness::Protocol& protocol;
-    int station;
-  };
-  Server own(const PreparedCase& prepared) const {
-    return {endpoint_, protocol_, prepared.station};
+  Channel own(const PreparedCase& prepared) const {
+    return {device_.endpoint, device_.protocol, prepared.station};
   }
-  Server aux() const { return {*aux_.endpoint, *aux_.protocol, aux_.station}; }
-  Status write(const Server& server, const std::string& address, const std::string& hex);
-  Result<std::string> read(const Server& server, const std::string& address, std::size_t digits);
-  Result<Bytes> ask(const Server& server, ByteView request);
+  Status write(const Channel& server, const std::string& address, const std::string& hex);
+  Result<std::string> read(const Channel& server, const std::string& address, std::size_t digits);
+  Result<Bytes> ask(const Channel& server, ByteView request);
 
-  endpoints::Endpoint& endpoint_;
-  const harness::Protocol& protocol_;
+  Channel device_;
   Duration patience_;
-  AuxLink aux_;
+  Channel aux_;
   Arming* arming_;
+  Visit visit_;
+  std::optional<Visit> aux_visit_;
   bool refused_ = false, silent_ = false;
 };
 

@@ -130,7 +130,25 @@ Result<Bytes> unanswerable(ByteView request, const Protocol& protocol) {
 }
 
 /// What the device says to the request, and when.
-Partner::Answer ask(EmulatedDevice& device, const Burst& request) {
+/// Over a connection of its own, which nobody closes: the device is asked by this partner alone.
+Partner::Answer ask(net::Host& host, std::uint16_t port, Burst request) {
+  constexpr LinkId link = 1;
+  host.advance(request.end());
+  host.receive({{}, request.end(), {}, link, LinkEvent::opened, port, "192.0.2.1:49152"});
+  host.receive({request.bytes, request.end(), {}, link, LinkEvent::data, port, {}});
+  const Time give_up = request.end() + longest_think;
+  for (Time now = request.end();;) {
+    for (Burst& burst : host.advance(now))
+      if (burst.link == link && !burst.bytes.empty()) return {std::move(burst.bytes), now};
+    const std::optional<Time> wake = host.wake_at();
+    if (!wake || *wake > give_up) return {{}, now};
+    now = std::max(now, *wake);
+  }
+}
+
+Partner::Answer ask(EmulatedDevice& device, const Burst& request, const Protocol& protocol) {
+  if (!device.line() && device.network())
+    return ask(*device.network(), protocol.default_port(), request);
   line::Device& line = *device.line();
   line.advance(request.start);
   line.receive(request);
@@ -204,7 +222,7 @@ Result<Bytes> Partner::faulty(const vectors::PartnerSpec& spec, EmulatedDevice& 
   if (spec.fault == "nak") {
     const Result<Bytes> refused = unanswerable(request.bytes, protocol_);
     if (!refused) return refused.error();
-    return ask(device, {*refused, request.end(), request.character_time}).bytes;
+    return ask(device, {*refused, request.end(), request.character_time}, protocol_).bytes;
   }
   if (answer.empty()) return lacks(spec.fault, "the partner does not answer this request");
   return damaged(spec.fault, answer, vectors::config_station(spec.config, 1).value_or(1),
@@ -215,7 +233,7 @@ Result<Partner::Answer> Partner::answer(const vectors::PartnerSpec& spec, const 
                                         Time too_late) {
   const Result<EmulatedDevice*> device = device_for(spec);
   if (!device) return device.error();
-  Answer answer = ask(**device, request);
+  Answer answer = ask(**device, request, protocol_);
   const Bytes right = answer.bytes;
   if (spec.fault == "late") answer.moment = std::max(answer.moment, too_late);
   if (!spec.fault.empty() && spec.fault != "late") {

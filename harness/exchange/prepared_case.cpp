@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 
 #include "harness/exchange/p2p_blocks.hpp"
+#include "harness/vectors/link_names.hpp"
 
 namespace fieldproof::exchange {
 
@@ -77,21 +79,82 @@ Duration reply_limit(const Step& step, Duration response_max) {
   return step.within.value_or(response_max + step.every.value_or(Duration{}));
 }
 
-Result<PreparedCase> prepare(const vectors::Case& source, int station,
-                             const harness::Protocol& protocol) {
-  PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), {}};
-  const notation::Fields stations = protocol.fields_at(station);
-  for (std::size_t i = 0; i < source.steps.size(); ++i) {
-    PreparedStep step{&source.steps[i], {}};
-    for (const vectors::Frame& frame : source.steps[i].frames) {
-      Result<std::vector<notation::FrameTemplate>> templates =
-          notation::make_templates(frame.notation, stations);
-      if (!templates)
-        return fail(fmt::format("{}: steps[{}]: {}", source.id, i, templates.error().message));
-      for (notation::FrameTemplate& one : *templates)
-        step.frames.push_back({frame.reading, &frame, std::move(one)});
+namespace {
+
+/// What is spoken on each link of a case.
+class Spoken {
+ public:
+  Spoken(const vectors::Case& source, int station, const harness::Protocol& protocol,
+         const OtherWays& others)
+      : source_(source), others_(others), own_{nullptr, &protocol, station} {
+    by_link_[std::string(vectors::aux_link)] = others.aux ? others.aux : own_;
+  }
+
+  Status open(const Step& step) {
+    const std::string& name = step.link.protocol;
+    Channel to = own_;
+    if (!name.empty() && name != own_.protocol->name()) {
+      to.protocol = others_.known.find(name);
+      if (!to.protocol) return fail(fmt::format("there is no protocol '{}'", name));
+      const nlohmann::json none = nlohmann::json::object();
+      const nlohmann::json services = source_.config.value("services", none);
+      to.station = number_of(services.value(name, none), "station", own_.station);
     }
-    prepared.steps.push_back(std::move(step));
+    by_link_[step.on] = to;
+    return ok();
+  }
+  const Channel& on(const std::string& link) const {
+    const auto found = by_link_.find(link);
+    return found == by_link_.end() ? own_ : found->second;
+  }
+
+ private:
+  const vectors::Case& source_;
+  const OtherWays& others_;
+  Channel own_;
+  std::map<std::string, Channel> by_link_;
+};
+
+Status add_frames(PreparedStep& step) {
+  const notation::Fields stations = step.protocol->fields_at(step.station);
+  for (const vectors::Frame& frame : step.step->frames) {
+    Result<std::vector<notation::FrameTemplate>> templates =
+        notation::make_templates(frame.notation, stations);
+    if (!templates) return templates.error();
+    for (notation::FrameTemplate& one : *templates)
+      step.frames.push_back({frame.reading, &frame, std::move(one)});
+  }
+  return ok();
+}
+
+Result<PreparedStep> prepare_step(const Step& source, vectors::LinkNames& links, Spoken& spoken) {
+  const Result<std::string> link = links.next(source);
+  if (!link) return link.error();
+  if (source.kind == Step::Kind::open)
+    if (const Status opened = spoken.open(source); !opened) return opened.error();
+  const Channel& to = spoken.on(*link);
+  PreparedStep step{&source, {}, *link, to.protocol, to.station};
+  step.network = to.protocol->default_port() != 0 && *link != vectors::aux_link;
+  step.port = source.link.port != 0 ? source.link.port : to.protocol->default_port();
+  if (const Status added = add_frames(step); !added) return added.error();
+  return step;
+}
+
+}  // namespace
+
+Result<PreparedCase> prepare(const vectors::Case& source, int station,
+                             const harness::Protocol& protocol, const OtherWays& others) {
+  PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), false, {}};
+  vectors::LinkNames links(source, protocol.default_port() != 0, [&](const std::string& name) {
+    const harness::Protocol* const other = others.known.find(name);
+    return other && other->default_port() == 0;
+  });
+  prepared.implicit_link = links.implicit();
+  Spoken spoken(source, station, protocol, others);
+  for (std::size_t i = 0; i < source.steps.size(); ++i) {
+    Result<PreparedStep> step = prepare_step(source.steps[i], links, spoken);
+    if (!step) return fail(fmt::format("{}: steps[{}]: {}", source.id, i, step.error().message));
+    prepared.steps.push_back(std::move(*step));
   }
   return prepared;
 }

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "harness/exchange/channel.hpp"
 #include "harness/notation/frame_template.hpp"
-#include "harness/protocol.hpp"
+#include "harness/protocols.hpp"
 #include "harness/vectors/case.hpp"
 
 namespace fieldproof::exchange {
@@ -19,13 +20,19 @@ struct PreparedFrame {
 struct PreparedStep {
   const vectors::Step* step = nullptr;
   std::vector<PreparedFrame> frames;  // send: one; expect: every alternative, the preferred first
+  std::string link;                   // that it uses, opens or closes
+  const harness::Protocol* protocol = nullptr;  // spoken there, at this station
+  int station = 1;
+  std::uint16_t port = 0;  // open: where the device listens
+  bool network = false;    // the link is no line
 };
 
 /// Points into the Case, which must outlive it.
 struct PreparedCase {
   const vectors::Case* source = nullptr;
   int station = 1;
-  bool has_probe = true;  // the protocol has a request that anything healthy answers
+  bool has_probe = true;       // the protocol has a request that anything healthy answers
+  bool implicit_link = false;  // the bench opens one at the beginning
   std::vector<PreparedStep> steps;
 
   bool is_client() const;  // the module asks, the bench answers
@@ -48,8 +55,14 @@ struct PreparedCase {
 /// How long after its stimulus the first byte of an expected frame may come.
 Duration reply_limit(const vectors::Step& step, Duration response_max);
 
+/// What else of the same device a case may speak to.
+struct OtherWays {
+  harness::Protocols known{{}};  // for services that a case opens
+  Channel aux{};
+};
+
 /// Errors name the step.
 Result<PreparedCase> prepare(const vectors::Case& source, int station,
-                             const harness::Protocol& protocol);
+                             const harness::Protocol& protocol, const OtherWays& others = {});
 
 }  // namespace fieldproof::exchange

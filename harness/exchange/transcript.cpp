@@ -1,44 +1,67 @@
 #include "harness/exchange/transcript.hpp"
 
-#include <utility>
+#include <map>
 
 namespace fieldproof::exchange {
 
-void Received::add(const Burst& burst, std::size_t event) {
-  arrivals.push_back({bytes.size(), burst.start, burst.end(), event, 0});
-  bytes.insert(bytes.end(), burst.bytes.begin(), burst.bytes.end());
+using results::Event;
+
+namespace {
+
+struct Carried {
+  std::size_t received = 0, sent = 0;
+};
+
+void add(const Event& event, Received& received) {
+  if (received.arrivals.empty()) received.link = event.link;
+  received.arrivals.push_back({received.bytes.size(), event.start, event.end});
+  received.bytes.insert(received.bytes.end(), event.bytes.begin(), event.bytes.end());
 }
 
-void Received::append(Received other) {
-  for (Arrival& arrival : other.arrivals) {
-    arrival.offset += bytes.size();
-    arrivals.push_back(arrival);
+void add_surplus(const Event& event, Carried carried, Share& surplus) {
+  if (event.kind != Event::Kind::received) {
+    if (!surplus.ending) surplus.ending = {&event, carried.received, carried.sent};
+  } else if (surplus.received.arrivals.empty() || surplus.received.link == event.link) {
+    add(event, surplus.received);
   }
-  bytes.insert(bytes.end(), other.bytes.begin(), other.bytes.end());
 }
 
-Received Received::take(std::size_t count) {
-  if (count >= bytes.size()) return std::exchange(*this, {});
-  Received taken;
-  taken.bytes.assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
-  bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
-  std::vector<Arrival> rest;
-  for (Arrival& arrival : arrivals) {
-    if (arrival.offset < count) {
-      taken.arrivals.push_back(arrival);
-    } else {
-      arrival.offset -= count;
-      rest.push_back(arrival);
+}  // namespace
+
+bool Ending::refused() const {
+  return event->kind == Event::Kind::reset && received == 0 && sent == 0;
+}
+
+Shares shares_of(const Transcript& transcript) {
+  Shares shares{std::vector<Share>(transcript.steps.size()), {}};
+  std::map<std::string, Carried> carried;  // by link
+  for (const Event& event : transcript.events) {
+    Carried& link = carried[event.link];
+    Share* step = event.step >= 0 && static_cast<std::size_t>(event.step) < shares.steps.size()
+                      ? &shares.steps[static_cast<std::size_t>(event.step)]
+                      : nullptr;
+    if (event.surplus) add_surplus(event, link, shares.surplus);
+    switch (event.kind) {
+      case Event::Kind::sent:
+        if (step) step->sent.insert(step->sent.end(), event.bytes.begin(), event.bytes.end());
+        link.sent += event.bytes.size();
+        break;
+      case Event::Kind::received:
+        if (step && !event.surplus) add(event, step->received);
+        link.received += event.bytes.size();
+        break;
+      case Event::Kind::closed:
+      case Event::Kind::reset:
+        if (step && event.by_device) step->ending = {&event, link.received, link.sent};
+        break;
+      case Event::Kind::opened:
+        link = {};
+        if (step && event.by_device) step->opened = &event;
+        break;
+      case Event::Kind::note: break;
     }
   }
-  // A burst that is cut in two: its later part came no later than the burst ended.
-  if (rest.empty() || rest.front().offset > 0) {
-    const Arrival& cut = taken.arrivals.back();
-    rest.insert(rest.begin(),
-                {0, cut.end, cut.end, cut.event, cut.event_offset + count - cut.offset});
-  }
-  arrivals = std::move(rest);
-  return taken;
+  return shares;
 }
 
 }  // namespace fieldproof::exchange

@@ -1,15 +1,36 @@
-// What happened on the line during a case: the only thing the judge sees of it.
+// What happened between bench and device during a case: the only thing the judge sees of it. Bytes
+// stand in the events alone; which step took them, each event says.
 #pragma once
 
+#include <list>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "harness/endpoints/endpoint.hpp"
 #include "reports/results/case_result.hpp"
+#include "src/base/result.hpp"
 
 namespace fieldproof::exchange {
+
+/// What an executed step came to, besides its events.
+struct StepRecord {
+  Time cause{};     // expect, expect_open or _close: the end of what it answers (a transmission, the reply
+                    // before it, a set, do, open or close)
+  Time deadline{};  // the same: the limit for the first byte, or for the event
+  std::vector<std::pair<std::string, std::string>> memory;  // check: address and what it held
+  std::string refused;                                      // any step: why it could not be done
+  bool refused_by_device = false;
+};
+
+struct Transcript {
+  using Events = std::list<results::Event>;
+  Events events;                  // frame monitor, in the order of time
+  std::vector<StepRecord> steps;  // one a step as far as the case went
+  bool flooded = false;
+  std::string dead;              // set when nothing answered after the case
+  std::optional<Error> trouble;  // the port failed, or Ctrl-C
+};
 
 /// Bytes with the moments at which they came.
 struct Received {
@@ -17,40 +38,35 @@ struct Received {
     std::size_t offset = 0;  // of its first byte
     Time start{};
     Time end{};
-    std::size_t event =
-        0;  // which of the transcript's events it stands in, and its first byte there
-    std::size_t event_offset = 0;
   };
   Bytes bytes;
-  std::vector<Arrival> arrivals;
-
-  void add(const Burst& burst, std::size_t event = 0);
-  void append(Received other);
-  /// Takes the first `count` bytes out.
-  Received take(std::size_t count);
+  std::vector<Arrival> arrivals;  // an empty datagram is one without bytes
+  std::string link;               // on which the first of them came
 };
 
-struct StepRecord {
-  Sent sent;          // send: when
-  Time stimulus{};    // expect: the end of what it answers (a transmission, the reply before it, a
-                      // set or do)
-  Bytes sent_bytes;   // send
-  Received received;  // expect, silence, wait: what came
-  Time deadline{};    // expect: the limit for the first byte
-  Time listened_until{};
-  std::vector<std::pair<std::string, std::string>> memory;  // check: address and what it held
-  std::string refused;  // set, check, do: why it could not be done
-  bool refused_by_device = false;
+/// The device has ended a link, or refused it.
+struct Ending {
+  const results::Event* event = nullptr;  // none
+  std::size_t received = 0, sent = 0;     // bytes that the link had carried before
+
+  explicit operator bool() const { return event != nullptr; }
+  bool refused() const;  // before anything went over it
 };
 
-struct Transcript {
-  std::vector<StepRecord> steps;  // one a step as far as the case went
-  Received surplus;               // bytes that no step was waiting for
-  std::size_t surplus_after = 0;  // the step they followed
-  bool flooded = false;
-  std::string dead;                    // set when the link was silent after the case
-  std::optional<Error> trouble;        // the port failed, or Ctrl-C
-  std::vector<results::Event> events;  // frame monitor
+/// What one executed step sent, and what came for it.
+struct Share {
+  Bytes sent;
+  Received received;
+  Ending ending;
+  const results::Event* opened = nullptr;  // a connection of the device, expected
 };
+
+struct Shares {
+  std::vector<Share> steps;  // one for each executed step
+  Share surplus;             // what no step was waiting for: bytes of the first link that has such
+};
+
+/// Points into the transcript.
+Shares shares_of(const Transcript& transcript);
 
 }  // namespace fieldproof::exchange

@@ -39,7 +39,6 @@ class JudgeTest : public testing::Test {
     prepared_ = *prepared;
     exchange::Exchange exchange(endpoint, protocol_, {});
     transcript = exchange.run(prepared_);
-    exchange.close(prepared_, transcript);
     const Judgement judgement = judge(prepared_, transcript, rules, protocol_);
     expect_recording_judged_alike(judgement);
     return judgement;
@@ -49,7 +48,7 @@ class JudgeTest : public testing::Test {
   void expect_recording_judged_alike(const Judgement& live) {
     results::CaseResult recorded;
     recorded.id = "xgt_cnet/a/b";
-    recorded.exchange = recorded_events(transcript);
+    recorded.exchange = {transcript.events.begin(), transcript.events.end()};
     recorded.recording = make_recording(prepared_, transcript, rules);
     EXPECT_EQ(recorded.recording.stimulus.empty(), transcript.trouble.has_value())
         << "trouble of the bench cannot be judged";
@@ -275,7 +274,6 @@ TEST_F(JudgeTest, AWriteThatTheDeviceRefusesFails) {
 
 TEST_F(JudgeTest, WhatTheEndpointCannotDoIsBlocked) {
   EXPECT_EQ(judged(R"({"do": "dance"})").verdict, Verdict::blocked);
-  EXPECT_EQ(judged(R"({"open": "a"})").verdict, Verdict::blocked);
 }
 
 TEST_F(JudgeTest, AnAllowedAlternativeIsNonStrictAndItsReadingIsNoted) {
@@ -336,9 +334,10 @@ TEST_F(JudgeTest, ACadenceIsMeasured) {
 
 TEST_F(JudgeTest, PausesStandWhereTheNotationHasThem) {
   (void)judged(R"({"send": "'<a' ~50ms 'b' ~2c 'c>'"})");
-  ASSERT_EQ(transcript.events.size(), 3u);
-  EXPECT_EQ(transcript.events[1].start - transcript.events[0].end, 50ms);
-  EXPECT_EQ(transcript.events[2].start - transcript.events[1].end, 2ms);
+  const std::vector<results::Event> events(transcript.events.begin(), transcript.events.end());
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[1].start - events[0].end, 50ms);
+  EXPECT_EQ(events[2].start - events[1].end, 2ms);
 }
 
 }  // namespace

@@ -14,42 +14,14 @@ using vectors::Step;
 
 namespace {
 
-// ---- writing
-// -------------------------------------------------------------------------------------------------------
-
-/// Bytes of one event that one step took, or that were surplus.
-struct Claim {
-  std::size_t event = 0, offset = 0, size = 0;
-  Time start{}, end{};
-  int step = -1;
-  bool surplus = false;
-};
-
-void claim(const exchange::Received& received, int step, bool surplus, std::vector<Claim>& claims) {
-  for (std::size_t i = 0; i < received.arrivals.size(); ++i) {
-    const exchange::Received::Arrival& one = received.arrivals[i];
-    const std::size_t end =
-        i + 1 < received.arrivals.size() ? received.arrivals[i + 1].offset : received.bytes.size();
-    claims.push_back(
-        {one.event, one.event_offset, end - one.offset, one.start, one.end, step, surplus});
-  }
-}
-
-std::vector<Claim> claims_of(const Transcript& transcript) {
-  std::vector<Claim> claims;
-  for (std::size_t i = 0; i < transcript.steps.size(); ++i)
-    claim(transcript.steps[i].received, static_cast<int>(i), false, claims);
-  claim(transcript.surplus, -1, true, claims);
-  std::ranges::stable_sort(claims, {},
-                           [](const Claim& one) { return std::pair(one.event, one.offset); });
-  return claims;
-}
-
-Event part_of(const Event& event, std::size_t from, std::size_t to) {
-  Event part = event;
-  part.bytes.assign(event.bytes.begin() + static_cast<std::ptrdiff_t>(from),
-                    event.bytes.begin() + static_cast<std::ptrdiff_t>(to));
-  return part;
+/// Nothing for a step on a line.
+void add_link(const exchange::PreparedStep& step, std::string& text) {
+  if (!step.link.empty()) text += fmt::format("@{} ", step.link);
+  if (step.step->kind == Step::Kind::open)
+    text += fmt::format("{} {} {} ", step.protocol->name(),
+                        step.step->link.transport == Transport::udp ? "udp" : "tcp", step.port);
+  if (step.step->kind == Step::Kind::close)
+    text += fmt::format("{} ", static_cast<int>(step.step->closing));
 }
 
 /// All that is done to the device, in a text of no other use. What is expected of it is left out:
@@ -73,6 +45,7 @@ std::string stimulus_text(const PreparedCase& prepared) {
       text += fmt::format("{} {} {} ", partner->model, partner->config.dump(), partner->fault);
       add_memory(partner->memory);
     }
+    add_link(step, text);
     if (step.step->kind != Step::Kind::send) continue;
     const notation::FrameTemplate& frame = step.frames.front().frame;
     text += notation::to_hex_with_holes(frame);
@@ -89,28 +62,6 @@ std::string stimulus_of(const PreparedCase& prepared) {
       "{:016x}", vectors::extend_fingerprint(vectors::empty_fingerprint, stimulus_text(prepared)));
 }
 
-// ---- reading
-// -------------------------------------------------------------------------------------------------------
-
-void take_event(const Event& event, Transcript& transcript) {
-  transcript.events.push_back(event);
-  const bool of_step =
-      event.step >= 0 && static_cast<std::size_t>(event.step) < transcript.steps.size();
-  if (event.kind == Event::Kind::sent && of_step) {
-    exchange::StepRecord& record = transcript.steps[static_cast<std::size_t>(event.step)];
-    if (record.sent_bytes.empty()) record.sent.start = event.start;
-    record.sent.end = event.end;
-    record.sent_bytes.insert(record.sent_bytes.end(), event.bytes.begin(), event.bytes.end());
-  }
-  if (event.kind != Event::Kind::received || event.bytes.empty() || !(of_step || event.surplus))
-    return;
-  exchange::Received& received =
-      event.surplus ? transcript.surplus
-                    : transcript.steps[static_cast<std::size_t>(event.step)].received;
-  received.arrivals.push_back({received.bytes.size(), event.start, event.end});
-  received.bytes.insert(received.bytes.end(), event.bytes.begin(), event.bytes.end());
-}
-
 /// The step of the vector that each executed step was: `times` repeats them.
 std::vector<const Step*> executed_steps(const PreparedCase& prepared, std::size_t count) {
   std::vector<const Step*> steps;
@@ -121,29 +72,6 @@ std::vector<const Step*> executed_steps(const PreparedCase& prepared, std::size_
 
 }  // namespace
 
-std::vector<Event> recorded_events(const Transcript& transcript) {
-  const std::vector<Claim> claims = claims_of(transcript);
-  std::vector<Event> events;
-  auto next = claims.begin();
-  for (std::size_t i = 0; i < transcript.events.size(); ++i) {
-    const Event& event = transcript.events[i];
-    std::size_t done = 0;
-    for (; next != claims.end() && next->event == i; ++next) {
-      if (next->offset > done) events.push_back(part_of(event, done, next->offset));
-      done = next->offset + next->size;
-      Event part = part_of(event, next->offset, done);
-      part.start = next->start;
-      part.end = next->end;
-      part.step = next->step;
-      part.surplus = next->surplus;
-      events.push_back(std::move(part));
-    }
-    if (done == 0 || done < event.bytes.size())
-      events.push_back(part_of(event, done, event.bytes.size()));
-  }
-  return events;
-}
-
 results::Recording make_recording(const PreparedCase& prepared, const Transcript& transcript,
                                   const JudgeRules& rules) {
   results::Recording recording;
@@ -151,7 +79,7 @@ results::Recording make_recording(const PreparedCase& prepared, const Transcript
   recording.stimulus = stimulus_of(prepared);
   recording.station = prepared.station;
   for (const exchange::StepRecord& step : transcript.steps)
-    recording.steps.push_back({step.stimulus, step.memory, step.refused, step.refused_by_device});
+    recording.steps.push_back({step.cause, step.memory, step.refused, step.refused_by_device});
   recording.flooded = transcript.flooded;
   recording.dead = transcript.dead;
   recording.timing_floor = rules.timing_floor;
@@ -180,13 +108,13 @@ Result<Transcript> replay(const results::CaseResult& recorded, const PreparedCas
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const results::StepOutcome& outcome = recording.steps[i];
     exchange::StepRecord& record = transcript.steps.emplace_back();
-    record.stimulus = outcome.stimulus;
+    record.cause = outcome.stimulus;
     record.deadline = outcome.stimulus + exchange::reply_limit(*steps[i], response_max);
     record.memory = outcome.memory;
     record.refused = outcome.refused;
     record.refused_by_device = outcome.refused_by_device;
   }
-  for (const Event& event : recorded.exchange) take_event(event, transcript);
+  transcript.events = {recorded.exchange.begin(), recorded.exchange.end()};
   transcript.flooded = recording.flooded;
   transcript.dead = recording.dead;
   return transcript;

@@ -6,10 +6,6 @@
 
 namespace fieldproof::judging {
 
-/// The frame monitor's events, each with the step that took its bytes; a burst of which two steps
-/// took a part is two.
-std::vector<results::Event> recorded_events(const exchange::Transcript& transcript);
-
 /// What `replay` needs besides the events.
 results::Recording make_recording(const exchange::PreparedCase& prepared,
                                   const exchange::Transcript& transcript, const JudgeRules& rules);

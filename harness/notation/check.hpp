@@ -13,6 +13,7 @@ struct Check {
   std::string_view name;  // as vectors write it: "CRC"
   std::size_t size = 2;   // bytes in the frame
   bool behind = false;    // covers what follows it in its bracket (a length), else what precedes it
+  bool counts = false;    // tells how many bytes it covers, whatever they are
   /// The bytes over what it covers; `off` is added to the value: 1 makes it deliberately wrong.
   Bytes (*compute)(ByteView covered, unsigned off) = nullptr;
   /// Does a frame that begins so have none? (Literal bytes; others are 0.) nullptr: each has one.

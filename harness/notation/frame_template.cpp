@@ -77,13 +77,15 @@ class Builder {
       case Item::Kind::hex_digits: hole(frame, Cell::Kind::hex_digit, item.number, ""); break;
       case Item::Kind::capture: hole(frame, Cell::Kind::capture, item.number, item.text); break;
       case Item::Kind::reuse:
-        hole(frame, Cell::Kind::reuse, captured_size(frame, item.text), item.text);
+        hole(frame, Cell::Kind::reuse, item.number ? item.number : captured_size(frame, item.text),
+             item.text);
         break;
       case Item::Kind::alternatives: break;
     }
   }
 
-  /// {id} is as long as {id:n} made it; captures of an earlier step are four characters.
+  /// {id} is as long as {id:n} made it, in this frame; of an earlier one whoever reads the frames
+  /// in order says it (Item::number), else it is four characters.
   static int captured_size(const FrameTemplate& frame, const std::string& name) {
     int size = 0;
     for (const Cell& cell : frame.cells)
@@ -138,13 +140,14 @@ class Builder {
     }
   }
 
-  /// The bracket is complete: checks of what is behind them are known where all of that is literal.
+  /// The bracket is complete: checks of what is behind them are known where all of that is literal,
+  /// or only counted.
   static void settle_behind(FrameTemplate& frame, std::size_t begin) {
     for (FrameTemplate::Check& check : frame.checks) {
       if (!check.kind->behind || check.begin != begin || check.end != 0) continue;
       check.end = frame.bytes.size();
       const std::size_t from = check.at + check.kind->size;
-      if (!is_literal(frame, from, check.end)) continue;
+      if (!check.kind->counts && !is_literal(frame, from, check.end)) continue;
       const ByteView covered = ByteView(frame.bytes).subspan(from);
       std::ranges::copy(check.wrong ? check.kind->wrong_over(covered) : check.kind->over(covered),
                         frame.bytes.begin() + static_cast<std::ptrdiff_t>(check.at));

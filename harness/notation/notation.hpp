@@ -33,7 +33,7 @@ struct Item {
     any,         // ??
     hex_digits,  // x:4
     capture,
-    reuse,        // {id:4}, {id}: `text` and `number`
+    reuse,        // {id:4}, {id}: `text` and `number`, of {id} only where it is known
     alternatives  // (a:'ss'|b:'SS')
   };
   struct Alternative;

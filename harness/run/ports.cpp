@@ -78,12 +78,13 @@ Status Fixtures::open_aux(const endpoints::EndpointName& name, const safety::Jou
   aux_ = std::move(*endpoint);
   aux_protocol_ = aux_configured_ ? aux_configured_.get() : *protocol;
   aux_station_ = device.station;
-  const Result<bool> alive =
+  const Result<exchange::Sign> alive =
       exchange::Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
   if (!alive) return alive.error();
-  return *alive ? ok()
-                : Status(fail(fmt::format("nothing answers on --aux {} at station {}",
-                                          aux_->describe(), aux_station_)));
+  return *alive == exchange::Sign::alive
+             ? ok()
+             : Status(fail(fmt::format("nothing answers on --aux {} at station {}",
+                                       aux_->describe(), aux_station_)));
 }
 
 Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan) {

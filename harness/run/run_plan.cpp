@@ -9,6 +9,7 @@
 
 #include "harness/bench/bench_file.hpp"
 #include "harness/endpoints/kinds.hpp"
+#include "harness/exchange/prepared_case.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/exit_code.hpp"
 #include "harness/run/line_matrix.hpp"
@@ -238,6 +239,7 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   Result<bench::BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data);
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
+  plan.bench.known = known;
   plan.bench.device = {options->endpoint, plan.bench.station, "", plan.bench.profile.model,
                        plan.bench.profile.config};
   if (!is_emulated(plan.endpoint) && !plan.bench.fence.empty())
@@ -309,20 +311,39 @@ Status check_duts(const RunOptions& options) {
   return ok();
 }
 
-/// Words of the notation that only the protocol of a case knows.
-Status check_words(const std::vector<const vectors::Case*>& selected,
+bool names_links(const vectors::Case& one) {
+  return std::ranges::any_of(one.steps, [](const vectors::Step& step) {
+    using Kind = vectors::Step::Kind;
+    return !step.on.empty() || step.kind == Kind::close || step.kind == Kind::expect_close;
+  });
+}
+
+/// An item that is no word of the protocol; nullptr: there is none.
+const notation::Item* unknown_check(const vectors::Step& step, const Protocol& protocol) {
+  for (const vectors::Frame& frame : step.frames)
+    for (const notation::Item& item : frame.notation)
+      if (item.kind == notation::Item::Kind::check &&
+          !notation::find_check(protocol.checks(), item.text))
+        return &item;
+  return nullptr;
+}
+
+/// What only the protocol of a case knows: the words of its notation, and which links it has.
+Status check_cases(const std::vector<const vectors::Case*>& selected,
                    const harness::Protocols& known) {
   for (const vectors::Case* one : selected) {
-    const harness::Protocol* protocol = known.find(one->protocol);
-    for (std::size_t i = 0; protocol && i < one->steps.size(); ++i)
-      for (const vectors::Frame& frame : one->steps[i].frames)
-        for (const notation::Item& item : frame.notation)
-          if (item.kind == notation::Item::Kind::check &&
-              !notation::find_check(protocol->checks(), item.text))
-            return fail(
-                fmt::format("{}: {}: steps[{}]: unknown word '{}': it is no control "
-                            "character, and no check of {}",
-                            one->file, one->id, i, item.text, one->protocol));
+    const harness::Protocol* const protocol = known.find(one->protocol);
+    if (!protocol || one->steps.empty()) continue;
+    for (std::size_t i = 0; !names_links(*one) && i < one->steps.size(); ++i)
+      if (const notation::Item* item = unknown_check(one->steps[i], *protocol))
+        return fail(
+            fmt::format("{}: {}: steps[{}]: unknown word '{}': it is no control "
+                        "character, and no check of {}",
+                        one->file, one->id, i, item->text, one->protocol));
+    if (!names_links(*one)) continue;
+    const int station = vectors::config_station(one->config, 1).value_or(1);
+    if (const auto prepared = exchange::prepare(*one, station, *protocol, {known}); !prepared)
+      return fail(fmt::format("{}: {}", one->file, prepared.error().message));
   }
   return ok();
 }
@@ -343,8 +364,7 @@ Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocol
   for (const Case& one : plan.vectors.cases)
     if (vectors::matches_filter(one.id, options.filter) && vectors::has_role(one, options.role))
       plan.selected.push_back(&one);
-  if (const Status known_checks = check_words(plan.selected, known); !known_checks)
-    return known_checks.error();
+  if (const Status right = check_cases(plan.selected, known); !right) return right.error();
   std::string profile;
   Result<DutPlan> first = make_dut_plan(
       options, known, options.duts.empty() ? "" : options.duts.front(), plan.selected, profile);

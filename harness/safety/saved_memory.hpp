@@ -18,7 +18,7 @@ class SavedMemory {
   SavedMemory(endpoints::Endpoint& endpoint, const harness::Protocol& protocol, Duration patience,
               JournalDevice device, std::shared_ptr<Journal> journal)
       : protocol_(protocol),
-        memory_(endpoint, protocol, patience),
+        memory_({&endpoint, &protocol, device.station}, patience),
         device_(std::move(device)),
         journal_(std::move(journal)) {}
 

@@ -67,7 +67,8 @@ struct Step {
     open,
     close,
     expect_close,
-    partner
+    partner,
+    expect_open
   };
   Kind kind = Kind::send;
   std::vector<Frame> frames;  // send: one; expect: the preferred first
@@ -84,6 +85,7 @@ struct Step {
   LinkSpec link;                   // open
   Closing closing = Closing::fin;  // close
   std::optional<LinkEvent> ending = std::nullopt;  // expect_close: closed or reset; nothing: either
+  bool may_stay = false;                           // expect_close: it need not end
 };
 
 struct Case {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "harness/vectors/broken.hpp"
 #include "harness/vectors/framings.hpp"
-#include "harness/vectors/links.hpp"
 #include "harness/vectors/transactions.hpp"
 #include "src/base/duration.hpp"
 #include "src/base/spelling.hpp"
@@ -104,11 +104,11 @@ Closing read_closing(const json& value) {
 }
 
 std::optional<LinkEvent> read_ending(const json& value) {
-  if (value == "any") return std::nullopt;
+  if (value == "any" || value == "may") return std::nullopt;
   return value == "fin" ? LinkEvent::closed : LinkEvent::reset;
 }
 
-constexpr std::array<std::pair<const char*, Step::Kind>, 11> kinds{
+constexpr std::array<std::pair<const char*, Step::Kind>, 12> kinds{
     {{"send", Step::Kind::send},
      {"expect", Step::Kind::expect},
      {"partner", Step::Kind::partner},
@@ -119,7 +119,8 @@ constexpr std::array<std::pair<const char*, Step::Kind>, 11> kinds{
      {"do", Step::Kind::act},
      {"open", Step::Kind::open},
      {"close", Step::Kind::close},
-     {"expect_close", Step::Kind::expect_close}}};
+     {"expect_close", Step::Kind::expect_close},
+     {"expect_open", Step::Kind::expect_open}}};
 
 /// What kind of step it is. A partner may stand in an expect.
 Step::Kind kind_of(const json& value) {
@@ -135,23 +136,11 @@ Step::Kind kind_of(const json& value) {
       fmt::format("a step is one of {}; this one has {}", fmt::join(names, ", "), found.size()));
 }
 
-bool has_pause(const Frame& frame) {
-  return std::ranges::any_of(frame.notation, [](const notation::Item& item) {
-    return item.kind == notation::Item::Kind::pause;
-  });
-}
-
 /// The steps of one case, in order.
 class StepReader {
  public:
-  /// `steps` of the vector, for one combination of rows.
-  StepReader(const json& steps, const Row& row, const notation::Dressing* dressing, bool client)
-      : row_(row),
-        dressing_(dressing),
-        transactions_(client),
-        links_(std::ranges::any_of(
-            steps, [](const json& step) { return step.contains("on") || step.contains("open"); })) {
-  }
+  StepReader(const Row& row, const notation::Dressing* dressing, bool client)
+      : row_(row), dressing_(dressing), transactions_(client) {}
 
   Step read(const json& value) {
     Step step;
@@ -159,7 +148,6 @@ class StepReader {
     if (value.contains("on")) step.on = text_of(value["on"], row_);
     if (step.kind == Step::Kind::open) read_open(value["open"], row_, step);
     if (step.kind == Step::Kind::close) step.closing = read_closing(value["close"]);
-    links_.resolve(step);
     read_content(value, step);
     if (value.contains("partner")) step.partner = read_partner(value["partner"], row_);
     if (value.contains("within")) step.within = duration(value["within"]);
@@ -174,24 +162,22 @@ class StepReader {
 
   void read_content(const json& value, Step& step) {
     switch (step.kind) {
-      case Step::Kind::send: return read_send(value, step);
+      case Step::Kind::send: return read_frames(value["send"], value, step);
       case Step::Kind::expect: return read_frames(value["expect"], value, step);
       case Step::Kind::silence: return read_silence(step);
       case Step::Kind::wait: step.duration = duration(value["wait"]); return;
       case Step::Kind::set: step.memory = read_memory(value["set"], row_); return;
       case Step::Kind::check: step.memory = read_memory(value["check"], row_); return;
       case Step::Kind::act: step.action = text_of(value["do"], row_); return;
-      case Step::Kind::expect_close: step.ending = read_ending(value["expect_close"]); return;
+      case Step::Kind::expect_close:
+        step.ending = read_ending(value["expect_close"]);
+        step.may_stay = value["expect_close"] == "may";
+        return;
+      case Step::Kind::expect_open: step.on = text_of(value["expect_open"], row_); return;
       case Step::Kind::open:
       case Step::Kind::close:
       case Step::Kind::partner: return;
     }
-  }
-
-  void read_send(const json& value, Step& step) {
-    read_frames(value["send"], value, step);
-    if (links_.is_datagram(step.on) && has_pause(step.frames.front()))
-      throw Broken("a datagram is sent whole; take the pause out, or make two sends of it");
   }
 
   void read_silence(const Step& step) {
@@ -221,10 +207,22 @@ class StepReader {
     Result<notation::Notation> notation = notation::parse_notation(frame.text);
     if (!notation) throw Broken(fmt::format("\"{}\": {}", frame.text, notation.error().message));
     frame.notation = std::move(*notation);
+    remember_captures(frame.notation);
     if (wire && wire->is_string()) frame.wire = text_of(*wire, row_);
     if (wire && wire->is_object() && wire->contains(reading))
       frame.wire = text_of(wire->at(reading), row_);
     return frame;
+  }
+
+  /// {id} is as long as {id:n} of an earlier frame made it.
+  void remember_captures(notation::Notation& frame) {
+    using Kind = notation::Item::Kind;
+    for (notation::Item& item : frame) {
+      if (item.kind == Kind::capture) captured_[item.text] = item.number;
+      if (item.kind != Kind::reuse) continue;
+      if (const auto found = captured_.find(item.text); found != captured_.end())
+        item.number = found->second;
+    }
   }
 
   std::string dressed(std::string text) {
@@ -243,7 +241,7 @@ class StepReader {
   const Row& row_;
   const notation::Dressing* dressing_;
   Transactions transactions_;
-  Links links_;
+  std::map<std::string, int> captured_;  // sizes, by name
 };
 
 }  // namespace
@@ -276,7 +274,7 @@ Case CaseReader::read(const Combination& combination) const {
   if (vector_.contains("facts")) result.facts = nlohmann::json(substitute(vector_["facts"], row));
   if (!vector_.contains("steps")) return result;
   const json& steps = vector_["steps"];
-  StepReader reader(steps, row, dressing_, is_client_case(result));
+  StepReader reader(row, dressing_, is_client_case(result));
   for (std::size_t i = 0; i < steps.size(); ++i) try {
       result.steps.push_back(reader.read(steps[i]));
     } catch (const Broken& broken) {

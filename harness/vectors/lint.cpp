@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "harness/notation/frame_template.hpp"
+#include "harness/vectors/link_names.hpp"
 
 namespace fieldproof::vectors {
 
@@ -68,6 +69,39 @@ void lint_step(const Case& one, std::size_t index, const notation::Fields& stati
   }
 }
 
+/// What the notation means on the link of each step.
+class FieldsOfSteps {
+ public:
+  FieldsOfSteps(const Case& one, const harness::Protocol& own, const harness::Protocols& known)
+      : one_(one), own_(own), known_(known), links_(one, own.default_port() != 0) {}
+
+  /// For each step in order. Errors: its link is not open, or nobody knows what is spoken there.
+  Result<notation::Fields> next(const Step& step) {
+    const Result<std::string> link = links_.next(step);
+    if (!link) return link.error();
+    const std::string& named = step.link.protocol;
+    if (step.kind == Step::Kind::open && !named.empty() && named != own_.name()) {
+      const harness::Protocol* const other = known_.find(named);
+      if (!other) return fail(fmt::format("there is no protocol '{}'", named));
+      services_[*link] = other;
+    }
+    const auto service = services_.find(*link);
+    if (service == services_.end()) return stations_of(one_, own_);
+    const nlohmann::json& services = one_.config["services"];
+    return service->second->fields_at(
+        config_station(
+            services.value(std::string(service->second->name()), nlohmann::json::object()), 1)
+            .value_or(1));
+  }
+
+ private:
+  const Case& one_;
+  const harness::Protocol& own_;
+  const harness::Protocols& known_;
+  LinkNames links_;
+  std::map<std::string, const harness::Protocol*> services_;  // by link
+};
+
 bool prints_bytes(const Case& one) {
   return std::ranges::any_of(one.steps, [](const Step& step) {
     return std::ranges::any_of(step.frames, [](const Frame& f) { return f.wire.has_value(); });
@@ -123,22 +157,34 @@ std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protoco
       if (!protocol->has_model(model))
         problems.push_back(
             fmt::format("{}: {}: {} has no model '{}'", one.file, one.id, one.protocol, model));
-    const notation::Fields stations = stations_of(one, *protocol);
+    FieldsOfSteps fields(one, *protocol, protocols);
     for (std::size_t i = 0; i < one.steps.size(); ++i) {
-      lint_step(one, i, stations, true, problems);
+      const Result<notation::Fields> own = fields.next(one.steps[i]);
+      if (own) lint_step(one, i, *own, true, problems);  // else lint_links says why
       lint_partner(one, i, *protocol, problems);
     }
   }
   return problems;
 }
 
+namespace {
+
+void contradictions_of(const Case& one, const harness::Protocol& protocol,
+                       const harness::Protocols& protocols, std::vector<std::string>& problems) {
+  FieldsOfSteps fields(one, protocol, protocols);
+  for (std::size_t i = 0; i < one.steps.size(); ++i)
+    if (const Result<notation::Fields> own = fields.next(one.steps[i]))
+      lint_step(one, i, *own, false, problems);
+}
+
+}  // namespace
+
 std::vector<std::string> contradictions(const VectorSet& set, const harness::Protocols& protocols) {
   std::vector<std::string> problems = lint_links(set, protocols);
   for (const Case& one : set.cases)
     if (const harness::Protocol* protocol = protocols.find(one.protocol);
         protocol && prints_bytes(one))
-      for (std::size_t i = 0; i < one.steps.size(); ++i)
-        lint_step(one, i, stations_of(one, *protocol), false, problems);
+      contradictions_of(one, *protocol, protocols, problems);
   if (!set.manuals.empty()) lint_citations(set, problems);
   return problems;
 }

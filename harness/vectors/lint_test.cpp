@@ -25,13 +25,13 @@ struct StationOnly : harness::TestProtocol {
 const StationOnly protocol;
 const std::array<const harness::Protocol*, 1> table{&protocol};
 
-VectorSet with_step(const std::string& step) {
+VectorSet with_step(const std::string& step, const std::string& services = "{}") {
   VectorSet set;
   load_vector_text(
       R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed",
     "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "one two three four five"},
-    "given": {"config": {"station": 32}}, "steps": [)j" +
-          step + "]}]",
+    "given": {"config": {"station": 32, "services": )j" +
+          services + R"j(}}, "steps": [)j" + step + "]}]",
       "f.json", set);
   set.manuals.push_back({"m", "m.txt", "M", "1"});
   set.statements.push_back({"m/1", "m", "1", "one two three four five", ""});
@@ -51,7 +51,7 @@ struct Networked : harness::TestProtocol {
 std::vector<std::string> links(const std::string& steps) {
   static const Networked networked;
   static const std::array<const harness::Protocol*, 2> both{&protocol, &networked};
-  return lint_links(with_step(steps), harness::Protocols(both));
+  return lint_links(with_step(steps, R"({"networked": {}})"), harness::Protocols(both));
 }
 
 TEST(LintLinks, ASerialLineIsNeitherOpenedNorClosed) {
@@ -64,9 +64,10 @@ TEST(LintLinks, ASerialLineIsNeitherOpenedNorClosed) {
 }
 
 TEST(LintLinks, AnotherServiceOfTheDeviceMayHaveConnections) {
-  EXPECT_THAT(links(R"j({"open": {"name": "a", "protocol": "networked"}}, {"close": "fin"},
+  EXPECT_THAT(
+      links(R"j({"open": {"name": "a", "protocol": "networked"}}, {"close": "fin", "on": "a"},
                         {"expect_close": "any", "on": "a", "within": "1s"})j"),
-              IsEmpty());
+      IsEmpty());
   EXPECT_THAT(links(R"j({"open": {"name": "a", "protocol": "networked"}},
                         {"open": {"name": "b", "protocol": "xgt-cnet"}},
                         {"close": "fin", "on": "b"})j"),

@@ -85,6 +85,19 @@ TEST(Loader, NamedAlternativesKeepTheirOrder) {
   EXPECT_EQ(step.frames[1].reading, "aa_second");
 }
 
+// A client's transaction is captured in one step and answered in another.
+TEST(Loader, WhatOneFrameCapturesIsAsLongInTheNext) {
+  std::string text = two_words;
+  text = replaced(text, R"j({"expect": "[ACK st 'rSS' ETX BCC]"})j",
+                  R"j({"expect": "[{t:2} 00 {u:1}]"}, {"send": "[{t} 00 {u} {v}]"})j");
+  const VectorSet set = load(text);
+  ASSERT_THAT(set.problems, IsEmpty());
+  const notation::Notation& answer = set.cases[0].steps[2].frames[0].notation;
+  EXPECT_EQ(answer[1].number, 2);
+  EXPECT_EQ(answer[3].number, 1);
+  EXPECT_EQ(answer[4].number, 0) << "nobody has captured it";
+}
+
 TEST(Loader, EveryKindOfStepIsRead) {
   std::string text = two_words;
   text = replaced(
@@ -273,7 +286,6 @@ TEST(Filter, LeavesStatementsThatNoCaseCites) {
 TEST(Loader, OneCommaTooMuchIsOneProblemAtItsLine) {
   for (const char* broken :
        {"[\n{\"id\": \"a/b\"},\n,{}]", "[\n{\"id\": \"a/b\",\n,\"rev\": 1}]"}) {
-    VectorSet set;
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "comma.json";
     std::ofstream(file) << broken;
     EXPECT_THAT(load_vectors(file).problems,

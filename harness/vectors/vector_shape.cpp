@@ -106,7 +106,7 @@ constexpr Shape partner{.kind = Kind::object, .keys = partner_keys, .open = true
 
 constexpr std::array<Words, 2> transport_words{"tcp", "udp"};
 constexpr std::array<Words, 3> close_words{"fin", "rst", "vanish"};
-constexpr std::array<Words, 3> ending_words{"fin", "rst", "any"};
+constexpr std::array<Words, 4> ending_words{"fin", "rst", "any", "may"};
 constexpr Shape transport{.words = transport_words};
 constexpr Shape port{.kind = Kind::number, .least = 1, .most = 65'535};
 constexpr std::array link_keys{Key{"name", &text, true}, Key{"protocol", &text},
@@ -118,12 +118,12 @@ constexpr Shape ending{.words = ending_words};
 
 constexpr Shape times{.kind = Kind::number, .least = 1, .most = 10'000};
 constexpr std::array step_keys{
-    Key{"send", &text},        Key{"expect", &frame},    Key{"wire", &wires},
-    Key{"silence", &yes},      Key{"wait", &duration},   Key{"partner", &partner},
-    Key{"set", &memory},       Key{"check", &memory},    Key{"do", &text},
-    Key{"open", &open},        Key{"close", &close},     Key{"expect_close", &ending},
-    Key{"on", &text},          Key{"within", &duration}, Key{"every", &duration},
-    Key{"max_gap", &duration}, Key{"times", &times}};
+    Key{"send", &text},        Key{"expect", &frame},     Key{"wire", &wires},
+    Key{"silence", &yes},      Key{"wait", &duration},    Key{"partner", &partner},
+    Key{"set", &memory},       Key{"check", &memory},     Key{"do", &text},
+    Key{"open", &open},        Key{"close", &close},      Key{"expect_close", &ending},
+    Key{"expect_open", &text}, Key{"on", &text},          Key{"within", &duration},
+    Key{"every", &duration},   Key{"max_gap", &duration}, Key{"times", &times}};
 constexpr Shape step{.kind = Kind::object, .keys = step_keys};
 constexpr Shape steps{.kind = Kind::list, .least = 1, .items = &step};
 

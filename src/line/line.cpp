@@ -26,22 +26,39 @@ void SimulatedLine::attach(Device& device, const LineSettings& settings) {
   begin_transmission(listeners_.size() - 1, device.advance(now_));
 }
 
-SimulatedLine::Transmitted SimulatedLine::transmit(ByteView bytes) {
+SimulatedLine::Transmitted SimulatedLine::begin_to_transmit(ByteView bytes) {
   run(now_, false);
-  const Time start = now_;
   begin_transmission(bench, Bytes(bytes.begin(), bytes.end()));
-  run(std::max(start, listeners_[bench].transmits_until), false);
-  return {start, now_};
+  return {now_, std::max(now_, listeners_[bench].transmits_until)};
+}
+
+SimulatedLine::Transmitted SimulatedLine::transmit(ByteView bytes) {
+  const Transmitted sent = begin_to_transmit(bytes);
+  run(sent.end, false);
+  return sent;
 }
 
 Burst SimulatedLine::receive(Time until) {
   if (inbox_.empty()) run(std::max(until, now_), true);
-  if (inbox_.empty()) hear(bench);  // the part of a burst that has come so far
-  if (inbox_.empty())
-    return {.bytes = {}, .start = now_, .character_time = bench_settings().character_time()};
+  if (std::optional<Burst> burst = take_part()) return std::move(*burst);
+  return {.bytes = {}, .start = now_, .character_time = bench_settings().character_time()};
+}
+
+std::optional<Burst> SimulatedLine::take() {
+  if (inbox_.empty()) return std::nullopt;
   Burst burst = std::move(inbox_.front());
   inbox_.erase(inbox_.begin());
   return burst;
+}
+
+std::optional<Burst> SimulatedLine::take_part() {
+  if (inbox_.empty()) hear(bench);
+  return take();
+}
+
+std::optional<Time> SimulatedLine::next_event() const {
+  const Time next = next_event(Time::max());
+  return next == Time::max() ? std::nullopt : std::optional(next);
 }
 
 LineErrors SimulatedLine::take_errors() { return std::exchange(errors_, {}); }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "src/base/medium.hpp"
 #include "src/line/device.hpp"
 #include "src/line/settings.hpp"
 #include "src/line/uart.hpp"
@@ -16,7 +17,7 @@ namespace fieldproof::line {
 /// RS-485: half.
 enum class Duplex { full, half };
 
-class SimulatedLine {
+class SimulatedLine : public Medium {
  public:
   struct Transmitted {
     Time start{};
@@ -29,18 +30,25 @@ class SimulatedLine {
   /// outlive the line.
   void attach(Device& device, const LineSettings& settings);
 
-  Time now() const { return now_; }
+  Time now() const override { return now_; }
   const LineSettings& bench_settings() const { return listeners_.front().settings; }
 
   /// The bench transmits now. `now()` then stands at the end of the last stop bit, so a second call
   /// is back to back, and everything due until then, and at that moment, has happened: a reply
   /// without delay has begun.
   Transmitted transmit(ByteView bytes);
+  /// The same without letting time pass: for lines that run in step with other media.
+  Transmitted begin_to_transmit(ByteView bytes);
 
   /// The next burst that the bench hears; `now()` then stands at its end. A burst that is not
   /// complete at `until` comes in parts. Nothing heard: an empty burst, and `now()` stands at
   /// `until`. Time never goes back: with `until` in the past it takes what has been heard.
   Burst receive(Time until);
+
+  std::optional<Time> next_event() const override;
+  void run(Time until) override { run(until, true); }
+  std::optional<Burst> take() override;
+  std::optional<Burst> take_part() override;
 
   /// Characters that the bench has dropped since the last call.
   LineErrors take_errors();

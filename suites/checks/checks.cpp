@@ -58,7 +58,7 @@ const notation::Check lrc{.name = "LRC", .compute = [](ByteView covered, unsigne
                           }};
 
 const notation::Check length{
-    .name = "LEN", .behind = true, .compute = [](ByteView covered, unsigned off) {
+    .name = "LEN", .behind = true, .counts = true, .compute = [](ByteView covered, unsigned off) {
       const auto value = static_cast<unsigned>(covered.size()) + off;
       return Bytes{static_cast<Byte>(value >> 8), static_cast<Byte>(value)};
     }};

@@ -48,6 +48,8 @@ class Ascii : public Framing {
     return to_bytes(hex_number(static_cast<unsigned>(station), 2));
   }
 
+  Spelling spelling() const override { return {.before = 1, .each = 2}; }
+
   Bytes wrap(ByteView message) const override {
     std::string text = ":";
     for (Byte b : message) text += hex_number(b, 2);

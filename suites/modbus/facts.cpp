@@ -6,6 +6,7 @@
 
 #include "src/modbus/bases.hpp"
 #include "src/modbus/pdu.hpp"
+#include "src/xnet/areas.hpp"
 #include "suites/modbus/functions.hpp"
 
 namespace fieldproof::modbus_suite {
@@ -75,6 +76,17 @@ Status check_default_bases(const json& facts) {
   return compare(facts, row);
 }
 
+/// A soft component and the address at which Modbus shows it.
+Status check_xinje(const json& facts) {
+  const std::string name = facts.value("object", "");
+  const std::optional<xnet::Component> component = xnet::find_component(name);
+  if (!component) return fail(fmt::format("no soft component '{}'", name));
+  const xnet::Area& area = *component->area;
+  return compare(facts, {{"object", xnet::to_string(*component)},
+                         {"kind", area.bits ? "coil" : "register"},
+                         {"address", hex_number(area.modbus + component->number, 4)}});
+}
+
 Status check_data_address(const json& facts) {
   return compare(facts, {{"first", hex_number(0, 4)}, {"last", hex_number(last_data_address, 4)}});
 }
@@ -87,8 +99,10 @@ Status check_fact(const json& facts) {
   if (table == "exception_code") return check_exception(facts);
   if (table == "default_bases") return check_default_bases(facts);
   if (table == "data_address") return check_data_address(facts);
+  if (table == "xinje") return check_xinje(facts);
   return fail(fmt::format(
-      "no table '{}'; there are function_code, exception_code, default_bases and data_address",
+      "no table '{}'; there are function_code, exception_code, default_bases, data_address and "
+      "xinje",
       table));
 }
 

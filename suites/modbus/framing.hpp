@@ -1,4 +1,4 @@
-// How a message travels: RTU (Cnet EN 9.3.2) and ASCII (Cnet EN 9.3.1).
+// How a message travels: RTU (Cnet EN 9.3.2), ASCII (Cnet EN 9.3.1) and TCP (FEnet EN 5.3.3).
 #pragma once
 
 #include <optional>
@@ -14,6 +14,11 @@ class Framing {
 
   virtual std::string_view protocol_name() const = 0;
   virtual Bytes station_bytes(int station) const = 0;
+  /// How many characters stand before the message in its frame, and for one byte of it.
+  struct Spelling {
+    std::size_t before = 0, each = 1;
+  };
+  virtual Spelling spelling() const { return {}; }
 
   /// A message with start, check and end around it.
   virtual Bytes wrap(ByteView message) const = 0;
@@ -34,5 +39,6 @@ class Framing {
 
 const Framing& rtu_framing();
 const Framing& ascii_framing();
+const Framing& tcp_framing();
 
 }  // namespace fieldproof::modbus_suite

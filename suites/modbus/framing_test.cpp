@@ -174,5 +174,65 @@ TEST(Messages, FindsEveryRequestThatADeviceCouldRead) {
               ElementsAre(bytes("01"), bytes("01 06 00 08 00 03")));
 }
 
+std::string tcp_part(std::string_view hex, std::string_view name) {
+  return part(tcp_framing(), bytes(hex), name);
+}
+
+// Modbus messaging on TCP/IP 1.0b, and the header of FEnet EN 5.3.3.
+constexpr std::string_view tcp_request = "15 01 00 00 00 06 FF 03 00 6B 00 03";
+
+TEST(ExplainTcp, NamesHeaderAndMessage) {
+  EXPECT_EQ(tcp_part(tcp_request, "transaction"), "1501");
+  EXPECT_EQ(tcp_part(tcp_request, "protocol"), "0000");
+  EXPECT_EQ(tcp_part(tcp_request, "length"), "0006");
+  EXPECT_EQ(tcp_part(tcp_request, "unit"), "FF");
+  EXPECT_EQ(tcp_part(tcp_request, "function code"), "03 Read Holding Registers, request");
+  EXPECT_EQ(tcp_part(tcp_request, "count"), "0003");
+}
+
+TEST(ExplainTcp, SaysWhatIsWrong) {
+  EXPECT_THAT(tcp_part("15 01 00 01 00 06 FF 03 00 6B 00 03", "protocol"), HasSubstr("! 0000 is"));
+  EXPECT_THAT(tcp_part("15 01 00 00 00 07 FF 03 00 6B 00 03", "length"),
+              HasSubstr("0006 is right"));
+  EXPECT_THAT(tcp_part("15 01 00 00 00 00 FF 03 00 6B 00 03", "length"),
+              HasSubstr("0006 is right"));
+  EXPECT_THAT(tcp_part("15 01 00 00 00 05 FF 03 02 12 34 56", "surplus"), HasSubstr("56 !"));
+  EXPECT_THAT(tcp_part("15 01 00", "protocol"), HasSubstr("cut short"));
+  EXPECT_THAT(tcp_part("15 01", "transaction"), HasSubstr("ends here"));
+}
+
+TEST(SplitTcp, TheLengthAloneSaysWhereAFrameEnds) {
+  const Bytes frame = bytes(tcp_request);
+  for (std::size_t size = 0; size < frame.size(); ++size)
+    EXPECT_EQ(tcp_framing().frame_length(ByteView(frame).first(size)), std::nullopt) << size;
+  EXPECT_EQ(tcp_framing().frame_length(frame), 12u);
+  EXPECT_EQ(tcp_framing().frame_length(bytes("15 01 00 00 00 02 FF 83 02 00")), 8u);
+  EXPECT_EQ(tcp_framing().frame_length(bytes("15 01 00 00 00 00 FF")), 6u);
+}
+
+TEST(WrapTcp, CountsUnitAndPdu) {
+  const Bytes frame = tcp_framing().wrap(bytes("01 03 00 00 00 01"));
+  EXPECT_EQ(to_hex(ByteView(frame).subspan(2)), "00 00 00 06 01 03 00 00 00 01");
+  EXPECT_EQ(tcp_framing().unwrap(frame), bytes("01 03 00 00 00 01"));
+  EXPECT_EQ(tcp_framing().unwrap(bytes("15 01 00")), Bytes{});
+}
+
+TEST(MessagesTcp, AreAllThatADeviceCouldRead) {
+  const auto messages = [](std::string_view hex) {
+    std::vector<std::string> found;
+    for (const Bytes& message : tcp_framing().messages(bytes(hex)))
+      found.push_back(to_hex(message));
+    return found;
+  };
+  EXPECT_THAT(messages(tcp_request), ElementsAre("FF 03 00 6B 00 03"));
+  EXPECT_THAT(messages("00 01 00 00 00 02 01 07 00 02 00 00 00 06 01 06 00 01 12 34"),
+              testing::IsSupersetOf({"01 07", "01 06 00 01 12 34"}));
+  EXPECT_THAT(messages("00 01 00 00 FF FF 01 06 00 01 12 34"),
+              testing::Contains("01 06 00 01 12 34"))
+      << "a length that lies";
+  EXPECT_THAT(messages("00 01 00 00 00 00 01 06 00 01 12 34"),
+              testing::Contains("01 06 00 01 12 34"));
+}
+
 }  // namespace
 }  // namespace fieldproof::modbus_suite

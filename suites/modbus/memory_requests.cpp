@@ -149,15 +149,6 @@ Protocol::Written memory_at(const Bases& bases, const FunctionCode& function,
 
 constexpr std::size_t address_at = 2, address_size = 2;  // in a message
 
-/// How many characters stand before a byte of the message in its frame, and for one byte.
-struct Spelling {
-  std::size_t before = 0, each = 1;
-};
-Spelling spelling_of(const Framing& framing) {
-  const bool binary = framing.station_bytes(1).size() == 1;
-  return binary ? Spelling{} : Spelling{1, 2};
-}
-
 }  // namespace
 
 const Bases& default_bases() {
@@ -293,7 +284,7 @@ std::vector<Protocol::AddressField> address_fields(const Framing& framing, const
   if (!known || (reply && !known->write)) return {};
   const bool counted = known->many || !known->write;
   const std::uint32_t count = counted && message.size() >= 6 ? word_at(message, 4) : 1;
-  const Spelling spelling = spelling_of(framing);
+  const Framing::Spelling spelling = framing.spelling();
   return {{spelling.before + address_at * spelling.each, address_size * spelling.each,
            memory_at(bases, *known, word_at(message, address_at), count)}};
 }

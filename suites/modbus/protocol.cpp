@@ -10,11 +10,13 @@
 #include "src/modbus/p2p_driver.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
+#include "src/xnet/plc.hpp"
 #include "suites/modbus/facts.hpp"
 #include "suites/modbus/framing.hpp"
 #include "suites/modbus/functions.hpp"
 #include "suites/modbus/memory_requests.hpp"
 #include "suites/modbus/message.hpp"
+#include "suites/services/services.hpp"
 
 namespace fieldproof::modbus_suite {
 
@@ -32,14 +34,17 @@ class Modbus : public Protocol {
   std::vector<std::string> models() const override {
     std::vector<std::string> names;
     for (const plc::PlcModel& model : plc::plc_models()) names.emplace_back(model.name);
+    if (mode_ == modbus::ModbusMode::tcp) names.emplace_back(xnet::xd);
     return names;
   }
+  std::uint16_t default_port() const override { return mode_ == modbus::ModbusMode::tcp ? 502 : 0; }
 
   Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
       std::string_view model, const nlohmann::json& config) const override {
-    if (!p2p::is_p2p_client(config)) return modbus::make_modbus_plc(mode_, model, config);
-    return p2p::make_p2p_device(model, config, [mode = mode_](const plc::PortConfig& port) {
-      return modbus::make_modbus_p2p_driver(mode, port.gap());
+    if (has_model(model) && model == xnet::xd) return xnet::make_xinje_plc(mode_, config);
+    return services::make_plc(model, config, [this](plc::Plc& plc, const nlohmann::json& own) {
+      return p2p::is_p2p_client(own) ? add_clients(plc, own)
+                                     : modbus::add_modbus_server(plc, mode_, 1, own);
     });
   }
 
@@ -141,6 +146,16 @@ class Modbus : public Protocol {
   }
 
  private:
+  Status add_clients(plc::Plc& plc, const nlohmann::json& config) const {
+    if (mode_ == modbus::ModbusMode::tcp)
+      return p2p::add_network_clients(plc, config, default_port(), [] {
+        return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp);
+      });
+    return p2p::add_p2p_clients(plc, config, [mode = mode_](const plc::PortConfig& port) {
+      return modbus::make_modbus_p2p_driver(mode, port.gap());
+    });
+  }
+
   modbus::ModbusMode mode_;
   const Framing& framing_;
   Bases bases_;
@@ -155,6 +170,11 @@ const Protocol& rtu() {
 
 const Protocol& ascii() {
   static const Modbus protocol(modbus::ModbusMode::ascii, ascii_framing());
+  return protocol;
+}
+
+const Protocol& tcp() {
+  static const Modbus protocol(modbus::ModbusMode::tcp, tcp_framing());
   return protocol;
 }
 

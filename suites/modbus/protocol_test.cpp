@@ -21,6 +21,45 @@ TEST(Protocol, NamesItselfAndItsModels) {
   EXPECT_EQ(ascii().station_bytes(17), to_bytes("11"));
 }
 
+TEST(Protocol, TcpIsOfANetworkAndHasAModelMore) {
+  EXPECT_EQ(tcp().name(), "modbus-tcp");
+  EXPECT_EQ(tcp().default_port(), 502);
+  EXPECT_EQ(rtu().default_port(), 0);
+  EXPECT_THAT(tcp().models(), testing::ElementsAre("xbc-h", "xbm-s", "xec-h", "xd"));
+  for (const std::string& model : tcp().models()) {
+    const auto device = tcp().make_device(model, json{{"station", 1}});
+    ASSERT_TRUE(device) << device.error().message;
+    ASSERT_TRUE((*device)->network()) << model;
+    EXPECT_TRUE((*device)->network()->listens(Transport::tcp, 502));
+    EXPECT_FALSE((*device)->line());
+  }
+  EXPECT_FALSE(rtu().make_device("xd", json{{"station", 1}}));
+}
+
+TEST(Probe, OverTcpHasATransactionOfItsOwn) {
+  const Bytes probe = tcp().probe(1, {});
+  EXPECT_EQ(to_hex(ByteView(probe).subspan(2)), "00 00 00 06 01 03 00 00 00 01");
+  Bytes reply = hex_bytes("00 00 00 00 00 05 01 03 02 00 00");
+  std::copy_n(probe.begin(), 2, reply.begin());
+  EXPECT_TRUE(tcp().is_reply_to_probe(probe, reply));
+  EXPECT_EQ(tcp().probe(1, hex_bytes("00 01 00 00 00 06 01 03 00 6B 00 03"))[7], 0x01);
+}
+
+TEST(Memory, OverTcpIsThatOfRtuInAnotherFrame) {
+  const auto requests = tcp().write_requests(1, "%MW100", "1234");
+  ASSERT_TRUE(requests);
+  EXPECT_EQ(to_hex(ByteView(requests->front()).subspan(6)), "01 10 00 64 00 01 02 12 34");
+  const auto written = tcp().written_by(requests->front());
+  ASSERT_EQ(written.size(), 1u);
+  EXPECT_EQ(written[0].area, "M");
+  EXPECT_EQ(written[0].first_word, 100u);
+  const auto fields = tcp().address_fields(requests->front(), false);
+  ASSERT_EQ(fields.size(), 1u);
+  EXPECT_EQ(fields[0].offset, 8u);
+  EXPECT_EQ(tcp().moved_field(requests->front(), fields[0], 20), hex_bytes("00 78"));
+  EXPECT_EQ(*tcp().read_reply(hex_bytes("00 01 00 00 00 05 01 03 02 12 34")), "1234");
+}
+
 TEST(Protocol, OnlyRtuNeedsSilenceBetweenFrames) {
   EXPECT_GE(rtu().frame_gap(1ms), 3850us) << "3.5 characters of 11 bits, where a character has 10";
   EXPECT_EQ(ascii().frame_gap(1ms), 0ns);

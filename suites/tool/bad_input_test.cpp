@@ -95,6 +95,12 @@ std::vector<BadInput> bad_inputs() {
                        ordered_json::array({{{"open", {{"name", "a"}, {"protocol", "xgt-cnet"}}}},
                                             {{"send", ask_word}, {"on", "b"}}}))),
           {"xgt_cnet/bad/one", "steps[1]", "no link 'b' is open; open: 'a'"}),
+      bad_vectors(
+          "pause_in_a_datagram",
+          text_of(with(with(good, "id", "modbus_tcp/bad/one"), "steps",
+                       ordered_json::array({{{"open", {{"name", "a"}, {"transport", "udp"}}}},
+                                            {{"send", "[01 ~20ms 02]"}}}))),
+          {"modbus_tcp/bad/one", "steps[1]", "carries datagrams", "take the pause (~) out"}),
       bad_option("port_out_of_range", {"--endpoint", "tcp:127.0.0.1:65536"},
                  {"'65536' is no port", "write a number up to 65535"}),
       bad_option("port_zero", {"--endpoint", "tcp:127.0.0.1:0"},

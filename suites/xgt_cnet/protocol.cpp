@@ -10,6 +10,7 @@
 #include "src/xgt_cnet/plc.hpp"
 #include "src/xgt_cnet/plc_config.hpp"
 #include "suites/checks/checks.hpp"
+#include "suites/services/services.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
 #include "suites/xgt_cnet/memory_requests.hpp"
 #include "suites/xgt_cnet/p2p_facts.hpp"
@@ -42,6 +43,12 @@ class XgtCnet : public harness::Protocol {
         return std::make_unique<xgt_cnet::XgtP2pDriver>(port.gap());
       });
     }
+    if (services::wants_services(config))
+      return services::make_plc(model, config, [](plc::Plc& plc, const nlohmann::json& own) {
+        const Result<plc::PortConfig> port =
+            xgt_cnet::parse_plc_config(plc.memory().model().name, own);
+        return port ? xgt_cnet::add_server(plc, 1, *port) : Status(port.error());
+      });
     Result<plc::PortConfig> parsed = xgt_cnet::parse_plc_config(model, config);
     if (!parsed) return parsed.error();
     Result<std::unique_ptr<plc::Plc>> plc = xgt_cnet::make_plc(*parsed);

@@ -1,0 +1,149 @@
+// How a case ends: what still belongs to it is heard, the device is asked whether it lives, what is
+// open is closed.
+#include "harness/exchange/case_run.hpp"
+
+#include <algorithm>
+
+namespace fieldproof::exchange {
+
+using vectors::Step;
+
+namespace {
+
+bool has_probe(const Channel& to) { return !to.protocol->probe(to.station, {}).empty(); }
+
+std::string why_dead(Sign sign) {
+  switch (sign) {
+    case Sign::refused: return "it refuses every connection";
+    case Sign::ended: return "it closes every connection without an answer";
+    default: return "nothing answers any more";
+  }
+}
+
+}  // namespace
+
+void CaseRun::finish() {
+  const bool heard = transcript_.trouble || prepared_.runs_by_clock();  // it goes on asking
+  const bool alive = heard || hear_the_rest();
+  if (!prepared_.runs_by_clock()) links_.leave_over();
+  close_links();
+  if (!alive && !transcript_.trouble) look_for_life();
+}
+
+/// False: the device has not shown that it lives, although it was asked.
+bool CaseRun::hear_the_rest() {
+  const bool simulated = can().simulated;
+  if (!simulated && prepared_.answers_probes()) return probe_links();
+  const Time end = now() + (simulated ? around_.timing.promised_silence : around_.timing.quiet);
+  while (links_.listen(*around_.device.endpoint, end)) {
+  }
+  return true;
+}
+
+/// Each link answers for itself: replies come in order on one link alone.
+bool CaseRun::probe_links() {
+  bool alive = false;
+  for (Link& link : links_.all()) {
+    if (link.to.endpoint != around_.device.endpoint || stopped()) continue;
+    if (!link.network || (link.between_frames() && has_probe(link.to))) {
+      alive = probe(link, std::nullopt) || alive;
+      continue;
+    }
+    const Time end = link.last_sent.end + around_.timing.response_max;
+    while (link.hears && links_.listen(link, end)) {
+    }
+  }
+  return alive;
+}
+
+/// Sends a probe and takes out its reply; what came before that is the step's, or nobody's. False
+/// when nothing came at all.
+bool CaseRun::probe(Link& link, std::optional<int> step) {
+  await_frame_gap(link);
+  const harness::Protocol& protocol = *link.to.protocol;
+  const Bytes request = protocol.probe(link.to.station, link.last_bytes);
+  if (stopped()) return false;
+  const std::optional<Sent> sent = links_.transmit(link, request, false);
+  if (!sent) return false;
+  const Time until = sent->end + around_.timing.response_max + prepared_.reply_delay();
+  std::size_t before = 0, end = 0;  // of the last frame
+  bool answered = false;
+  while (!answered) {
+    const ByteView came = link.pending.bytes();
+    while (const auto length = protocol.frame_length(came.subspan(end))) {
+      before = end;
+      end += *length;
+      answered = protocol.is_reply_to_probe(request, came.subspan(before, *length));
+      if (answered) break;
+    }
+    if (answered || !link.hears || !links_.listen(link, until)) break;
+  }
+  // A device that answers every request in a form of its own must still reach the case that names
+  // the fault: replies come in order, so the last frame is its answer to the probe.
+  if (!answered && end < link.pending.bytes().size()) {
+    before = end;
+    end = link.pending.bytes().size();
+  }
+  if (step)
+    link.pending.give(before, *step, transcript_);
+  else
+    link.pending.leave_over(before, transcript_);
+  link.pending.drop(end - before, transcript_);
+  links_.note(now(), answered ? "probe answered: nothing else was on its way"
+                              : "probe not answered as expected");
+  return end > 0;
+}
+
+void CaseRun::look_for_life() {
+  Channel device = around_.device;
+  device.station = prepared_.station;
+  const Result<Sign> sign =
+      Sanity(device, around_.timing)
+          .anything_answers(3 * around_.timing.response_max, prepared_.reply_delay());
+  if (!sign)
+    transcript_.trouble = sign.error();
+  else if (*sign != Sign::alive)
+    transcript_.dead = why_dead(*sign);
+}
+
+/// What comes behind our FIN is nobody's: no late answer is credited to the next case.
+void CaseRun::close_links() {
+  for (Link& link : links_.all())
+    if (link.network && link.sends && !link.gone) links_.close(link, Closing::fin);
+  const Time end = now() + around_.timing.quiet;  // for the device to close its side
+  const auto closing = [](const Link& link) { return link.network && link.hears && !link.sends; };
+  while (std::ranges::any_of(links_.all(), closing) &&
+         links_.listen(*around_.device.endpoint, end)) {
+  }
+}
+
+Result<bool> CaseRun::is_asked(Duration patience) {
+  for (const PreparedStep& one : prepared_.steps) {
+    const Step::Kind kind = one.step->kind;
+    if (kind == Step::Kind::expect || kind == Step::Kind::expect_open ||
+        kind == Step::Kind::partner)
+      break;
+    if (kind != Step::Kind::set && kind != Step::Kind::act && kind != Step::Kind::wait) continue;
+    step(one);
+    if (!record().refused.empty()) return fail(record().refused);
+  }
+  const auto asked = [&] {
+    return std::ranges::any_of(links_.all(),
+                               [](const Link& link) { return !link.pending.empty(); });
+  };
+  const Time give_up = now() + patience;
+  while (!asked() && links_.listen(*around_.device.endpoint, give_up)) {
+  }
+  if (transcript_.trouble) return *transcript_.trouble;
+  // A clock goes on asking: there the next case drains the line.
+  const bool came = asked();
+  if (came && !prepared_.runs_by_clock()) {
+    const Status settled =
+        settle(*around_.device.endpoint, prepared_.client_time_out() + around_.timing.quiet);
+    if (!settled) return settled.error();
+  }
+  close_links();
+  return came;
+}
+
+}  // namespace fieldproof::exchange

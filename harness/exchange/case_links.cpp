@@ -1,0 +1,135 @@
+// The steps of a case that open and close links, or look past them at the device.
+#include <fmt/format.h>
+
+#include "harness/exchange/case_run.hpp"
+
+namespace fieldproof::exchange {
+
+using vectors::Step;
+
+namespace {
+
+constexpr Duration restart_patience = 10s;
+
+}  // namespace
+
+void CaseRun::open(const PreparedStep& step) {
+  const Channel to{around_.device.endpoint, step.protocol, step.station};
+  if (!step.network) return open_line(step.link, to);
+  if (links_.open(step.link, to, step.step->link.transport, step.port)) links_.restart(now());
+}
+
+void CaseRun::open_line(const std::string& name, const Channel& to) {
+  constexpr unsigned second_channel = 2;  // "services" (vectors/README.md)
+  const Result<LinkId> id = to.endpoint->open_line(second_channel);
+  if (!id)
+    transcript_.trouble = id.error();
+  else
+    links_.add_line(name, to, *id);
+}
+
+/// What it says on the connection may have come with it.
+void CaseRun::await_opening(const PreparedStep& step) {
+  const Link* implicit = links_.find("");
+  record().cause = implicit ? implicit->cause : now();
+  record().deadline = record().cause + reply_limit(*step.step, around_.timing.response_max);
+  const Time give_up = record().deadline + around_.timing.late_watch;
+  Link* link = links_.unnamed_of_device();
+  while (!link && links_.listen(*around_.device.endpoint, give_up))
+    link = links_.unnamed_of_device();
+  if (link) links_.name(*link, step.link, index());
+}
+
+void CaseRun::close(const PreparedStep& step) {
+  Link& link = *links_.find(step.link);
+  while (links_.listen(link, now())) {
+  }
+  if (stopped()) return;
+  // Behind a FIN answers may still come; nothing is heard behind a RST.
+  if (step.step->closing != Closing::fin) {
+    // The answer to what was asked last may have been quicker: whether it was, says nothing.
+    if (link.asked) link.pending.drop(link.pending.bytes().size(), transcript_);
+    link.pending.leave_over();
+  }
+  if (!link.gone) links_.close(link, step.step->closing);
+}
+
+void CaseRun::await_ending(const PreparedStep& step) {
+  Link& link = *links_.find(step.link);
+  record().cause = link.cause;
+  record().deadline = link.cause + reply_limit(*step.step, around_.timing.response_max);
+  const Time give_up = record().deadline + around_.timing.late_watch;
+  while (link.hears && links_.listen(link, give_up)) {
+  }
+  if (!link.ending) return;
+  (*link.ending)->step = index();
+  links_.restart((*link.ending)->start);
+  link.ending.reset();
+  if (link.sends && !link.gone) links_.close(link, Closing::fin);
+}
+
+void CaseRun::act(const std::string& action) {
+  if (const Status done = around_.device.endpoint->act(action); !done) {
+    record().refused = done.error().message;
+  } else if (action == "power_cycle" && can().real_device) {
+    // A real device needs time to start again.
+    Channel device = around_.device;
+    device.station = prepared_.station;
+    const Result<Sign> back =
+        Sanity(device, around_.timing)
+            .anything_answers(restart_patience, prepared_.reply_delay(), true);
+    if (!back) transcript_.trouble = back.error();
+  }
+  links_.restart(now());
+  links_.note(now(), "do " + action);
+}
+
+/// Requests for memory go over a link of the case that waits for nothing: a further connection
+/// could be one too many for the device.
+void CaseRun::borrow_idle_link() {
+  if (const Link* idle = links_.idle(*around_.device.protocol)) memory_.borrow(idle->id);
+}
+
+void CaseRun::set_memory(const Step& step) {
+  links_.restart(now());
+  borrow_idle_link();
+  for (const auto& [address, hex] : step.memory) {
+    const Status done = memory_.set(prepared_, address, hex);
+    links_.note(now(), fmt::format("set {} = {}", address, hex));
+    if (done) continue;
+    record().refused = done.error().message;
+    record().refused_by_device = memory_.refused();
+    break;
+  }
+  memory_.leave();
+}
+
+/// A frame that nobody answers (the bench's own reply to a client) is still on its way when the
+/// send returns.
+void CaseRun::settle_before_look() {
+  const bool unanswered = index() > 0 && last_sending_ == index() - 1;
+  if (!unanswered || can().simulated) return;
+  const Time settled = last_sender_->last_sent.end + around_.timing.quiet;
+  while (links_.listen(*last_sender_, settled)) {
+  }
+}
+
+void CaseRun::look_at_memory(const Step& step) {
+  settle_before_look();
+  borrow_idle_link();
+  for (const auto& [address, hex] : step.memory) {
+    if (!memory_.can_read(prepared_, address)) continue;
+    const Result<std::string> value = memory_.get(prepared_, address, hex.size());
+    if (value) {
+      record().memory.emplace_back(address, *value);
+      links_.note(now(), fmt::format("check {}: {}", address, *value));
+      continue;
+    }
+    record().refused = value.error().message;
+    record().refused_by_device = memory_.refused();
+    break;
+  }
+  memory_.leave();
+}
+
+}  // namespace fieldproof::exchange

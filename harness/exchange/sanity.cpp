@@ -1,0 +1,128 @@
+#include "harness/exchange/sanity.hpp"
+
+#include <algorithm>
+
+namespace fieldproof::exchange {
+
+namespace {
+
+constexpr Duration settle_patience = 10s;
+
+}  // namespace
+
+Result<Sign> Sanity::anything_answers(Duration patience, Duration reply_delay, bool starting) {
+  const endpoints::Endpoint& endpoint = *device_.endpoint;
+  const Bytes request = device_.protocol->probe(device_.station, {});
+  if (request.empty()) return Sign::alive;
+  const Time begun = endpoint.now(), give_up = begun + patience + reply_delay;
+  Sign sign = Sign::silent;
+  heard_.clear();
+  probes_ = answers_ = 0;
+  for (bool first = true; endpoint.now() < give_up; first = false) {
+    const Result<Sent> sent = visit_.send(request);
+    if (!sent) return sent.error();
+    ++probes_;
+    // A child that has just been started flushes what came before it opened the port: the first
+    // probe is often lost.
+    const bool maybe_lost = first && endpoint.capabilities().can_power_cycle;
+    const Duration patient = maybe_lost ? timing_.quiet : timing_.response_max;
+    const Status listened =
+        hear_answers(std::min(give_up, sent->end + patient + reply_delay), begun);
+    if (!listened) return listened.error();
+    if (answers_ > 0 || !heard_.empty()) return Sign::alive;
+    if (!visit_.ended()) continue;
+    sign = visit_.refused() ? Sign::refused : Sign::ended;
+    probes_ = 0;
+    if (sign == Sign::refused && !starting && !endpoint.capabilities().can_power_cycle) break;
+    if (const Status waited = visit_.pause(timing_.quiet); !waited) return waited.error();
+  }
+  return sign;
+}
+
+/// Until as many answers have come as were asked for, and never ends in mid-frame.
+Status Sanity::hear_answers(Time until, Time begun) {
+  while (answers_ < probes_) {
+    const Result<Burst> burst = visit_.receive(until);
+    if (!burst) return burst.error();
+    if (burst->bytes.empty()) return ok();
+    heard_.insert(heard_.end(), burst->bytes.begin(), burst->bytes.end());
+    if (heard_.size() > flood_limit) return ok();
+    answers_ += take_frames(heard_);
+    // Answers to earlier probes may still be on their way: as long as the first one took.
+    const Time now = device_.endpoint->now();
+    until = now +
+            std::max<Duration>(heard_.empty() ? timing_.quiet : timing_.response_max, now - begun);
+  }
+  return ok();
+}
+
+/// Takes complete frames off the front; how many.
+std::size_t Sanity::take_frames(Bytes& bytes) const {
+  std::size_t count = 0;
+  for (; const auto length = device_.protocol->frame_length(bytes); ++count)
+    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(*length));
+  return count;
+}
+
+/// Takes what is left of the answer before, and keeps the silence that a request needs before it.
+Status Sanity::before_probe(Time last) {
+  const endpoints::Endpoint& endpoint = *device_.endpoint;
+  const Duration gap = endpoint.capabilities().wire
+                           ? device_.protocol->frame_gap(endpoint.character_time())
+                           : Duration{};
+  while (true) {
+    const Result<Burst> burst = visit_.receive(std::max(endpoint.now(), last + gap));
+    if (!burst) return burst.error();
+    if (burst->bytes.empty()) return ok();
+    last = burst->end();
+  }
+}
+
+/// Nothing: no answer in time. `last` is when the last of it came.
+Result<std::optional<Duration>> Sanity::time_probe(ByteView request, Time& last) {
+  if (const Status silent = before_probe(last); !silent) return silent.error();
+  const Result<Sent> sent = visit_.send(request);
+  if (!sent) return sent.error();
+  std::optional<Duration> took;
+  for (Bytes heard; !device_.protocol->frame_length(heard);) {
+    const Result<Burst> burst = visit_.receive(sent->end + timing_.response_max);
+    if (!burst) return burst.error();
+    if (burst->bytes.empty()) break;
+    if (!took) took = burst->start - sent->end;
+    last = burst->end();
+    heard.insert(heard.end(), burst->bytes.begin(), burst->bytes.end());
+  }
+  return took;
+}
+
+Result<results::ResponseTimes> Sanity::time_probes(int count, Duration budget) {
+  results::ResponseTimes times;
+  const endpoints::Endpoint& endpoint = *device_.endpoint;
+  const Bytes request = device_.protocol->probe(device_.station, {});
+  const Time give_up = endpoint.now() + budget;
+  bool late = false;  // then what comes next would be taken for the answer to another probe
+  Time last{};
+  for (int i = 0; i < count && !late && !request.empty() && endpoint.now() < give_up; ++i) {
+    const Result<std::optional<Duration>> took = time_probe(request, last);
+    if (!took) return took.error();
+    late = !*took;
+    if (*took) times.add(to_ms(**took));
+  }
+  // Late or second answers are not for the first case to find.
+  if (const Status quiet = settle(*device_.endpoint, late ? timing_.late_watch : timing_.quiet);
+      !quiet)
+    return quiet.error();
+  return times;
+}
+
+Status settle(endpoints::Endpoint& endpoint, Duration silence) {
+  const Time give_up = endpoint.now() + settle_patience;
+  while (endpoint.now() < give_up) {
+    const Result<Burst> burst = endpoint.receive(endpoint.now() + silence);
+    if (!burst) return burst.error();
+    if (is_nothing(*burst)) return ok();
+  }
+  return ok();
+}
+
+}  // namespace fieldproof::exchange
