@@ -1,0 +1,76 @@
+// What can be wrong with a Modbus TCP server: each fault stands around a good one and spoils one
+// thing.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "src/base/burst.hpp"
+#include "src/modbus/tcp_server.hpp"
+#include "src/plc/emulated_device.hpp"
+#include "suites/broken/fault.hpp"
+
+namespace fieldproof::modbus_tcp_broken {
+
+using Bursts = std::vector<Burst>;
+
+/// What a fault may look at.
+struct Server {
+  plc::EmulatedDevice& plc;     // the good one's memory
+  std::vector<LinkId> links{};  // that the good one has, the oldest first
+};
+
+/// One fault at work. Each function may be empty: then the device does the right thing there.
+struct Behaviour {
+  std::function<void(modbus::TcpServerConfig&)> settings{};
+  /// What has arrived, and what the good server hears of it.
+  std::function<Bursts(Burst heard, Server& server)> hear{};
+  /// The request that the good server understands instead of a whole frame; empty: none.
+  std::function<Bytes(Bytes request)> misread{};
+  /// Spoils the reply to a request: a frame each.
+  std::function<void(Bytes& reply, const Bytes& request)> edit{};
+  /// What goes out at one moment.
+  std::function<void(Bursts& does, Server& server)> act{};
+};
+
+using MakeBehaviour = std::function<Behaviour()>;
+using Fault = broken::FaultOf<MakeBehaviour>;
+
+/// All of them.
+const std::vector<Fault>& faults();
+
+// The parts of the table.
+std::vector<Fault> header_faults();
+std::vector<Fault> stream_faults();
+std::vector<Fault> connection_faults();
+std::vector<Fault> data_faults();
+
+MakeBehaviour edits(std::function<void(Bytes& reply, const Bytes& request)> edit);
+MakeBehaviour misreads(std::function<Bytes(Bytes request)> misread);
+MakeBehaviour hears(std::function<Bursts(Burst heard, Server& server)> hear);
+MakeBehaviour acts(std::function<void(Bursts& does, Server& server)> act);
+MakeBehaviour set_up(std::function<void(modbus::TcpServerConfig&)> settings);
+
+// Parts of a frame (FEnet EN 5.3.3).
+constexpr std::size_t protocol_at = 2, length_at = 4, unit_at = 6, function_at = 7, address_at = 8,
+                      count_at = 10, pdu_at = 7;
+inline unsigned word_at(const Bytes& frame, std::size_t at) {
+  return at + 1 < frame.size() ? frame[at] * 256u + frame[at + 1] : 0;
+}
+inline void put_word(Bytes& frame, std::size_t at, unsigned value) {
+  frame[at] = static_cast<Byte>(value >> 8);
+  frame[at + 1] = static_cast<Byte>(value);
+}
+inline Byte function_of(const Bytes& frame) {
+  return frame.size() > function_at ? frame[function_at] : Byte{};
+}
+inline bool is_exception(const Bytes& reply) { return (function_of(reply) & 0x80) != 0; }
+/// After a change of the PDU.
+inline void set_length(Bytes& frame) {
+  put_word(frame, length_at, static_cast<unsigned>(frame.size() - unit_at));
+}
+/// The exception to a request.
+Bytes exception_to(const Bytes& request, Byte code);
+
+}  // namespace fieldproof::modbus_tcp_broken
