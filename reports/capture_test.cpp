@@ -1,5 +1,7 @@
 #include "reports/capture.hpp"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 
 #include "reports/pcapng.hpp"

@@ -1,5 +1,7 @@
 #include "reports/json_report.hpp"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

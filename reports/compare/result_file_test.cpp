@@ -1,5 +1,7 @@
 #include "reports/compare/result_file.hpp"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
