@@ -27,6 +27,9 @@ int station_number(std::string_view text) {
   return error == std::errc{} && rest == text.data() + text.size() && value <= 255 ? value : -1;
 }
 
+constexpr const char* network_advice =
+    "runs on a network, where nothing is to be searched; run it on tcp:HOST[:PORT]";
+
 /// Adds "0-31" or "5" to `to`; false when it is neither.
 bool read_stations(const std::string& text, std::vector<int>& to) {
   const std::size_t dash = text.find('-');
@@ -65,8 +68,11 @@ Result<probe::SearchSpace> space_of(const ProbeOptions& options, const EndpointN
   for (const std::string& text : chosen(options.protocols, endpoint, "protocol")) {
     const Result<const harness::Protocol*> protocol = protocols.choose(text, "");
     if (!protocol) return protocol.error();
-    if ((*protocol)->probe(1, {}).empty())
-      return fail(fmt::format("cannot search by {}: it has no harmless request of its own", text));
+    if (!probe::can_be_searched(**protocol))
+      return fail(fmt::format("cannot search by {}: {}", text,
+                              (*protocol)->default_port() != 0
+                                  ? fmt::format("it {}", network_advice)
+                                  : std::string("it has no harmless request of its own")));
     space.protocols.push_back(*protocol);
   }
   space.settable = probe::has_line_settings(endpoint);
@@ -200,6 +206,10 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
   if (!spoken)
     return run::complain("cannot open " + options.endpoint + ": " + spoken.error().message,
                          run::exit_code::usage);
+  if ((*spoken)->default_port() != 0)
+    return run::complain(
+        fmt::format("cannot probe {}: {} {}", options.endpoint, (*spoken)->name(), network_advice),
+        run::exit_code::usage);
   const probe::LineOpener open = probe::line_opener(*endpoint, **spoken);
 
   os::catch_interrupts();

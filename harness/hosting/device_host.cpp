@@ -46,7 +46,7 @@ class DeviceHost {
 
   void wait();
   Status hear();
-  bool is_unwanted(const Burst& burst);
+  Status check_listens(const Party& party, const std::string& model) const;
   void run_due(Time until);
   void tell_time();
   void transmit(std::vector<Burst> bursts);
@@ -78,14 +78,27 @@ Status DeviceHost::begin(const json& config) {
   merged.emplace("inter_character_floor_ms", options_.inter_character_floor_ms);
   Result<std::unique_ptr<plc::EmulatedDevice>> device = options_.make_device(merged);
   if (!device) return device.error();
+  const std::string model = merged.value("model", "the device");
   std::unique_ptr<Party> party = party_of(**device, options_.port != 0);
   if (!party)
-    return fail(fmt::format("cannot emulate {}: it has no {}", merged.value("model", "the device"),
+    return fail(fmt::format("cannot emulate {}: it has no {}", model,
                             options_.port != 0 ? "network; leave --tcp and --udp out"
                                                : "serial line; give --tcp HOST:PORT"));
+  if (const Status listens = check_listens(*party, model); !listens) return listens;
   party_ = std::move(party);
   device_ = std::move(*device);
   port_.flush();
+  return ok();
+}
+
+/// Whom would a socket serve that the device does not listen on?
+Status DeviceHost::check_listens(const Party& party, const std::string& model) const {
+  const auto none = [&](Transport transport) { return !party.listens(transport, options_.port); };
+  if (options_.port == 0) return ok();
+  if (!options_.tcp.empty() && none(Transport::tcp))
+    return fail(fmt::format("cannot emulate {}: it takes no connections; leave --tcp out", model));
+  if (!options_.udp.empty() && none(Transport::udp))
+    return fail(fmt::format("cannot emulate {}: it takes no datagrams; leave --udp out", model));
   return ok();
 }
 
@@ -127,7 +140,6 @@ Status DeviceHost::hear() {
     Result<std::optional<Burst>> burst = port_.read();
     if (!burst) return burst.error();
     if (!*burst) return ok();
-    if (is_unwanted(**burst)) continue;
     Time moment = clock_.now();
     if (const std::optional<Time> wake = party_->wake_at()) moment = std::min(moment, *wake);
     device_time_ = std::max(device_time_, moment);
@@ -137,16 +149,6 @@ Status DeviceHost::hear() {
     run_due(device_time_);  // not until now: more may be waiting to be read
   }
   return ok();
-}
-
-/// Is it for a port that the device does not have? A connection is refused then.
-bool DeviceHost::is_unwanted(const Burst& burst) {
-  const bool connection = burst.event == LinkEvent::opened;
-  if (!connection && burst.event != LinkEvent::datagram) return false;
-  if (burst.link >= first_own_link) return false;
-  if (party_->listens(connection ? Transport::tcp : Transport::udp, burst.port)) return false;
-  if (connection) port_.write(Burst{.bytes = {}, .link = burst.link, .event = LinkEvent::reset});
-  return true;
 }
 
 void DeviceHost::run_due(Time until) {

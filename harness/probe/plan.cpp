@@ -62,6 +62,10 @@ Duration wire_time(const Trial& trial) {
 
 }  // namespace
 
+bool can_be_searched(const harness::Protocol& protocol) {
+  return protocol.default_port() == 0 && !protocol.probe(1, {}).empty();
+}
+
 std::string question_of(const Trial& trial) {
   return trial.protocol ? fmt::format("{} station {}", trial.protocol->name(), trial.station)
                         : "listening";
@@ -82,7 +86,7 @@ SearchSpace filled(SearchSpace space, const harness::Protocols& known) {
       space.stations.push_back(station);
   if (space.protocols.empty())
     std::ranges::copy_if(known, std::back_inserter(space.protocols),
-                         [](const harness::Protocol* one) { return !one->probe(1, {}).empty(); });
+                         [](const harness::Protocol* one) { return can_be_searched(*one); });
   if (!space.settable) space.speeds.resize(1), space.frames.resize(1);
   return space;
 }

@@ -22,13 +22,16 @@ std::string question_of(const Trial& trial);
 /// "9600-8N1 xgt-cnet station 1"
 std::string to_string(const Trial& trial);
 
+/// Only lines are searched, and only by a harmless request.
+bool can_be_searched(const harness::Protocol& protocol);
+
 /// What is searched; an empty list means all that is usual.
 struct SearchSpace {
   std::vector<int> speeds;  // the eight of Cnet EN table 4.3.1
   std::vector<line::LineSettings>
       frames;  // their speed does not count; one stop bit: a second one reads the same
   std::vector<int> stations;  // 0 to 31: what one line carries (Cnet EN 9.3); more only when named
-  std::vector<const harness::Protocol*> protocols;  // those known that have a probe
+  std::vector<const harness::Protocol*> protocols;  // those known that can be searched
   bool settable =
       true;  // false: a socket or a pty has neither speed nor frame, one setting is tried
 };

@@ -1,4 +1,5 @@
 #include "harness/probe/plan.hpp"
+#include "harness/test_protocol.hpp"
 #include "suites/protocols.hpp"
 
 #include <gmock/gmock.h>
@@ -40,6 +41,16 @@ TEST(SearchPlan, BeginsWithTheMostLikely) {
   EXPECT_LT(place(plan, "38400-8N1 xgt-cnet station 1"),
             place(plan, "1200-8N1 xgt-cnet station 1"));
   EXPECT_LT(place(plan, "9600-8E1 ls-bus station 1"), place(plan, "9600-7N1 ls-bus station 1"));
+}
+
+TEST(SearchPlan, AProtocolOfANetworkIsNotSearched) {
+  struct OnPort final : harness::TestProtocol {
+    std::uint16_t default_port() const override { return 502; }
+  };
+  const OnPort network;
+  const harness::TestProtocol line;
+  const std::array<const harness::Protocol*, 2> table{&network, &line};
+  EXPECT_THAT(filled({}, table).protocols, testing::ElementsAre(&line));
 }
 
 /// A read is harmless at any station, and a module may be set to 0.
