@@ -176,8 +176,10 @@ json Bench::device_config(const Case& source) const {
 
 Bench::Eligibility Bench::outside_profile(const Case& source) const {
   const Profile& profile = options_.profile;
-  if (std::ranges::find(profile.protocols, source.protocol) == profile.protocols.end() ||
-      source.protocol != protocol_.name())
+  if (std::ranges::find(profile.protocols, source.protocol) == profile.protocols.end())
+    return {Verdict::skip,
+            fmt::format("{} is no protocol of the profile {}", source.protocol, profile.name)};
+  if (source.protocol != protocol_.name())
     return {Verdict::skip, fmt::format("{} is not what this endpoint speaks ({})", source.protocol,
                                        protocol_.name())};
   if (!profile.model.empty() && !source.models.empty() &&
@@ -301,6 +303,8 @@ Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
   if (config.contains("line") || config.contains("bench_line"))
     return {Verdict::inconclusive,
             "is about speed and character format, which a pty or socket does not carry"};
+  // On a network a pause may be longer than it is written: it only sees that a segment has come.
+  if (protocol_.default_port() != 0) return {};
   const Duration pause = prepared.shortest_pause(endpoint_.character_time());
   if (pause > 0ns && pause < shortest_judged)
     return {
@@ -456,6 +460,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
                                  fmt::format("given {} = {}", address, hex)});
     return done;
   };
+  const exchange::Leaving leaving(memory_);  // the case has all connections of the device
   const bool asks = prepared.is_client() && endpoint_.capabilities().real_device;
   if (asks) {
     if (const Status begun = arming_.begin(*prepared.source, device_config(*prepared.source));

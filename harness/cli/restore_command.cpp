@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <filesystem>
 
+#include "harness/bench/what_to_check.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/exchange/exchange.hpp"
 #include "harness/safety/saved_memory.hpp"
@@ -46,9 +47,7 @@ Result<Connection> connect(const safety::JournalDevice& device, const std::strin
   const Result<exchange::Sign> alive = exchange.anything_answers(device.station, start_patience);
   if (!alive) return alive.error();
   if (*alive != exchange::Sign::alive)
-    return fail(
-        fmt::format("nothing answers on {} at station {}: check power, wiring and line settings",
-                    endpoint_text, device.station));
+    return fail(bench::why_silent({connection.endpoint.get(), &declared, device.station}, *alive));
   connection.memory = std::make_unique<safety::SavedMemory>(*connection.endpoint, declared,
                                                             response_max, device, nullptr);
   return connection;

@@ -59,4 +59,16 @@ class MemoryAccess {
   bool refused_ = false, silent_ = false;
 };
 
+/// Leaves at the end of a scope.
+class Leaving {
+ public:
+  explicit Leaving(MemoryAccess& memory) : memory_(memory) {}
+  ~Leaving() { memory_.leave(); }
+  Leaving(const Leaving&) = delete;
+  Leaving& operator=(const Leaving&) = delete;
+
+ private:
+  MemoryAccess& memory_;
+};
+
 }  // namespace fieldproof::exchange

@@ -75,6 +75,7 @@ Result<std::string> SavedMemory::read(const Protocol::Place& place) {
 Status SavedMemory::save(const std::vector<Protocol::Written>& written) {
   if (written.empty()) return ok();
   if (!journal_) return fail("writes, and no journal is open that would keep what the device held");
+  const exchange::Leaving leaving(memory_);  // the case has all connections of the device
   std::vector<OpenEntry> entries;
   std::optional<Error> unreadable;
   for (const Protocol::Written& one : joined(written)) {
@@ -137,6 +138,7 @@ std::string SavedMemory::open_places() const {
 std::string SavedMemory::restore() {
   std::string problem;
   if (!journal_) return problem;
+  const exchange::Leaving leaving(memory_);
   const std::vector<OpenEntry> entries = journal_->open_entries();
   for (auto one = entries.rbegin(); one != entries.rend(); ++one) {
     if (!is_same_device(one->device, device_)) continue;
