@@ -70,12 +70,14 @@ Status Sanity::before_probe(Time last) {
   const Duration gap = endpoint.capabilities().wire
                            ? device_.protocol->frame_gap(endpoint.character_time())
                            : Duration{};
-  while (true) {
+  for (std::size_t heard = 0; heard <= flood_limit;) {
     const Result<Burst> burst = visit_.receive(std::max(endpoint.now(), last + gap));
     if (!burst) return burst.error();
     if (burst->bytes.empty()) return ok();
+    heard += burst->bytes.size();
     last = burst->end();
   }
+  return ok();
 }
 
 /// Nothing: no answer in time. `last` is when the last of it came.
@@ -84,7 +86,7 @@ Result<std::optional<Duration>> Sanity::time_probe(ByteView request, Time& last)
   const Result<Sent> sent = visit_.send(request);
   if (!sent) return sent.error();
   std::optional<Duration> took;
-  for (Bytes heard; !device_.protocol->frame_length(heard);) {
+  for (Bytes heard; heard.size() <= flood_limit && !device_.protocol->frame_length(heard);) {
     const Result<Burst> burst = visit_.receive(sent->end + timing_.response_max);
     if (!burst) return burst.error();
     if (burst->bytes.empty()) break;
