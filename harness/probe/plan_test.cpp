@@ -50,7 +50,7 @@ TEST(SearchPlan, AProtocolOfANetworkIsNotSearched) {
   const OnPort network;
   const harness::TestProtocol line;
   const std::array<const harness::Protocol*, 2> table{&network, &line};
-  EXPECT_THAT(filled({}, table).protocols, testing::ElementsAre(&line));
+  EXPECT_THAT(filled({}, harness::Protocols(table)).protocols, testing::ElementsAre(&line));
 }
 
 /// A read is harmless at any station, and a module may be set to 0.
