@@ -11,11 +11,11 @@ bool faultless(const std::vector<Field>& fields) {
 }
 
 notation::Fields Protocol::fields_at(int station) const {
-  return {station_bytes(station), station_bytes((station + 1) % 256), checks()};
+  return {station_bytes(station), station_bytes((station + 1) % 256), checks(), name_head()};
 }
 
 plc::FrameResult Protocol::monitor_result(ByteView frame, bool, bool) const {
-  return faultless(explain(frame)) ? plc::FrameResult::user_definition : plc::FrameResult::unknown;
+  return faultless(explain(frame)) ? plc::user_definition_frame : plc::unknown_frame;
 }
 
 Result<std::unique_ptr<Protocol>> Protocol::configured(std::string_view,

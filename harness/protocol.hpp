@@ -57,6 +57,8 @@ class Protocol {
 
   /// The checks that its frames have, for the notation. They live as long as the program.
   virtual notation::Checks checks() const { return {}; }
+  /// What stands before a name in its frames, for the notation; nullptr: they have none.
+  virtual notation::NameHead name_head() const { return nullptr; }
   /// What the moving fields of the notation become at a station.
   notation::Fields fields_at(int station) const;
 

@@ -16,6 +16,9 @@ struct TestProtocol : Protocol {
                                                            const nlohmann::json&) const override {
     return fail("no device");
   }
+  notation::NameHead name_head() const override {
+    return [](std::size_t characters) { return to_bytes(hex_number(characters, 2)); };
+  }
   Bytes station_bytes(int station) const override {
     return to_bytes(hex_number(static_cast<unsigned>(station), 2));
   }

@@ -10,6 +10,8 @@
 #include <memory>
 #include <optional>
 
+#include "src/plc/model.hpp"
+
 namespace fieldproof::cli {
 
 namespace {
@@ -35,7 +37,8 @@ Result<plc::FrameMonitor::Record> open_monitor_file(const std::string& path,
     return fail(
         fmt::format("cannot write {}: {}; give --monitor a file in a folder that you may write",
                     path, std::strerror(errno)));
-  const bool has_clock = model != "xbm-s";
+  const plc::PlcModel* known = plc::find_plc_model(model);
+  const bool has_clock = !known || known->clock;
   return plc::FrameMonitor::Record(
       [file, has_clock, first = std::optional<Time>()](const plc::MonitoredFrame& frame) mutable {
         if (!first) first = frame.time;

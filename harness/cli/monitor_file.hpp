@@ -9,7 +9,7 @@
 namespace fieldproof::cli {
 
 /// Begins the file anew; each frame is in it as soon as it is recorded. The time is the clock's,
-/// and for XBM-DxxxS (model xbm-s) that since the first frame. Errors name the file.
+/// and for a model without one that since the first frame. Errors name the file.
 Result<plc::FrameMonitor::Record> open_monitor_file(const std::string& path,
                                                     std::string_view model);
 

@@ -33,6 +33,8 @@ class Builder {
     if (item.kind == Item::Kind::alternatives) return fork(item);
     if (item.kind == Item::Kind::check && !find_check(fields_.checks, item.text))
       return fail(unknown_check(item.text));
+    if (item.kind == Item::Kind::name && !fields_.name_head)
+      return fail(fmt::format("name({}): frames of this protocol have no names", item.text));
     for (std::size_t i = 0; i < frames_.size(); ++i) add_to(frames_[i], begins_[i], item);
     return ok();
   }
@@ -65,7 +67,8 @@ class Builder {
         literal(frame, item.number == 0 ? fields_.own : fields_.foreign);
         break;
       case Item::Kind::name:
-        literal(frame, to_bytes(hex_number(item.text.size(), 2) + item.text));
+        literal(frame, fields_.name_head(item.text.size()));
+        literal(frame, to_bytes(item.text));
         break;
       case Item::Kind::sequence:
         for (int word = 1; word <= item.number; ++word)

@@ -12,11 +12,15 @@
 
 namespace fieldproof::notation {
 
+/// What stands before a device's name in a frame: its length. Supplied by the protocol.
+using NameHead = Bytes (*)(std::size_t characters);
+
 /// What the moving fields of a notation become.
 struct Fields {
-  Bytes own;        // st
-  Bytes foreign;    // st+1
-  Checks checks{};  // of the protocol; they outlive the templates
+  Bytes own;                     // st
+  Bytes foreign;                 // st+1
+  Checks checks{};               // of the protocol; they outlive the templates
+  NameHead name_head = nullptr;  // nullptr: frames of this protocol have no names
 };
 
 /// Texts captured by {id:4}, by id.
@@ -52,7 +56,7 @@ struct FrameTemplate {
 };
 
 /// Every choice of named alternatives gives one template, the preferred one first.
-/// Errors: a check that the protocol does not have, more than 64 alternatives.
+/// Errors: a check or a name that the protocol does not have, more than 64 alternatives.
 Result<std::vector<FrameTemplate>> make_templates(const Notation& notation, const Fields& fields);
 
 /// What the check is in these bytes of its frame.

@@ -10,7 +10,8 @@ namespace fieldproof::notation {
 namespace {
 
 const std::array<Check, 3> known{checks::bcc, checks::length, checks::sum};
-const Fields station_1{to_bytes("01"), to_bytes("02"), known};
+Bytes two_digits(std::size_t characters) { return to_bytes(hex_number(characters, 2)); }
+const Fields station_1{to_bytes("01"), to_bytes("02"), known, two_digits};
 
 std::vector<FrameTemplate> templates(std::string_view text) {
   const Result<Notation> notation = parse_notation(text);

@@ -203,12 +203,11 @@ class Parser {
     item.kind = Item::Kind::name;
     const std::size_t end = text_.find(')', pos_);
     if (peek() != '(' || end == std::string_view::npos) {
-      error_at(begin, "a name is written name(%MW020)");
+      error_at(begin, "a name is written name(...), with the device address in the brackets");
       return item;
     }
     item.text = text_.substr(pos_ + 1, end - pos_ - 1);
-    if (item.text.size() > 255)
-      error_at(begin, "a name has at most 255 characters: its length is two hex digits");
+    if (item.text.size() > 255) error_at(begin, "a name has at most 255 characters");
     pos_ = end + 1;
     return item;
   }

@@ -77,8 +77,8 @@ bool patch(Notation& notation, const Bracket& bracket, std::size_t offset, ByteV
     };
     const Result<Bytes> before = bytes_of(Notation(at(bracket.begin), at(i)), stations);
     if (!before) return false;
-    const std::size_t start = before->size() + (name ? 2 : 0),
-                      size = name ? item.text.size() : item.bytes.size();
+    const std::size_t size = name ? item.text.size() : item.bytes.size();
+    const std::size_t start = before->size() + (name ? stations.name_head(size).size() : 0);
     const std::size_t from = std::max(start, offset),
                       to = std::min(start + size, offset + bytes.size());
     for (std::size_t b = from; b < to; ++b, ++patched) {

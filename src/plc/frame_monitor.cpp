@@ -7,19 +7,6 @@
 
 namespace fieldproof::plc {
 
-std::string_view to_string(FrameResult result) {
-  switch (result) {
-    case FrameResult::xgt_server: return "XGT server";
-    case FrameResult::xgt_client: return "XGT client";
-    case FrameResult::modbus_server: return "Modbus server";
-    case FrameResult::modbus_client: return "Modbus client";
-    case FrameResult::user_definition: return "User definition frame";
-    case FrameResult::unknown: return "Unknown";
-    case FrameResult::ls_bus: return "LS Bus";
-  }
-  return "";
-}
-
 namespace {
 
 std::string shown(Byte b) {
@@ -58,7 +45,7 @@ std::string csv_header() { return "Form,Result,Size,Time,Frame data (HEX),Frame 
 
 std::string csv_row(const MonitoredFrame& frame, std::string_view time) {
   return fmt::format("{},{},{},{},{},{}\r\n", frame.sent ? "Transmission" : "Reception",
-                     to_string(frame.result), frame.data.size(), time, hex_view(frame),
+                     frame.result.text, frame.data.size(), time, hex_view(frame),
                      in_quotes(ascii_view(frame)));
 }
 
@@ -111,8 +98,7 @@ Bytes FrameMonitor::advance(Time now) {
 
 Result<std::string> FrameMonitor::get(std::string_view address, std::size_t digits) const {
   if (address != "@monitor") return device_->get(address, digits);
-  return hex_number(last_ ? static_cast<unsigned>(*last_) : 0u,
-                    static_cast<int>(digits == 0 ? 2 : digits));
+  return hex_number(last_ ? last_->number : 0u, static_cast<int>(digits == 0 ? 2 : digits));
 }
 
 }  // namespace fieldproof::plc

@@ -12,23 +12,18 @@
 
 namespace fieldproof::plc {
 
-/// As the manual numbers them. Its list knows no LS Bus: 7 is this project's.
-enum class FrameResult {
-  xgt_server = 1,
-  xgt_client,
-  modbus_server,
-  modbus_client,
-  user_definition,
-  unknown,
-  ls_bus
+/// What a frame is: a row of the manual's list, or of this project's where a protocol has none.
+struct FrameResult {
+  unsigned number = 0;    // as the manual numbers them
+  std::string_view text;  // "XGT server"; lives as long as the program
+  bool operator==(const FrameResult&) const = default;
 };
-
-/// "XGT server", "User definition frame", "Unknown"
-std::string_view to_string(FrameResult result);
+inline constexpr FrameResult user_definition_frame{5, "User definition frame"};
+inline constexpr FrameResult unknown_frame{6, "Unknown"};
 
 struct MonitoredFrame {
   bool sent = false;  // form: transmission, else reception
-  FrameResult result = FrameResult::unknown;
+  FrameResult result = unknown_frame;
   Time time{};  // a transmission begins, a reception ends
   Bytes data;
 };

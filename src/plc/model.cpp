@@ -45,7 +45,7 @@ constexpr std::array xec_h{
 
 constexpr std::array models{
     PlcModel{"xbc-h", false, xbc_h},
-    PlcModel{"xbm-s", false, xbm_s},
+    PlcModel{"xbm-s", false, xbm_s, false},
     PlcModel{"xec-h", true, xec_h},
 };
 }  // namespace

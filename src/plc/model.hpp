@@ -35,6 +35,7 @@ struct PlcModel {
   std::string_view name;  // "xbc-h"
   bool iec = false;       // bit names are flat bit indexes, not a word and a hex digit
   std::span<const DeviceArea> areas;
+  bool clock = true;  // frames are monitored with the time of day, else since the first of them
 
   /// The area of an upper-case letter, or nullptr.
   const DeviceArea* area(char letter) const;

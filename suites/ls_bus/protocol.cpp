@@ -85,11 +85,12 @@ class LsBus : public Protocol {
   std::vector<harness::Field> explain(ByteView frame) const override {
     return ls_bus_suite::explain(frame);
   }
+  /// The manual's list knows no LS Bus: 7 is this project's.
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = !frame.empty() && frame[0] == enq;
     return request == (client == sent) && harness::faultless(explain(frame))
-               ? plc::FrameResult::ls_bus
-               : plc::FrameResult::unknown;
+               ? plc::FrameResult{7, "LS Bus"}
+               : plc::unknown_frame;
   }
 
   /// Parameter 0000, which inverters have for their model: one word, or two where the tested

@@ -109,11 +109,10 @@ TEST(LsBusFacts, AreCheckedAgainstTheTables) {
 
 TEST(Monitor, KnowsRequestsAndReplies) {
   const Bytes request = protocol().probe(1, {});
-  EXPECT_EQ(protocol().monitor_result(request, true, true), plc::FrameResult::ls_bus);
-  EXPECT_EQ(protocol().monitor_result(request, false, false), plc::FrameResult::ls_bus);
-  EXPECT_EQ(protocol().monitor_result(request, true, false), plc::FrameResult::unknown)
-      << "its own echo";
-  EXPECT_EQ(protocol().monitor_result(to_bytes("01R"), false, false), plc::FrameResult::unknown);
+  EXPECT_EQ(protocol().monitor_result(request, true, true), (plc::FrameResult{7, "LS Bus"}));
+  EXPECT_EQ(protocol().monitor_result(request, false, false), (plc::FrameResult{7, "LS Bus"}));
+  EXPECT_EQ(protocol().monitor_result(request, true, false), plc::unknown_frame) << "its own echo";
+  EXPECT_EQ(protocol().monitor_result(to_bytes("01R"), false, false), plc::unknown_frame);
 }
 
 }  // namespace

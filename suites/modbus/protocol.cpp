@@ -64,8 +64,8 @@ class Modbus : public Protocol {
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = client == sent;
     if (!harness::faultless(explain(frame)) || !can_be(framing_.unwrap(frame), request))
-      return plc::FrameResult::unknown;
-    return client ? plc::FrameResult::modbus_client : plc::FrameResult::modbus_server;
+      return plc::unknown_frame;
+    return client ? plc::FrameResult{4, "Modbus client"} : plc::FrameResult{3, "Modbus server"};
   }
   Duration frame_gap(Duration character_time) const override {
     return framing_.frame_gap(character_time);

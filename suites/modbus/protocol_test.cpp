@@ -118,10 +118,10 @@ TEST(Monitor, TellsTheSidesApart) {
     EXPECT_EQ(seen(one.message, false, true), one.reply ? modbus_server : unknown) << one.message;
   }
   EXPECT_EQ(rtu().monitor_result(hex_bytes("01 03 00 01 00 01 00 00"), true, true),
-            plc::FrameResult::unknown)
+            plc::unknown_frame)
       << "its CRC is wrong";
   EXPECT_EQ(ascii().monitor_result(to_bytes(":010300010001FA\r\n"), true, true),
-            plc::FrameResult::modbus_client);
+            (plc::FrameResult{4, "Modbus client"}));
 }
 
 TEST(Facts, AreComparedWithTheTables) {

@@ -29,8 +29,7 @@ TEST(UdataProtocol, ShowsTheData) {
   ASSERT_EQ(fields.size(), 1u);
   EXPECT_EQ(fields[0].text, "4F 4B");
   EXPECT_EQ(fields[0].problem, "");
-  EXPECT_EQ(protocol().monitor_result(to_bytes("OK"), true, false),
-            plc::FrameResult::user_definition);
+  EXPECT_EQ(protocol().monitor_result(to_bytes("OK"), true, false), plc::user_definition_frame);
   EXPECT_EQ(protocol().explain(Bytes(1025, 0x41))[0].problem, "more than 1024 bytes");
 }
 

@@ -40,16 +40,16 @@ void connect(line::Device& a, line::Device& b, Time until) {
 std::vector<std::string> monitored(const line::LineFaults& faults,
                                    json partner = {{"station", 1}}) {
   std::vector<std::string> seen;
-  const auto client = make(
-      {{"station", 0},
-       {"role", "client"},
-       {"p2p",
-        {{"blocks",
-          {{{"flag", "%MX00000"}, {"read", "%MW0"}, {"save", "%MW200"}, {"station", 1}}}}}}},
-      [&](const plc::MonitoredFrame& frame) {
-        seen.push_back((frame.sent ? "Transmission " : "Reception ") +
-                       std::string(plc::to_string(frame.result)) + ' ' + plc::ascii_view(frame));
-      });
+  const auto client =
+      make({{"station", 0},
+            {"role", "client"},
+            {"p2p",
+             {{"blocks",
+               {{{"flag", "%MX00000"}, {"read", "%MW0"}, {"save", "%MW200"}, {"station", 1}}}}}}},
+           [&](const plc::MonitoredFrame& frame) {
+             seen.push_back((frame.sent ? "Transmission " : "Reception ") +
+                            std::string(frame.result.text) + ' ' + plc::ascii_view(frame));
+           });
   const auto server = make(partner);
   line::FaultyDevice line(*server->line(), faults, character);
   connect(*client->line(), line, 10ms);

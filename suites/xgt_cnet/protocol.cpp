@@ -57,6 +57,9 @@ class XgtCnet : public harness::Protocol {
   }
 
   notation::Checks checks() const override { return {&checks::bcc, 1}; }
+  notation::NameHead name_head() const override {
+    return [](std::size_t characters) { return to_bytes(hex_number(characters, 2)); };
+  }
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return xgt_cnet_suite::frame_length(bytes);
@@ -69,8 +72,8 @@ class XgtCnet : public harness::Protocol {
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = !frame.empty() && frame[0] == enq;
     if (request != (client == sent) || !harness::faultless(explain(frame)))
-      return plc::FrameResult::unknown;
-    return client ? plc::FrameResult::xgt_client : plc::FrameResult::xgt_server;
+      return plc::unknown_frame;
+    return client ? plc::FrameResult{2, "XGT client"} : plc::FrameResult{1, "XGT server"};
   }
 
   /// The first word of M, which every model has, in the other case than the tested command: the

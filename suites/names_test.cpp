@@ -1,0 +1,147 @@
+// The harness and the reports know no protocol, no area and no model of a device: they are handed
+// in. Here their sources are read for names; what may stay has a reason.
+#include <gmock/gmock.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "suites/protocols.hpp"
+
+namespace fieldproof::suites {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Allowed {
+  std::string_view file;  // below the project's folder
+  std::string_view name;
+  std::string_view reason;
+};
+constexpr Allowed allowed[] = {
+    {"harness/probe/conclusion.cpp", "cnet", "cites the manual on wiring, whatever is wired"},
+    {"harness/bench/bench.cpp", "cnet", "cites the manual on what makes a client ask"},
+};
+
+/// Source text with each comment as one blank; what stands in quotes is kept.
+std::string without_comments(const std::string& text) {
+  std::string code;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t raw = text.compare(i, 2, "R\"") == 0 ? text.find('(', i) : text.npos;
+    if (raw != text.npos) {
+      const std::string close = ')' + text.substr(i + 2, raw - i - 2) + '"';
+      const std::size_t end = std::min(text.find(close, raw), text.size() - close.size());
+      code += text.substr(i, end + close.size() - i);
+      i = end + close.size();
+    } else if (text.compare(i, 2, "//") == 0) {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (text.compare(i, 2, "/*") == 0) {
+      i = std::min(text.find("*/", i), text.size() - 2) + 2;
+      code += ' ';
+    } else if (text[i] == '"' || (text[i] == '\'' && (i == 0 || !std::isalnum(text[i - 1])))) {
+      const char quote = text[i];
+      do {
+        if (text[i] == '\\') code += text[i++];
+        code += text[i++];
+      } while (i < text.size() && text[i] != quote);
+      if (i < text.size()) code += text[i++];
+    } else {
+      code += text[i++];
+    }
+  }
+  return code;
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// In lower case: protocols as options and folders have them, their families, and models.
+std::set<std::string> names_of_the_suites() {
+  std::set<std::string> names{"xgt",   "modbus", "cnet", "fenet", "xnet", "xinje",
+                              "udata", "xgb",    "xbl",  "xbm",   "xbc",  "xec"};
+  for (const harness::Protocol* protocol : protocols()) {
+    std::string name(protocol->name());
+    names.insert(name);
+    std::ranges::replace(name, '-', '_');
+    names.insert(name);
+    for (const std::string& model : protocol->models()) names.insert(lower(model));
+  }
+  for (const auto& profile :
+       fs::directory_iterator(fs::path(FIELDPROOF_SOURCE_DIR) / "suites" / "profiles"))
+    names.insert(lower(profile.path().stem().string()));
+  return names;
+}
+
+/// Names in code that begin and end as words do, and addresses of PLC memory.
+std::set<std::string> names_in(const std::string& code, const std::set<std::string>& names) {
+  const std::string text = lower(code);
+  const auto word = [&](std::size_t at) { return at < text.size() && std::isalnum(text[at]); };
+  std::set<std::string> found;
+  for (const std::string& name : names)
+    for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1))
+      if (!word(at - 1) && !word(at + name.size())) found.insert(name);
+  static const std::regex address("%[A-Za-z][XBWDLxbwdl][0-9]");
+  for (std::sregex_iterator one(code.begin(), code.end(), address), end; one != end; ++one)
+    found.insert(lower(one->str()));
+  return found;
+}
+
+bool is_product(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return (path.extension() == ".cpp" || path.extension() == ".hpp") &&
+         !path.stem().string().ends_with("_test") && !name.starts_with("test_") &&
+         path.string().find("testdata") == std::string::npos;
+}
+
+TEST(Names, HarnessAndReportsKnowNoProtocolAreaOrModel) {
+  const fs::path root = FIELDPROOF_SOURCE_DIR;
+  const std::set<std::string> names = names_of_the_suites();
+  std::set<const Allowed*> used;
+  std::vector<std::string> problems;
+  int files = 0;
+  for (const char* room : {"harness", "reports"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+      if (!entry.is_regular_file() || !is_product(entry.path())) continue;
+      ++files;
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      const std::string file = entry.path().lexically_relative(root).string();
+      for (const std::string& name : names_in(without_comments(text.str()), names)) {
+        const auto reason = std::ranges::find_if(
+            allowed, [&](const Allowed& one) { return one.file == file && one.name == name; });
+        if (reason != std::end(allowed))
+          used.insert(&*reason);
+        else
+          problems.push_back(fmt::format("{} names {}: let the protocol supply it", file, name));
+      }
+    }
+  EXPECT_GT(files, 100);
+  EXPECT_THAT(problems, testing::IsEmpty());
+  for (const Allowed& one : allowed)
+    EXPECT_TRUE(used.contains(&one)) << one.file << " names " << one.name << " no more";
+}
+
+TEST(Names, AreFoundInCodeAndInQuotesAndNotInComments) {
+  const std::set<std::string> names = names_of_the_suites();
+  const auto found = [&](const std::string& text) {
+    return names_in(without_comments(text), names);
+  };
+  using testing::ElementsAre, testing::IsEmpty;
+  EXPECT_THAT(found("if (model == \"xbm-s\") x();"), ElementsAre("xbm", "xbm-s"));
+  EXPECT_THAT(found("R\"(a // xbm-s)\" // xbc-h\n"), ElementsAre("xbm", "xbm-s"));
+  EXPECT_THAT(found("modbus::Server server;"), ElementsAre("modbus"));
+  EXPECT_THAT(found("\"write %MW100\""), ElementsAre("%mw1"));
+  EXPECT_THAT(found("// as xgt-cnet\n/* %MW0 */ int executor = '\"'; // \"xbc\""), IsEmpty());
+}
+
+}  // namespace
+}  // namespace fieldproof::suites
