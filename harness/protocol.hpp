@@ -66,6 +66,8 @@ class Protocol {
   /// shares none.
   virtual const notation::Dressing* dressing() const { return nullptr; }
 
+  /// Do its frames have an end, by which one can be told from the next?
+  virtual bool has_frame_ends() const { return true; }
   /// The length of the first complete frame in `bytes`, or nothing while it is incomplete.
   virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
 

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <functional>
 
 #include "harness/cli/commands.hpp"
+#include "src/base/spelling.hpp"
 #include "suites/protocols.hpp"
 
 namespace {
@@ -119,9 +121,18 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.prefix_command(false);
 }
 
+/// "--filter", "-v", ...: they live as long as `app`.
+std::vector<std::string_view> names_of_options(const CLI::App& app) {
+  static std::vector<std::string> names;
+  names.clear();
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return {names.begin(), names.end()};
+}
+
 /// CLI11 leaves what it does not know here: GoogleTest's own options pass, but not those that would
 /// get in our way.
-std::string unknown_argument(const std::vector<std::string>& extras,
+std::string unknown_argument(const CLI::App& app, const std::vector<std::string>& extras,
                              std::vector<std::string>& gtest_arguments) {
   for (const std::string& extra : extras) {
     if (extra.starts_with("--gtest_repeat")) return "--gtest_repeat is refused: use --repeat";
@@ -130,10 +141,33 @@ std::string unknown_argument(const std::vector<std::string>& extras,
              "bytes";
     if (extra.starts_with("--gtest_filter")) return "--gtest_filter is refused: use --filter";
     if (!extra.starts_with("--gtest_"))
-      return fmt::format("unknown argument '{}'; see fieldproof run --help", extra);
+      return fmt::format("unknown argument '{}'{}; see fieldproof run --help", extra,
+                         suggestion(extra, names_of_options(app)));
     gtest_arguments.push_back(extra);
   }
   return {};
+}
+
+/// What the first unknown word was meant to be, and where the words stand.
+std::string slip_of(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> commands;
+  const CLI::App* command = nullptr;
+  for (const CLI::App* one : app.get_subcommands({})) {
+    commands.push_back(one->get_name());
+    if (argc > 1 && one->get_name() == argv[1]) command = one;
+  }
+  std::string meant;
+  if (!command && argc > 1)
+    meant = suggestion(argv[1], std::vector<std::string_view>(commands.begin(), commands.end()));
+  for (int i = 2; command && i < argc && meant.empty(); ++i) {
+    const std::string_view word =
+        std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
+    const std::vector<std::string_view> known = names_of_options(*command);
+    if (word.starts_with("--") && std::ranges::count(known, word) == 0)
+      meant = suggestion(word, known);
+  }
+  return fmt::format("{}; see fieldproof {}--help", meant,
+                     command ? command->get_name() + " " : "");
 }
 
 std::string command_line(int argc, char** argv) {
@@ -320,7 +354,7 @@ int run_tool(int argc, char** argv) {
       "interrupted.");
 
   run_app->callback([&] {
-    const std::string wrong = unknown_argument(run_app->remaining(), run.gtest_arguments);
+    const std::string wrong = unknown_argument(*run_app, run_app->remaining(), run.gtest_arguments);
     chosen = [&run, wrong] {
       return wrong.empty() ? cli::run_command(run, suites::protocols())
                            : run::complain(wrong, run::exit_code::usage);
@@ -349,7 +383,8 @@ int run_tool(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? run::exit_code::ok : run::exit_code::usage;
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return run::complain(error.what() + slip_of(app, argc, argv), run::exit_code::usage);
   }
   return chosen();
 }

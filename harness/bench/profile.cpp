@@ -47,7 +47,9 @@ void read_timing(const json& timing, Profile& profile) {
           fmt::format("unknown key timing.{}{}", key, suggestion(key, timing_keys)));
     if (key == "guard_band") {
       profile.guard_band = value.get<double>();
-      if (profile.guard_band < 0) throw std::runtime_error("timing.guard_band is negative");
+      if (profile.guard_band < 0 || profile.guard_band >= 1)
+        throw std::runtime_error(fmt::format(
+            "timing.guard_band {} is no share of a limit; write 0.1 for a tenth", value.dump()));
       continue;
     }
     const Duration duration = duration_of(key, value);

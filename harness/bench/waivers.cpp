@@ -45,6 +45,8 @@ std::string required(const json& object, const char* key, const char* what) {
   const auto found = object.find(key);
   if (found == object.end())
     throw std::runtime_error(fmt::format("'{}' is missing: {}", key, what));
+  if (!found->is_string())
+    throw std::runtime_error(fmt::format("'{}' is not a text: {}", key, what));
   const auto value = found->get<std::string>();
   if (value.find_first_not_of(' ') == std::string::npos)
     throw std::runtime_error(fmt::format("'{}' is empty: {}", key, what));
@@ -52,6 +54,8 @@ std::string required(const json& object, const char* key, const char* what) {
 }
 
 std::string version(const json& range, const char* key) {
+  if (range.contains(key) && !range[key].is_string())
+    throw std::runtime_error(fmt::format("firmware.{} is not a text; write \"1.20\"", key));
   std::string value = range.value(key, "");
   if (range.contains(key) &&
       std::ranges::none_of(value, [](char c) { return c >= '0' && c <= '9'; }))
@@ -76,7 +80,11 @@ Waiver read_waiver(const json& value) {
   if (!is_date(waiver.expires))
     throw std::runtime_error(
         fmt::format("expires '{}' is no date; write 2027-01-31", waiver.expires));
-  if (const json range = value.value("firmware", json::object()); !range.empty()) {
+  if (value.contains("firmware")) {
+    const json& range = value["firmware"];
+    if (!range.is_object())
+      throw std::runtime_error(
+          "'firmware' is a range: {\"from\": \"1.20\", \"to\": \"1.39\"}, or one of the two");
     refuse_unknown_keys(range, range_keys);
     waiver.firmware_from = version(range, "from");
     waiver.firmware_to = version(range, "to");

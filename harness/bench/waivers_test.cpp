@@ -155,6 +155,13 @@ TEST(Waivers, BadEntriesAreNamed) {
               HasSubstr("unknown key 'till'"));
   EXPECT_THAT(message("[" + entry("a", R"(, "firmware": {"to": "latest"})") + "]"),
               HasSubstr("firmware.to 'latest' has no number"));
+  EXPECT_THAT(message("[" + entry("a", R"(, "firmware": "1.4")") + "]"),
+              HasSubstr("'firmware' is a range: {"));
+  EXPECT_THAT(message("[" + entry("a", R"(, "firmware": {"to": 1.4})") + "]"),
+              HasSubstr("firmware.to is not a text"));
+  EXPECT_THAT(
+      message(R"([{"id": "a", "reason": "r", "owner": 7, "text": "t", "expires": "2026-02-01"}])"),
+      HasSubstr("entry 0: 'owner' is not a text: who answers for it"));
   EXPECT_THAT(message("[" + entry("a") + "," + entry("a") + "]"),
               HasSubstr("entry 1: 'a' is waived twice"));
 }

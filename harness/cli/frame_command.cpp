@@ -91,6 +91,17 @@ Result<FrameReading> best_reading(const FrameOptions& options,
   return best;
 }
 
+/// Empty: one whole frame.
+std::string problem_of_end(const harness::Protocol& protocol, ByteView bytes) {
+  if (!protocol.has_frame_ends()) return {};
+  const std::optional<std::size_t> length = protocol.frame_length(bytes);
+  if (!length) return "the frame is incomplete: more bytes must follow";
+  if (*length < bytes.size())
+    return fmt::format("the frame ends after {} bytes; {} more follow it", *length,
+                       bytes.size() - *length);
+  return {};
+}
+
 }  // namespace
 
 int frame_command(const FrameOptions& options, const harness::Protocols& protocols) {
@@ -105,7 +116,9 @@ int frame_command(const FrameOptions& options, const harness::Protocols& protoco
                hex.size() > 47 ? hex.substr(0, 44) + "..." : hex);
     if (!field.problem.empty()) fmt::print("      {:<22} ! {}\n", "", field.problem);
   }
-  return reading->problems() == 0 ? run::exit_code::ok : run::exit_code::failed;
+  const std::string end = problem_of_end(*reading->protocol, bytes);
+  if (!end.empty()) fmt::print("      {:<22} ! {}\n", "", end);
+  return reading->problems() == 0 && end.empty() ? run::exit_code::ok : run::exit_code::failed;
 }
 
 }  // namespace fieldproof::cli

@@ -170,8 +170,9 @@ int list_command(const ListOptions& options, const harness::Protocols& protocols
     fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
   if (count == 0)
     return run::complain(
-        fmt::format("no case{} matches '{}'; `fieldproof list` shows them all",
-                    options.role.empty() ? "" : " of role " + options.role, options.filter),
+        fmt::format("no case{} matches '{}'{}; `fieldproof list` shows them all",
+                    options.role.empty() ? "" : " of role " + options.role, options.filter,
+                    run::meant_filter(options.vectors, protocols, options.filter)),
         run::exit_code::nothing);
   if (!options.json) fmt::print("{} cases\n", count);
   return run::exit_code::ok;

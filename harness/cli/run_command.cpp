@@ -309,8 +309,9 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
   if (!plan) return run::complain(plan.error().message, run::exit_code::usage);
   if (plan->selected.empty())
     return run::complain(
-        fmt::format("no case{} matches --filter '{}'; `fieldproof list` shows them all",
-                    options.role.empty() ? "" : " of --role " + options.role, options.filter),
+        fmt::format("no case{} matches --filter '{}'{}; `fieldproof list` shows them all",
+                    options.role.empty() ? "" : " of --role " + options.role, options.filter,
+                    run::meant_filter(options.vectors, protocols, options.filter)),
         run::exit_code::nothing);
   if (options.dry_run) return dry_run(*plan);
   const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);

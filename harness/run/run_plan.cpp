@@ -124,8 +124,7 @@ Status read_timing_options(const RunOptions& options, RunPlan& plan) {
     if (given && !plan.others.empty())
       return fail(fmt::format("{} is of one device; give one --dut", name));
   if (!options.floor.empty()) {
-    const bool plain = options.floor.find_first_not_of("0123456789.") == std::string::npos;
-    const Result<Duration> floor = parse_duration(plain ? options.floor + "ms" : options.floor);
+    const Result<Duration> floor = parse_duration(options.floor);
     if (!floor) return fail("--floor: " + floor.error().message);
     plan.floor = bench::AdapterFloor{bench::AdapterFloor::Source::by_hand, *floor};
   }

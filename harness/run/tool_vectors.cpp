@@ -5,6 +5,7 @@
 
 #include "harness/paths.hpp"
 #include "harness/vectors/decisions.hpp"
+#include "harness/vectors/filter.hpp"
 #include "harness/vectors/lint.hpp"
 
 namespace fieldproof::run {
@@ -32,6 +33,12 @@ void add_decisions(const std::filesystem::path& from, vectors::VectorSet& set) {
   vectors::load_decisions((folder ? from : from.parent_path()) / file, set);
   const std::filesystem::path own = harness::find_data().vectors;
   if (from != own) vectors::load_decisions(own / file, set);
+}
+
+std::string meant_filter(const std::string& option, const harness::Protocols& protocols,
+                         const std::string& filter) {
+  const Result<vectors::VectorSet> all = load_sound_vectors(option, protocols);
+  return all ? vectors::meant_filter(filter, case_ids(*all)) : std::string();
 }
 
 std::vector<std::string> case_ids(const vectors::VectorSet& set) {

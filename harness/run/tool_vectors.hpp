@@ -23,6 +23,10 @@ Result<vectors::VectorSet> load_sound_vectors(const std::string& option,
 /// `from` (the folder, or beside the one file, of the vectors), and of the tool's own.
 void add_decisions(const std::filesystem::path& from, vectors::VectorSet& set);
 
+/// vectors::meant_filter over all of their cases.
+std::string meant_filter(const std::string& option, const harness::Protocols& protocols,
+                         const std::string& filter);
+
 std::vector<std::string> case_ids(const vectors::VectorSet& set);
 
 results::ErratumInfo erratum_info(const vectors::Erratum& erratum);

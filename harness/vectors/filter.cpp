@@ -1,6 +1,9 @@
 #include "harness/vectors/filter.hpp"
 
 #include <algorithm>
+#include <set>
+
+#include "src/base/spelling.hpp"
 
 namespace fieldproof::vectors {
 
@@ -24,6 +27,13 @@ std::string_view take_part(std::string_view& filter) {
   return part;
 }
 
+/// The first `parts` parts of an id between slashes; all of it where it has fewer.
+std::string_view first_parts(std::string_view id, std::ptrdiff_t parts) {
+  std::size_t end = 0;
+  for (; parts > 0 && end != id.npos; --parts) end = id.find('/', end ? end + 1 : 0);
+  return id.substr(0, end);
+}
+
 }  // namespace
 
 bool matches_filter(std::string_view id, std::string_view filter) {
@@ -34,6 +44,21 @@ bool matches_filter(std::string_view id, std::string_view filter) {
       selected = !part.starts_with('-');
   }
   return selected;
+}
+
+std::string meant_filter(std::string_view filter, const std::vector<std::string>& ids) {
+  while (!filter.empty()) {
+    const std::string_view part = take_part(filter);
+    const auto selects = [&](const std::string& id) { return glob(id, part, false); };
+    if (part.starts_with('-') || std::ranges::any_of(ids, selects)) continue;
+    std::string_view head = part.substr(0, part.find_first_of("*?"));
+    while (head.ends_with('/')) head.remove_suffix(1);
+    const std::ptrdiff_t parts = std::ranges::count(head, '/') + 1;
+    std::set<std::string_view> beginnings;
+    for (const std::string& id : ids) beginnings.insert(first_parts(id, parts));
+    return suggestion(head, std::vector<std::string_view>(beginnings.begin(), beginnings.end()));
+  }
+  return {};
 }
 
 bool may_match_filter(std::string_view stem, std::string_view filter) {

@@ -15,6 +15,17 @@ TEST(Filter, GlobsCrossSlashesAndExclude) {
   EXPECT_TRUE(matches_filter("a/b/d", "-*c"));
 }
 
+TEST(Filter, AMistypedOneIsSaid) {
+  const std::vector<std::string> ids{"xgt_cnet/rss/two_words", "xgt_cnet/wss/one_word",
+                                     "modbus_rtu/limits/a"};
+  EXPECT_EQ(meant_filter("xgt_cnet/rs/*", ids), "; did you mean 'xgt_cnet/rss'?");
+  EXPECT_EQ(meant_filter("xgt-cnet/*", ids), "; did you mean 'xgt_cnet'?");
+  EXPECT_EQ(meant_filter("modbus_rtu/*:xgt_cnet/rss/two_wrds", ids),
+            "; did you mean 'xgt_cnet/rss/two_words'?");
+  EXPECT_EQ(meant_filter("*/nothing", ids), "");
+  EXPECT_EQ(meant_filter("modbus_rtu/*:-x", ids), "");
+}
+
 TEST(Filter, AStemMayGoOnInAnyWay) {
   EXPECT_TRUE(may_match_filter("a/b", ""));
   EXPECT_TRUE(may_match_filter("a/b", "-a/*"));

@@ -206,6 +206,31 @@ TEST(EmulatorRun, filter_without_a_match_is_an_error) {
   EXPECT_EQ(finished.code, 4);
   EXPECT_THAT(finished.err, HasSubstr("no case matches --filter 'xgt_cnet/nonsense*'"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  EXPECT_THAT(run_tool({"run", "--filter", "xgt_cnet/rs/*", "--out", folder / "out"}).err,
+              HasSubstr("did you mean 'xgt_cnet/rss'?"));
+}
+
+TEST(CommandLine, AMistypedWordIsSaid) {
+  const auto says = [](std::vector<std::string> arguments, const char* what) {
+    const Finished finished = run_tool(std::move(arguments));
+    EXPECT_EQ(finished.code, 2);
+    EXPECT_THAT(finished.err, testing::StartsWith("fieldproof: "));
+    EXPECT_THAT(finished.err, HasSubstr(what));
+  };
+  says({"run", "--filer", "x"}, "did you mean '--filter'?");
+  says({"lint", "--vectrs=x"}, "did you mean '--vectors'?");
+  says({"runn"}, "did you mean 'run'?");
+  says({"run", "--seed", "x"}, "--seed");
+}
+
+TEST(FrameCommand, SaysThatAFrameIsIncompleteOrFollowed) {
+  const Finished cut = run_tool({"frame", "--protocol", "xgt-cnet", "05 30 31 72 53 53"});
+  EXPECT_EQ(cut.code, 1);
+  EXPECT_THAT(cut.out, HasSubstr("the frame is incomplete"));
+  const Finished more = run_tool(
+      {"frame", "--protocol", "xgt-cnet", "05 30 31 52 53 53 30 31 30 36 25 4D 57 31 30 30 04 41"});
+  EXPECT_EQ(more.code, 1);
+  EXPECT_THAT(more.out, HasSubstr("the frame ends after 17 bytes; 1 more follow it"));
 }
 
 }  // namespace

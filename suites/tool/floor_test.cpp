@@ -59,10 +59,10 @@ TEST_F(Floor, IsTakenFromALoop) {
 TEST_F(Floor, IsGivenByHand) {
   EXPECT_THAT(run("pty:xbc-h", {"--floor", "2ms"}).out, HasSubstr("floor=2.0 ms (given by hand)"));
   EXPECT_EQ(results().of("xgt_cnet/v/brief")["recording"]["timing_floor_ms"], 2);
-  EXPECT_THAT(run("emulator:xbc-h", {"--floor", "30"}).out,
-              HasSubstr("floor=30.0 ms (given by hand)"))
-      << "milliseconds without a unit";
+  EXPECT_THAT(run("emulator:xbc-h", {"--floor", "30ms"}).out,
+              HasSubstr("floor=30.0 ms (given by hand)"));
   EXPECT_EQ(run("emulator:xbc-h", {"--floor", "soon"}).code, 2);
+  EXPECT_EQ(run("emulator:xbc-h", {"--floor", "2"}).code, 2) << "without a unit";
 }
 
 }  // namespace

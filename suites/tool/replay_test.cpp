@@ -96,7 +96,7 @@ TEST_F(Replay, of_a_stricter_gate) {
                     .dump());
   vectors_ = folder_ / "strict";
   expect_replays(run({"--endpoint", "emulator:xbc-h", "--strict", "--fail-on", "marginal",
-                      "--floor", "0.5", "--seed", "3", "--power-cycle", "echo 'off and on'"}));
+                      "--floor", "0.5ms", "--seed", "3", "--power-cycle", "echo 'off and on'"}));
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ class Verdicts : public testing::Test {
   Finished run(const std::string& filter, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{
         "run",     "--endpoint", "emulator:xbc-h", "--vectors", vectors_, "--waivers",    waivers_,
-        "--floor", "30",         "--filter",       filter,      "--out",  folder_ / "out"};
+        "--floor", "30ms",       "--filter",       filter,      "--out",  folder_ / "out"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_tool(arguments);
   }

@@ -35,6 +35,7 @@ class Udata : public harness::Protocol {
     return to_bytes(hex_number(static_cast<unsigned>(station), 2));
   }
   /// What a case expects is as long as it is; nothing in the bytes ends them.
+  bool has_frame_ends() const override { return false; }
   std::optional<std::size_t> frame_length(ByteView) const override { return std::nullopt; }
 
   std::vector<harness::Field> explain(ByteView frame) const override {
