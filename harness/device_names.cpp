@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 namespace fieldproof::harness {
@@ -43,6 +44,22 @@ Protocol::Written memory_of(const plc::PlcModel& model, const plc::DeviceAddress
   if (address.type == 'X') return {area, address.index / 16, last / 16, std::string(name)};
   const std::uint32_t bytes = plc::type_bytes(address.type);
   return {area, address.index * bytes / 2, ((last + 1) * bytes - 1) / 2, std::string(name)};
+}
+
+std::optional<Protocol::WordName> read_word_name(std::string_view text) {
+  const bool full = text.starts_with('%');
+  if (full && (text.size() < 3 || std::toupper(text[2]) != 'W')) return std::nullopt;
+  if (full) text.remove_prefix(1);
+  if (text.empty()) return std::nullopt;
+  const char area = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  if (plc::last_words_of(area).empty()) return std::nullopt;
+  text.remove_prefix(full ? 2 : 1);
+  Protocol::WordName name{std::string(1, area), {}};
+  if (text.empty()) return full ? std::nullopt : std::optional(name);
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), name.word.emplace());
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return name;
 }
 
 std::optional<Protocol::Written> named_memory(const plc::PlcModel& model, std::string_view name,

@@ -11,6 +11,9 @@ namespace fieldproof::harness {
 Protocol::Written memory_of(const plc::PlcModel& model, const plc::DeviceAddress& address,
                             std::uint32_t count, std::string_view name);
 
+/// "M", "M100", "%MW100": an area of any model.
+std::optional<Protocol::WordName> read_word_name(std::string_view text);
+
 /// What so many hex digits at a name stand for; nothing where the model has no such memory.
 std::optional<Protocol::Written> named_memory(const plc::PlcModel& model, std::string_view name,
                                               std::size_t digits);

@@ -1,5 +1,7 @@
 #include "harness/protocol.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +20,48 @@ plc::FrameResult Protocol::monitor_result(ByteView frame, bool, bool) const {
   return faultless(explain(frame)) ? plc::user_definition_frame : plc::unknown_frame;
 }
 
+Bytes Protocol::probe(int station, ByteView tested) const {
+  return probing() ? probing()->probing_request(station, tested) : Bytes{};
+}
+bool Protocol::is_reply_to_probe(ByteView probe, ByteView reply) const {
+  return probing() && probing()->answers_probe(probe, reply);
+}
+
+namespace {
+
+Error no_request(const Protocol& protocol, std::string_view address) {
+  return fail(
+      fmt::format("{} has no request that reads or writes {}; use an emulator, whose memory "
+                  "the bench sees, or --aux, another port of the same device",
+                  protocol.name(), address));
+}
+
+}  // namespace
+
+Result<std::vector<Bytes>> Protocol::write_requests(int station, std::string_view address,
+                                                    std::string_view hex) const {
+  if (!memory()) return no_request(*this, address);
+  return memory()->requests_to_write(station, address, hex);
+}
+Result<std::vector<Bytes>> Protocol::read_requests(int station, std::string_view address,
+                                                   std::size_t digits) const {
+  if (!memory()) return no_request(*this, address);
+  return memory()->requests_to_read(station, address, digits);
+}
+Status Protocol::write_reply(ByteView reply) const {
+  if (!memory()) return no_request(*this, "memory");
+  return memory()->acknowledged(reply);
+}
+Result<std::string> Protocol::read_reply(ByteView reply) const {
+  if (!memory()) return no_request(*this, "memory");
+  return memory()->digits_in(reply);
+}
+
+Status Protocol::check_fact(const nlohmann::json& facts) const {
+  if (tables()) return tables()->check_table(facts);
+  return fail(fmt::format("the suite of {} has no tables; write a case", name()));
+}
+
 Result<std::unique_ptr<Protocol>> Protocol::configured(std::string_view,
                                                        const nlohmann::json&) const {
   return std::unique_ptr<Protocol>();
@@ -27,6 +71,9 @@ bool Protocol::has_model(std::string_view model) const {
   return std::ranges::count(models(), model) > 0;
 }
 
+std::optional<Protocol::WordName> Protocol::read_word(std::string_view) const {
+  return std::nullopt;
+}
 std::string Protocol::spell(std::string_view area, std::uint32_t word) const {
   return std::string(area) + std::to_string(word);
 }

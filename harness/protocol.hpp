@@ -11,6 +11,7 @@
 
 #include "harness/notation/dressing.hpp"
 #include "harness/notation/frame_template.hpp"
+#include "harness/protocol_parts.hpp"
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
@@ -55,6 +56,9 @@ class Protocol {
   /// The station number as it stands in a frame.
   virtual Bytes station_bytes(int station) const = 0;
 
+  /// Numbers travel as hex digits, two a byte; else as bytes.
+  virtual bool is_text() const { return true; }
+
   /// The checks that its frames have, for the notation. They live as long as the program.
   virtual notation::Checks checks() const { return {}; }
   /// What stands before a name in its frames, for the notation; nullptr: they have none.
@@ -82,23 +86,21 @@ class Protocol {
   /// frame by it. Zero where a frame has an end of its own.
   virtual Duration frame_gap([[maybe_unused]] Duration character_time) const { return {}; }
 
-  /// A harmless request that any healthy device answers. Its reply cannot be mistaken for a reply
-  /// to `tested` (empty: no such demand). Empty: there is none, silences are waited out.
-  virtual Bytes probe(int station, ByteView tested) const = 0;
-  /// Does `reply` have the form of a reply to `probe`? Its check is not judged, only what tells it
-  /// from others.
-  virtual bool is_reply_to_probe(ByteView probe, ByteView reply) const = 0;
+  /// Parts that not every protocol has; nullptr: it has none. They live as long as it does.
+  virtual const Probing* probing() const { return nullptr; }
+  virtual const MemoryRequests* memory() const { return nullptr; }
+  virtual const Tables* tables() const { return nullptr; }
 
-  /// The requests that set, or read, memory through the protocol itself. Errors say why there is no
-  /// way ("read only").
-  virtual Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
-                                                    std::string_view hex) const = 0;
-  virtual Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
-                                                   std::size_t digits) const = 0;
-  /// Success when `reply` acknowledges a write request.
-  virtual Status write_reply(ByteView reply) const = 0;
-  /// The hex digits in a reply to a read request; an error when it is a refusal or no such reply.
-  virtual Result<std::string> read_reply(ByteView reply) const = 0;
+  /// As those parts have it. Without probing: no probe. Without memory or tables: an error.
+  Bytes probe(int station, ByteView tested) const;
+  bool is_reply_to_probe(ByteView probe, ByteView reply) const;
+  Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
+                                            std::string_view hex) const;
+  Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
+                                           std::size_t digits) const;
+  Status write_reply(ByteView reply) const;
+  Result<std::string> read_reply(ByteView reply) const;
+  Status check_fact(const nlohmann::json& facts) const;
 
   /// This protocol as a device of `model` that declares `config` (keys of given.config) speaks it:
   /// what follows, and the memory requests, then know where its addresses lie. nullptr: they lie
@@ -121,7 +123,14 @@ class Protocol {
   /// What a request would write, for the write fence; empty for reads. Read leniently: a damaged
   /// write request names area "?" where its addresses cannot be told.
   virtual std::vector<Written> written_by(ByteView request) const = 0;
-  /// A word as --allow-write takes it: "M100", "h1230".
+  /// A word of an area, or without a number the whole area.
+  struct WordName {
+    std::string area;
+    std::optional<std::uint32_t> word;
+  };
+  /// What --allow-write names: "M", "M100", "h1230". Nothing: no memory of this protocol.
+  virtual std::optional<WordName> read_word(std::string_view text) const;
+  /// The other way round: "M100", "h1230".
   virtual std::string spell(std::string_view area, std::uint32_t word) const;
 
   /// Memory as `read_requests` and `write_requests` reach it: what is saved before a write, and put
@@ -164,10 +173,6 @@ class Protocol {
     std::vector<std::uint32_t> last_words;
   };
   virtual std::vector<Area> areas() const { return {}; }
-
-  /// Checks a `table` vector against the tables in src/; the error says what the table holds
-  /// instead.
-  virtual Status check_fact(const nlohmann::json& facts) const = 0;
 };
 
 }  // namespace fieldproof::harness

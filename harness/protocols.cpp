@@ -35,6 +35,12 @@ Error unknown_model(const Protocols& table, std::string_view model) {
 
 }  // namespace
 
+std::optional<Protocol::WordName> Protocols::read_word(std::string_view text) const {
+  for (const Protocol* protocol : table_)
+    if (std::optional<Protocol::WordName> word = protocol->read_word(text)) return word;
+  return std::nullopt;
+}
+
 Result<const Protocol*> Protocols::choose(std::string_view name, std::string_view model) const {
   for (const Protocol* protocol : table_)
     if (name.empty() ? model.empty() || protocol->has_model(model) : protocol->name() == name)

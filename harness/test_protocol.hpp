@@ -9,7 +9,7 @@
 
 namespace fieldproof::harness {
 
-struct TestProtocol : Protocol {
+struct TestProtocol : Protocol, public Probing, public MemoryRequests, public Tables {
   std::string_view name() const override { return "xgt-cnet"; }
   std::vector<std::string> models() const override { return {"test"}; }
   Result<std::unique_ptr<plc::EmulatedDevice>> make_device(std::string_view,
@@ -35,23 +35,27 @@ struct TestProtocol : Protocol {
     return fields;
   }
 
-  Bytes probe(int, ByteView) const override { return to_bytes("<probe>"); }
-  bool is_reply_to_probe(ByteView, ByteView reply) const override {
+  const Probing* probing() const override { return this; }
+  const MemoryRequests* memory() const override { return this; }
+  const Tables* tables() const override { return this; }
+
+  Bytes probing_request(int, ByteView) const override { return to_bytes("<probe>"); }
+  bool answers_probe(ByteView, ByteView reply) const override {
     return to_text(reply) == "<alive>";
   }
 
-  Result<std::vector<Bytes>> write_requests(int, std::string_view address,
-                                            std::string_view hex) const override {
+  Result<std::vector<Bytes>> requests_to_write(int, std::string_view address,
+                                               std::string_view hex) const override {
     return std::vector<Bytes>{to_bytes("<w" + std::string(address) + "=" + std::string(hex) + ">")};
   }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view address,
-                                           std::size_t) const override {
+  Result<std::vector<Bytes>> requests_to_read(int, std::string_view address,
+                                              std::size_t) const override {
     return std::vector<Bytes>{to_bytes("<r" + std::string(address) + ">")};
   }
-  Status write_reply(ByteView reply) const override {
+  Status acknowledged(ByteView reply) const override {
     return to_text(reply) == "<ok>" ? ok() : Status(fail("not <ok>"));
   }
-  Result<std::string> read_reply(ByteView reply) const override {
+  Result<std::string> digits_in(ByteView reply) const override {
     if (reply.size() < 3) return fail("no value");
     return to_text(reply.subspan(1, reply.size() - 2));
   }
@@ -62,7 +66,7 @@ struct TestProtocol : Protocol {
   }
 
   std::string_view output_areas() const override { return "PQ"; }
-  Status check_fact(const nlohmann::json&) const override { return ok(); }
+  Status check_table(const nlohmann::json&) const override { return ok(); }
 };
 
 }  // namespace fieldproof::harness

@@ -58,7 +58,8 @@ std::optional<int> read_station(const json& object, const std::string& where) {
   return found->get<int>();
 }
 
-std::vector<std::string> read_allow_write(const json& object, const std::string& where) {
+std::vector<std::string> read_allow_write(const json& object, const std::string& where,
+                                          const safety::WordReader& words) {
   std::vector<std::string> ranges;
   const auto found = object.find("allow_write");
   if (found == object.end()) return ranges;
@@ -67,7 +68,7 @@ std::vector<std::string> read_allow_write(const json& object, const std::string&
     if (!range.is_string())
       refuse(where + ".allow_write", "must be a list of texts: [\"M100-M199\"]");
     ranges.push_back(range);
-    if (const Status allowed = safety::WriteFence().allow(ranges.back()); !allowed)
+    if (const Status allowed = safety::WriteFence().allow(ranges.back(), words); !allowed)
       refuse(where + ".allow_write", allowed.error().message);
   }
   return ranges;
@@ -131,7 +132,8 @@ void check_endpoint(const BenchDevice& device, const std::string& where) {
              fmt::format("the endpoint says '{}', too; leave one of the two", option));
 }
 
-BenchDevice read_device(const json& object, const std::string& name, const fs::path& folder) {
+BenchDevice read_device(const json& object, const std::string& name, const fs::path& folder,
+                        const safety::WordReader& words) {
   const std::string where = "devices." + name;
   check_object(object, where, device_keys);
   BenchDevice device;
@@ -143,7 +145,7 @@ BenchDevice read_device(const json& object, const std::string& name, const fs::p
   device.aux = read_text(object, "aux", where);
   if (const auto aux = endpoints::parse_endpoint(device.aux); !aux && !device.aux.empty())
     refuse(where + ".aux", aux.error().message);
-  device.allow_write = read_allow_write(object, where);
+  device.allow_write = read_allow_write(object, where, words);
   device.identity = read_identity(object, where);
   device.identity.name = name;
   check_endpoint(device, where);
@@ -167,7 +169,8 @@ json parse_without_twins(const std::string& text) {
 
 }  // namespace
 
-Result<BenchFile> parse_bench_file(const std::string& text, const std::string& path) {
+Result<BenchFile> parse_bench_file(const std::string& text, const std::string& path,
+                                   const safety::WordReader& words) {
   BenchFile file{path, {}};
   try {
     const json root = parse_without_twins(text);
@@ -176,16 +179,16 @@ Result<BenchFile> parse_bench_file(const std::string& text, const std::string& p
     if (!root.contains("devices") || !root["devices"].is_object())
       refuse("the file", "has no \"devices\": {...}");
     for (const auto& [name, object] : root["devices"].items())
-      file.devices[name] = read_device(object, name, fs::path(path).parent_path());
+      file.devices[name] = read_device(object, name, fs::path(path).parent_path(), words);
   } catch (const std::exception& error) {
     return fail(fmt::format("cannot read bench file {}: {}", path, error.what()));
   }
   return file;
 }
 
-Result<BenchFile> load_bench_file(const std::string& path) {
+Result<BenchFile> load_bench_file(const std::string& path, const safety::WordReader& words) {
   const Result<std::string> text = results::read_whole_file(path, "bench file");
-  return text ? parse_bench_file(*text, path) : text.error();
+  return text ? parse_bench_file(*text, path, words) : text.error();
 }
 
 Result<BenchDevice> find_device(const BenchFile& file, const std::string& name) {

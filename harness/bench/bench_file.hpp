@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/safety/fence.hpp"
 #include "reports/results/case_result.hpp"
 #include "src/base/result.hpp"
 
@@ -36,9 +37,10 @@ struct BenchFile {
 
 /// Errors name the file, the line or the key ("devices.c41a.station"), what is wrong and the
 /// nearest right word.
-Result<BenchFile> load_bench_file(const std::string& path);
+Result<BenchFile> load_bench_file(const std::string& path, const safety::WordReader& words);
 /// The text of a bench file; `path` is for messages, and for the folder of relative profiles.
-Result<BenchFile> parse_bench_file(const std::string& text, const std::string& path);
+Result<BenchFile> parse_bench_file(const std::string& text, const std::string& path,
+                                   const safety::WordReader& words);
 
 /// The device of that name; the error says which there are.
 Result<BenchDevice> find_device(const BenchFile& file, const std::string& name);

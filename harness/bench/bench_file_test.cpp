@@ -1,4 +1,5 @@
 #include "harness/bench/bench_file.hpp"
+#include "harness/device_names.hpp"
 
 #include <gmock/gmock.h>
 
@@ -20,7 +21,7 @@ constexpr const char* full = R"({"devices": {
   "gateway": {"endpoint": "tcp:10.0.0.7:2000"}}})";
 
 BenchDevice device(const std::string& text, const std::string& name) {
-  const Result<BenchFile> file = parse_bench_file(text, "lab/bench.json");
+  const Result<BenchFile> file = parse_bench_file(text, "lab/bench.json", harness::read_word_name);
   EXPECT_TRUE(file) << file.error().message;
   const Result<BenchDevice> found = find_device(*file, name);
   EXPECT_TRUE(found) << found.error().message;
@@ -30,7 +31,8 @@ BenchDevice device(const std::string& text, const std::string& name) {
 /// What is said of a file that has one device "d" of these keys.
 std::string refusal(const std::string& keys) {
   const Result<BenchFile> file =
-      parse_bench_file(fmt::format(R"({{"devices": {{"d": {{{}}}}}}})", keys), "lab/bench.json");
+      parse_bench_file(fmt::format(R"({{"devices": {{"d": {{{}}}}}}})", keys), "lab/bench.json",
+                       harness::read_word_name);
   return file ? "accepted" : file.error().message;
 }
 
@@ -141,18 +143,18 @@ TEST(BenchFile, TheEndpointMustNotContradictTheKeys) {
 TEST(BenchFile, ACopiedDeviceMustBeRenamed) {
   const Result<BenchFile> file = parse_bench_file(
       R"({"devices": {"d": {"endpoint": "emulator:"}, "d": {"endpoint": "emulator:xbc-h"}}})",
-      "bench.json");
+      "bench.json", harness::read_word_name);
   ASSERT_FALSE(file);
   EXPECT_THAT(file.error().message, HasSubstr("key 'd' stands twice"));
   // Equal keys of two devices are no twins.
   EXPECT_TRUE(parse_bench_file(
       R"({"devices": {"d": {"endpoint": "emulator:"}, "e": {"endpoint": "emulator:"}}})",
-      "bench.json"));
+      "bench.json", harness::read_word_name));
 }
 
 TEST(BenchFile, WhatIsNoBenchFileIsRefused) {
   const auto refused = [](const char* text) {
-    const Result<BenchFile> file = parse_bench_file(text, "bench.json");
+    const Result<BenchFile> file = parse_bench_file(text, "bench.json", harness::read_word_name);
     return file ? "accepted" : file.error().message;
   };
   EXPECT_THAT(refused("{\n\"devices\": {,}}"), HasSubstr("line 2"));
@@ -163,12 +165,12 @@ TEST(BenchFile, WhatIsNoBenchFileIsRefused) {
   EXPECT_THAT(refused(R"({"devices": {"d": []}})"), HasSubstr("devices.d: must be an object"));
   EXPECT_THAT(refused(""), HasSubstr("cannot read bench file bench.json"));
   EXPECT_THAT(
-      load_bench_file("/nonexistent/bench.json").error().message,
+      load_bench_file("/nonexistent/bench.json", harness::read_word_name).error().message,
       HasSubstr("cannot read bench file /nonexistent/bench.json: no such file or directory"));
 }
 
 TEST(BenchFile, AnUnknownDeviceSuggestsANearOne) {
-  const Result<BenchFile> file = parse_bench_file(full, "bench.json");
+  const Result<BenchFile> file = parse_bench_file(full, "bench.json", harness::read_word_name);
   ASSERT_TRUE(file);
   EXPECT_EQ(find_device(*file, "gatway").error().message,
             "no device 'gatway' in bench file bench.json; did you mean 'gateway'?; there is c41a, "

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "harness/device_names.hpp"
 #include "harness/exchange/scripted_endpoint.hpp"
 #include "harness/test_protocol.hpp"
 #include "harness/vectors/loader.hpp"
@@ -125,7 +126,7 @@ TEST_F(BenchTest, AnExclusionNamesItsReason) {
 TEST_F(BenchTest, NothingIsWrittenWithoutAJournal) {
   on_real_device();
   options.journal = nullptr;
-  ASSERT_TRUE(options.fence.allow("M"));
+  ASSERT_TRUE(options.fence.allow("M", harness::read_word_name));
   const CaseResult write = run(vector(R"({"send": "'<w>'"}, {"expect": "'<ok>'"})"));
   EXPECT_EQ(write.verdict, Verdict::blocked);
   EXPECT_THAT(write.message, HasSubstr("no journal is open"));
@@ -135,7 +136,7 @@ TEST_F(BenchTest, NothingIsWrittenWithoutAJournal) {
 
 TEST_F(BenchTest, WhatACaseWritesIsReadBeforeAndPutBackAfter) {
   on_real_device();
-  ASSERT_TRUE(options.fence.allow("M"));
+  ASSERT_TRUE(options.fence.allow("M", harness::read_word_name));
   endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<00E2>"}};
   endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
   const std::string text = vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )");
@@ -151,7 +152,7 @@ TEST_F(BenchTest, WhatACaseWritesIsReadBeforeAndPutBackAfter) {
 
 TEST_F(BenchTest, WhatCannotBePutBackStaysInTheJournal) {
   on_real_device();
-  ASSERT_TRUE(options.fence.allow("M"));
+  ASSERT_TRUE(options.fence.allow("M", harness::read_word_name));
   endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<00E2>"}};
   endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
   endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
@@ -164,7 +165,7 @@ TEST_F(BenchTest, WhatCannotBePutBackStaysInTheJournal) {
 
 TEST_F(BenchTest, WhatCannotBeReadIsNotWritten) {
   on_real_device();
-  ASSERT_TRUE(options.fence.allow("M"));
+  ASSERT_TRUE(options.fence.allow("M", harness::read_word_name));
   const CaseResult result = run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )"));
   EXPECT_EQ(result.verdict, Verdict::blocked);
   EXPECT_THAT(result.message, HasSubstr("cannot save what it writes: cannot read %MW1"));
@@ -175,7 +176,7 @@ TEST_F(BenchTest, WhatCannotBeReadIsNotWritten) {
 /// It answers the read that saves the word, and then nothing: neither the write nor the probe.
 TEST_F(BenchTest, ADeviceThatFallsSilentBeforeACaseEndsTheRun) {
   on_real_device();
-  ASSERT_TRUE(options.fence.allow("M"));
+  ASSERT_TRUE(options.fence.allow("M", harness::read_word_name));
   endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<00E2>"}};
   endpoint.forgets = "<r%MW1>";
   endpoint.answers.erase("<probe>");
@@ -245,7 +246,7 @@ TEST_F(BenchTest, GivenMemoryIsBehindTheFenceToo) {
 
 TEST_F(BenchTest, InsideTheFenceItIsWrittenThroughTheProtocol) {
   on_real_device();
-  ASSERT_TRUE(options.fence.allow("M"));
+  ASSERT_TRUE(options.fence.allow("M", harness::read_word_name));
   endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<0000>"}};
   endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
   EXPECT_EQ(run(vector(ask(), R"("given": {"memory": {"%MW1": "1234"}}, )")).verdict,
@@ -334,7 +335,7 @@ struct FenceProtocol : harness::TestProtocol {
 
 std::string objection(const std::string& allowed, const harness::Protocol::Written& written) {
   safety::WriteFence fence;
-  EXPECT_TRUE(fence.allow(allowed)) << allowed;
+  EXPECT_TRUE(fence.allow(allowed, harness::read_word_name)) << allowed;
   return fence.objection({written}, FenceProtocol());
 }
 
@@ -356,18 +357,11 @@ TEST(WriteFence, OutputsOnlyWhenNamed) {
 TEST(WriteFence, RangesThatMeetAreOne) {
   EXPECT_EQ(objection("M100,M101-M102", {"M", 100, 102, "%MW100"}), "");
   safety::WriteFence fence;
-  ASSERT_TRUE(fence.allow("M110-M119,M100-M105,M106,D3"));
+  ASSERT_TRUE(fence.allow("M110-M119,M100-M105,M106,D3", harness::read_word_name));
   const std::vector<safety::WriteFence::Words> words = fence.allowed("M", "P");
   ASSERT_EQ(words.size(), 2u);
   EXPECT_EQ(words[0].last, 106u);
   EXPECT_EQ(words[1].first, 110u);
-}
-
-TEST(WriteFence, ParametersAreNamedByTheirHexAddress) {
-  const harness::Protocol::Written parameter{"H", 0x1230, 0x1231, "1230"};
-  for (const char* range : {"h1230-h1231", "1230-1231", "H1200-H12FF", "H"})
-    EXPECT_EQ(objection(range, parameter), "") << range;
-  EXPECT_NE(objection("h1231-h1232", parameter), "");
 }
 
 TEST(WriteFence, ADamagedRequestNeedsAll) {
@@ -376,9 +370,9 @@ TEST(WriteFence, ADamagedRequestNeedsAll) {
 }
 
 TEST(WriteFence, NonsenseIsRefusedByItsName) {
-  for (const char* text : {"M-", "M5-M1", "M1-D2", "%MX1", "5", "M1x", "-"}) {
+  for (const char* text : {"M-", "M5-M1", "M1-D2", "%MX1", "5", "M1x", "-", "Z", "Z1-Z9"}) {
     safety::WriteFence fence;
-    const Status allowed = fence.allow(text);
+    const Status allowed = fence.allow(text, harness::read_word_name);
     ASSERT_FALSE(allowed) << text;
     EXPECT_THAT(allowed.error().message, HasSubstr("cannot read --allow-write '"));
   }

@@ -3,10 +3,13 @@
 #include <unistd.h>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 #include "harness/bench/benches.hpp"
+#include "harness/bench/profile.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/endpoints/kinds.hpp"
+#include "harness/paths.hpp"
 #include "harness/probe/conclusion.hpp"
 #include "harness/probe/target.hpp"
 #include "harness/system/interrupt.hpp"
@@ -141,16 +144,28 @@ class ProgressLine {
   bool terminal_;
 };
 
-/// Its own module's profile is for the engineer to choose; this one exists and binds nothing that
-/// the manuals leave open.
+/// A profile that speaks the protocol and binds nothing that the manuals leave open, of the
+/// protocol's first model where there is one; else that model.
+std::string profile_of_a_module(const harness::Protocol& protocol) {
+  const std::string first = protocol.models().front();
+  std::vector<std::string> names;
+  const std::filesystem::path folder = harness::find_data().profiles;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const Result<bench::Profile> one = bench::load_profile(entry.path().string(), folder);
+    if (one && !one->binding_decisions && one->model == first &&
+        std::ranges::count(one->protocols, protocol.name()) > 0)
+      names.push_back(entry.path().stem().string());
+  }
+  return names.empty() ? first : std::ranges::min(names);
+}
+
+/// Its own module's profile is for the engineer to choose.
 std::string run_line(const EndpointName& endpoint, const Finding& device, bool settable) {
   std::string line =
       "fieldproof run --endpoint " +
       run::shell_word(probe::to_string(probe::name_of_found(endpoint, device.trial, settable)));
   if (probe::is_emulator(endpoint)) return line;
-  const std::vector<std::string> models = device.trial.protocol->models();
-  return line + " --profile " +
-         (std::ranges::count(models, "xbc-h") > 0 ? "xbc-dxxxh" : models.front());
+  return line + " --profile " + profile_of_a_module(*device.trial.protocol);
 }
 
 /// Of a device that was found; what went wrong is said and makes the exit code.

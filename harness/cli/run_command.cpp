@@ -108,9 +108,7 @@ class Run {
       return Error{"--loop: " + alive.error().message, alive.error().interrupted};
     Result<std::optional<bench::AdapterFloor>> measured = loop->measured_floor();
     if (!measured) return measured.error();
-    if (!*measured)
-      return fail(
-          "--loop: simulated time has no floor; name a link on real time, such as pty:xbc-h");
+    if (!*measured) return fail("--loop: simulated time has no floor; name a link on real time");
     plan_.floor = std::move(**measured);
     plan_.floor->source = bench::AdapterFloor::Source::loop;
     return ok();

@@ -87,20 +87,8 @@ class TinyProtocol : public harness::Protocol {
   Bytes station_bytes(int station) const override { return {static_cast<Byte>(station)}; }
   std::optional<std::size_t> frame_length(ByteView bytes) const override { return bytes.size(); }
   std::vector<harness::Field> explain(ByteView) const override { return {}; }
-  Bytes probe(int station, ByteView) const override { return station_bytes(station); }
-  bool is_reply_to_probe(ByteView, ByteView) const override { return true; }
-  Result<std::vector<Bytes>> write_requests(int, std::string_view,
-                                            std::string_view) const override {
-    return fail("none");
-  }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view, std::size_t) const override {
-    return fail("none");
-  }
-  Status write_reply(ByteView) const override { return ok(); }
-  Result<std::string> read_reply(ByteView) const override { return fail("none"); }
   std::vector<Written> written_by(ByteView) const override { return {}; }
   std::string_view output_areas() const override { return {}; }
-  Status check_fact(const json&) const override { return ok(); }
 };
 
 const TinyProtocol tiny_protocol;

@@ -20,7 +20,7 @@ struct GapProtocol : TestProtocol {
   Duration frame_gap(Duration) const override { return 4ms; }
 };
 struct MuteProtocol : TestProtocol {
-  Bytes probe(int, ByteView) const override { return {}; }
+  Bytes probing_request(int, ByteView) const override { return {}; }
 };
 
 class ExchangeTest : public testing::Test {

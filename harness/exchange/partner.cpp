@@ -21,10 +21,6 @@ bool is_hex(ByteView bytes) {
          std::ranges::all_of(bytes, [](Byte b) { return hex_digit(static_cast<char>(b)) >= 0; });
 }
 
-/// Stations that are written with two digits tell that the whole frame is text; else a byte is a
-/// byte.
-bool is_text(const Protocol& protocol) { return protocol.station_bytes(0).size() == 2; }
-
 /// A frame that can be changed field by field; its check follows.
 class Editor {
  public:
@@ -93,10 +89,10 @@ Error lacks(std::string_view fault, const std::string& what) {
 Result<Bytes> resized(std::string_view fault, Editor frame, const Protocol& protocol) {
   const Field* content = frame.content();
   if (!content) return lacks(fault, "the answer has no content");
-  const std::size_t byte = is_text(protocol) ? 2 : 1;
+  const std::size_t byte = protocol.is_text() ? 2 : 1;
   const std::size_t end = content->offset + content->size;
   if (fault == "long")
-    frame.replace(end, 0, is_text(protocol) ? Bytes{'0', '0'} : Bytes{0});
+    frame.replace(end, 0, protocol.is_text() ? Bytes{'0', '0'} : Bytes{0});
   else
     frame.replace(end - std::min(byte, content->size), std::min(byte, content->size), {});
   return frame.finish();
@@ -104,7 +100,7 @@ Result<Bytes> resized(std::string_view fault, Editor frame, const Protocol& prot
 
 Result<Bytes> without_hex(Editor frame, const Protocol& protocol) {
   const Field* content = frame.content();
-  if (!is_text(protocol))
+  if (!protocol.is_text())
     return lacks("not_hex", fmt::format("the frames of {} are binary", protocol.name()));
   if (!content || !is_hex(frame.part(*content)))
     return lacks("not_hex", "the answer has no hex digits but its station");
@@ -122,7 +118,7 @@ Result<Bytes> unanswerable(ByteView request, const Protocol& protocol) {
                       (field.name.starts_with("name ") && !field.name.starts_with("name length"));
     if (!name && field.name != "address") continue;
     frame.replace(field.offset, field.size,
-                  Bytes(field.size, is_text(protocol) ? Byte{'F'} : Byte{0xFF}));
+                  Bytes(field.size, protocol.is_text() ? Byte{'F'} : Byte{0xFF}));
     found = true;
   }
   if (!found) return lacks("nak", "the request has no address that could be refused");

@@ -29,6 +29,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+safety::WordReader words_of(const harness::Protocols& known) {
+  return [known](std::string_view text) { return known.read_word(text); };
+}
+
 bool is_emulated(const EndpointName& endpoint) { return endpoints::kind_of(endpoint).emulated; }
 
 /// A model without a profile of its own: what a user-defined frame file describes.
@@ -48,11 +52,13 @@ std::string profile_for(const RunOptions& options, const EndpointName& endpoint,
   if (is_emulated(endpoint))
     return endpoint.target.empty() || is_bare_model(endpoint, data, known) ? "emulator"
                                                                            : endpoint.target;
+  const std::string first = known.front().models().front();
   complain(
-      "no --profile given: judged as xbc-h, whose every decision binds; a real module wants a "
-      "profile of its own, such as xbc-dxxxh",
+      fmt::format("no --profile given: judged as {}, whose every decision binds; a real module "
+                  "wants a profile of its own: --profile takes a file, or a name in {}",
+                  first, data.profiles.string()),
       0);
-  return "xbc-h";
+  return first;
 }
 
 std::string replay_command(const RunOptions& options) {
@@ -74,7 +80,8 @@ std::string replay_command(const RunOptions& options) {
 }
 
 Result<bench::BenchOptions> bench_options(const RunOptions& options, const EndpointName& endpoint,
-                                          const std::string& profile_name, const DataPaths& data) {
+                                          const std::string& profile_name, const DataPaths& data,
+                                          const harness::Protocols& known) {
   bench::BenchOptions bench;
   Result<bench::Profile> profile = bench::load_profile(profile_name, data.profiles);
   if (!profile) return profile.error();
@@ -82,7 +89,8 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
   if (is_emulated(endpoint) && bench.profile.model.empty())
     bench.profile.model = fs::path(endpoint.target).stem();
   for (const std::string& range : options.allow_write)
-    if (Status allowed = bench.fence.allow(range); !allowed) return allowed.error();
+    if (Status allowed = bench.fence.allow(range, words_of(known)); !allowed)
+      return allowed.error();
   nlohmann::json station{{"station", endpoint.option("station", "1")}};
   const std::optional<int> number = vectors::config_station(station, 1);
   if (!number)
@@ -98,7 +106,8 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
 /// says otherwise. Endpoint, station and line go together.
 Result<RunOptions> with_bench_device(RunOptions options, const std::string& dut, DutPlan& plan) {
   if (!dut.empty()) {
-    const Result<bench::BenchFile> file = bench::load_bench_file(options.bench);
+    const Result<bench::BenchFile> file =
+        bench::load_bench_file(options.bench, words_of(plan.known));
     if (!file) return file.error();
     const Result<bench::BenchDevice> device = bench::find_device(*file, dut);
     if (!device) return device.error();
@@ -235,7 +244,7 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
                          plan.endpoint.target, stable),
              0);
   profile = profile_for(*options, plan.endpoint, data, known);
-  Result<bench::BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data);
+  Result<bench::BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data, known);
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
   plan.bench.known = known;
@@ -262,7 +271,8 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
     if (!station)
       return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255",
                               aux->option("station", "1")));
-    plan.bench.aux_device = {options->aux, *station, aux->option("protocol", "xgt-cnet"),
+    plan.bench.aux_device = {options->aux, *station,
+                             aux->option("protocol", std::string(known.front().name())),
                              plan.bench.profile.model, plan.bench.profile.config};
     plan.aux = std::move(*aux);
   }

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <limits>
 #include <optional>
 
@@ -13,36 +11,9 @@ namespace {
 
 constexpr std::uint32_t whole_area = std::numeric_limits<std::uint32_t>::max();
 
-struct Point {
-  std::string area;
-  std::uint32_t word = 0;
-  bool whole = false;  // no number: the area
-};
-
-bool read_number(std::string_view digits, int base, std::uint32_t& number) {
-  const auto [end, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), number, base);
-  return error == std::errc{} && end == digits.data() + digits.size();
-}
-
-/// "M", "M100", "%MW100"; "h1230" or "1230": the words of area H are addressed in hex.
-std::optional<Point> read_point(std::string_view text) {
-  const bool bare_hex = text.size() == 4 && std::isdigit(static_cast<unsigned char>(text[0]));
-  const bool percent = text.starts_with('%');
-  if (percent) text.remove_prefix(1);
-  if (percent && (text.size() < 2 || std::toupper(text[1]) != 'W')) return std::nullopt;
-  if (!bare_hex && (text.empty() || !std::isalpha(static_cast<unsigned char>(text[0]))))
-    return std::nullopt;
-  const char area = bare_hex ? 'H' : static_cast<char>(std::toupper(text[0]));
-  text.remove_prefix(bare_hex ? 0 : percent ? 2 : 1);
-  Point point{std::string(1, area), 0, text.empty()};
-  if (!point.whole && !read_number(text, area == 'H' ? 16 : 10, point.word)) return std::nullopt;
-  return point;
-}
-
 }  // namespace
 
-Status WriteFence::allow(const std::string& ranges) {
+Status WriteFence::allow(const std::string& ranges, const WordReader& words) {
   for (std::string_view rest = ranges; !rest.empty();) {
     const std::string_view part = rest.substr(0, rest.find(','));
     rest.remove_prefix(std::min(part.size() + 1, rest.size()));
@@ -51,16 +22,15 @@ Status WriteFence::allow(const std::string& ranges) {
       continue;
     }
     const std::size_t dash = part.find('-');
-    const std::optional<Point> first = read_point(part.substr(0, dash));
-    const std::optional<Point> last =
-        dash == std::string_view::npos ? first : read_point(part.substr(dash + 1));
-    if (!first || !last || first->area != last->area || first->whole != last->whole ||
+    const auto first = words(part.substr(0, dash));
+    const auto last = dash == std::string_view::npos ? first : words(part.substr(dash + 1));
+    if (!first || !last || first->area != last->area || !first->word != !last->word ||
         last->word < first->word)
       return fail(
-          fmt::format("cannot read --allow-write '{}'; write an area (M), words (M100-M199 or "
-                      "%MW100-%MW199), parameters (h1230-h12FF), or all",
+          fmt::format("cannot read --allow-write '{}': no protocol has such memory; write an area, "
+                      "a word, a range of words (FIRST-LAST), or all",
                       part));
-    ranges_.push_back({first->area, first->word, first->whole ? whole_area : last->word});
+    ranges_.push_back({first->area, first->word.value_or(0), last->word.value_or(whole_area)});
   }
   return ok();
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +13,15 @@
 
 namespace fieldproof::safety {
 
+/// Protocols::read_word.
+using WordReader = std::function<std::optional<harness::Protocol::WordName>(std::string_view)>;
+
 class WriteFence {
  public:
-  /// Adds "M", "M100-M199", "%MW100-%MW199", "D0", "h1230-h12FF" (parameters by hex address, area
-  /// H), or "all"; several separated by commas. Words, whole areas, or every area but physical
-  /// outputs, which are written only when named. Errors name the part that is wrong.
-  Status allow(const std::string& ranges);
+  /// Adds an area ("M"), a word ("D0"), words ("M100-M199", as `words` reads their ends), or "all";
+  /// several separated by commas. All is every area but physical outputs, which are written only
+  /// when named. Errors name the part that is wrong.
+  Status allow(const std::string& ranges, const WordReader& words);
 
   bool empty() const { return ranges_.empty(); }
 

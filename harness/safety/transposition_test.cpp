@@ -30,7 +30,8 @@ class Transposed {
         "f.json", set_);
     EXPECT_THAT(set_.problems, IsEmpty());
     WriteFence fence;
-    EXPECT_TRUE(fence.allow(allowed));
+    const auto words = [&](std::string_view text) { return protocol.read_word(text); };
+    EXPECT_TRUE(fence.allow(allowed, words));
     const nlohmann::json declared = protocol.name() == "ls-bus"
                                         ? nlohmann::json{{"write_order", "address_first"}}
                                         : nlohmann::json::object();

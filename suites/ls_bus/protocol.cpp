@@ -46,7 +46,10 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_client(std::string_view model,
                               {"write_order"});
 }
 
-class LsBus : public Protocol {
+class LsBus : public Protocol,
+              public harness::Probing,
+              public harness::MemoryRequests,
+              public harness::Tables {
  public:
   /// `count_first`: the order of writes that a device declares; nothing: it declares none.
   explicit LsBus(std::optional<bool> count_first = {})
@@ -93,28 +96,32 @@ class LsBus : public Protocol {
                : plc::unknown_frame;
   }
 
+  const harness::Probing* probing() const override { return this; }
+  const harness::MemoryRequests* memory() const override { return this; }
+  const harness::Tables* tables() const override { return this; }
+
   /// Parameter 0000, which inverters have for their model: one word, or two where the tested
   /// request reads one. So no reply to the tested request has its length and its command.
-  Bytes probe(int station, ByteView tested) const override {
+  Bytes probing_request(int station, ByteView tested) const override {
     return request(fmt::format("{}R0000{}", station_text(station), reads_one_word(tested) ? 2 : 1));
   }
 
-  bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
+  bool answers_probe(ByteView probe, ByteView reply) const override {
     const std::size_t words = probe[count_at] == '2' ? 2 : 1;
     return reply.size() == command_at + 1 + 4 * words + 3 && reply[0] == ack &&
            reply[command_at] == 'R';
   }
 
-  Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
-                                            std::string_view hex) const override {
+  Result<std::vector<Bytes>> requests_to_write(int station, std::string_view address,
+                                               std::string_view hex) const override {
     return ls_bus_suite::write_requests(station_text(station), address, hex, count_first_);
   }
-  Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
-                                           std::size_t digits) const override {
+  Result<std::vector<Bytes>> requests_to_read(int station, std::string_view address,
+                                              std::size_t digits) const override {
     return ls_bus_suite::read_requests(station_text(station), address, digits);
   }
-  Status write_reply(ByteView reply) const override { return ls_bus_suite::write_reply(reply); }
-  Result<std::string> read_reply(ByteView reply) const override {
+  Status acknowledged(ByteView reply) const override { return ls_bus_suite::write_reply(reply); }
+  Result<std::string> digits_in(ByteView reply) const override {
     return ls_bus_suite::read_reply(reply);
   }
   std::vector<Written> written_by(ByteView request) const override {
@@ -130,6 +137,15 @@ class LsBus : public Protocol {
     const bool declared = config.contains("write_order");
     return std::unique_ptr<Protocol>(
         std::make_unique<LsBus>(declared ? std::optional(!address_first) : std::nullopt));
+  }
+  /// "h1230", "1230", or "h": all of them.
+  std::optional<WordName> read_word(std::string_view text) const override {
+    const bool marked = text.starts_with('h') || text.starts_with('H');
+    const std::string_view number = text.substr(marked ? 1 : 0);
+    if (marked && number.empty()) return WordName{std::string(parameter_area), {}};
+    const std::optional<Bytes> word = from_hex(number);
+    if (number.size() != 4 || !word) return std::nullopt;
+    return WordName{std::string(parameter_area), (*word)[0] * 256u + (*word)[1]};
   }
   std::string spell(std::string_view, std::uint32_t word) const override {
     return "h" + hex_number(word, 4);
@@ -149,7 +165,7 @@ class LsBus : public Protocol {
   /// A parameter may be the run command: a motor turns.
   std::string_view output_areas() const override { return parameter_area; }
 
-  Status check_fact(const nlohmann::json& facts) const override {
+  Status check_table(const nlohmann::json& facts) const override {
     return ls_bus_suite::check_fact(facts);
   }
 

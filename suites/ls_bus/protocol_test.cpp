@@ -115,5 +115,16 @@ TEST(Monitor, KnowsRequestsAndReplies) {
   EXPECT_EQ(protocol().monitor_result(to_bytes("01R"), false, false), plc::unknown_frame);
 }
 
+TEST(LsBusProtocol, ParametersAreNamedByTheirHexAddress) {
+  for (const char* text : {"h1230", "1230", "H1230"}) {
+    const auto name = protocol().read_word(text);
+    ASSERT_TRUE(name) << text;
+    EXPECT_EQ(name->word, 0x1230u);
+  }
+  EXPECT_FALSE(protocol().read_word("h")->word);
+  for (const char* text : {"", "M100", "h12", "h12345", "12G0"})
+    EXPECT_FALSE(protocol().read_word(text)) << text;
+}
+
 }  // namespace
 }  // namespace fieldproof::ls_bus_suite

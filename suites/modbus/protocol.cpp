@@ -24,7 +24,10 @@ using harness::Protocol;
 
 namespace {
 
-class Modbus : public Protocol {
+class Modbus : public Protocol,
+               public harness::Probing,
+               public harness::MemoryRequests,
+               public harness::Tables {
  public:
   Modbus(modbus::ModbusMode mode, const Framing& framing, Bases bases = default_bases())
       : mode_(mode), framing_(framing), bases_(std::move(bases)) {}
@@ -54,6 +57,7 @@ class Modbus : public Protocol {
     static const std::array all{checks::crc, checks::lrc, checks::length};
     return all;
   }
+  bool is_text() const override { return framing_.dressing().digits; }
   const notation::Dressing* dressing() const override { return &framing_.dressing(); }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return framing_.frame_length(bytes);
@@ -71,9 +75,13 @@ class Modbus : public Protocol {
     return framing_.frame_gap(character_time);
   }
 
+  const harness::Probing* probing() const override { return this; }
+  const harness::MemoryRequests* memory() const override { return this; }
+  const harness::Tables* tables() const override { return this; }
+
   /// One element at data address 0, which every model has, by a function code that was not tested:
   /// a reply or an exception to the tested frame carries another one.
-  Bytes probe(int station, ByteView tested) const override {
+  Bytes probing_request(int station, ByteView tested) const override {
     constexpr std::array<Byte, 4> reads{0x03, 0x01, 0x04, 0x02};
     const std::vector<Bytes> messages = framing_.messages(tested);
     const auto was_tested = [&](Byte function) {
@@ -86,23 +94,23 @@ class Modbus : public Protocol {
         Bytes{static_cast<Byte>(station), free == reads.end() ? reads.front() : *free, 0, 0, 0, 1});
   }
 
-  bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
+  bool answers_probe(ByteView probe, ByteView reply) const override {
     const Bytes asked = framing_.unwrap(probe), answer = framing_.unwrap(reply);
     return answer.size() > 1 && asked.size() > 1 && (answer[1] & ~exception_bit) == asked[1];
   }
 
-  Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
-                                            std::string_view hex) const override {
+  Result<std::vector<Bytes>> requests_to_write(int station, std::string_view address,
+                                               std::string_view hex) const override {
     return modbus_suite::write_requests(framing_, bases_, station, address, hex);
   }
-  Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
-                                           std::size_t digits) const override {
+  Result<std::vector<Bytes>> requests_to_read(int station, std::string_view address,
+                                              std::size_t digits) const override {
     return modbus_suite::read_requests(framing_, bases_, station, address, digits);
   }
-  Status write_reply(ByteView reply) const override {
+  Status acknowledged(ByteView reply) const override {
     return modbus_suite::write_reply(framing_, reply);
   }
-  Result<std::string> read_reply(ByteView reply) const override {
+  Result<std::string> digits_in(ByteView reply) const override {
     return modbus_suite::read_reply(framing_, reply);
   }
   std::vector<Written> written_by(ByteView request) const override {
@@ -137,11 +145,14 @@ class Modbus : public Protocol {
   }
 
   std::string_view output_areas() const override { return "PQU"; }
+  std::optional<WordName> read_word(std::string_view text) const override {
+    return harness::read_word_name(text);
+  }
 
   /// What the default base of the holding registers reaches.
   std::vector<Area> areas() const override { return {{"M", plc::last_words_of('M')}}; }
 
-  Status check_fact(const nlohmann::json& facts) const override {
+  Status check_table(const nlohmann::json& facts) const override {
     return modbus_suite::check_fact(facts);
   }
 

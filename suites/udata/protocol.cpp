@@ -44,41 +44,12 @@ class Udata : public harness::Protocol {
              frame.size() > udata::udata_max ? "more than 1024 bytes" : ""}};
   }
 
-  Bytes probe(int, ByteView) const override { return {}; }
-  bool is_reply_to_probe(ByteView, ByteView) const override { return false; }
-
-  Result<std::vector<Bytes>> write_requests(int, std::string_view address,
-                                            std::string_view) const override {
-    return no_request(address);
-  }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view address,
-                                           std::size_t) const override {
-    return no_request(address);
-  }
-  Status write_reply(ByteView) const override {
-    return fail("UDATA has no request that writes memory");
-  }
-  Result<std::string> read_reply(ByteView) const override {
-    return fail("UDATA has no request that reads memory");
-  }
-
   /// A program receives it, or a modem obeys it: it may dial.
   std::vector<Written> written_by(ByteView request) const override {
     if (request.empty()) return {};
     return {{"?", 0, 0, "what the program behind the port makes of it"}};
   }
   std::string_view output_areas() const override { return "PQU"; }
-  Status check_fact(const nlohmann::json&) const override {
-    return fail("the UDATA suite has no tables; write a case");
-  }
-
- private:
-  static Error no_request(std::string_view address) {
-    return fail(
-        fmt::format("UDATA has no request that reads or writes {}; use an emulator, whose memory "
-                    "the bench sees",
-                    address));
-  }
 };
 
 }  // namespace

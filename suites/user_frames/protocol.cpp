@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "harness/device_names.hpp"
 #include "src/base/spelling.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/p2p/parameters.hpp"
@@ -23,14 +24,7 @@ using harness::Protocol;
 
 namespace {
 
-Error no_memory_requests(std::string_view address) {
-  return fail(
-      fmt::format("user-defined frames have no request that reads or writes {}; use an emulator, "
-                  "whose memory the bench sees",
-                  address));
-}
-
-class UserFrames : public Protocol {
+class UserFrames : public Protocol, public harness::Probing, public harness::Tables {
  public:
   explicit UserFrames(std::vector<NamedDefinition> all) : definitions_(std::move(all)) {}
   explicit UserFrames(NamedDefinition one) : definitions_{std::move(one)}, own_(true) {}
@@ -65,8 +59,11 @@ class UserFrames : public Protocol {
     return user_frames_suite::explain(definitions_, frame);
   }
 
+  const harness::Probing* probing() const override { return this; }
+  const harness::Tables* tables() const override { return this; }
+
   /// None after a frame that has the probe's own reply.
-  Bytes probe(int, ByteView tested) const override {
+  Bytes probing_request(int, ByteView tested) const override {
     const user_frames::FrameDefinition* one = own();
     if (!one || one->probe.empty()) return {};
     for (const user_frames::UserFrame& frame : one->frames)
@@ -79,7 +76,7 @@ class UserFrames : public Protocol {
     return bytes ? *bytes : Bytes{};
   }
 
-  bool is_reply_to_probe(ByteView, ByteView reply) const override {
+  bool answers_probe(ByteView, ByteView reply) const override {
     const user_frames::FrameDefinition* one = own();
     if (!one || one->probe.empty()) return false;
     const user_frames::FrameMatch match =
@@ -88,28 +85,16 @@ class UserFrames : public Protocol {
            match.length() == reply.size();
   }
 
-  Result<std::vector<Bytes>> write_requests(int, std::string_view address,
-                                            std::string_view) const override {
-    return no_memory_requests(address);
-  }
-  Result<std::vector<Bytes>> read_requests(int, std::string_view address,
-                                           std::size_t) const override {
-    return no_memory_requests(address);
-  }
-  Status write_reply(ByteView) const override {
-    return fail("user-defined frames have no request that writes memory");
-  }
-  Result<std::string> read_reply(ByteView) const override {
-    return fail("user-defined frames have no request that reads memory");
-  }
-
   /// Without the device's definition nobody can tell what a frame does there.
   std::vector<Written> written_by(ByteView request) const override {
     if (!own()) return {{"?", 0, 0, "what its definition says"}};
     return user_frames_suite::written_by(definitions_.front(), request);
   }
   std::string_view output_areas() const override { return "PQU"; }
-  Status check_fact(const nlohmann::json& facts) const override {
+  std::optional<WordName> read_word(std::string_view text) const override {
+    return harness::read_word_name(text);
+  }
+  Status check_table(const nlohmann::json& facts) const override {
     return user_frames_suite::check_fact(facts);
   }
 

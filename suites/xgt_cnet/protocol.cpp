@@ -23,7 +23,10 @@ namespace {
 
 std::string station_text(int station) { return hex_number(static_cast<unsigned>(station), 2); }
 
-class XgtCnet : public harness::Protocol {
+class XgtCnet : public harness::Protocol,
+                public harness::Probing,
+                public harness::MemoryRequests,
+                public harness::Tables {
  public:
   /// nullptr: of no model in particular.
   explicit XgtCnet(const PlcModel* model = nullptr) : model_(model) {}
@@ -76,10 +79,14 @@ class XgtCnet : public harness::Protocol {
     return client ? plc::FrameResult{2, "XGT client"} : plc::FrameResult{1, "XGT server"};
   }
 
+  const harness::Probing* probing() const override { return this; }
+  const harness::MemoryRequests* memory() const override { return this; }
+  const harness::Tables* tables() const override { return this; }
+
   /// The first word of M, which every model has, in the other case than the tested command: the
   /// reply repeats the case of the request, so that no reply to the tested frame looks like the
   /// probe's.
-  Bytes probe(int station, ByteView tested) const override {
+  Bytes probing_request(int station, ByteView tested) const override {
     const bool tested_lower = tested.size() > 3 && tested[3] >= 'a' && tested[3] <= 'z';
     const std::string body =
         fmt::format("\x05{}{}SS0104%MW0\x04", station_text(station), tested_lower ? 'R' : 'r');
@@ -91,20 +98,20 @@ class XgtCnet : public harness::Protocol {
     return frame;
   }
 
-  bool is_reply_to_probe(ByteView probe, ByteView reply) const override {
+  bool answers_probe(ByteView probe, ByteView reply) const override {
     return reply.size() > 3 && (reply[0] == ack || reply[0] == nak) && reply[3] == probe[3];
   }
 
-  Result<std::vector<Bytes>> write_requests(int station, std::string_view address,
-                                            std::string_view hex) const override {
+  Result<std::vector<Bytes>> requests_to_write(int station, std::string_view address,
+                                               std::string_view hex) const override {
     return xgt_cnet_suite::write_requests(station_text(station), address, hex);
   }
-  Result<std::vector<Bytes>> read_requests(int station, std::string_view address,
-                                           std::size_t digits) const override {
+  Result<std::vector<Bytes>> requests_to_read(int station, std::string_view address,
+                                              std::size_t digits) const override {
     return xgt_cnet_suite::read_requests(station_text(station), address, digits);
   }
-  Status write_reply(ByteView reply) const override { return xgt_cnet_suite::write_reply(reply); }
-  Result<std::string> read_reply(ByteView reply) const override {
+  Status acknowledged(ByteView reply) const override { return xgt_cnet_suite::write_reply(reply); }
+  Result<std::string> digits_in(ByteView reply) const override {
     return xgt_cnet_suite::read_reply(reply);
   }
   std::vector<Written> written_by(ByteView request) const override {
@@ -133,6 +140,9 @@ class XgtCnet : public harness::Protocol {
     return found ? found->words : 0;
   }
   std::string_view output_areas() const override { return "PQU"; }
+  std::optional<WordName> read_word(std::string_view text) const override {
+    return harness::read_word_name(text);
+  }
 
   std::vector<Area> areas() const override {
     std::vector<Area> areas;
@@ -142,7 +152,7 @@ class XgtCnet : public harness::Protocol {
     return areas;
   }
 
-  Status check_fact(const nlohmann::json& facts) const override {
+  Status check_table(const nlohmann::json& facts) const override {
     if (facts.contains("p2p")) return check_p2p_fact(facts);
     const PlcModel* model = plc::find_plc_model(facts.value("model", ""));
     const std::string letter = facts.value("area", "");
