@@ -8,15 +8,23 @@
 
 #include "reports/captured_network.hpp"
 #include "reports/pcapng.hpp"
-#include "reports/results/ndjson.hpp"
 #include "reports/text/case_text.hpp"
 #include "reports/text/report_file.hpp"
+#include "reports/text/spill.hpp"
 #include "reports/text/xml_text.hpp"
 
 namespace fieldproof::reports {
 
 using results::CaseResult;
+using results::Delivery;
 using results::Event;
+using results::Identity;
+using results::RunInfo;
+using results::RunLog;
+using results::Sink;
+using text::ReportFile;
+using text::Spill;
+using text::xml_line;
 
 namespace {
 
@@ -84,58 +92,73 @@ class Calendar {
   std::uint64_t offset_ = 0, last_ = 0;
 };
 
-/// Writes packets as results are read.
-class Capture {
+class CaptureReport final : public Sink {
  public:
-  explicit Capture(std::ostream& out) : out_(out) {}
+  explicit CaptureReport(const std::string& path) : path_(path), packets_(path) {}
 
-  void begin(const results::RunInfo& run) {
-    const results::Identity& device = run.identity;
-    const std::string hardware = text::xml_line(
+  Status begin(const RunInfo& run) override {
+    const Identity& device = run.identity;
+    const std::string hardware = xml_line(
         fmt::format("{} {} {} {}", device.maker, device.model, device.serial, device.firmware));
-    out_ << pcapng_section("fieldproof " + text::xml_line(run.tool_version),
-                           hardware.find_first_not_of(' ') == std::string::npos ? "" : hardware);
-    endpoint_ = text::xml_line(run.endpoint);
+    endpoint_ = xml_line(run.endpoint);
     calendar_.begin_run(run.started);
+    return packets_.append(
+        pcapng_section("fieldproof " + xml_line(run.tool_version),
+                       hardware.find_first_not_of(' ') == std::string::npos ? "" : hardware));
   }
 
-  void add(const CaseResult& result) {
+  Status add(const Delivery& one) override {
+    const CaseResult& result = *one;
     const std::vector<CapturedFrame> frames = captured_frames(result);
     const std::vector<CapturedPacket> packets = network_.packets(
         result.exchange, [&](const Event& event) { return comment_of(result, event); });
-    if (frames.empty() && packets.empty()) return;
+    if (frames.empty() && packets.empty()) return ok();
     const Time first = std::min(frames.empty() ? Time::max() : frames.front().start,
                                 packets.empty() ? Time::max() : packets.front().time);
     calendar_.begin_case(first);
+    std::string blocks;
     auto frame = frames.begin();
     for (const CapturedPacket& packet : packets) {
-      for (; frame != frames.end() && frame->end <= packet.time; ++frame) add(result, *frame);
-      add(result, packet);
+      for (; frame != frames.end() && frame->end <= packet.time; ++frame)
+        blocks += block_of(result, *frame);
+      blocks += block_of(result, packet);
     }
-    for (; frame != frames.end(); ++frame) add(result, *frame);
+    for (; frame != frames.end(); ++frame) blocks += block_of(result, *frame);
+    return packets_.append(blocks);
+  }
+
+  Status end(const RunLog&) override {
+    Result<ReportFile> file = ReportFile::create(path_);
+    if (!file) return file.error();
+    if (Status copied = packets_.copy_to(file->out()); !copied) return copied;
+    return file->commit();
   }
 
  private:
-  void add(const CaseResult& result, const CapturedFrame& frame) {
-    const std::uint32_t interface = interface_of(result.protocol, linktype_rtac_serial);
-    out_ << pcapng_serial_packet(
-        {interface, calendar_.pass(frame.end), frame.sent, frame.bytes, frame.comment});
+  std::string block_of(const CaseResult& result, const CapturedFrame& frame) {
+    std::string blocks;
+    const std::uint32_t interface = interface_of(result.protocol, linktype_rtac_serial, blocks);
+    return blocks + pcapng_serial_packet({interface, calendar_.pass(frame.end), frame.sent,
+                                          frame.bytes, frame.comment});
   }
-  void add(const CaseResult& result, const CapturedPacket& packet) {
-    const std::uint32_t interface = interface_of(result.protocol, linktype_ipv4);
-    out_ << pcapng_packet(
-        {interface, calendar_.pass(packet.time), packet.sent, packet.bytes, packet.comment});
+  std::string block_of(const CaseResult& result, const CapturedPacket& packet) {
+    std::string blocks;
+    const std::uint32_t interface = interface_of(result.protocol, linktype_ipv4, blocks);
+    return blocks + pcapng_packet({interface, calendar_.pass(packet.time), packet.sent,
+                                   packet.bytes, packet.comment});
   }
 
-  std::uint32_t interface_of(const std::string& protocol, std::uint16_t linktype) {
+  /// A new one is described in `blocks`.
+  std::uint32_t interface_of(const std::string& protocol, std::uint16_t linktype,
+                             std::string& blocks) {
     const auto [found, added] = interfaces_.emplace(std::pair(protocol, linktype),
                                                     static_cast<std::uint32_t>(interfaces_.size()));
-    if (added) out_ << pcapng_interface(linktype, text::xml_line(protocol), endpoint_);
+    if (added) blocks += pcapng_interface(linktype, xml_line(protocol), endpoint_);
     return found->second;
   }
 
-  std::ostream& out_;
-  std::string endpoint_;
+  std::string path_, endpoint_;
+  Spill packets_;
   Calendar calendar_;
   CapturedNetwork network_;
   std::map<std::pair<std::string, std::uint16_t>, std::uint32_t> interfaces_;
@@ -158,22 +181,8 @@ std::vector<CapturedFrame> captured_frames(const CaseResult& result) {
   return frames;
 }
 
-Result<text::Tally> write_capture(const std::string& ndjson, const std::string& path) {
-  // The head of the file comes before the first packet, and before the results are read.
-  const Result<results::RunLog> head = results::read_ndjson(ndjson, [](const CaseResult&) {});
-  if (!head) return head.error();
-  Result<text::ReportFile> file = text::ReportFile::create(path);
-  if (!file) return file.error();
-  Capture capture(file->out());
-  capture.begin(head->run);
-  text::Tally tally;
-  const Result<results::RunLog> log = results::read_ndjson(ndjson, [&](const CaseResult& result) {
-    tally.add(result.verdict);
-    capture.add(result);
-  });
-  if (!log) return log.error();
-  if (const Status done = file->commit(); !done) return done.error();
-  return tally;
+std::unique_ptr<Sink> capture_report(const std::string& path) {
+  return std::make_unique<CaptureReport>(path);
 }
 
 }  // namespace fieldproof::reports

@@ -1,27 +1,25 @@
 // The traffic of a run for Wireshark: pcapng, one packet a frame.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "reports/results/case_result.hpp"
-#include "reports/text/tally.hpp"
-#include "src/base/result.hpp"
+#include "reports/results/sink.hpp"
 
 namespace fieldproof::reports {
 
-/// Reads the results in `ndjson` (of a killed run too) and writes `path`: the frames of all cases
-/// in both directions, with step, case and verdict as comment. Lines are RTAC serial (linktype
-/// 250), links of a network IPv4 with TCP or UDP (linktype 228, see CapturedNetwork); one interface
-/// a protocol and linktype. `path` appears whole or not at all. Returns the counts of what was
-/// read.
+/// Writes `path`: the frames of all cases in both directions, with step, case and verdict as
+/// comment. Lines are RTAC serial (linktype 250), links of a network IPv4 with TCP or UDP (linktype
+/// 228, see CapturedNetwork); one interface a protocol and linktype. `path` appears at the end,
+/// whole or not at all.
 ///   tshark -r FILE -d rtacser.data,mbrtu -o mbrtu.crc_verification:TRUE   decodes Modbus RTU
 ///   the display filter frame.comment contains "FAIL"   shows the cases that failed
 ///
 /// Times are those of the bench, counted from the start of the run as the clock of the computer
 /// gave it (in seconds). Simulated clocks of several protocols run one after the other, as their
 /// cases did.
-Result<text::Tally> write_capture(const std::string& ndjson, const std::string& path);
+std::unique_ptr<results::Sink> capture_report(const std::string& path);
 
 /// What one step sent, or took, as a whole: the pieces in which a port delivers a frame are joined.
 struct CapturedFrame {

@@ -83,15 +83,24 @@ TEST(Pcapng, BlocksAreWholeWordsBetweenTheirLengths) {
 TEST(Capture, IsThereWholeOrNotAtAll) {
   const samples::Folder folder;
   samples::write_results(folder / "results.ndjson", {samples::failure()}, false);
-  const auto counts = write_capture(folder / "results.ndjson", folder / "run.pcapng");
-  ASSERT_TRUE(counts) << counts.error().message;
-  EXPECT_EQ(1u, counts->of(results::Verdict::fail));
+  const auto capture = [&](const std::string& name) {
+    return replay(folder / "results.ndjson", *capture_report(folder / name));
+  };
+  ASSERT_TRUE(capture("run.pcapng"));
   EXPECT_THAT(samples::read_file(folder / "run.pcapng"), StartsWith("\x0A\x0D\x0D\x0A"));
   std::ofstream(folder / "results.ndjson", std::ios::app) << "damage\n";
-  EXPECT_FALSE(write_capture(folder / "results.ndjson", folder / "other.pcapng"));
+  EXPECT_FALSE(capture("other.pcapng"));
   EXPECT_EQ(2u, folder.files());
-  const auto nowhere = write_capture(folder / "results.ndjson", folder / "no/folder.pcapng");
-  ASSERT_FALSE(nowhere);
+}
+
+TEST(Capture, AFolderThatIsNotThereIsSaid) {
+  const samples::Folder folder;
+  const std::unique_ptr<results::Sink> sink = capture_report(folder / "no/folder.pcapng");
+  ASSERT_TRUE(sink->begin(samples::run_info()));
+  ASSERT_TRUE(sink->add(results::Delivery(samples::failure())));
+  const Status done = sink->end({});
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("cannot write " + folder / "no/folder.pcapng"));
 }
 
 }  // namespace

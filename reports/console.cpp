@@ -12,6 +12,10 @@
 
 namespace fieldproof::reports {
 
+using results::CaseResult;
+using results::Delivery;
+using results::RunInfo;
+using results::RunLog;
 using results::Verdict;
 
 namespace {
@@ -19,6 +23,8 @@ namespace {
 constexpr std::size_t verdict_width = 14;   // INCONCLUSIVE and two spaces
 constexpr std::size_t console_limit = 256;  // bytes of a frame; the reports have them all
 constexpr std::size_t red_limit = 20;       // red cases named again in the summary
+constexpr std::size_t most_red = 1000;      // that are kept for it
+constexpr int widest_head = 100;
 constexpr Duration shortest_display = 20ms;
 const std::string erase_line = "\r\x1b[K";
 
@@ -80,18 +86,52 @@ std::string outcome(const Summary& summary, const ConsoleOptions& options) {
   return fmt::format("exit {}: {}\n", code, text);
 }
 
+/// Items side by side, in lines of a width: an item goes on in the next line only where it fits in
+/// none. All lines but the first are indented.
+class Lines {
+ public:
+  explicit Lines(std::size_t width) : width_(width) {}
+
+  void add(std::string_view item) {
+    if (!line_.empty() && line_.size() + 2 + item.size() > width_) end();
+    line_ += line_.empty() ? indentation() : "  ";
+    for (std::size_t room; item.size() > (room = width_ - std::min(line_.size(), width_));) {
+      const std::size_t blank = item.rfind(' ', room);
+      if (blank == std::string_view::npos || blank == 0) break;  // one word
+      line_ += item.substr(0, blank);
+      item.remove_prefix(blank + 1);
+      end();
+      line_ = "    ";
+    }
+    line_ += item;
+  }
+  void end() {
+    if (!line_.empty()) text_ += line_ + '\n';
+    line_.clear();
+  }
+  std::string take() { return end(), std::move(text_); }
+
+ private:
+  std::string indentation() const { return text_.empty() ? "" : "  "; }
+
+  std::size_t width_;
+  std::string text_, line_;
+};
+
 }  // namespace
 
-std::string run_head(const results::RunInfo& run) {
-  std::string text = fmt::format("fieldproof {}  {}", text::xml_line(run.tool_version),
-                                 text::xml_line(run.endpoint));
-  if (!run.profile.empty()) text += fmt::format("  profile {}", text::xml_line(run.profile));
-  for (const auto& [name, value] : run.properties)
-    text += fmt::format("  {}={}", text::xml_line(name), text::xml_line(value));
-  for (const results::DutInfo& dut : run.duts)
-    text += fmt::format("\n  {}: {}", text::xml_line(dut.identity.name),
-                        text::xml_line(text::device_text(dut)));
-  return text + '\n';
+std::string run_head(const RunInfo& run, const ConsoleOptions& options) {
+  std::vector<std::string> items{"fieldproof " + run.tool_version, run.endpoint};
+  if (!run.profile.empty()) items.push_back("profile " + run.profile);
+  for (const auto& [name, value] : run.properties) items.push_back(name + '=' + value);
+  const int width = options.terminal ? std::min(options.width, widest_head) : widest_head;
+  Lines lines(static_cast<std::size_t>(width));
+  for (const std::string& item : items) lines.add(text::xml_line(item));
+  for (const results::DutInfo& dut : run.duts) {
+    lines.end();
+    lines.add(text::xml_line(dut.identity.name + ": " + text::device_text(dut)));
+  }
+  return lines.take();
 }
 
 std::string case_report(const results::CaseResult& result, const ConsoleOptions& options) {
@@ -150,6 +190,29 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   for (const auto& [kind, path] : summary.reports)
     text += fmt::format("{:<{}}  {}\n", kind, width, path);
   return text + '\n' + outcome(summary, options);
+}
+
+Status ConsoleReport::begin(const RunInfo& run) { return print_(run_head(run, options_)), ok(); }
+
+void ConsoleReport::count(const CaseResult& result) {
+  summary_.tally.add(result.verdict);
+  timing_.add(result);
+  if (gates(result.verdict, options_.gate) && summary_.red.size() < most_red)
+    summary_.red.push_back(text::case_label(result));
+}
+
+Status ConsoleReport::add(const Delivery& one) {
+  if (const std::string text = case_report(*one, options_); !text.empty())
+    print_(progress_.erase() + text);
+  return ok();
+}
+
+Status ConsoleReport::end(const RunLog& log) {
+  if (log.end) summary_.end = *log.end;
+  summary_.timing = timing_.rows();
+  summary_.soak = log.soak;
+  print_(run_summary(summary_, options_));
+  return ok();
 }
 
 }  // namespace fieldproof::reports

@@ -1,4 +1,5 @@
-// What a person at the bench reads. Pure functions from results to text: the caller prints.
+// What a person at the bench reads: pure functions from results to text, and the sink that prints
+// it.
 #pragma once
 
 #include <optional>
@@ -6,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/results/case_result.hpp"
-#include "reports/results/soak.hpp"
+#include "reports/results/sink.hpp"
 #include "reports/text/tally.hpp"
 #include "reports/text/timing_table.hpp"
 
@@ -21,8 +21,9 @@ struct ConsoleOptions {
   int width = 80;         // of the terminal
 };
 
-/// What a run is about, before its first case.
-std::string run_head(const results::RunInfo& run);
+/// What a run is about, before its first case: in lines of at most 100 columns, or of the
+/// terminal's width.
+std::string run_head(const results::RunInfo& run, const ConsoleOptions& options = {});
 
 /// A case as it happens: one line, and the block of case_text.hpp, when it turns the gate red or
 /// with -v; else nothing.
@@ -63,5 +64,38 @@ struct Summary {
 /// Counts of the verdicts that occur with their meaning, the red cases, exit code and its meaning,
 /// paths of the reports.
 std::string run_summary(const Summary& summary, const ConsoleOptions& options);
+
+/// All of it as the run goes.
+class ConsoleReport final : public results::Sink {
+ public:
+  using Print = void (*)(const std::string&);
+  ConsoleReport(const ConsoleOptions& options, Print print)
+      : options_(options), progress_(options), print_(print) {}
+
+  void show_progress(std::size_t total, const std::string& next_id, Duration elapsed) {
+    print_(progress_.line(summary_.tally, total, next_id, elapsed));
+  }
+  /// A line for the engineer between the cases.
+  void say(const std::string& line) { print_(progress_.erase() + line + '\n'); }
+  void erase_progress() { print_(progress_.erase()); }
+
+  Status begin(const results::RunInfo& run) override;
+  /// Every result, also those of a soak that are not added.
+  void count(const results::CaseResult& result);
+  Status add(const results::Delivery& one) override;
+  Status end(const results::RunLog& log) override;
+
+  void add_path(const std::string& kind, const std::string& path) {
+    summary_.reports.emplace_back(kind, path);
+  }
+  const text::Tally& tally() const { return summary_.tally; }
+
+ private:
+  ConsoleOptions options_;
+  Progress progress_;
+  Print print_;
+  Summary summary_;
+  text::TimingTable timing_;
+};
 
 }  // namespace fieldproof::reports

@@ -23,6 +23,32 @@ TEST(RunHead, SaysWhatIsTested) {
       run_head(samples::run_info()));
 }
 
+TEST(RunHead, KeepsToItsWidth) {
+  results::RunInfo run = samples::run_info();
+  run.properties = {{"device", "The embedded emulator as whatever model a case names"},
+                    {"gate", "default"},
+                    {"protocol", "xgt-cnet, modbus-rtu, modbus-ascii, ls-bus, user-frames, udata"},
+                    {"response_max_ms", "500"}};
+  EXPECT_EQ(
+      "fieldproof 0.1.0  emulator:xbc-h?station=1  profile xbc-h\n"
+      "  device=The embedded emulator as whatever model a case names  gate=default\n"
+      "  protocol=xgt-cnet, modbus-rtu, modbus-ascii, ls-bus, user-frames, udata  "
+      "response_max_ms=500\n",
+      run_head(run));
+  EXPECT_EQ(
+      "fieldproof 0.1.0\n  emulator:xbc-h?station=1\n  profile xbc-h\n  device=The embedded\n"
+      "    emulator as whatever\n    model a case names\n  gate=default\n  protocol=xgt-cnet,\n"
+      "    modbus-rtu,\n    modbus-ascii, ls-bus,\n    user-frames, udata\n  "
+      "response_max_ms=500\n",
+      run_head(run, {.terminal = true, .width = 26}));
+}
+
+TEST(RunHead, AWordIsNeverBroken) {
+  results::RunInfo run = samples::run_info();
+  run.endpoint = "serial:/dev/" + std::string(200, 'x');
+  EXPECT_THAT(run_head(run), HasSubstr('\n' + ("  " + run.endpoint) + '\n'));
+}
+
 TEST(CaseReport, AFailureIsALineAndABlock) {
   auto result = samples::failure();
   result.exchange.clear();

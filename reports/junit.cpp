@@ -3,59 +3,51 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <pugixml.hpp>
-#include <sstream>
 #include <vector>
 
-#include "reports/results/ndjson.hpp"
 #include "reports/text/case_text.hpp"
 #include "reports/text/report_file.hpp"
 #include "reports/text/run_text.hpp"
+#include "reports/text/spill.hpp"
+#include "reports/text/tally.hpp"
 #include "reports/text/timing_table.hpp"
 #include "reports/text/xml_text.hpp"
+#include "reports/text/xml_writer.hpp"
 
 namespace fieldproof::reports {
 
 using results::CaseResult;
+using results::Delivery;
+using results::DutInfo;
 using results::Gate;
+using results::RunInfo;
+using results::RunLog;
+using results::Sink;
 using results::Verdict;
+using text::case_block;
+using text::case_message;
 using text::JunitOutcome;
+using text::ReportFile;
+using text::Spill;
 using text::Tally;
+using text::TimingTable;
+using text::xml_line;
+using text::XmlWriter;
 
 namespace {
 
+/// Head and end of its element need totals; what stands between them is ready.
 struct Suite {
-  std::string protocol = {};
+  std::string protocol;
+  Spill cases;
   Tally tally = {};
   double seconds = 0;
   text::TimingTable timing = {};
 };
 
-/// What the first pass finds.
-struct Survey {
-  results::RunLog log;
-  std::vector<Suite> suites;
-};
-
 struct Counts {
   std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
 };
-
-Result<Survey> survey_results(const std::string& ndjson) {
-  std::vector<Suite> suites;
-  auto log = results::read_ndjson(ndjson, [&](const CaseResult& result) {
-    auto suite = std::find_if(suites.begin(), suites.end(),
-                              [&](const Suite& s) { return s.protocol == result.protocol; });
-    if (suite == suites.end()) suite = suites.insert(suites.end(), {.protocol = result.protocol});
-    suite->tally.add(result.verdict);
-    suite->seconds += result.seconds;
-    suite->timing.add(result);
-  });
-  if (!log) return log.error();
-  // A run without a result still says what it was about, and why nothing came of it.
-  if (suites.empty()) suites.push_back({});
-  return Survey{std::move(*log), std::move(suites)};
-}
 
 Counts counts_of(const Tally& tally, const Gate& gate) {
   Counts counts;
@@ -73,90 +65,6 @@ Counts counts_of(const Tally& tally, const Gate& gate) {
 
 // {fmt} knows no locale: the decimal sign is a dot everywhere.
 std::string seconds_text(double seconds) { return fmt::format("{:.3f}", seconds); }
-
-void set(pugi::xml_node node, const char* name, const std::string& value) {
-  node.append_attribute(name).set_value(text::xml_line(value).c_str());
-}
-void set(pugi::xml_node node, const char* name, std::size_t value) {
-  node.append_attribute(name).set_value(static_cast<unsigned long long>(value));
-}
-void set_body(pugi::xml_node node, const std::string& body) {
-  node.text().set(text::xml_text(body).c_str());
-}
-
-std::string print(pugi::xml_node node, unsigned depth) {
-  std::ostringstream out;
-  node.print(out, "  ", pugi::format_default, pugi::encoding_utf8, depth);
-  return out.str();
-}
-
-/// The tag that opens an element whose children are written one by one.
-std::string opening_tag(pugi::xml_node node, unsigned depth) {
-  std::string text = print(node, depth);
-  text.replace(text.rfind("/>"), 2, ">");
-  if (const std::size_t blank = text.rfind(" >"); blank != std::string::npos) text.erase(blank, 1);
-  return text;
-}
-
-std::string root_tag(const Survey& survey, const Gate& gate) {
-  Tally all;
-  double seconds = 0;
-  for (const Suite& suite : survey.suites) {
-    for (Verdict verdict : Tally::verdicts) all.add(verdict, suite.tally.of(verdict));
-    seconds += suite.seconds;
-  }
-  const Counts counts = counts_of(all, gate);
-  pugi::xml_document document;
-  pugi::xml_node node = document.append_child("testsuites");
-  set(node, "name", std::string("fieldproof"));
-  set(node, "tests", counts.tests);
-  set(node, "failures", counts.failures);
-  set(node, "errors", counts.errors);
-  set(node, "time", seconds_text(survey.log.end ? survey.log.end->seconds : seconds));
-  return opening_tag(node, 0);
-}
-
-std::string suite_tag(const Suite& suite, const results::RunLog& log, const Gate& gate) {
-  const Counts counts = counts_of(suite.tally, gate);
-  pugi::xml_document document;
-  pugi::xml_node node = document.append_child("testsuite");
-  set(node, "name", suite.protocol.empty() ? std::string("fieldproof") : suite.protocol);
-  set(node, "tests", counts.tests);
-  set(node, "failures", counts.failures);
-  set(node, "errors", counts.errors);
-  set(node, "skipped", counts.skipped);
-  set(node, "time", seconds_text(suite.seconds));
-  if (!log.run.started.empty()) set(node, "timestamp", log.run.started);
-  return opening_tag(node, 1);
-}
-
-std::string properties(const Suite& suite, const results::RunLog& log, const Gate& gate) {
-  pugi::xml_document document;
-  pugi::xml_node list = document.append_child("properties");
-  const auto add = [&](const std::string& name, const std::string& value) {
-    pugi::xml_node property = list.append_child("property");
-    set(property, "name", name);
-    set(property, "value", value);
-  };
-  add("fieldproof", log.run.tool_version);
-  add("endpoint", log.run.endpoint);
-  add("profile", log.run.profile);
-  add("command", log.run.command);
-  add("vectors", log.run.vectors_hash);
-  add("gate", text::to_string(gate));
-  for (const auto& [name, value] : log.run.properties) {
-    if (name != "gate") add(name, value);  // this report's gate is the one above
-  }
-  for (const results::DutInfo& dut : log.run.duts)
-    add("dut." + dut.identity.name, text::device_text(dut));
-  add("end", log.end ? log.end->finished : "missing");
-  if (log.end) add("exit_code", std::to_string(log.end->exit_code));
-  if (const std::string why = text::early_end(log); !why.empty()) add("ended_early", why);
-  if (log.soak) add("soak", results::soak_text(*log.soak));
-  for (const auto& [name, figures] : suite.timing.rows())
-    add("reply times " + name, results::to_string(figures));
-  return print(list, 2);
-}
 
 std::string headline(const CaseResult& result) {
   return fmt::format("{}: {}\n", results::to_string(result.verdict), text::case_message(result));
@@ -178,62 +86,144 @@ std::string remarks(const CaseResult& result) {
   return text;
 }
 
-void add_outcome(pugi::xml_node testcase, const CaseResult& result, const char* element) {
-  pugi::xml_node node = testcase.append_child(element);
-  set(node, "type", std::string(results::to_string(result.verdict)));
-  set(node, "message", text::case_message(result));
+void write_outcome(XmlWriter& xml, const CaseResult& result, const char* element) {
   // GitLab shows the body and not the message.
-  set_body(node, headline(result) + text::case_block(result, {.exchange = true}));
+  xml.leaf(element, {{"type", to_string(result.verdict)}, {"message", case_message(result)}},
+           headline(result) + case_block(result, {.exchange = true}));
 }
 
-std::string testcase(const CaseResult& result, const Gate& gate) {
-  pugi::xml_document document;
-  pugi::xml_node node = document.append_child("testcase");
+void write_case(XmlWriter& xml, const CaseResult& result, const Gate& gate) {
   const auto [classname, name] = junit_name(result);
-  set(node, "classname", classname);
-  set(node, "name", name);
-  set(node, "time", seconds_text(result.seconds));
-  switch (text::junit_outcome(result.verdict, gate)) {
-    case JunitOutcome::failure: add_outcome(node, result, "failure"); break;
-    case JunitOutcome::error: add_outcome(node, result, "error"); break;
-    case JunitOutcome::skipped: {
-      pugi::xml_node skipped = node.append_child("skipped");
-      set(skipped, "type", std::string(results::to_string(result.verdict)));
-      set(skipped, "message",
-          fmt::format("{}: {}", results::to_string(result.verdict), text::case_message(result)));
-      [[fallthrough]];
-    }
-    case JunitOutcome::plain:
-      if (const std::string text = remarks(result); !text.empty())
-        set_body(node.append_child("system-out"), text);
-  }
-  return print(node, 2);
+  const std::string time = seconds_text(result.seconds);
+  const XmlWriter::Attributes attributes{{"classname", classname}, {"name", name}, {"time", time}};
+  const JunitOutcome outcome = text::junit_outcome(result.verdict, gate);
+  const bool red = outcome == JunitOutcome::failure || outcome == JunitOutcome::error;
+  const std::string said = red ? "" : remarks(result);
+  if (outcome == JunitOutcome::plain && said.empty()) return xml.leaf("testcase", attributes);
+  xml.open("testcase", attributes);
+  if (red) write_outcome(xml, result, outcome == JunitOutcome::error ? "error" : "failure");
+  if (outcome == JunitOutcome::skipped)
+    xml.leaf("skipped",
+             {{"type", to_string(result.verdict)},
+              {"message", fmt::format("{}: {}", to_string(result.verdict), case_message(result))}});
+  if (!said.empty()) xml.leaf("system-out", {}, said);
+  xml.close("testcase");
 }
 
-Status write_suite(std::ostream& out, const std::string& ndjson, const Suite& suite,
-                   const results::RunLog& log, const Gate& gate) {
-  out << suite_tag(suite, log, gate) << properties(suite, log, gate);
-  Tally written;
-  auto again = results::read_ndjson(ndjson, [&](const CaseResult& result) {
-    if (result.protocol != suite.protocol) return;
-    written.add(result.verdict);
-    out << testcase(result, gate);
-  });
-  if (!again) return again.error();
-  if (written != suite.tally) {
-    return fail(fmt::format(
-        "cannot report {}: it changed while it was read; wait for the run to end, then repeat",
-        ndjson));
+class JunitReport final : public Sink {
+ public:
+  explicit JunitReport(const std::string& path) : path_(path) {}
+
+  Status begin(const RunInfo& run) override {
+    gate_ = text::gate_of(run);
+    return ok();
   }
-  if (const std::string why = text::early_end(log); !why.empty()) {
-    pugi::xml_document document;
-    pugi::xml_node node = document.append_child("system-err");
-    set_body(node, why);
-    out << print(node, 2);
+
+  Status add(const Delivery& one) override {
+    Suite& suite = suite_of(one->protocol);
+    suite.tally.add(one->verdict);
+    suite.seconds += one->seconds;
+    suite.timing.add(*one);
+    text_.clear();
+    XmlWriter xml(text_);
+    xml.depth = 2;
+    write_case(xml, *one, gate_);
+    return suite.cases.append(text_);
   }
-  out << "  </testsuite>\n";
-  return ok();
-}
+
+  Status end(const RunLog& log) override {
+    auto file = ReportFile::create(path_);
+    if (!file) return file.error();
+    // A run without a result still says what it was about, and why nothing came of it.
+    if (suites_.empty()) suite_of("");
+    file->out() << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" << root_head(log);
+    for (Suite& suite : suites_) {
+      file->out() << suite_head(suite, log);
+      if (Status copied = suite.cases.copy_to(file->out()); !copied) return copied;
+      file->out() << suite_end(log);
+    }
+    file->out() << "</testsuites>\n";
+    return file->commit();
+  }
+
+ private:
+  Suite& suite_of(const std::string& protocol) {
+    const auto found = std::ranges::find(suites_, protocol, &Suite::protocol);
+    if (found != suites_.end()) return *found;
+    return suites_.emplace_back(Suite{protocol, Spill(path_)});
+  }
+
+  std::string root_head(const RunLog& log) const {
+    Tally all;
+    double seconds = 0;
+    for (const Suite& suite : suites_) {
+      all.add(suite.tally);
+      seconds += suite.seconds;
+    }
+    const Counts counts = counts_of(all, gate_);
+    std::string text;
+    XmlWriter(text).open("testsuites",
+                         {{"name", "fieldproof"},
+                          {"tests", std::to_string(counts.tests)},
+                          {"failures", std::to_string(counts.failures)},
+                          {"errors", std::to_string(counts.errors)},
+                          {"time", seconds_text(log.end ? log.end->seconds : seconds)}});
+    return text;
+  }
+
+  std::string suite_head(const Suite& suite, const RunLog& log) const {
+    const Counts counts = counts_of(suite.tally, gate_);
+    std::string text;
+    XmlWriter xml(text);
+    xml.depth = 1;
+    xml.open("testsuite", {{"name", suite.protocol.empty() ? "fieldproof" : suite.protocol},
+                           {"tests", std::to_string(counts.tests)},
+                           {"failures", std::to_string(counts.failures)},
+                           {"errors", std::to_string(counts.errors)},
+                           {"skipped", std::to_string(counts.skipped)},
+                           {"time", seconds_text(suite.seconds)},
+                           {log.run.started.empty() ? "" : "timestamp", log.run.started}});
+    write_properties(xml, suite, log);
+    return text;
+  }
+
+  void write_properties(XmlWriter& xml, const Suite& suite, const RunLog& log) const {
+    xml.open("properties", {});
+    const auto add = [&](const std::string& name, const std::string& value) {
+      xml.leaf("property", {{"name", name}, {"value", value}});
+    };
+    add("fieldproof", log.run.tool_version);
+    add("endpoint", log.run.endpoint);
+    add("profile", log.run.profile);
+    add("command", log.run.command);
+    add("vectors", log.run.vectors_hash);
+    add("gate", text::to_string(gate_));
+    for (const auto& [name, value] : log.run.properties)
+      if (name != "gate") add(name, value);
+    for (const DutInfo& dut : log.run.duts) add("dut." + dut.identity.name, text::device_text(dut));
+    add("end", log.end ? log.end->finished : "missing");
+    if (log.end) add("exit_code", std::to_string(log.end->exit_code));
+    if (const std::string why = text::early_end(log); !why.empty()) add("ended_early", why);
+    if (log.soak) add("soak", soak_text(*log.soak));
+    for (const auto& [name, figures] : suite.timing.rows())
+      add("reply times " + name, to_string(figures));
+    xml.close("properties");
+  }
+
+  static std::string suite_end(const RunLog& log) {
+    std::string text;
+    XmlWriter xml(text);
+    xml.depth = 2;
+    if (const std::string why = text::early_end(log); !why.empty()) xml.leaf("system-err", {}, why);
+    xml.close("testsuite");
+    return text;
+  }
+
+  std::string path_;
+  Gate gate_;
+  std::vector<Suite> suites_;  // few: found by looking at each
+  std::string text_;           // of one case; its room, from case to case
+};
 
 }  // namespace
 
@@ -251,22 +241,8 @@ JunitName junit_name(const CaseResult& result) {
   return name;
 }
 
-Result<Tally> write_junit(const std::string& ndjson, const std::string& path, const Gate& gate) {
-  auto survey = survey_results(ndjson);
-  if (!survey) return survey.error();
-  auto file = text::ReportFile::create(path);
-  if (!file) return file.error();
-
-  file->out() << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" << root_tag(*survey, gate);
-  Tally all;
-  for (const Suite& suite : survey->suites) {
-    if (Status written = write_suite(file->out(), ndjson, suite, survey->log, gate); !written)
-      return written.error();
-    for (Verdict verdict : Tally::verdicts) all.add(verdict, suite.tally.of(verdict));
-  }
-  file->out() << "</testsuites>\n";
-  if (Status done = file->commit(); !done) return done.error();
-  return all;
+std::unique_ptr<Sink> junit_report(const std::string& path) {
+  return std::make_unique<JunitReport>(path);
 }
 
 }  // namespace fieldproof::reports

@@ -1,11 +1,10 @@
-// JUnit for Jenkins and GitLab, from a file of results.
+// JUnit for Jenkins and GitLab.
 #pragma once
 
+#include <memory>
 #include <string>
 
-#include "reports/results/case_result.hpp"
-#include "reports/text/tally.hpp"
-#include "src/base/result.hpp"
+#include "reports/results/sink.hpp"
 
 namespace fieldproof::reports {
 
@@ -17,12 +16,9 @@ struct JunitName {
 };
 JunitName junit_name(const results::CaseResult& result);
 
-/// Reads the results in `ndjson` (of a killed run too) and writes `path`: one <testsuite> a
-/// protocol, in the order in which they first appear. Memory does not grow with the number of
-/// cases; the file is read once to count and once a suite to write. Valid under the strict
-/// junit-10.xsd of Jenkins' xunit plugin. `path` appears whole or not at all. Returns the counts of
-/// what was written.
-Result<text::Tally> write_junit(const std::string& ndjson, const std::string& path,
-                                const results::Gate& gate);
+/// Writes `path`: one <testsuite> a protocol, in the order in which they first appear, judged by
+/// the gate of the run. Valid under the strict junit-10.xsd of Jenkins' xunit plugin. `path`
+/// appears at the end, whole or not at all.
+std::unique_ptr<results::Sink> junit_report(const std::string& path);
 
 }  // namespace fieldproof::reports

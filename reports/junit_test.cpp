@@ -13,6 +13,7 @@
 namespace fieldproof::reports {
 
 using results::CaseResult;
+using results::Gate;
 using results::Verdict;
 
 namespace {
@@ -23,14 +24,13 @@ using testing::HasSubstr;
 class Junit : public testing::Test {
  protected:
   /// Writes the report of the results and loads it again.
-  void report(const std::vector<CaseResult>& results, const results::Gate& gate = {},
-              bool end = true) {
-    samples::write_results(results_, results, end);
-    make(gate);
+  void report(const std::vector<CaseResult>& results, const Gate& gate = {}, bool end = true) {
+    samples::write_results(results_, results, end, gate);
+    make();
   }
-  void make(const results::Gate& gate = {}) {
-    auto tally = write_junit(results_, report_, gate);
-    ASSERT_TRUE(tally) << tally.error().message;
+  void make() {
+    const auto log = replay(results_, *junit_report(report_));
+    ASSERT_TRUE(log) << log.error().message;
     const auto loaded = document_.load_file(report_.c_str());
     ASSERT_TRUE(loaded) << loaded.description() << " at " << loaded.offset;
   }
@@ -307,10 +307,9 @@ TEST_F(Junit, ARunWithoutResultsSaysWhy) {
   {
     auto writer = results::NdjsonWriter::create(results_);
     ASSERT_TRUE(writer);
-    ASSERT_TRUE(writer->write(samples::run_info()));
     auto end = samples::run_end(3);
     end.trouble = "nothing answers on emulator:xbc-h";
-    ASSERT_TRUE(writer->write(end));
+    samples::hand_over(*writer, samples::run_info(), {}, end);
   }
   make();
   EXPECT_EQ(0u, suite().attribute("tests").as_uint(1));
@@ -322,9 +321,9 @@ TEST_F(Junit, DamagedResultsLeaveTheOldReport) {
   report({samples::failure()});
   const std::string before = samples::read_file(report_);
   std::ofstream(results_, std::ios::app) << "rubbish\n";
-  auto tally = write_junit(results_, report_, {});
-  ASSERT_FALSE(tally);
-  EXPECT_THAT(tally.error().message, HasSubstr("results.ndjson, line 4: "));
+  const auto log = replay(results_, *junit_report(report_));
+  ASSERT_FALSE(log);
+  EXPECT_THAT(log.error().message, HasSubstr("results.ndjson, line 4: "));
   EXPECT_EQ(before, samples::read_file(report_));
   EXPECT_EQ(2u, folder_.files()) << "nothing temporary is left";
 }

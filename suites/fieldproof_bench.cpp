@@ -1,7 +1,12 @@
 // fieldproof_bench: the figures of the README. Times are measured here and never asserted in a
-// test.
+// test. Besides the options of Google Benchmark it takes
+//   --against TOOL   another build of the tool, measured in turn with this one ("before")
+//   --brief          runs through all of it with hardly a repetition, to see that it can
+// The tool is FIELDPROOF_EXECUTABLE, else `fieldproof` beside this program.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -12,6 +17,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "harness/bench/bench.hpp"
 #include "harness/paths.hpp"
@@ -26,6 +34,8 @@
 namespace fieldproof::suites {
 
 using endpoints::Endpoint;
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -77,7 +87,6 @@ void in_process_exchange(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(in_process_exchange);
 
 void whole_suite(benchmark::State& state) {
   const harness::DataPaths data = harness::find_data();
@@ -92,7 +101,6 @@ void whole_suite(benchmark::State& state) {
   }
   state.counters["cases"] = static_cast<double>(set.cases.size());
 }
-BENCHMARK(whole_suite)->Unit(benchmark::kMillisecond);
 
 void load_all_vectors(benchmark::State& state) {
   for (auto _ : state) {
@@ -100,7 +108,6 @@ void load_all_vectors(benchmark::State& state) {
     benchmark::DoNotOptimize(vectors::load_vectors(harness::find_data().vectors, {protocols()}));
   }
 }
-BENCHMARK(load_all_vectors)->Unit(benchmark::kMillisecond);
 
 /// Another process on the slave that answers `request` bytes with `reply` bytes: what no harness
 /// could beat.
@@ -167,7 +174,6 @@ void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
   state.counters["exchange_median_us"] = median(ours);
   state.counters["ratio"] = median(ours) / median(bare);
 }
-BENCHMARK(pty_exchange_against_bare_ping_pong)->Unit(benchmark::kMicrosecond)->Iterations(20'000);
 
 /// 16 blocks on each of two channels, all on the 20 ms clock: more than a line carries, so that
 /// both are always busy.
@@ -190,9 +196,9 @@ nlohmann::json saturating_p2p() {
   return {{"line", "115200-8N1"}, {"p2p", {{"blocks", blocks}}}};
 }
 
-/// One hour of P2P traffic: two channels of a PLC, each on a line of its own with an XGT server.
-void p2p_hour_on_two_channels(benchmark::State& state) {
-  constexpr Time hour = 3600s, slice = 1s;
+/// P2P traffic until `end`: two channels of a PLC, each on a line of its own with an XGT server.
+void p2p_on_two_channels(benchmark::State& state, Time end) {
+  constexpr Time slice = 1s;
   const line::LineSettings settings{.baud = 115200};
   const plc::PortConfig partner{.station = 2, .line = settings};
   std::uint64_t services = 0, errors = 0;
@@ -209,7 +215,7 @@ void p2p_hour_on_two_channels(benchmark::State& state) {
     lines[0].attach(*(*first)->line(), settings);
     lines[1].attach(*(*client)->line(2), settings);
     lines[1].attach(*(*second)->line(), settings);
-    for (Time until = slice; until <= hour; until += slice)
+    for (Time until = slice; until <= end; until += slice)
       for (line::SimulatedLine& line : lines)
         while (line.now() < until) line.receive(until);
     for (unsigned channel : {1u, 2u}) {
@@ -222,28 +228,144 @@ void p2p_hour_on_two_channels(benchmark::State& state) {
   state.counters["services"] =
       static_cast<double>(services) / static_cast<double>(state.iterations());
 }
-BENCHMARK(p2p_hour_on_two_channels)->Unit(benchmark::kSecond)->Iterations(1);
 
-/// The whole tool for one case: start, load, one exchange, reports. `repeat` shows what does not
-/// grow with the run.
-void tool_run(benchmark::State& state) {
-  const std::filesystem::path out = std::filesystem::temp_directory_path() / "fieldproof_bench";
-  const std::string command = (harness::own_executable().parent_path() / "fieldproof").string() +
-                              " run --filter 'xgt_cnet/rss/two_words/*' --repeat " +
-                              std::to_string(state.range(0)) + " --out " + out.string() +
-                              " >/dev/null";
+/// The whole tool, from its start to its exit, reports included.
+class Tool {
+ public:
+  explicit Tool(std::string path) : path_(std::move(path)) {}
+
+  /// The most memory that it held at once, in MiB.
+  double run(const std::vector<std::string>& arguments) const {
+    const fs::path out = fs::temp_directory_path() / fmt::format("fieldproof_bench_{}", getpid());
+    std::vector<std::string> words{path_, "run", "--out", out.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const pid_t child = fork();
+    if (child == 0) become(words);
+    int status = 0;
+    rusage usage{};
+    if (child < 0 || wait4(child, &status, 0, &usage) < 0)
+      throw std::runtime_error("cannot start " + path_);
+    fs::remove_all(out);
+    if (status != 0)
+      throw std::runtime_error(fmt::format("{} failed: {}", path_, fmt::join(words, " ")));
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+  }
+
+ private:
+  [[noreturn]] static void become(std::vector<std::string>& words) {
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const int nothing = ::open("/dev/null", O_WRONLY);
+    dup2(nothing, STDOUT_FILENO);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+
+  std::string path_;
+};
+
+void tool_run(benchmark::State& state, const Tool& tool,
+              const std::vector<std::string>& arguments) {
+  double peak = 0;
   for (auto _ : state) {
     (void)_;
-    if (std::system(command.c_str()) != 0) throw std::runtime_error("the tool failed: " + command);
+    peak = std::max(peak, tool.run(arguments));
   }
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024;
-  std::filesystem::remove_all(out);
+  state.counters["peak_MiB"] = peak;
 }
-BENCHMARK(tool_run)->Arg(1)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+constexpr const char* repeated = "xgt_cnet/rss/two_words/lower";
+
+/// Each kind of run by each tool in turn, so that they see the same machine.
+void register_tool_runs(const std::vector<std::pair<std::string, Tool>>& tools, bool brief) {
+  const std::string many = brief ? "100" : "100000";
+  const std::pair<std::string, std::vector<std::string>> runs[] = {
+      {"one_case", {"--filter", repeated}},
+      {"default", {}},
+      {"default_three_times", {"--repeat", "3"}},
+      {"one_case_" + many + "_times", {"--filter", repeated, "--repeat", many}}};
+  for (const auto& [name, arguments] : runs)
+    for (const auto& [whose, tool] : tools)
+      benchmark::RegisterBenchmark(("tool/" + name + whose).c_str(),
+                                   [tool = tool, arguments = arguments](benchmark::State& state) {
+                                     tool_run(state, tool, arguments);
+                                   })
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime()
+          ->Iterations(brief ? 1 : name == "one_case" ? 20 : 5);
+}
+
+void register_all(const std::vector<std::pair<std::string, Tool>>& tools, bool brief) {
+  using benchmark::RegisterBenchmark;
+  // First: the peak of a child is never below what this process held when it made it.
+  register_tool_runs(tools, brief);
+  RegisterBenchmark("in_process_exchange", in_process_exchange);
+  RegisterBenchmark("whole_suite", whole_suite)->Unit(benchmark::kMillisecond);
+  RegisterBenchmark("load_all_vectors", load_all_vectors)->Unit(benchmark::kMillisecond);
+  RegisterBenchmark("pty_exchange_against_bare_ping_pong", pty_exchange_against_bare_ping_pong)
+      ->Unit(benchmark::kMicrosecond)
+      ->Iterations(brief ? 20 : 20'000);
+  RegisterBenchmark(
+      "p2p_on_two_channels",
+      [brief](benchmark::State& state) { p2p_on_two_channels(state, brief ? 10s : 3600s); })
+      ->Unit(benchmark::kSecond)
+      ->Iterations(1);
+}
+
+/// Takes an option of ours out of the arguments.
+bool take(std::vector<char*>& arguments, std::string_view name) {
+  return std::erase_if(arguments, [&](const char* one) { return one == name; }) > 0;
+}
+
+std::string take_value(std::vector<char*>& arguments, std::string_view name) {
+  const auto found = std::ranges::find(arguments, name, [](char* one) { return one; });
+  if (found == arguments.end()) return "";
+  const auto value = found + 1;
+  if (value == arguments.end()) throw std::runtime_error(fmt::format("{} wants a value", name));
+  std::string text = *value;
+  arguments.erase(found, value + 1);
+  return text;
+}
+
+/// Also what the pty endpoint of this very process starts.
+std::string find_tool() {
+  const char* named = std::getenv("FIELDPROOF_EXECUTABLE");
+  const std::string path =
+      named && *named ? named : (harness::own_executable().parent_path() / "fieldproof").string();
+  if (!fs::exists(path))
+    throw std::runtime_error("cannot find the tool at " + path +
+                             "; build it, or name it by FIELDPROOF_EXECUTABLE");
+  setenv("FIELDPROOF_EXECUTABLE", path.c_str(), 1);
+  return path;
+}
+
+int run_benchmarks(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  const bool brief = take(arguments, "--brief");
+  const std::string against = take_value(arguments, "--against");
+  std::vector<std::pair<std::string, Tool>> tools;
+  if (!against.empty()) tools.emplace_back("/before", Tool(against));
+  tools.emplace_back(against.empty() ? "" : "/after", Tool(find_tool()));
+  std::string shortest = "--benchmark_min_time=0.001";
+  if (brief) arguments.push_back(shortest.data());
+  int count = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  register_all(tools, brief);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
 
 }  // namespace
 }  // namespace fieldproof::suites
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  try {
+    return fieldproof::suites::run_benchmarks(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "fieldproof_bench: {}\n", error.what());
+    return 1;
+  }
+}

@@ -5,21 +5,13 @@
 
 namespace fieldproof::bench {
 
-namespace {
-
-Duration from_measured_ms(double ms) {
-  return Duration(static_cast<Duration::rep>(std::max(0.0, ms) * 1e6));
-}
-
-}  // namespace
-
 Duration AdapterFloor::floor() const {
   switch (source) {
     case Source::by_hand: return given;
-    case Source::loop: return from_measured_ms(times.percentile(0.99));
+    case Source::loop: return from_ms(std::max(0.0, times.percentile(0.99)));
     case Source::device: break;
   }
-  return from_measured_ms(times.least());
+  return from_ms(std::max(0.0, times.least()));
 }
 
 Duration timing_floor(Duration declared, Duration response_max,

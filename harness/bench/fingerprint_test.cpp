@@ -17,9 +17,9 @@ using testing::StartsWith;
 /// Areas M and D, as two models declare them.
 struct AreaProtocol : harness::TestProtocol {
   std::vector<Area> areas() const override { return {{"M", {99, 199}}, {"D", {9}}, {"R", {9}}}; }
-  Result<std::string> read_reply(ByteView reply) const override {
+  Result<std::string> digits_in(ByteView reply) const override {
     if (to_text(reply) == "<no>") return fail("refused");
-    return harness::TestProtocol::read_reply(reply);
+    return harness::TestProtocol::digits_in(reply);
   }
 };
 

@@ -24,8 +24,6 @@ constexpr std::array<std::string_view, 9> timing_keys{
     "response_max",    "turnaround_min",    "floor",    "max_gap",   "guard_band",
     "response_max_ms", "turnaround_min_ms", "floor_ms", "max_gap_ms"};
 
-Duration from_ms(double ms) { return Duration(static_cast<Duration::rep>(ms * 1e6)); }
-
 /// A number of milliseconds where the key ends with _ms, else text with a unit.
 Duration duration_of(const std::string& key, const json& value) {
   if (key.ends_with("_ms")) {
@@ -69,8 +67,7 @@ json read_blocks(const json& value) {
   if (!value.is_array() ||
       !std::ranges::all_of(value, [](const json& one) { return one.is_object(); }))
     throw std::runtime_error(
-        "prepared_blocks is a list of P2P blocks: [{\"flag\": \"%MX00000\", \"read\": \"%MW100\", "
-        "...}]");
+        "prepared_blocks is a list of P2P blocks: objects with flag, read, save and so on");
   return value;
 }
 

@@ -28,9 +28,7 @@ struct JudgePlan {
 
 /// As the run was judged, and stricter where an option says so.
 results::Gate gate_of(const JudgeOptions& options, const results::RunInfo& run) {
-  const auto recorded = run.properties.find("gate");
-  results::Gate gate =
-      recorded == run.properties.end() ? results::Gate{} : text::parse_gate(recorded->second);
+  results::Gate gate = text::gate_of(run);
   gate.strict |= options.strict;
   gate.qualify |= options.qualify;
   gate.fail_on_marginal |= options.fail_on_marginal;

@@ -25,11 +25,6 @@ Result<compare::MergedRun> read_and_merge(const MergeOptions& options, const std
   return compare::merge_results(files);
 }
 
-results::Gate gate_of(const results::RunInfo& run) {
-  const auto gate = run.properties.find("gate");
-  return gate == run.properties.end() ? results::Gate{} : text::parse_gate(gate->second);
-}
-
 }  // namespace
 
 int merge_command(const MergeOptions& options) {
@@ -41,7 +36,7 @@ int merge_command(const MergeOptions& options) {
       run::make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
   Result<run::RunReport> report =
-      run::RunReport::create(std::move(*paths), run::console_options(gate_of(merged->run), false));
+      run::RunReport::create(std::move(*paths), run::console_options(text::gate_of(merged->run), false));
   if (!report) return run::complain(report.error().message, run::exit_code::trouble);
   if (const Status begun = report->begin(merged->run); !begun)
     return run::complain(begun.error().message, run::exit_code::trouble);

@@ -256,10 +256,9 @@ int dry_run(const RunPlan& plan) {
 
 /// The results of this run against those of an earlier one, as far as it has the selected cases;
 /// was anything better then?
-bool worse_than(const RunSummary& baseline, const RunOptions& options, RunReport& report) {
-  const Result<compare::ResultFile> now = compare::read_result_file(report.paths().front().second);
-  if (!now) return run::complain(now.error().message, 0), false;
-  const compare::ComparisonSet set({baseline, compare::summarize(*now)});
+bool worse_than(const RunSummary& baseline, const RunSummary& now, const RunOptions& options,
+                RunReport& report) {
+  const compare::ComparisonSet set({baseline, now});
   const std::filesystem::path out = options.out;
   const std::string html = (out / "compare.html").string(), junit = (out / "compare.xml").string();
   if (const Status reported = report_comparison(set, html, junit); !reported)
@@ -291,12 +290,15 @@ int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& port
   if (!report) return run::complain(report.error().message, run::exit_code::trouble);
   const Status same_devices =
       plan.matrix.empty() ? run::take_fingerprints(plan, ports, options.qualify) : ok();
+  RunSummary now;
+  now.path = report->path();
+  if (baseline) report->attach(compare::summarizer(now));
   Run run(options, plan, ports, *report);
   const Status started = same_devices ? run.start() : same_devices;
   if (const Status begun = report->begin(run.info()); !begun)
     return run::complain(begun.error().message, run::exit_code::trouble);
   RunReport::End end = run.execute(started);
-  if (baseline) end.worse = worse_than(*baseline, options, *report);
+  if (baseline) end.worse = worse_than(*baseline, now, options, *report);
   return report->finish(end);
 }
 
@@ -339,13 +341,13 @@ int report_command(const ReportOptions& options) {
     return run::complain(
         "nothing to write; give --junit FILE, --json FILE, --html FILE, --capture FILE or several",
         run::exit_code::usage);
-  const Result<results::RunLog> log =
-      results::read_ndjson(options.ndjson, [](const CaseResult&) {});
-  if (!log) return run::complain(log.error().message, run::exit_code::usage);
-  const auto gate = log->run.properties.find("gate");
-  return run::derive_reports(
-      options.ndjson, reports,
-      gate == log->run.properties.end() ? results::Gate{} : text::parse_gate(gate->second));
+  results::Sinks sinks = run::sinks_for(reports);
+  if (const auto log = results::replay(options.ndjson, sinks); !log)
+    return run::complain(log.error().message, run::exit_code::usage);
+  int code = run::exit_code::ok;
+  for (const std::string& trouble : sinks.troubles())
+    code = run::complain(trouble, run::exit_code::trouble);
+  return code;
 }
 
 }  // namespace fieldproof::cli

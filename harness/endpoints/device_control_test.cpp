@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/hosting/tiny_device.hpp"
+#include "harness/hosting/test_tiny_device.hpp"
 
 namespace fieldproof::endpoints {
 namespace {

@@ -39,8 +39,8 @@ class EmulatorEndpoint : public Endpoint {
     return ways_.line().bench_settings().character_time();
   }
 
-  /// New devices on a new line and a new network; simulated time goes on. `line` is the device's setting,
-  /// `bench_line` the bench's (the same when absent); `rs485` makes the line half duplex.
+  /// New devices on a new line and a new network; simulated time goes on. `line` is the device's
+  /// setting, `bench_line` the bench's (the same when absent); `rs485` makes the line half duplex.
   /// `neighbours`: stations, or objects of config keys, of further devices of the same model on the
   /// same line. Errors name the key.
   Status begin(const nlohmann::json& config) override;

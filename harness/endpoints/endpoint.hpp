@@ -52,7 +52,8 @@ class Endpoint {
   /// protocol. A refused connection is no error: the link is there, and the first burst on it is
   /// `reset`. Errors are trouble of the bench ("no route", "cannot resolve").
   virtual Result<LinkId> open(Transport transport, std::uint16_t port);
-  /// The line of another serial channel of the device, by itself a link. Errors: nobody leads there.
+  /// The line of another serial channel of the device, by itself a link. Errors: nobody leads
+  /// there.
   virtual Result<LinkId> open_line(unsigned channel);
   /// Errors: the link is not open.
   virtual Status close(LinkId link, Closing how);

@@ -13,7 +13,7 @@
 
 #include "harness/endpoints/tcp.hpp"
 #include "harness/endpoints/test_endpoint_name.hpp"
-#include "harness/hosting/tiny_device.hpp"
+#include "harness/hosting/test_tiny_device.hpp"
 #include "harness/system/fd_link.hpp"
 #include "harness/system/interrupt.hpp"
 #include "harness/system/pty_pair.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/endpoints/test_endpoint_name.hpp"
-#include "harness/hosting/tiny_device.hpp"
+#include "harness/hosting/test_tiny_device.hpp"
 #include "harness/system/fd_link.hpp"
 #include "src/line/settings.hpp"
 

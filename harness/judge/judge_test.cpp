@@ -9,6 +9,7 @@
 #include "harness/judge/recording.hpp"
 #include "harness/test_protocol.hpp"
 #include "harness/vectors/loader.hpp"
+#include "reports/results/result_json.hpp"
 
 namespace fieldproof::judging {
 
@@ -53,8 +54,9 @@ class JudgeTest : public testing::Test {
     EXPECT_EQ(recorded.recording.stimulus.empty(), transcript.trouble.has_value())
         << "trouble of the bench cannot be judged";
     if (transcript.trouble) return;
-    const auto loaded =
-        nlohmann::json::parse(nlohmann::json(recorded).dump()).get<results::CaseResult>();
+    std::string written;
+    results::append_json(written, recorded);
+    const auto loaded = nlohmann::json::parse(written).get<results::CaseResult>();
     const Result<exchange::Transcript> again = replay(loaded, prepared_, 500ms);
     ASSERT_TRUE(again) << again.error().message;
     const Judgement offline = judge(prepared_, *again, rules, protocol_);

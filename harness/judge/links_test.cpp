@@ -8,6 +8,7 @@
 #include "harness/judge/recording.hpp"
 #include "harness/test_protocol.hpp"
 #include "harness/vectors/loader.hpp"
+#include "reports/results/result_json.hpp"
 
 namespace fieldproof::judging {
 namespace {
@@ -53,8 +54,9 @@ class LinksTest : public testing::Test {
     results::CaseResult recorded;
     recorded.exchange = {transcript.events.begin(), transcript.events.end()};
     recorded.recording = make_recording(prepared, transcript, rules);
-    const auto loaded =
-        nlohmann::json::parse(nlohmann::json(recorded).dump()).get<results::CaseResult>();
+    std::string written;
+    results::append_json(written, recorded);
+    const auto loaded = nlohmann::json::parse(written).get<results::CaseResult>();
     const Result<exchange::Transcript> again = replay(loaded, prepared, 500ms);
     ASSERT_TRUE(again) << again.error().message;
     const Judgement offline = judge(prepared, *again, rules, protocol_);

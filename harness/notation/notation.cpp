@@ -328,7 +328,7 @@ Duration Pause::at(Duration character_time) const {
   if (characters)
     return Duration(
         static_cast<Duration::rep>(amount * static_cast<double>(character_time.count())));
-  return Duration(static_cast<Duration::rep>(amount * 1e6));
+  return from_ms(amount);
 }
 
 Result<Notation> parse_notation(std::string_view text) { return Parser(text).parse(); }

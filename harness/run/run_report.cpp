@@ -18,11 +18,17 @@
 
 namespace fieldproof::run {
 
+using results::CaseResult;
+using results::Delivery;
+using results::RunEnd;
+using results::RunInfo;
+using results::Sinks;
+using results::SoakSample;
+using results::SoakSummary;
+
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t most_red = 1000;  // ids that are kept for the summary
 
 }  // namespace
 
@@ -47,18 +53,15 @@ Result<ReportPaths> make_report_paths(const std::string& out, const std::string&
                      {"html", path(html, "report.html")}};
 }
 
-int derive_reports(const std::string& ndjson, const ReportPaths& reports,
-                   const results::Gate& gate) {
-  int code = exit_code::ok;
-  for (const auto& [kind, path] : reports) {
-    if (kind == "results") continue;
-    const Result<text::Tally> written = kind == "junit"  ? reports::write_junit(ndjson, path, gate)
-                                        : kind == "html" ? html::write_html(ndjson, path, gate)
-                                        : kind == "capture" ? reports::write_capture(ndjson, path)
-                                                            : reports::write_json(ndjson, path);
-    if (!written) code = complain(written.error().message, exit_code::trouble);
+Sinks sinks_for(const ReportPaths& paths) {
+  Sinks sinks;
+  for (const auto& [kind, path] : paths) {
+    if (kind == "json") sinks.attach(reports::json_report(path));
+    if (kind == "junit") sinks.attach(reports::junit_report(path));
+    if (kind == "html") sinks.attach(html::html_report(path));
+    if (kind == "capture") sinks.attach(reports::capture_report(path));
   }
-  return code;
+  return sinks;
 }
 
 reports::ConsoleOptions console_options(const results::Gate& gate, bool verbose) {
@@ -79,72 +82,69 @@ Result<RunReport> RunReport::create(ReportPaths paths, const reports::ConsoleOpt
   return RunReport(std::move(paths), console, std::move(*writer));
 }
 
-Status RunReport::begin(const results::RunInfo& info) {
-  if (Status written = writer_.write(info); !written) return written;
-  print(reports::run_head(info));
-  return ok();
+Status RunReport::begin(const RunInfo& info) {
+  log_.run = info;
+  if (Status written = writer_.begin(info); !written) return written;
+  if (Status begun = reports_.begin(info); !begun) return begun;
+  return console_.begin(info);
 }
 
-bool RunReport::add(const results::CaseResult& result, bool written) {
-  tally_.add(result.verdict);
-  timing_.add(result);
-  if (results::gates(result.verdict, console_.gate) && red_.size() < most_red)
-    red_.push_back(text::case_label(result));
+bool RunReport::hand_on(const auto& one) {
+  if (const Status written = writer_.add(one); !written) {
+    write_trouble_ = written.error().message;
+    return false;
+  }
+  [[maybe_unused]] const Status taken = reports_.add(one);
+  return true;
+}
+
+bool RunReport::add(const CaseResult& result, bool written) {
+  console_.count(result);
   if (!written) return true;
-  if (const std::string text = reports::case_report(result, console_); !text.empty())
-    print(progress_.erase() + text);
-  return keep(writer_.write(result));
+  const Delivery one(result);
+  [[maybe_unused]] const Status shown = console_.add(one);
+  if (!hand_on(one)) return false;
+  ++log_.results;
+  return true;
 }
 
-bool RunReport::add(const results::SoakSample& sample) { return keep(writer_.write(sample)); }
+bool RunReport::add(const SoakSample& sample) { return hand_on(log_.samples.emplace_back(sample)); }
 
-bool RunReport::add(const results::SoakSummary& soak) {
-  soak_ = soak;
-  return keep(writer_.write(soak));
-}
-
-bool RunReport::keep(const Status& written) {
-  if (!written) write_trouble_ = written.error().message;
-  return bool(written);
-}
+bool RunReport::add(const SoakSummary& soak) { return hand_on(log_.soak.emplace(soak)); }
 
 int RunReport::code(const End& end) const {
   if (end.interrupted) return exit_code::interrupted;
   if (!end.trouble.empty() || !write_trouble_.empty()) return exit_code::trouble;
   // GoogleTest deals the cases out to shards; one of them may get none.
-  const bool empty_shard = tally_.total() == 0 && std::getenv("GTEST_TOTAL_SHARDS");
-  const int code = empty_shard ? exit_code::ok : text::gate_exit_code(tally_, console_.gate, false);
+  const bool empty_shard = tally().total() == 0 && std::getenv("GTEST_TOTAL_SHARDS");
+  const int code = empty_shard ? exit_code::ok : gate_exit_code(tally(), gate_, false);
   if (end.worse && code != exit_code::trouble) return exit_code::failed;
   return code == exit_code::ok && !end.not_restored.empty() ? exit_code::trouble : code;
 }
 
 int RunReport::finish(const End& end) {
-  reports::Summary summary;
-  summary.tally = tally_;
-  summary.end.finished = timestamp();
-  summary.end.seconds =
+  RunEnd& ended = log_.end.emplace();
+  ended.finished = timestamp();
+  ended.seconds =
       end.seconds >= 0
           ? end.seconds
           : std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  summary.end.interrupted = end.interrupted;
-  summary.end.trouble = !end.trouble.empty() ? end.trouble : write_trouble_;
-  summary.end.exit_code = code(end);
-  summary.timing = timing_.rows();
-  summary.soak = soak_;
-  summary.red = red_;
-  summary.reports = paths_;
-  summary.reports.insert(summary.reports.end(), other_paths_.begin(), other_paths_.end());
-  print(progress_.erase());
-  if (const Status written = writer_.write(summary.end); !written)
-    complain(written.error().message, 0);
-  const int report_code = derive_reports(paths_.front().second, paths_, console_.gate);
+  ended.interrupted = end.interrupted;
+  ended.trouble = !end.trouble.empty() ? end.trouble : write_trouble_;
+  ended.exit_code = code(end);
+  console_.erase_progress();
+  if (const Status written = writer_.end(log_); !written) complain(written.error().message, 0);
+  log_.sha256 = writer_.sha256();
+  [[maybe_unused]] const Status reported = reports_.end(log_);
+  for (const std::string& trouble : reports_.troubles()) complain(trouble, 0);
   if (!end.trouble.empty()) complain(end.trouble, 0);
-  print(reports::run_summary(summary, console_));
+  for (const auto& [kind, path] : paths_) console_.add_path(kind, path);
+  [[maybe_unused]] const Status told = console_.end(log_);
   if (!end.not_restored.empty()) complain(end.not_restored, 0);
-  const int run_code = summary.end.exit_code;
-  return run_code == exit_code::ok || run_code == exit_code::nothing
-             ? std::max(run_code, report_code)
-             : run_code;
+  const int report_code = reports_.troubles().empty() ? exit_code::ok : exit_code::trouble;
+  return ended.exit_code == exit_code::ok || ended.exit_code == exit_code::nothing
+             ? std::max(ended.exit_code, report_code)
+             : ended.exit_code;
 }
 
 }  // namespace fieldproof::run

@@ -12,7 +12,7 @@
 namespace fieldproof::run {
 
 /// Kind and path: {"results", "out/results.ndjson"}, {"json", ...}, {"junit", ...}. The first is
-/// what the others derive from.
+/// written as results happen, the others at the end.
 using ReportPaths = std::vector<std::pair<std::string, std::string>>;
 
 /// Where the reports of a run go: into the folder `out`, which is made, but for those with a path
@@ -20,9 +20,8 @@ using ReportPaths = std::vector<std::pair<std::string, std::string>>;
 Result<ReportPaths> make_report_paths(const std::string& out, const std::string& json,
                                       const std::string& junit, const std::string& html);
 
-/// Derives the reports from the results; 0, or the exit code of what went wrong (and was said).
-int derive_reports(const std::string& ndjson, const ReportPaths& reports,
-                   const results::Gate& gate);
+/// A sink for each of them but the file of results.
+results::Sinks sinks_for(const ReportPaths& paths);
 
 /// As the terminal is.
 reports::ConsoleOptions console_options(const results::Gate& gate, bool verbose);
@@ -34,17 +33,20 @@ class RunReport {
   /// Begins the file of results. Errors name it.
   static Result<RunReport> create(ReportPaths paths, const reports::ConsoleOptions& console);
 
+  /// One more that takes the results; before `begin`.
+  void attach(std::unique_ptr<results::Sink> sink) { reports_.attach(std::move(sink)); }
+
   /// Writes and prints what the run is about.
   Status begin(const results::RunInfo& info);
   void show_progress(std::size_t total, const std::string& next_id) {
-    print(progress_.line(tally_, total, next_id, std::chrono::steady_clock::now() - started_));
+    console_.show_progress(total, next_id, std::chrono::steady_clock::now() - started_);
   }
   /// False: it could not be written, stop here. A soak counts most of its results and writes few.
   bool add(const results::CaseResult& result, bool written = true);
   bool add(const results::SoakSample& sample);
   bool add(const results::SoakSummary& soak);
   /// A line for the engineer between the cases.
-  void say(const std::string& line) { print(progress_.erase() + line + '\n'); }
+  void say(const std::string& line) { console_.say(line); }
 
   struct End {
     std::string trouble;  // empty, or why the run stopped early
@@ -57,31 +59,32 @@ class RunReport {
   /// Writes the end and the reports, prints the summary; the exit code of the run.
   int finish(const End& end);
 
-  const text::Tally& tally() const { return tally_; }
-  const results::Gate& gate() const { return console_.gate; }
-  const ReportPaths& paths() const { return paths_; }
+  const text::Tally& tally() const { return console_.tally(); }
+  const results::Gate& gate() const { return gate_; }
+  /// The file of results.
+  const std::string& path() const { return paths_.front().second; }
   void add_path(const std::string& kind, const std::string& path) {
-    other_paths_.emplace_back(kind, path);
+    paths_.emplace_back(kind, path);
   }
 
  private:
   RunReport(ReportPaths paths, const reports::ConsoleOptions& console, results::NdjsonWriter writer)
       : paths_(std::move(paths)),
-        console_(console),
-        progress_(console),
-        writer_(std::move(writer)) {}
+        gate_(console.gate),
+        console_(console, print),
+        writer_(std::move(writer)),
+        reports_(sinks_for(paths_)) {}
+  /// Hands on what is in the file of results: the other reports tell of no more.
+  bool hand_on(const auto& one);
   int code(const End& end) const;
 
-  ReportPaths paths_, other_paths_;
-  reports::ConsoleOptions console_;
-  reports::Progress progress_;
+  ReportPaths paths_;
+  results::Gate gate_;
+  reports::ConsoleReport console_;
   results::NdjsonWriter writer_;
+  results::Sinks reports_;
+  results::RunLog log_;  // so far
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  text::Tally tally_;
-  text::TimingTable timing_;
-  std::optional<results::SoakSummary> soak_;
-  std::vector<std::string> red_;
-  bool keep(const Status& written);
   std::string write_trouble_;
 };
 

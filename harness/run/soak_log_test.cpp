@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reports/results/result_json.hpp"
+
 namespace fieldproof::run {
 
 using results::Verdict;
@@ -100,8 +102,11 @@ TEST(SoakLog, TheSummaryComesBackFromJson) {
   SoakLog log(100, {});
   log.take(repetition("a", 0), 0);
   log.take(repetition("a", 1, Verdict::fail), 50);
-  const nlohmann::json written = log.summary(60);
-  EXPECT_EQ(written, nlohmann::json(written.get<results::SoakSummary>()));
+  std::string written, again;
+  append_json(written, log.summary(60));
+  append_json(again, nlohmann::json::parse(written).get<results::SoakSummary>());
+  EXPECT_THAT(written, testing::HasSubstr("\"a\""));
+  EXPECT_EQ(written, again);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ class Transposed {
         "f.json", set_);
     EXPECT_THAT(set_.problems, IsEmpty());
     WriteFence fence;
-    const auto words = [&](std::string_view text) { return protocol.read_word(text); };
+    const auto words = [&](std::string_view name) { return protocol.read_word(name); };
     EXPECT_TRUE(fence.allow(allowed, words));
     const nlohmann::json declared = protocol.name() == "ls-bus"
                                         ? nlohmann::json{{"write_order", "address_first"}}

@@ -5,6 +5,8 @@
 #include <array>
 #include <cerrno>
 
+#include "harness/system/system_calls.hpp"
+
 namespace fieldproof::os {
 
 namespace {
@@ -16,8 +18,6 @@ bool is_connected(int fd) {
   socklen_t size = sizeof peer;
   return ::getpeername(fd, reinterpret_cast<sockaddr*>(&peer), &size) == 0;
 }
-
-bool would_block(int error) { return error == EAGAIN || error == EWOULDBLOCK; }
 
 }  // namespace
 

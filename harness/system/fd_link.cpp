@@ -35,8 +35,6 @@ int poll_for(pollfd* fds, nfds_t count, Duration left) {
   return ::ppoll(fds, count, &timeout, nullptr);
 }
 
-bool would_block(int error) { return error == EAGAIN || error == EWOULDBLOCK; }
-
 }  // namespace
 
 RunClock::RunClock() : origin_(monotonic()) {}

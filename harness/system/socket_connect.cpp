@@ -46,7 +46,7 @@ int connect_to(const SocketAddress& address, int type, UniqueFd& fd) {
   return error == 0 ? finish_connect(fd.get()) : error;
 }
 
-std::string advice(int error) {
+std::string connect_advice(int error) {
   switch (error) {
     case ETIMEDOUT:
       return "no answer within 3 s; see that the host is on and that no firewall drops the "
@@ -90,7 +90,7 @@ Result<UniqueFd> RemoteHost::connect(std::uint16_t port, int type) {
     if (error == 0) std::rotate(addresses_.begin(), one, one + 1);  // asked first from now on
   }
   if (is_refusal(error)) return UniqueFd();
-  if (error != 0) return fail("cannot connect to " + where + ": " + advice(error));
+  if (error != 0) return fail("cannot connect to " + where + ": " + connect_advice(error));
   return fd;
 }
 

@@ -26,7 +26,7 @@ int bind_to(const addrinfo& address, int type, UniqueFd& fd) {
   return type != SOCK_STREAM || ::listen(fd.get(), waiting_connections) == 0 ? 0 : errno;
 }
 
-std::string advice(int error) {
+std::string listen_advice(int error) {
   switch (error) {
     case EADDRINUSE:
       return "the port is in use; end the program that has it, or choose another port";
@@ -48,7 +48,7 @@ Result<UniqueFd> listen_socket(const SocketName& name, int type) {
   int error = EADDRNOTAVAIL;
   for (const addrinfo* one = list->get(); one && error != 0; one = one->ai_next)
     error = bind_to(*one, type, fd);
-  if (error != 0) return fail(start + advice(error));
+  if (error != 0) return fail(start + listen_advice(error));
   return fd;
 }
 

@@ -7,6 +7,7 @@
 #include <sys/sysmacros.h>
 
 #include <cctype>
+#include <cerrno>
 #include <system_error>
 
 namespace fieldproof::os {
@@ -34,5 +35,7 @@ std::string errno_text(int error) {
   }
   return text;
 }
+
+bool would_block(int error) { return error == EAGAIN || error == EWOULDBLOCK; }
 
 }  // namespace fieldproof::os

@@ -20,5 +20,7 @@ const SystemCalls& real_system_calls();
 
 /// "permission denied"
 std::string errno_text(int error);
+/// Is there only nothing to read, or no room to write, at this moment?
+bool would_block(int error);
 
 }  // namespace fieldproof::os

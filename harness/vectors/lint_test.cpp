@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 struct StationOnly : harness::TestProtocol {
   notation::Checks checks() const override { return {&checks::bcc, 1}; }
-  Status check_fact(const nlohmann::json& facts) const override {
+  Status check_table(const nlohmann::json& facts) const override {
     return facts.at("words") == 1024 ? ok() : Status(fail("the table has 1024 words"));
   }
 };

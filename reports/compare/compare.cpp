@@ -12,7 +12,12 @@
 
 namespace fieldproof::compare {
 
+using results::CaseResult;
+using results::Delivery;
 using results::Gate;
+using results::RunInfo;
+using results::RunLog;
+using results::Sink;
 using results::Verdict;
 
 namespace {
@@ -54,7 +59,7 @@ std::string reason(const std::string& message) {
   return text;
 }
 
-void add(const results::CaseResult& result, CaseSummary& summary) {
+void note(const CaseResult& result, CaseSummary& summary) {
   if (summary.repetitions == 0 || gravity_of(result.verdict) > gravity_of(summary.verdict)) {
     summary.verdict = result.verdict;
     summary.message = result.message;
@@ -68,6 +73,29 @@ void add(const results::CaseResult& result, CaseSummary& summary) {
                              result.response_ms.end());
   summary.timing_floor_ms = std::max(summary.timing_floor_ms, to_ms(result.recording.link_floor));
 }
+
+class Summarizer final : public Sink {
+ public:
+  explicit Summarizer(RunSummary& into) : into_(into) {}
+
+  Status begin(const RunInfo& run) override {
+    into_.run = run;
+    into_.gate = text::gate_of(run);
+    return ok();
+  }
+  void take(const CaseResult& result) {
+    into_.tally.add(result.verdict);
+    note(result, into_.cases[text::case_name(result)]);
+  }
+  Status add(const Delivery& one) override { return take(*one), ok(); }
+  Status end(const RunLog& log) override {
+    into_.end = log.end;
+    return ok();
+  }
+
+ private:
+  RunSummary& into_;
+};
 
 std::optional<Change> change_of(const CaseSummary& before, const CaseSummary& after,
                                 const Gate& old_gate, const Gate& new_gate) {
@@ -137,17 +165,15 @@ std::vector<TimeShift> significant(const std::vector<Candidate>& candidates) {
 
 RunSummary summarize(const ResultFile& file) {
   RunSummary summary;
+  Summarizer sink(summary);
   summary.path = file.path;
-  summary.run = file.run;
   summary.end = file.end;
-  if (const auto gate = file.run.properties.find("gate"); gate != file.run.properties.end())
-    summary.gate = text::parse_gate(gate->second);
-  for (const results::CaseResult& result : file.results) {
-    summary.tally.add(result.verdict);
-    add(result, summary.cases[text::case_name(result)]);
-  }
+  [[maybe_unused]] const Status begun = sink.begin(file.run);
+  for (const CaseResult& result : file.results) sink.take(result);
   return summary;
 }
+
+std::unique_ptr<Sink> summarizer(RunSummary& into) { return std::make_unique<Summarizer>(into); }
 
 std::string to_string(Change change) {
   switch (change) {

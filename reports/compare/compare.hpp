@@ -4,11 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/compare/result_file.hpp"
+#include "reports/results/sink.hpp"
 #include "reports/results/verdict.hpp"
 #include "reports/text/tally.hpp"
 
@@ -35,6 +37,8 @@ struct RunSummary {
   std::map<std::string, CaseSummary> cases;
 };
 RunSummary summarize(const ResultFile& file);
+/// The same of a run as it happens, but for its path. `into` outlives the sink.
+std::unique_ptr<results::Sink> summarizer(RunSummary& into);
 
 /// In the order in which they are told.
 enum class Change {

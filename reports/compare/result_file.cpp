@@ -7,6 +7,7 @@
 #include "reports/compare/junit_reader.hpp"
 #include "reports/results/ndjson.hpp"
 #include "reports/results/whole_file.hpp"
+#include "reports/results/result_json.hpp"
 
 namespace fieldproof::compare {
 namespace {

@@ -71,7 +71,7 @@ TEST_F(ResultFileTest, EveryVerdictAndRepetitionComesBackFromOurJunit) {
   results.push_back(results.front());
   results.back().repeat = 2;
   samples::write_results(folder_ / "r.ndjson", results);
-  ASSERT_TRUE(reports::write_junit(folder_ / "r.ndjson", folder_ / "r.xml", {}));
+  ASSERT_TRUE(results::replay(folder_ / "r.ndjson", *reports::junit_report(folder_ / "r.xml")));
   const Result<ResultFile> file = read_result_file(folder_ / "r.xml");
   ASSERT_TRUE(file) << file.error().message;
   ASSERT_EQ(file->results.size(), results.size());
@@ -158,8 +158,8 @@ TEST_F(ResultFileTest, HostileContentComesThrough) {
   result.message = "<script>\x05\xFF&]]>";
   result.received_bytes.assign(1 << 20, 0xFF);
   samples::write_results(folder_ / "h.ndjson", {result});
-  ASSERT_TRUE(reports::write_json(folder_ / "h.ndjson", folder_ / "h.json"));
-  ASSERT_TRUE(reports::write_junit(folder_ / "h.ndjson", folder_ / "h.xml", {}));
+  ASSERT_TRUE(results::replay(folder_ / "h.ndjson", *reports::json_report(folder_ / "h.json")));
+  ASSERT_TRUE(results::replay(folder_ / "h.ndjson", *reports::junit_report(folder_ / "h.xml")));
   for (const char* kind : {"h.ndjson", "h.json", "h.xml"}) {
     const Result<ResultFile> file = read_result_file(folder_ / kind);
     ASSERT_TRUE(file) << file.error().message;

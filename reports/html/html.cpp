@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "reports/html/html_head.hpp"
@@ -10,12 +11,17 @@
 #include "reports/html/html_sheet.hpp"
 #include "reports/html/html_survey.hpp"
 #include "reports/html/html_timing.hpp"
-#include "reports/results/sha256.hpp"
 #include "reports/text/report_file.hpp"
 
 namespace fieldproof::html {
 
+using results::Delivery;
+using results::Gate;
+using results::RunInfo;
+using results::RunLog;
+using results::Sink;
 using results::Verdict;
+using text::ReportFile;
 
 namespace {
 
@@ -152,8 +158,7 @@ void write_soak(HtmlWriter& out, const HtmlSurvey& survey) {
   out.element("pre", {}, results::soak_text(*survey.log.soak));
 }
 
-void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate& gate,
-                 const std::string& log_hash) {
+void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
   out.element("section", {{"id", "sheet"}, {"class", gate.qualify ? "sheet" : "plain"}}, [&] {
     if (gate.qualify) {
       out.element("h1", {}, "Qualification sheet");
@@ -166,37 +171,52 @@ void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate&
     write_unexecuted(out, survey);
     write_readings(out, survey);
     if (!gate.qualify) write_errata(out, survey);
-    write_hashes(out, survey, log_hash);
+    write_hashes(out, survey);
     if (gate.qualify) write_signatures(out);
   });
   if (gate.qualify) write_errata(out, survey);
 }
 
+class HtmlReport final : public Sink {
+ public:
+  explicit HtmlReport(const std::string& path) : path_(path) {}
+
+  Status begin(const RunInfo& run) override {
+    gate_ = text::gate_of(run);
+    surveyor_.emplace(gate_);
+    return ok();
+  }
+
+  Status add(const Delivery& one) override { return surveyor_->add(*one), ok(); }
+
+  Status end(const RunLog& log) override {
+    const HtmlSurvey survey = surveyor_->finish(log);
+    HtmlWriter body;
+    write_verdict_of_run(body, survey, gate_);
+    write_facts(body, survey, gate_);
+    write_contents(body, survey, gate_);
+    write_red(body, survey, gate_);
+    write_sections(body, survey);
+    write_soak(body, survey);
+    write_times(body, survey);
+    write_sheet(body, survey, gate_);
+    write_legend(body, gate_);
+    auto file = ReportFile::create(path_);
+    if (!file) return file.error();
+    file->out() << html_page("fieldproof: " + device_title(log.run), body);
+    return file->commit();
+  }
+
+ private:
+  std::string path_;
+  Gate gate_;
+  std::optional<HtmlSurveyor> surveyor_;  // from the beginning on
+};
+
 }  // namespace
 
-Result<text::Tally> write_html(const std::string& ndjson, const std::string& path,
-                               const results::Gate& gate) {
-  auto survey = survey_for_html(ndjson, gate);
-  if (!survey) return survey.error();
-  auto log_hash = results::sha256_of_file(ndjson);
-  if (!log_hash) return log_hash.error();
-
-  HtmlWriter body;
-  write_verdict_of_run(body, *survey, gate);
-  write_facts(body, *survey, gate);
-  write_contents(body, *survey, gate);
-  write_red(body, *survey, gate);
-  write_sections(body, *survey);
-  write_soak(body, *survey);
-  write_times(body, *survey);
-  write_sheet(body, *survey, gate, *log_hash);
-  write_legend(body, gate);
-
-  auto file = text::ReportFile::create(path);
-  if (!file) return file.error();
-  file->out() << html_page("fieldproof: " + device_title(survey->log.run), body);
-  if (Status done = file->commit(); !done) return done.error();
-  return survey->tally;
+std::unique_ptr<Sink> html_report(const std::string& path) {
+  return std::make_unique<HtmlReport>(path);
 }
 
 }  // namespace fieldproof::html

@@ -121,7 +121,7 @@ void write_errata(HtmlWriter& out, const HtmlSurvey& survey) {
   });
 }
 
-void write_hashes(HtmlWriter& out, const HtmlSurvey& survey, const std::string& log_hash) {
+void write_hashes(HtmlWriter& out, const HtmlSurvey& survey) {
   out.element("h2", {{"id", "hashes"}}, "What this report speaks of");
   out.element("table", {{"class", "facts wide"}}, [&] {
     const auto row = [&](std::string_view name, const std::string& hash) {
@@ -131,7 +131,7 @@ void write_hashes(HtmlWriter& out, const HtmlSurvey& survey, const std::string& 
       });
     };
     for (const auto& [name, hash] : survey.log.run.hashes) row("SHA-256 of " + name, hash);
-    row("SHA-256 of the log", log_hash);
+    row("SHA-256 of the log", survey.log.sha256);
     row("command", survey.log.run.command);
   });
 }

@@ -13,7 +13,7 @@ void write_readings(HtmlWriter& out, const HtmlSurvey& survey);
 void write_errata(HtmlWriter& out, const HtmlSurvey& survey);
 
 /// SHA-256 of tool, vectors and profile as the run recorded them, and of its log.
-void write_hashes(HtmlWriter& out, const HtmlSurvey& survey, const std::string& log_hash);
+void write_hashes(HtmlWriter& out, const HtmlSurvey& survey);
 
 /// The declared fingerprint beside the found one, and the lines to sign.
 void write_fingerprint(HtmlWriter& out, const results::Identity& identity);

@@ -10,6 +10,10 @@
 namespace fieldproof::html {
 
 using results::CaseResult;
+using results::ErratumInfo;
+using results::Gate;
+using results::ResponseTimes;
+using results::RunLog;
 using results::Verdict;
 using text::Tally;
 
@@ -55,107 +59,8 @@ std::string group_of(const std::string& id) {
   return first == std::string::npos ? id : id.substr(0, id.find('/', first + 1));
 }
 
-class Collector {
- public:
-  explicit Collector(const results::Gate& gate) : gate_(gate) {}
-
-  void add(const CaseResult& result) {
-    survey_.tally.add(result.verdict);
-    by_id_[result.id].add(result.verdict);
-    SectionReport& section = survey_.sections[{result.manual, result.section}];
-    section.tally.add(result.verdict);
-    if (result.verdict == Verdict::pass)
-      add_line(section, section.passes, [&](HtmlWriter& out) { write_pass_line(out, result); });
-    else if (unexecuted(result.verdict))
-      add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
-    else if (results::gates(result.verdict, gate_) && !unjudged(result.verdict))
-      add_red(section, result);
-    else
-      add_remarkable(section, result);
-    add_facts(result);
-  }
-
-  HtmlSurvey finish(results::RunLog log) {
-    for (const results::ErratumInfo& erratum : log.run.errata) {
-      if (Tally met = executed(erratum.vector_id); met.total() > 0)
-        survey_.errata.emplace_back(erratum, met);
-    }
-    survey_.log = std::move(log);
-    return std::move(survey_);
-  }
-
- private:
-  /// Whether the report has room for one more.
-  static bool fits(std::size_t& used, std::size_t limit) { return used < limit && ++used > 0; }
-
-  template <typename Write>
-  void add_line(SectionReport& section, HtmlWriter& out, const Write& write) {
-    if (!fits(lines_, html_line_limit)) {
-      ++section.unlisted;
-      return;
-    }
-    write(out);
-    out.markup("\n");
-  }
-
-  void add_red(SectionReport& section, const CaseResult& result) {
-    std::string anchor;
-    if (fits(red_blocks_, html_block_limit)) {
-      anchor = fmt::format("red-{}", red_blocks_);
-      write_case_block(
-          results::gates(result.verdict, results::Gate{}) ? survey_.broken : survey_.red, result,
-          red_blocks_ <= open_blocks, anchor);
-    } else {
-      ++survey_.red_unlisted;
-    }
-    add_line(section, section.red, [&](HtmlWriter& out) { write_case_line(out, result, anchor); });
-  }
-
-  void add_remarkable(SectionReport& section, const CaseResult& result) {
-    if (fits(other_blocks_, html_block_limit))
-      write_case_block(section.remarkable, result, false);
-    else
-      add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
-  }
-
-  void add_facts(const CaseResult& result) {
-    if (!result.response_ms.empty()) {
-      auto& times = survey_.response_ms[group_of(result.id)];
-      times.insert(times.end(), result.response_ms.begin(), result.response_ms.end());
-    }
-    for (const auto& [name, taken] : result.readings) {
-      Reading& reading = survey_.readings[name][taken];
-      if (++reading.cases == 1)
-        reading = {1, result.id, fmt::format("{}, {}", result.manual, result.section),
-                   result.title};
-    }
-    if (unjudged(result.verdict)) {
-      Unexecuted& reason = survey_.unexecuted[{result.verdict, result.message}];
-      if (++reason.cases <= ids_of_a_reason) reason.ids.push_back(text::case_label(result));
-    }
-    const auto moved = [](const std::string& note) { return note.starts_with("transposed"); };
-    survey_.transposed += std::ranges::any_of(result.notes, moved) ? 1 : 0;
-  }
-
-  /// Verdicts of the cases of a vector that were judged: "a/b" itself, and "a/b/..." that it
-  /// expands to.
-  Tally executed(const std::string& vector) const {
-    Tally tally;
-    for (auto at = by_id_.lower_bound(vector); at != by_id_.end() && at->first.starts_with(vector);
-         ++at) {
-      if (at->first.size() > vector.size() && at->first[vector.size()] != '/') continue;
-      for (Verdict verdict : Tally::verdicts) {
-        if (!unexecuted(verdict)) tally.add(verdict, at->second.of(verdict));
-      }
-    }
-    return tally;
-  }
-
-  results::Gate gate_;
-  HtmlSurvey survey_;
-  std::map<std::string, Tally> by_id_;
-  std::size_t lines_ = 0, red_blocks_ = 0, other_blocks_ = 0;
-};
+/// Whether the report has room for one more.
+bool fits(std::size_t& used, std::size_t limit) { return used < limit && ++used > 0; }
 
 }  // namespace
 
@@ -164,11 +69,89 @@ bool operator<(const SectionName& a, const SectionName& b) {
   return manuals != 0 ? manuals < 0 : compare_naturally(a.section, b.section) < 0;
 }
 
-Result<HtmlSurvey> survey_for_html(const std::string& ndjson, const results::Gate& gate) {
-  Collector collector(gate);
-  auto log = results::read_ndjson(ndjson, [&](const CaseResult& result) { collector.add(result); });
-  if (!log) return log.error();
-  return collector.finish(std::move(*log));
+void HtmlSurveyor::add(const CaseResult& result) {
+  survey_.tally.add(result.verdict);
+  by_id_[result.id].add(result.verdict);
+  SectionReport& section = survey_.sections[{result.manual, result.section}];
+  section.tally.add(result.verdict);
+  if (result.verdict == Verdict::pass)
+    add_line(section, section.passes, [&](HtmlWriter& out) { write_pass_line(out, result); });
+  else if (unexecuted(result.verdict))
+    add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
+  else if (gates(result.verdict, gate_) && !unjudged(result.verdict))
+    add_red(section, result);
+  else
+    add_remarkable(section, result);
+  add_facts(result);
+}
+
+HtmlSurvey HtmlSurveyor::finish(const RunLog& log) {
+  for (const ErratumInfo& erratum : log.run.errata) {
+    if (Tally met = executed(erratum.vector_id); met.total() > 0)
+      survey_.errata.emplace_back(erratum, met);
+  }
+  survey_.log = log;
+  return std::move(survey_);
+}
+
+void HtmlSurveyor::add_line(SectionReport& section, HtmlWriter& out, const auto& write) {
+  if (!fits(lines_, html_line_limit)) {
+    ++section.unlisted;
+    return;
+  }
+  write(out);
+  out.markup("\n");
+}
+
+void HtmlSurveyor::add_red(SectionReport& section, const CaseResult& result) {
+  std::string anchor;
+  if (fits(red_blocks_, html_block_limit)) {
+    anchor = fmt::format("red-{}", red_blocks_);
+    write_case_block(gates(result.verdict, Gate{}) ? survey_.broken : survey_.red, result,
+                     red_blocks_ <= open_blocks, anchor);
+  } else {
+    ++survey_.red_unlisted;
+  }
+  add_line(section, section.red, [&](HtmlWriter& out) { write_case_line(out, result, anchor); });
+}
+
+void HtmlSurveyor::add_remarkable(SectionReport& section, const CaseResult& result) {
+  if (fits(other_blocks_, html_block_limit))
+    write_case_block(section.remarkable, result, false);
+  else
+    add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
+}
+
+void HtmlSurveyor::add_facts(const CaseResult& result) {
+  if (!result.response_ms.empty()) {
+    ResponseTimes& times = survey_.response_ms[group_of(result.id)];
+    for (const double ms : result.response_ms) times.add(ms);
+  }
+  for (const auto& [name, taken] : result.readings) {
+    Reading& reading = survey_.readings[name][taken];
+    if (++reading.cases == 1)
+      reading = {1, result.id, fmt::format("{}, {}", result.manual, result.section), result.title};
+  }
+  if (unjudged(result.verdict)) {
+    Unexecuted& reason = survey_.unexecuted[{result.verdict, result.message}];
+    if (++reason.cases <= ids_of_a_reason) reason.ids.push_back(text::case_label(result));
+  }
+  const auto moved = [](const std::string& note) { return note.starts_with("transposed"); };
+  survey_.transposed += std::ranges::any_of(result.notes, moved) ? 1 : 0;
+}
+
+/// Verdicts of the cases of a vector that were judged: "a/b" itself, and "a/b/..." that it expands
+/// to.
+Tally HtmlSurveyor::executed(const std::string& vector) const {
+  Tally tally;
+  for (auto at = by_id_.lower_bound(vector); at != by_id_.end() && at->first.starts_with(vector);
+       ++at) {
+    if (at->first.size() > vector.size() && at->first[vector.size()] != '/') continue;
+    for (Verdict verdict : Tally::verdicts) {
+      if (!unexecuted(verdict)) tally.add(verdict, at->second.of(verdict));
+    }
+  }
+  return tally;
 }
 
 }  // namespace fieldproof::html

@@ -1,5 +1,5 @@
-// What the HTML report gathers from a file of results in one pass. Cases are rendered as they are
-// read, so that memory follows the size of the report and not that of the results; what a report
+// What the HTML report gathers from the results of a run. Cases are rendered as they come, so that
+// memory follows the size of the report and not that of the results; what a report
 // cannot hold is counted, and said.
 #pragma once
 
@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "reports/html/html_writer.hpp"
-#include "reports/results/ndjson.hpp"
+#include "reports/results/response_times.hpp"
+#include "reports/results/sink.hpp"
 #include "reports/text/tally.hpp"
 
 namespace fieldproof::html {
@@ -48,7 +49,7 @@ struct HtmlSurvey {
   HtmlWriter red;     // blocks of what turns this gate red: NON-STRICT, MARGINAL
   std::size_t red_unlisted = 0;
   std::map<SectionName, SectionReport> sections;
-  std::map<std::string, std::vector<double>> response_ms;          // by group: "xgt_cnet/rss"
+  std::map<std::string, results::ResponseTimes> response_ms;       // by group: "xgt_cnet/rss"
   std::map<std::string, std::map<std::string, Reading>> readings;  // name: what was taken
   std::map<std::pair<results::Verdict, std::string>, Unexecuted>
       unexecuted;  // by verdict and reason
@@ -61,6 +62,26 @@ struct HtmlSurvey {
 inline constexpr std::size_t html_block_limit = 500;
 inline constexpr std::size_t html_line_limit = 20'000;
 
-Result<HtmlSurvey> survey_for_html(const std::string& ndjson, const results::Gate& gate);
+/// Gathers it.
+class HtmlSurveyor {
+ public:
+  explicit HtmlSurveyor(const results::Gate& gate) : gate_(gate) {}
+
+  void add(const results::CaseResult& result);
+  /// Once, at the end.
+  HtmlSurvey finish(const results::RunLog& log);
+
+ private:
+  void add_line(SectionReport& section, HtmlWriter& out, const auto& write);
+  void add_red(SectionReport& section, const results::CaseResult& result);
+  void add_remarkable(SectionReport& section, const results::CaseResult& result);
+  void add_facts(const results::CaseResult& result);
+  text::Tally executed(const std::string& vector) const;
+
+  results::Gate gate_;
+  HtmlSurvey survey_;
+  std::map<std::string, text::Tally> by_id_;
+  std::size_t lines_ = 0, red_blocks_ = 0, other_blocks_ = 0;
+};
 
 }  // namespace fieldproof::html

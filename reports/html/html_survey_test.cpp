@@ -9,6 +9,9 @@
 
 namespace fieldproof::html {
 
+using results::CaseResult;
+using results::Gate;
+using results::RunInfo;
 using results::Verdict;
 
 namespace {
@@ -19,19 +22,14 @@ using testing::HasSubstr;
 
 class Survey : public testing::Test {
  protected:
-  HtmlSurvey survey(const std::vector<results::CaseResult>& results, const results::Gate& gate = {},
-                    const results::RunInfo& run = samples::run_info()) {
-    const std::string path = folder_ / "results.ndjson";
-    auto writer = results::NdjsonWriter::create(path);
-    EXPECT_TRUE(writer);
-    EXPECT_TRUE(writer->write(run));
-    for (const results::CaseResult& result : results) EXPECT_TRUE(writer->write(result));
-    auto made = survey_for_html(path, gate);
-    EXPECT_TRUE(made) << made.error().message;
-    return std::move(*made);
+  HtmlSurvey survey(const std::vector<CaseResult>& results, const Gate& gate = {},
+                    const RunInfo& run = samples::run_info()) {
+    HtmlSurveyor surveyor(gate);
+    for (const CaseResult& result : results) surveyor.add(result);
+    results::RunLog log;
+    log.run = run;
+    return surveyor.finish(log);
   }
-
-  samples::Folder folder_;
 };
 
 TEST(SectionNames, AreOrderedAsAPersonCounts) {

@@ -13,6 +13,9 @@
 namespace fieldproof::html {
 
 using results::CaseResult;
+using results::Gate;
+using results::RunEnd;
+using results::RunInfo;
 using results::Verdict;
 
 namespace {
@@ -42,25 +45,24 @@ class Html : public testing::Test {
  protected:
   std::string report(const std::vector<CaseResult>& results, const results::Gate& gate = {},
                      bool end = true) {
-    samples::write_results(results_, results, end);
-    return render(gate);
+    samples::write_results(results_, results, end, gate);
+    return render();
   }
 
-  std::string report(const results::RunInfo& run, const std::vector<CaseResult>& results,
-                     const results::RunEnd& end, const results::Gate& gate = {}) {
+  std::string report(RunInfo run, const std::vector<CaseResult>& results, const RunEnd& end,
+                     const Gate& gate = {}) {
+    run.properties["gate"] = text::to_string(gate);
     {
       auto writer = results::NdjsonWriter::create(results_);
       EXPECT_TRUE(writer);
-      EXPECT_TRUE(writer->write(run));
-      for (const CaseResult& result : results) EXPECT_TRUE(writer->write(result));
-      EXPECT_TRUE(writer->write(end));
+      samples::hand_over(*writer, run, results, end);
     }
-    return render(gate);
+    return render();
   }
 
-  std::string render(const results::Gate& gate) {
-    const auto written = write_html(results_, report_, gate);
-    EXPECT_TRUE(written) << written.error().message;
+  std::string render() {
+    const auto log = replay(results_, *html_report(report_));
+    EXPECT_TRUE(log) << log.error().message;
     return samples::read_file(report_);
   }
 
@@ -304,11 +306,11 @@ TEST_F(Html, NothingIsLoadedFromElsewhere) {
     EXPECT_THAT(html, Not(HasSubstr(loads))) << loads;
 }
 
-TEST_F(Html, WhatCannotBeReadOrWrittenIsSaid) {
-  EXPECT_THAT(write_html(folder_ / "none", report_, {}).error().message, HasSubstr("cannot read"));
-  samples::write_results(results_, {samples::with(Verdict::pass, "a/one")});
-  EXPECT_THAT(write_html(results_, folder_ / "none/report.html", {}).error().message,
-              HasSubstr("cannot write"));
+TEST_F(Html, WhatCannotBeWrittenIsSaid) {
+  samples::write_results(results_, {with(Verdict::pass, "a/one")});
+  const auto log = replay(results_, *html_report(folder_ / "none/report.html"));
+  ASSERT_FALSE(log);
+  EXPECT_THAT(log.error().message, HasSubstr("cannot write"));
   EXPECT_EQ(1u, folder_.files()) << "no half report is left";
 }
 

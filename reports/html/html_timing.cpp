@@ -7,6 +7,9 @@
 #include <cmath>
 
 namespace fieldproof::html {
+
+using results::ResponseTimes;
+
 namespace {
 
 constexpr double width = 400, left = 8, right = 392, height = 30, base = 24;
@@ -26,13 +29,13 @@ struct Scale {
   }
 };
 
-Scale scale_of(const std::map<std::string, std::vector<double>>& response_ms, double limit_ms) {
+Scale scale_of(const std::map<std::string, ResponseTimes>& response_ms, double limit_ms) {
   double least = 1e9, greatest = std::max(limit_ms, 1e-3);
   for (const auto& [group, times] : response_ms) {
-    for (const double ms : times) {
+    greatest = std::max(greatest, times.greatest());
+    times.each([&](double ms, std::uint64_t) {
       if (ms > 0) least = std::min(least, ms);
-      greatest = std::max(greatest, ms);
-    }
+    });
   }
   Scale scale;
   scale.last = static_cast<int>(std::ceil(std::log10(std::min(greatest, 1e9))));
@@ -42,11 +45,13 @@ Scale scale_of(const std::map<std::string, std::vector<double>>& response_ms, do
 }
 
 /// Bars of one path. Heights by square root: one slow answer among a thousand must still be seen.
-std::string histogram(const std::vector<double>& times, const Scale& scale) {
-  std::array<std::size_t, bins> counts{};
+std::string histogram(const ResponseTimes& times, const Scale& scale) {
+  std::array<std::uint64_t, bins> counts{};
   const double bin_width = (right - left) / bins;
-  for (const double ms : times)
-    ++counts[std::min(bins - 1, static_cast<std::size_t>((scale.x(ms) - left) / bin_width))];
+  times.each([&](double ms, std::uint64_t count) {
+    const auto bin = static_cast<std::size_t>((scale.x(ms) - left) / bin_width);
+    counts[std::min(bins - 1, bin)] += count;
+  });
   const double most = std::sqrt(static_cast<double>(*std::ranges::max_element(counts)));
   std::string path;
   for (std::size_t i = 0; i < bins; ++i) {
@@ -68,10 +73,9 @@ void decades(HtmlWriter& out, const Scale& scale) {
     line(out, "grid", scale.x(std::pow(10, power)), 0, base);
 }
 
-void write_plot(HtmlWriter& out, const std::vector<double>& sorted, const Scale& scale,
-                double limit_ms) {
-  const std::string what = fmt::format("{:.3f} to {:.3f} ms, median {:.3f} ms", sorted.front(),
-                                       sorted.back(), percentile(sorted, 0.5));
+void write_plot(HtmlWriter& out, const ResponseTimes& times, const Scale& scale, double limit_ms) {
+  const std::string what = fmt::format("{:.3f} to {:.3f} ms, median {:.3f} ms", times.least(),
+                                       times.greatest(), times.median());
   const std::string box = fmt::format("0 0 {} {}", width, height);
   out.element("svg",
               {{"xmlns", "http://www.w3.org/2000/svg"},
@@ -80,13 +84,13 @@ void write_plot(HtmlWriter& out, const std::vector<double>& sorted, const Scale&
                {"aria-label", what}},
               [&] {
                 decades(out, scale);
-                out.empty("path", {{"class", "bars"}, {"d", histogram(sorted, scale)}});
-                const double low = scale.x(percentile(sorted, 0.25)),
-                             high = scale.x(percentile(sorted, 0.75));
+                out.empty("path", {{"class", "bars"}, {"d", histogram(times, scale)}});
+                const double low = scale.x(times.percentile(0.25)),
+                             high = scale.x(times.percentile(0.75));
                 out.empty("path", {{"class", "box"},
                                    {"d", fmt::format("M{:.1f} {}H{:.1f}", low, base + 3,
                                                      std::max(high, low + 1))}});
-                line(out, "median", scale.x(percentile(sorted, 0.5)), base, height);
+                line(out, "median", scale.x(times.median()), base, height);
                 if (limit_ms > 0) line(out, "limit", scale.x(limit_ms), 0, height);
               });
 }
@@ -116,12 +120,7 @@ void write_axis(HtmlWriter& out, const Scale& scale) {
 
 }  // namespace
 
-double percentile(const std::vector<double>& sorted, double part) {
-  const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
-  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
-}
-
-void write_timing(HtmlWriter& out, const std::map<std::string, std::vector<double>>& response_ms,
+void write_timing(HtmlWriter& out, const std::map<std::string, ResponseTimes>& response_ms,
                   double limit_ms) {
   const Scale scale = scale_of(response_ms, limit_ms);
   out.element("table", {{"class", "timing"}}, [&] {
@@ -135,14 +134,13 @@ void write_timing(HtmlWriter& out, const std::map<std::string, std::vector<doubl
     });
     out.element("tbody", {}, [&] {
       for (const auto& [group, times] : response_ms) {
-        std::vector<double> sorted = times;
-        std::ranges::sort(sorted);
         out.element("tr", {}, [&] {
           out.element("td", {}, group);
-          out.element("td", {{"class", "plot"}}, [&] { write_plot(out, sorted, scale, limit_ms); });
-          out.element("td", {{"class", "num"}}, fmt::format("{}", sorted.size()));
-          for (const double part : {0.0, 0.5, 0.99, 1.0})
-            out.element("td", {{"class", "num"}}, fmt::format("{:.3f}", percentile(sorted, part)));
+          out.element("td", {{"class", "plot"}}, [&] { write_plot(out, times, scale, limit_ms); });
+          out.element("td", {{"class", "num"}}, fmt::format("{}", times.count()));
+          for (const double ms :
+               {times.least(), times.median(), times.percentile(0.99), times.greatest()})
+            out.element("td", {{"class", "num"}}, fmt::format("{:.3f}", ms));
         });
       }
     });

@@ -3,21 +3,6 @@
 #include "reports/text/xml_text.hpp"
 
 namespace fieldproof::html {
-namespace {
-
-void append_escaped(std::string& html, std::string_view clean) {
-  for (const char c : clean) {
-    switch (c) {
-      case '&': html += "&amp;"; break;
-      case '<': html += "&lt;"; break;
-      case '>': html += "&gt;"; break;
-      case '"': html += "&quot;"; break;
-      default: html += c;
-    }
-  }
-}
-
-}  // namespace
 
 void HtmlWriter::start(std::string_view tag, Attributes attributes) {
   html_ += '<';
@@ -47,7 +32,7 @@ void HtmlWriter::empty(std::string_view tag, Attributes attributes) {
   html_ += "/>";
 }
 
-void HtmlWriter::text(std::string_view bytes) { append_escaped(html_, text::xml_line(bytes)); }
-void HtmlWriter::lines(std::string_view bytes) { append_escaped(html_, text::xml_text(bytes)); }
+void HtmlWriter::text(std::string_view bytes) { text::append_value(html_, text::xml_line(bytes)); }
+void HtmlWriter::lines(std::string_view bytes) { text::append_value(html_, text::xml_text(bytes)); }
 
 }  // namespace fieldproof::html

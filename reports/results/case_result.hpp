@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +31,9 @@ struct Event {
   Transport transport = Transport::tcp;
   bool by_device = false;  // opened, closed, reset: the device did it, not the bench
 };
+
+/// "sent", "received", ...
+std::string_view to_string(Event::Kind kind);
 
 /// What an executed step came to, besides the frames in the exchange.
 struct StepOutcome {
@@ -63,6 +66,8 @@ struct Recording {
                             // runs counts
   Duration max_gap{};
   Duration period_tolerance{};
+
+  bool empty() const { return stimulus.empty(); }
 };
 
 /// One field that differs: "block count", expected "01", received "00", hint "".
@@ -111,6 +116,8 @@ struct Identity {
   std::map<std::string, std::string> fingerprint;  // declared: what harmless reads must find
   std::map<std::string, std::string>
       fingerprint_found;  // by the bench; empty where it did not look
+
+  bool operator==(const Identity&) const = default;
 };
 
 /// The fields that both have alike, the others empty.
@@ -151,13 +158,5 @@ struct RunEnd {
   bool interrupted = false;
   std::string trouble;  // empty, or why the run stopped early
 };
-
-void to_json(nlohmann::json& json, const CaseResult& result);
-void to_json(nlohmann::json& json, const RunInfo& info);
-void to_json(nlohmann::json& json, const RunEnd& end);
-/// Throws nlohmann::json::exception on a foreign shape.
-void from_json(const nlohmann::json& json, CaseResult& result);
-void from_json(const nlohmann::json& json, RunInfo& info);
-void from_json(const nlohmann::json& json, RunEnd& end);
 
 }  // namespace fieldproof::results

@@ -8,9 +8,11 @@
 
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "reports/results/file_error.hpp"
+#include "reports/results/result_json.hpp"
 
 namespace fieldproof::results {
 namespace {
@@ -23,16 +25,10 @@ bool is_regular(int fd) {
   return ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
 }
 
-template <typename T>
-std::string line_of(const char* key, const T& value) {
-  return json{{key, value}}.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
-}
-
 /// The state of a file while it is read.
 class Reader {
  public:
-  Reader(const std::string& path, const std::function<void(const CaseResult&)>& on_result)
-      : path_(path), on_result_(on_result) {}
+  Reader(const std::string& path, Sink& sink) : path_(path), sink_(sink) {}
 
   Result<RunLog> read() {
     errno = 0;
@@ -42,6 +38,8 @@ class Reader {
     while (std::getline(file, line)) {
       ++number_;
       const bool complete = !file.eof();  // a line break ended it
+      sha256_.add(line);
+      if (complete) sha256_.add("\n");
       if (Status taken = take(line, complete); !taken) return taken.error();
     }
     if (file.bad()) return file_error("read", path_, errno != 0 ? errno : EIO);
@@ -49,6 +47,8 @@ class Reader {
       return fail(fmt::format(
           "cannot read {}: no complete line is in it; the run was killed before it began", path_));
     }
+    log_.sha256 = sha256_.digits();
+    if (Status ended = sink_.end(log_); !ended) return ended.error();
     return std::move(log_);
   }
 
@@ -75,19 +75,17 @@ class Reader {
     if (log_.end) return damaged("nothing may follow the line 'end'");
     if (key == "run") {
       value.get_to(log_.run);
-    } else if (key == "case") {
+      return sink_.begin(log_.run);
+    }
+    if (key == "case") {
       const auto result = value.get<CaseResult>();
       ++log_.results;
-      on_result_(result);
-    } else if (key == "sample") {
-      log_.samples.push_back(value.get<SoakSample>());
-    } else if (key == "soak") {
-      log_.soak = value.get<SoakSummary>();
-    } else if (key == "end") {
-      log_.end = value.get<RunEnd>();
-    } else {
-      return damaged(fmt::format("unknown key '{}'", key));
+      return sink_.add(Delivery(result));
     }
+    if (key == "sample") return sink_.add(log_.samples.emplace_back(value.get<SoakSample>()));
+    if (key == "soak") return sink_.add(log_.soak.emplace(value.get<SoakSummary>()));
+    if (key != "end") return damaged(fmt::format("unknown key '{}'", key));
+    log_.end = value.get<RunEnd>();
     return ok();
   }
 
@@ -97,9 +95,23 @@ class Reader {
   }
 
   const std::string& path_;
-  const std::function<void(const CaseResult&)>& on_result_;
+  Sink& sink_;
   RunLog log_;
+  Sha256 sha256_;
   std::size_t number_ = 0;
+};
+
+/// Results to a function.
+class Callback final : public Sink {
+ public:
+  explicit Callback(const std::function<void(const CaseResult&)>& on_result)
+      : on_result_(on_result) {}
+  Status begin(const RunInfo&) override { return ok(); }
+  Status add(const Delivery& one) override { return on_result_(*one), ok(); }
+  Status end(const RunLog&) override { return ok(); }
+
+ private:
+  const std::function<void(const CaseResult&)>& on_result_;
 };
 
 }  // namespace
@@ -131,20 +143,42 @@ NdjsonWriter::~NdjsonWriter() {
 void NdjsonWriter::swap(NdjsonWriter& other) noexcept {
   std::swap(path_, other.path_);
   std::swap(fd_, other.fd_);
+  std::swap(sha256_, other.sha256_);
 }
 
-Status NdjsonWriter::write(const RunInfo& info) { return write_line(line_of("run", info)); }
-Status NdjsonWriter::write(const CaseResult& result) { return write_line(line_of("case", result)); }
-Status NdjsonWriter::write(const SoakSample& sample) {
-  return write_line(line_of("sample", sample));
+Status NdjsonWriter::begin(const RunInfo& run) {
+  std::string json;
+  append_json(json, run);
+  return write_line("run", json);
 }
-Status NdjsonWriter::write(const SoakSummary& soak) { return write_line(line_of("soak", soak)); }
-Status NdjsonWriter::write(const RunEnd& end) { return write_line(line_of("end", end)); }
 
-Status NdjsonWriter::write_line(const std::string& line) {
+Status NdjsonWriter::add(const Delivery& one) { return write_line("case", one.json()); }
+
+Status NdjsonWriter::add(const SoakSample& sample) {
+  std::string json;
+  append_json(json, sample);
+  return write_line("sample", json);
+}
+
+Status NdjsonWriter::add(const SoakSummary& soak) {
+  std::string json;
+  append_json(json, soak);
+  return write_line("soak", json);
+}
+
+Status NdjsonWriter::end(const RunLog& log) {
+  if (!log.end) return ok();
+  std::string json;
+  append_json(json, *log.end);
+  return write_line("end", json);
+}
+
+Status NdjsonWriter::write_line(const char* key, const std::string& json) {
+  line_.clear();
+  fmt::format_to(std::back_inserter(line_), "{{\"{}\":{}}}\n", key, json);
   std::size_t done = 0;
-  while (done < line.size()) {
-    const ssize_t count = ::write(fd_, line.data() + done, line.size() - done);
+  while (done < line_.size()) {
+    const ssize_t count = ::write(fd_, line_.data() + done, line_.size() - done);
     if (count >= 0) {
       done += static_cast<std::size_t>(count);
     } else if (errno != EINTR) {
@@ -157,12 +191,16 @@ Status NdjsonWriter::write_line(const std::string& line) {
       return file_error("write", path_, error);
     }
   }
+  sha256_.add(line_);
   return ok();
 }
 
+Result<RunLog> replay(const std::string& path, Sink& sink) { return Reader(path, sink).read(); }
+
 Result<RunLog> read_ndjson(const std::string& path,
                            const std::function<void(const CaseResult&)>& on_result) {
-  return Reader(path, on_result).read();
+  Callback sink(on_result);
+  return replay(path, sink);
 }
 
 }  // namespace fieldproof::results

@@ -6,60 +6,54 @@
 //   {"end":{...}}    last; missing when the run was killed
 #pragma once
 
-#include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "reports/results/case_result.hpp"
-#include "reports/results/soak.hpp"
+#include "reports/results/sha256.hpp"
+#include "reports/results/sink.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof::results {
 
 /// Appends lines, each by one write(2): no buffer of ours stands between a result and the file.
 /// The file is locked while the writer lives, so two runs cannot mix their lines.
-class NdjsonWriter {
+class NdjsonWriter final : public Sink {
  public:
   /// Makes the file, or empties an old one. Errors name the path.
   static Result<NdjsonWriter> create(const std::string& path);
 
   NdjsonWriter(NdjsonWriter&& other) noexcept;
   NdjsonWriter& operator=(NdjsonWriter&& other) noexcept;
-  ~NdjsonWriter();
+  ~NdjsonWriter() override;
 
   /// Text that is not UTF-8 is kept readable (U+FFFD for what is not). After an error the file ends
   /// with its last complete line, and writing may go on.
-  Status write(const RunInfo& info);
-  Status write(const CaseResult& result);
-  Status write(const SoakSample& sample);
-  Status write(const SoakSummary& soak);
-  Status write(const RunEnd& end);
+  Status begin(const RunInfo& run) override;
+  Status add(const Delivery& one) override;
+  Status add(const SoakSample& sample) override;
+  Status add(const SoakSummary& soak) override;
+  Status end(const RunLog& log) override;
 
-  const std::string& path() const { return path_; }
+  /// Of all that was written.
+  std::string sha256() const { return sha256_.digits(); }
 
  private:
   NdjsonWriter(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
-  Status write_line(const std::string& line);
+  Status write_line(const char* key, const std::string& json);
   void swap(NdjsonWriter& other) noexcept;
 
   std::string path_;
   int fd_ = -1;
+  std::string line_;  // its room, from line to line
+  Sha256 sha256_;
 };
 
-/// What stands around the results of a file.
-struct RunLog {
-  RunInfo run;
-  std::optional<RunEnd> end;             // nothing: the run was killed, or is not over
-  std::vector<SoakSample> samples = {};  // of a soak, in order
-  std::optional<SoakSummary> soak = {};  // nothing: no soak, or a killed one
-  std::size_t results = 0;
-  bool truncated = false;  // the last line is incomplete and was left out
-};
+/// Reads a file line by line and hands all of it to the sink; memory does not grow with the
+/// results. An incomplete last line is tolerated; any other damage is an error that names file and
+/// line, and the sink does not come to its end.
+Result<RunLog> replay(const std::string& path, Sink& sink);
 
-/// Reads a file line by line and hands over each result; memory does not grow with their number.
-/// An incomplete last line is tolerated; any other damage is an error that names file and line.
+/// The results alone.
 Result<RunLog> read_ndjson(const std::string& path,
                            const std::function<void(const CaseResult&)>& on_result);
 

@@ -65,10 +65,12 @@ TEST_F(Ndjson, WhatIsWrittenIsRead) {
     auto writer = NdjsonWriter::create(path_);
     ASSERT_TRUE(writer) << writer.error().message;
     ASSERT_TRUE(
-        writer->write(RunInfo{"0.1.0", "2026-11-21T12:00:00Z", "emulator:", "", "", "", {}}));
-    ASSERT_TRUE(writer->write(result("a/one")));
-    ASSERT_TRUE(writer->write(result("a/two")));
-    ASSERT_TRUE(writer->write(RunEnd{"2026-11-21T12:00:01Z", 1, 0, false, ""}));
+        writer->begin(RunInfo{"0.1.0", "2026-11-21T12:00:00Z", "emulator:", "", "", "", {}}));
+    ASSERT_TRUE(writer->add(Delivery(result("a/one"))));
+    ASSERT_TRUE(writer->add(Delivery(result("a/two"))));
+    RunLog log;
+    log.end = RunEnd{"2026-11-21T12:00:01Z", 1, 0, false, ""};
+    ASSERT_TRUE(writer->end(log));
   }
   auto log = read();
   ASSERT_TRUE(log) << log.error().message;
@@ -83,8 +85,8 @@ TEST_F(Ndjson, WhatIsWrittenIsRead) {
 TEST_F(Ndjson, EachLineIsInTheFileAtOnce) {
   auto writer = NdjsonWriter::create(path_);
   ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->write(RunInfo{}));
-  ASSERT_TRUE(writer->write(result("a/one")));
+  ASSERT_TRUE(writer->begin(RunInfo{}));
+  ASSERT_TRUE(writer->add(Delivery(result("a/one"))));
   const std::string text = content();
   EXPECT_EQ(2, std::count(text.begin(), text.end(), '\n'));
   EXPECT_TRUE(text.ends_with("}}\n"));
@@ -100,7 +102,7 @@ TEST_F(Ndjson, ARunStartsANewFile) {
 TEST_F(Ndjson, TwoRunsDoNotShareAFile) {
   auto first = NdjsonWriter::create(path_);
   ASSERT_TRUE(first);
-  ASSERT_TRUE(first->write(RunInfo{}));
+  ASSERT_TRUE(first->begin(RunInfo{}));
   auto second = NdjsonWriter::create(path_);
   ASSERT_FALSE(second);
   EXPECT_THAT(second.error().message, HasSubstr("another run writes it"));
@@ -110,10 +112,10 @@ TEST_F(Ndjson, TwoRunsDoNotShareAFile) {
 TEST_F(Ndjson, BytesThatAreNotUtf8DoNotStopARun) {
   auto writer = NdjsonWriter::create(path_);
   ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->write(RunInfo{}));
+  ASSERT_TRUE(writer->begin(RunInfo{}));
   auto broken = result("a/b");
   broken.message = "got \xFF\x05\xC3";
-  ASSERT_TRUE(writer->write(broken));
+  ASSERT_TRUE(writer->add(Delivery(broken)));
   std::string message;
   ASSERT_TRUE(read_ndjson(path_, [&](const CaseResult& read) { message = read.message; }));
   EXPECT_EQ("got \xEF\xBF\xBD\x05\xEF\xBF\xBD", message);
@@ -122,7 +124,7 @@ TEST_F(Ndjson, BytesThatAreNotUtf8DoNotStopARun) {
 TEST_F(Ndjson, AFullDiskLeavesWholeLines) {
   auto writer = NdjsonWriter::create(path_);
   ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->write(RunInfo{}));
+  ASSERT_TRUE(writer->begin(RunInfo{}));
   const std::string before = content();
 
   // A limit on the size of files stands in for the disk: the write takes what fits, then fails.
@@ -132,14 +134,14 @@ TEST_F(Ndjson, AFullDiskLeavesWholeLines) {
   rlimit small = old;
   small.rlim_cur = before.size() + 10;
   setrlimit(RLIMIT_FSIZE, &small);
-  Status failed = writer->write(result("a/one"));
+  Status failed = writer->add(Delivery(result("a/one")));
   setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, old_handler);
 
   ASSERT_FALSE(failed);
   EXPECT_THAT(failed.error().message, HasSubstr("cannot write " + path_));
   EXPECT_EQ(before, content());
-  ASSERT_TRUE(writer->write(result("a/two")));
+  ASSERT_TRUE(writer->add(Delivery(result("a/two"))));
   ASSERT_TRUE(read());
   EXPECT_THAT(ids_, ElementsAre("a/two"));
 }

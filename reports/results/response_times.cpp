@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace fieldproof::results {
 
@@ -61,22 +60,6 @@ std::string to_string(const ResponseFigures& figures) {
   return fmt::format("{} {}: min {:.3f}, median {:.3f}, p99 {:.3f}, max {:.3f} ms", figures.count,
                      figures.count == 1 ? "reply" : "replies", figures.least, figures.median,
                      figures.p99, figures.greatest);
-}
-
-void to_json(nlohmann::json& json, const ResponseFigures& figures) {
-  json = {{"replies", figures.count},
-          {"min_ms", figures.least},
-          {"median_ms", figures.median},
-          {"p99_ms", figures.p99},
-          {"max_ms", figures.greatest}};
-}
-
-void from_json(const nlohmann::json& json, ResponseFigures& figures) {
-  json.at("replies").get_to(figures.count);
-  json.at("min_ms").get_to(figures.least);
-  json.at("median_ms").get_to(figures.median);
-  json.at("p99_ms").get_to(figures.p99);
-  json.at("max_ms").get_to(figures.greatest);
 }
 
 }  // namespace fieldproof::results

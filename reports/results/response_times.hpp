@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace fieldproof::results {
@@ -23,6 +22,10 @@ class ResponseTimes {
   double median() const { return percentile(0.5); }
   /// How many numbers are kept; grows with their spread, not with their count.
   std::size_t bins() const { return bins_.size(); }
+  /// `visit(ms, count)` for each number that is kept, in order.
+  void each(const auto& visit) const {
+    for (const auto& [index, bin] : bins_) visit(bin.mean, bin.count);
+  }
 
  private:
   struct Bin {
@@ -43,8 +46,5 @@ ResponseFigures figures_of(const ResponseTimes& times);
 
 /// "1000 replies: min 1.042, median 1.042, p99 2.083, max 2.083 ms"
 std::string to_string(const ResponseFigures& figures);
-
-void to_json(nlohmann::json& json, const ResponseFigures& figures);
-void from_json(const nlohmann::json& json, ResponseFigures& figures);
 
 }  // namespace fieldproof::results

@@ -1,13 +1,13 @@
 #include "reports/results/sha256.hpp"
 
-// libmd's headers want the BSD types before them.
-#include <sys/types.h>
-
-#include <sha256.h>
+#include <fmt/format.h>
+#include <openssl/evp.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <fstream>
+#include <new>
 #include <vector>
 
 #include "reports/results/file_error.hpp"
@@ -16,12 +16,6 @@ namespace fieldproof::results {
 namespace {
 
 namespace fs = std::filesystem;
-using Digits = std::array<char, SHA256_DIGEST_STRING_LENGTH>;
-
-std::string sha256_of_text(const std::string& text) {
-  Digits digits{};
-  return SHA256Data(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), digits.data());
-}
 
 /// Files below `folder`, relative to it, in the order of their bytes.
 Result<std::vector<std::string>> files_of(const fs::path& folder) {
@@ -38,25 +32,56 @@ Result<std::vector<std::string>> files_of(const fs::path& folder) {
 
 }  // namespace
 
+struct Sha256::State {
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(),
+                                                                  &EVP_MD_CTX_free};
+};
+
+Sha256::Sha256() : state_(std::make_unique<State>()) {
+  if (EVP_DigestInit_ex(state_->context.get(), EVP_sha256(), nullptr) != 1) throw std::bad_alloc();
+}
+Sha256::Sha256(Sha256&&) noexcept = default;
+Sha256& Sha256::operator=(Sha256&&) noexcept = default;
+Sha256::~Sha256() = default;
+
+void Sha256::add(std::string_view bytes) {
+  EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size());
+}
+
+std::string Sha256::digits() const {
+  const State copy;  // more may follow
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  if (EVP_MD_CTX_copy_ex(copy.context.get(), state_->context.get()) != 1) throw std::bad_alloc();
+  EVP_DigestFinal_ex(copy.context.get(), digest.data(), &size);
+  std::string text;
+  for (unsigned i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+  return text;
+}
+
 Result<std::string> sha256_of_file(const fs::path& path) {
-  Digits digits{};
   errno = 0;
-  if (SHA256File(path.c_str(), digits.data()) == nullptr)
-    return file_error("read", path.string(), errno);
-  return std::string(digits.data());
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return file_error("read", path.string(), errno);
+  Sha256 sum;
+  std::vector<char> piece(std::size_t{1} << 16);
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0)
+    sum.add({piece.data(), static_cast<std::size_t>(file.gcount())});
+  if (file.bad()) return file_error("read", path.string(), errno != 0 ? errno : EIO);
+  return sum.digits();
 }
 
 Result<std::string> sha256_of_tree(const fs::path& path) {
   if (!fs::is_directory(path)) return sha256_of_file(path);
   auto names = files_of(path);
   if (!names) return names.error();
-  std::string list;
+  Sha256 list;
   for (const std::string& name : *names) {
     auto digits = sha256_of_file(path / name);
     if (!digits) return digits.error();
-    list += *digits + "  " + name + '\n';
+    list.add(*digits + "  " + name + '\n');
   }
-  return sha256_of_text(list);
+  return list.digits();
 }
 
 }  // namespace fieldproof::results

@@ -2,11 +2,30 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <string_view>
 
 #include "src/base/result.hpp"
 
 namespace fieldproof::results {
+
+/// Of bytes as they come.
+class Sha256 {
+ public:
+  Sha256();
+  Sha256(Sha256&&) noexcept;
+  Sha256& operator=(Sha256&&) noexcept;
+  ~Sha256();
+
+  void add(std::string_view bytes);
+  /// 64 hex digits, of what came so far.
+  std::string digits() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// 64 hex digits, as `sha256sum PATH` prints them.
 Result<std::string> sha256_of_file(const std::filesystem::path& path);

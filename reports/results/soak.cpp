@@ -1,13 +1,10 @@
 #include "reports/results/soak.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace fieldproof::results {
 
 namespace {
-
-using nlohmann::json;
 
 double rate(const SoakSample& sample) {
   return sample.judged == 0
@@ -60,53 +57,6 @@ std::string killed_soak_text(const std::vector<SoakSample>& samples) {
     text +=
         fmt::format("; median {:.3f} ms at first, {:.3f} ms at last", first.median, last.median);
   return text;
-}
-
-void to_json(json& object, const SoakSample& sample) {
-  object = {{"from_s", sample.from_s},
-            {"to_s", sample.to_s},
-            {"judged", sample.judged},
-            {"failed", sample.failed},
-            {"response", sample.response}};
-}
-
-void from_json(const json& object, SoakSample& sample) {
-  object.at("from_s").get_to(sample.from_s);
-  object.at("to_s").get_to(sample.to_s);
-  object.at("judged").get_to(sample.judged);
-  object.at("failed").get_to(sample.failed);
-  object.at("response").get_to(sample.response);
-}
-
-void to_json(json& object, const SoakCase& one) {
-  object = {{"counts", one.counts}, {"response", one.response}};
-}
-
-void from_json(const json& object, SoakCase& one) {
-  object.at("counts").get_to(one.counts);
-  object.at("response").get_to(one.response);
-}
-
-void to_json(json& object, const SoakSummary& soak) {
-  object = {{"seconds", soak.seconds},   {"planned_s", soak.planned_s},
-            {"rounds", soak.rounds},     {"judged", soak.judged},
-            {"failed", soak.failed},     {"error_rate", soak.error_rate()},
-            {"response", soak.response}, {"first_tenth", soak.first},
-            {"last_tenth", soak.last},   {"unwritten", soak.unwritten},
-            {"cases", soak.cases}};
-}
-
-void from_json(const json& object, SoakSummary& soak) {
-  object.at("seconds").get_to(soak.seconds);
-  object.at("planned_s").get_to(soak.planned_s);
-  object.at("rounds").get_to(soak.rounds);
-  object.at("judged").get_to(soak.judged);
-  object.at("failed").get_to(soak.failed);
-  object.at("response").get_to(soak.response);
-  object.at("first_tenth").get_to(soak.first);
-  object.at("last_tenth").get_to(soak.last);
-  object.at("unwritten").get_to(soak.unwritten);
-  object.at("cases").get_to(soak.cases);
 }
 
 }  // namespace fieldproof::results

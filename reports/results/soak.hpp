@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -45,13 +44,5 @@ std::string soak_text(const SoakSummary& soak);
 /// What is known of a soak that was killed: "600 s of soak: 1200 judged repetitions, 3 red;
 /// median 2.1 ms at first, 2.3 ms at last".
 std::string killed_soak_text(const std::vector<SoakSample>& samples);
-
-void to_json(nlohmann::json& json, const SoakSample& sample);
-void to_json(nlohmann::json& json, const SoakCase& one);
-void to_json(nlohmann::json& json, const SoakSummary& soak);
-/// Throws nlohmann::json::exception on a foreign shape.
-void from_json(const nlohmann::json& json, SoakSample& sample);
-void from_json(const nlohmann::json& json, SoakCase& one);
-void from_json(const nlohmann::json& json, SoakSummary& soak);
 
 }  // namespace fieldproof::results

@@ -4,12 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "reports/results/case_result.hpp"
 #include "reports/results/ndjson.hpp"
 #include "reports/results/whole_file.hpp"
+#include "reports/results/result_json.hpp"
+#include "reports/text/tally.hpp"
 
 namespace fieldproof::samples {
 
@@ -99,15 +105,40 @@ inline std::string read_file(const std::string& path) {
   return text ? *text : "";
 }
 
+/// Of a run judged by `gate`.
+inline results::RunInfo run_info(const results::Gate& gate) {
+  results::RunInfo run = run_info();
+  run.properties["gate"] = text::to_string(gate);
+  return run;
+}
+
+/// What a run hands to its sinks.
+inline void hand_over(results::Sink& sink, const results::RunInfo& run,
+                      const std::vector<results::CaseResult>& results,
+                      const std::optional<results::RunEnd>& end) {
+  const auto expect_ok = [](const Status& done) { ASSERT_TRUE(done) << done.error().message; };
+  expect_ok(sink.begin(run));
+  for (const results::CaseResult& result : results) expect_ok(sink.add(results::Delivery(result)));
+  results::RunLog log;
+  log.run = run;
+  log.end = end;
+  log.results = results.size();
+  expect_ok(sink.end(log));
+}
+
 /// A file of results as a run leaves it; without `end` as a killed run does.
 inline void write_results(const std::string& path, const std::vector<results::CaseResult>& results,
-                          bool end = true) {
+                          bool end = true, const results::Gate& gate = {}) {
   auto writer = results::NdjsonWriter::create(path);
   ASSERT_TRUE(writer) << writer.error().message;
-  ASSERT_TRUE(writer->write(run_info()));
-  for (const results::CaseResult& result : results) ASSERT_TRUE(writer->write(result));
-  if (!end) return;
-  ASSERT_TRUE(writer->write(run_end()));
+  hand_over(*writer, run_info(gate), results, end ? std::optional(run_end()) : std::nullopt);
+}
+
+/// A value as it stands in a file of results.
+inline nlohmann::json as_json(const auto& value) {
+  std::string text;
+  append_json(text, value);
+  return nlohmann::json::parse(text);
 }
 
 }  // namespace fieldproof::samples

@@ -83,4 +83,9 @@ Gate parse_gate(const std::string& text) {
           .qualify = has("qualify")};
 }
 
+Gate gate_of(const results::RunInfo& run) {
+  const auto gate = run.properties.find("gate");
+  return gate == run.properties.end() ? Gate{} : parse_gate(gate->second);
+}
+
 }  // namespace fieldproof::text

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include "reports/results/case_result.hpp"
 #include "reports/results/verdict.hpp"
 
 namespace fieldproof::text {
@@ -20,6 +21,9 @@ class Tally {
 
   void add(results::Verdict verdict, std::size_t count = 1) {
     counts_[static_cast<std::size_t>(verdict)] += count;
+  }
+  void add(const Tally& other) {
+    for (results::Verdict verdict : verdicts) add(verdict, other.of(verdict));
   }
   std::size_t of(results::Verdict verdict) const {
     return counts_[static_cast<std::size_t>(verdict)];
@@ -56,5 +60,7 @@ std::string exit_meaning(int exit_code);
 std::string to_string(const results::Gate& gate);
 /// The reverse; what it does not know counts as not set.
 results::Gate parse_gate(const std::string& text);
+/// That a run was judged by.
+results::Gate gate_of(const results::RunInfo& run);
 
 }  // namespace fieldproof::text

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "reports/results/result_json.hpp"
 #include "reports/text/case_text.hpp"
 
 namespace fieldproof::text {
@@ -12,10 +12,12 @@ namespace {
 
 using Times = std::map<std::string, results::ResponseTimes>;
 
-nlohmann::json to_object(const Times& times) {
-  nlohmann::json object = nlohmann::json::object();
-  for (const auto& [name, one] : times) object[name] = results::figures_of(one);
-  return object;
+std::string to_object(const Times& times) {
+  std::map<std::string, results::ResponseFigures> figures;
+  for (const auto& [name, one] : times) figures[name] = figures_of(one);
+  std::string text;
+  results::append_json(text, figures);
+  return text;
 }
 
 void add(Times& all, const std::string& name, const results::CaseResult& result) {
@@ -50,10 +52,9 @@ TimingTable::Rows TimingTable::rows(std::size_t limit) const {
   return rows;
 }
 
-nlohmann::json TimingTable::json() const {
-  nlohmann::json object{{"groups", to_object(groups_)}};
-  if (!too_many_) object["cases"] = to_object(cases_);
-  return object;
+std::string TimingTable::json() const {
+  const std::string cases = too_many_ ? "" : "\"cases\":" + to_object(cases_) + ',';
+  return '{' + cases + "\"groups\":" + to_object(groups_) + '}';
 }
 
 std::string timing_text(const TimingTable::Rows& rows) {

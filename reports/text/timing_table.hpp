@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +21,7 @@ class TimingTable {
   /// protocol.
   Rows rows(std::size_t limit = 20) const;
   /// {"cases": {...}, "groups": {...}}; without "cases" where there are more than `case_limit`.
-  nlohmann::json json() const;
+  std::string json() const;
 
   static constexpr std::size_t case_limit = 10'000;
 

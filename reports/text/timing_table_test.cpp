@@ -47,7 +47,7 @@ TEST(TimingTable, StepsOfALineMatrixStandApart) {
   TimingTable table;
   table.add(replied("p/one/a", {1}, "9600-8N1"));
   table.add(replied("p/one/a", {2}, "38400-8E1"));
-  const nlohmann::json written = table.json();
+  const auto written = nlohmann::json::parse(table.json());
   EXPECT_EQ(2u, written["cases"].size());
   EXPECT_EQ(2.0, written["cases"]["p/one/a [38400-8E1]"]["median_ms"]);
   EXPECT_EQ(1u, written["groups"]["p/one [9600-8N1]"]["replies"]);

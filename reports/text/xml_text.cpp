@@ -1,5 +1,6 @@
 #include "reports/text/xml_text.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "src/base/bytes.hpp"
@@ -36,6 +37,8 @@ bool readable(std::uint32_t code, bool multi_line) {
 }
 
 std::string show(std::string_view bytes, bool multi_line) {
+  const auto plain = [](unsigned char c) { return c >= 0x20 && c < 0x7F; };
+  if (std::ranges::all_of(bytes, plain)) return std::string(bytes);
   std::string text;
   text.reserve(bytes.size());
   while (!bytes.empty()) {
@@ -52,7 +55,25 @@ std::string show(std::string_view bytes, bool multi_line) {
   return text;
 }
 
+void append_escaped(std::string& xml, std::string_view clean, std::string_view marks) {
+  for (std::size_t at = 0;;) {
+    const std::size_t next = std::min(clean.find_first_of(marks, at), clean.size());
+    xml += clean.substr(at, next - at);
+    if (next == clean.size()) return;
+    switch (clean[next]) {
+      case '&': xml += "&amp;"; break;
+      case '<': xml += "&lt;"; break;
+      case '>': xml += "&gt;"; break;
+      default: xml += "&quot;"; break;
+    }
+    at = next + 1;
+  }
+}
+
 }  // namespace
+
+void append_content(std::string& xml, std::string_view clean) { append_escaped(xml, clean, "&<>"); }
+void append_value(std::string& xml, std::string_view clean) { append_escaped(xml, clean, "&<>\""); }
 
 std::string xml_text(std::string_view bytes) { return show(bytes, true); }
 std::string xml_line(std::string_view bytes) { return show(bytes, false); }

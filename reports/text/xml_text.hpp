@@ -15,4 +15,9 @@ std::string xml_text(std::string_view bytes);
 /// The same in one line, for attributes: tab and line feed are shown as [09] and [0A].
 std::string xml_line(std::string_view bytes);
 
+/// Appends text that is clean (one of the above) as content of an element, or as value of an
+/// attribute in double quotes: & < > as entities, and in a value the quotes.
+void append_content(std::string& xml, std::string_view clean);
+void append_value(std::string& xml, std::string_view clean);
+
 }  // namespace fieldproof::text

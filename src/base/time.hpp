@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 
 namespace fieldproof {
 
@@ -11,5 +12,8 @@ using Time = std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
 inline double to_ms(Duration d) { return std::chrono::duration<double, std::milli>(d).count(); }
+
+/// To the nearest nanosecond. `ms` is finite and within 292 years.
+inline Duration from_ms(double ms) { return Duration(std::llround(ms * 1e6)); }
 
 }  // namespace fieldproof

@@ -1,17 +1,8 @@
 #include "src/modbus/mbap.hpp"
 
+#include "src/modbus/pdu.hpp"
+
 namespace fieldproof::modbus {
-
-namespace {
-std::uint16_t word_at(ByteView bytes, std::size_t at) {
-  return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
-}
-
-void put_word(Bytes& to, std::size_t value) {
-  to.push_back(static_cast<Byte>(value >> 8));
-  to.push_back(static_cast<Byte>(value));
-}
-}  // namespace
 
 std::optional<MbapHeader> read_mbap(ByteView bytes) {
   if (bytes.size() < mbap_prefix) return std::nullopt;

@@ -11,7 +11,7 @@
 namespace fieldproof::modbus {
 
 namespace {
-constexpr std::string_view what = "the Modbus server's configuration";
+constexpr std::string_view whose = "the Modbus server's configuration";
 constexpr unsigned most_connections = 4, longest_wait = 255, shortest_wait = 2;
 
 std::vector<std::string_view> known_keys_of(ModbusMode mode) {
@@ -24,7 +24,7 @@ std::vector<std::string_view> known_keys_of(ModbusMode mode) {
 Result<std::unique_ptr<DataSpace>> make_data_space(plc::PlcMemory& memory,
                                                    const nlohmann::json& config) {
   ModbusBases bases = default_modbus_bases(memory.model());
-  plc::ConfigReader reader(config, std::string(what));
+  plc::ConfigReader reader(config, std::string(whose));
   for (std::size_t i = 0; i < bases.size(); ++i)
     reader.text((std::string(modbus_base_names[i]) + "_base").c_str(), bases[i]);
   if (reader.error()) return *reader.error();
@@ -38,15 +38,15 @@ TcpServerConfig fenet_server() { return {.waiting_time = 100s}; }
 
 Status read_tcp_config(const nlohmann::json& config, TcpServerConfig& to) {
   unsigned wait = static_cast<unsigned>(to.waiting_time / 1s);
-  plc::ConfigReader reader(config, std::string(what));
+  plc::ConfigReader reader(config, std::string(whose));
   reader.whole("connections", most_connections, to.connections);
   reader.whole("waiting_time", longest_wait, wait);
   if (reader.error()) return *reader.error();
   if (to.connections == 0)
     return fail(
-        fmt::format("cannot read {}: connections is 0; give 1 to {}", what, most_connections));
+        fmt::format("cannot read {}: connections is 0; give 1 to {}", whose, most_connections));
   if (config.contains("waiting_time") && wait < shortest_wait)
-    return fail(fmt::format("cannot read {}: waiting_time is {}; give {} to {} seconds", what, wait,
+    return fail(fmt::format("cannot read {}: waiting_time is {}; give {} to {} seconds", whose, wait,
                             shortest_wait, longest_wait));
   to.waiting_time = std::chrono::seconds(wait);
   return ok();
@@ -56,11 +56,11 @@ Status add_modbus_server(plc::Plc& plc, ModbusMode mode, unsigned channel,
                          const nlohmann::json& config) {
   if (config.is_object() && config.contains("role") && config["role"] == "client")
     return fail("cannot make a Modbus server of role client; leave role out, or give server");
-  if (const Status status = plc::known_keys(config, what, known_keys_of(mode)); !status)
+  if (const Status status = plc::known_keys(config, whose, known_keys_of(mode)); !status)
     return status;
   plc::PortConfig port;
   TcpServerConfig tcp = fenet_server();
-  plc::ConfigReader reader(config, std::string(what));
+  plc::ConfigReader reader(config, std::string(whose));
   port.model = plc.memory().model().name;
   plc::read_port_config(reader, port);
   if (reader.error()) return *reader.error();

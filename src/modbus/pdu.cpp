@@ -20,10 +20,6 @@ constexpr std::array functions{
     ModbusFunction{0x10, "Preset Multiple Registers", ModbusBase::word_write, line_write_limit},
 };
 
-unsigned word_at(ByteView bytes, std::size_t at) {
-  return static_cast<unsigned>(bytes[at] << 8 | bytes[at + 1]);
-}
-
 bool writes(Byte code) {
   return code == write_coil || code == write_register || code == write_coils ||
          code == write_registers;
@@ -98,6 +94,10 @@ Bytes write(const ModbusRequest& request, DataSpace& data) {
   return reply;
 }
 }  // namespace
+
+std::uint16_t word_at(ByteView bytes, std::size_t at) {
+  return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
+}
 
 void put_word(Bytes& to, std::uint64_t value) {
   to.push_back(static_cast<Byte>(value >> 8));

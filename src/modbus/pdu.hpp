@@ -26,6 +26,8 @@ constexpr unsigned coil_on = 0xFF00, coil_off = 0x0000;
 
 /// Appends the low 16 bits, high byte first.
 void put_word(Bytes& to, std::uint64_t value);
+/// The two bytes from `at` on, high byte first; they must be there.
+std::uint16_t word_at(ByteView bytes, std::size_t at);
 
 struct ModbusFunction {
   Byte code = 0;

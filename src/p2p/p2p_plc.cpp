@@ -9,7 +9,7 @@ namespace {
 constexpr unsigned longest_time_out = 50;  // Cnet EN figure 4.3.1: (0-50)(*100ms)
 constexpr Duration network_time_out = 5s;  // decision: FEnet EN prints none
 
-constexpr std::string_view what = "the P2P client's configuration";
+constexpr std::string_view whose = "the P2P client's configuration";
 
 Error no_blocks() {
   return fail("cannot make a P2P client: there is no p2p; give its blocks, or role server");
@@ -40,12 +40,12 @@ Status add_p2p_clients(plc::Plc& plc, const nlohmann::json& config, const P2pDri
                        std::initializer_list<std::string_view> own_keys) {
   std::vector<std::string_view> keys = plc::port_keys(own_keys);
   keys.insert(keys.end(), {"p2p", "time_out"});
-  if (const Status status = plc::known_keys(config, what, keys); !status) return status;
+  if (const Status status = plc::known_keys(config, whose, keys); !status) return status;
   const plc::PlcModel& model = plc.memory().model();
   plc::PortConfig port;
   port.model = model.name;
   unsigned time_out = 1;
-  plc::ConfigReader reader(config, std::string(what));
+  plc::ConfigReader reader(config, std::string(whose));
   plc::read_port_config(reader, port);
   reader.whole("time_out", longest_time_out, time_out);
   if (reader.error()) return *reader.error();
@@ -86,9 +86,9 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_p2p_device(
 Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, std::uint16_t port,
                            const std::function<std::unique_ptr<P2pDriver>()>& driver) {
   const auto keys = plc::network_keys({"p2p"});
-  if (const Status status = plc::known_keys(config, what, keys); !status) return status;
+  if (const Status status = plc::known_keys(config, whose, keys); !status) return status;
   P2pRules rules = network_p2p_rules();
-  plc::ConfigReader reader(config, std::string(what));
+  plc::ConfigReader reader(config, std::string(whose));
   reader.whole("station", 255, rules.station);
   if (reader.error()) return *reader.error();
   if (!config.contains("p2p")) return no_blocks();

@@ -67,7 +67,7 @@ void ConfigReader::whole(const char* key, unsigned most, unsigned& to) {
 
 void ConfigReader::milliseconds(const char* key, Duration& to) {
   constexpr double longest = 60'000;
-  number(key, 0, longest, [&](double n) { to = Duration(std::llround(n * 1e6)); });
+  number(key, 0, longest, [&](double n) { to = from_ms(n); });
 }
 
 void ConfigReader::boolean(const char* key, bool& to) {

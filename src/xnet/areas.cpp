@@ -13,7 +13,7 @@ namespace fieldproof::xnet {
 namespace {
 constexpr bool coil = true, word = false, octal = true;
 
-constexpr std::array table{
+constexpr std::array all_areas{
     Area{"M", coil, 75000, 0x0000, 0x5000},  Area{"X", coil, 64, 0x5000, 64, octal},
     Area{"Y", coil, 64, 0x6000, 64, octal},  Area{"S", coil, 8000, 0x7000, 8000},
     Area{"SM", coil, 5000, 0x9000, 0x1000},  Area{"T", coil, 5000, 0xA000, 0x1000},
@@ -31,13 +31,13 @@ constexpr std::array table{
 };
 }  // namespace
 
-std::span<const Area> areas() { return table; }
+std::span<const Area> areas() { return all_areas; }
 
 std::optional<Component> find_component(std::string_view name) {
   const std::size_t letters = std::min(name.find_first_of("0123456789"), name.size());
   const std::string area_name = upper(std::string(name.substr(0, letters)));
-  const auto area = std::ranges::find(table, area_name, &Area::name);
-  if (area == table.end() || letters == name.size()) return std::nullopt;
+  const auto area = std::ranges::find(all_areas, area_name, &Area::name);
+  if (area == all_areas.end() || letters == name.size()) return std::nullopt;
   const std::string_view digits = name.substr(letters);
   Component component{&*area};
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(),
@@ -47,7 +47,7 @@ std::optional<Component> find_component(std::string_view name) {
 }
 
 std::optional<Component> component_at(bool bits, std::uint32_t modbus) {
-  for (const Area& area : table)
+  for (const Area& area : all_areas)
     if (area.bits == bits && modbus >= area.modbus && modbus - area.modbus < area.shown)
       return Component{&area, modbus - area.modbus};
   return std::nullopt;

@@ -88,11 +88,6 @@ Result<std::vector<Slice>> parts_of(const Place& place, std::string_view name, s
   return parts;
 }
 
-void put_word(Bytes& message, std::size_t value) {
-  message.push_back(static_cast<Byte>(value >> 8));
-  message.push_back(static_cast<Byte>(value));
-}
-
 Bytes message_of(int station, Byte function, std::uint32_t address, std::uint32_t count) {
   Bytes message{static_cast<Byte>(station), function};
   put_word(message, address);

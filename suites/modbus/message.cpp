@@ -7,18 +7,23 @@
 
 namespace fieldproof::modbus_suite {
 
+std::string digits(ByteView bytes) {
+  std::string text;
+  for (Byte b : bytes) text += hex_number(b, 2);
+  return text;
+}
+
+void put_word(Bytes& message, std::size_t value) {
+  message.push_back(static_cast<Byte>(value >> 8));
+  message.push_back(static_cast<Byte>(value));
+}
+
 namespace {
 
 constexpr std::size_t reading_request = 6;  // station, function code, address, count
 constexpr std::size_t acknowledgement =
     6;  // of a write: station, function code, address, value or count
 constexpr std::size_t exception_reply = 3;
-
-std::string digits(ByteView bytes) {
-  std::string text;
-  for (Byte b : bytes) text += hex_number(b, 2);
-  return text;
-}
 
 class Reader {
  public:

@@ -1,6 +1,6 @@
-// What RTU and ASCII frames have in common: station, function code and data, without start, check
-// and end. Shares no code with the emulator (src/modbus): what is shown to be wrong must not depend
-// on what answers.
+// What the frames of RTU, ASCII and TCP have in common: station, function code and data, without
+// start, check and end. Shares no code with the emulator (src/modbus): what is shown to be wrong
+// must not depend on what answers.
 #pragma once
 
 #include <string>
@@ -21,6 +21,11 @@ struct Part {
 
 /// High byte first; both bytes must be there.
 inline unsigned word_at(ByteView bytes, std::size_t at) { return bytes[at] * 256u + bytes[at + 1]; }
+
+/// Appends it, high byte first.
+void put_word(Bytes& message, std::size_t value);
+/// Two hex digits a byte, without spaces.
+std::string digits(ByteView bytes);
 
 /// The parts of a request, reply or exception (Cnet EN 9.4) as far as it can be read. Which one it
 /// is, is told by what fits its length: a reply where the byte count agrees, else a request. The

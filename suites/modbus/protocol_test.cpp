@@ -110,12 +110,12 @@ TEST(Monitor, TellsTheSidesApart) {
         Example{"01 83 02", false, true}, Example{"01 05 00 01 FF 00", true, true},
         Example{"01 10 00 01 00 01 02 12 34", true, false},
         Example{"01 10 00 01 00 01", false, true}, Example{"01 01 00 00 00 08", true, false}}) {
-    using enum plc::FrameResult;
-    EXPECT_EQ(seen(one.message, true, true), one.request ? modbus_client : unknown) << one.message;
-    EXPECT_EQ(seen(one.message, false, false), one.request ? modbus_server : unknown)
-        << one.message;
-    EXPECT_EQ(seen(one.message, true, false), one.reply ? modbus_client : unknown) << one.message;
-    EXPECT_EQ(seen(one.message, false, true), one.reply ? modbus_server : unknown) << one.message;
+    constexpr plc::FrameResult client{4, "Modbus client"}, server{3, "Modbus server"},
+        unknown = plc::unknown_frame;
+    EXPECT_EQ(seen(one.message, true, true), one.request ? client : unknown) << one.message;
+    EXPECT_EQ(seen(one.message, false, false), one.request ? server : unknown) << one.message;
+    EXPECT_EQ(seen(one.message, true, false), one.reply ? client : unknown) << one.message;
+    EXPECT_EQ(seen(one.message, false, true), one.reply ? server : unknown) << one.message;
   }
   EXPECT_EQ(rtu().monitor_result(hex_bytes("01 03 00 01 00 01 00 00"), true, true),
             plc::unknown_frame)

@@ -16,21 +16,10 @@ constexpr std::size_t protocol_at = 2, length_at = 4, prefix = 6;
 /// Of what the bench asks for itself: counted by no case.
 constexpr unsigned own_transaction = 0x7E57;
 
-void put_word(Bytes& frame, std::size_t value) {
-  frame.push_back(static_cast<Byte>(value >> 8));
-  frame.push_back(static_cast<Byte>(value));
-}
-
 /// So many bytes that the header announces, as far as they are there.
 ByteView announced(ByteView frame) {
   return frame.subspan(prefix,
                        std::min<std::size_t>(word_at(frame, length_at), frame.size() - prefix));
-}
-
-std::string digits(ByteView bytes) {
-  std::string text;
-  for (const Byte b : bytes) text += hex_number(b, 2);
-  return text;
 }
 
 class Tcp : public Framing {

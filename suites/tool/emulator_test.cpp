@@ -206,7 +206,7 @@ TEST(EmulatorRun, filter_without_a_match_is_an_error) {
   EXPECT_EQ(finished.code, 4);
   EXPECT_THAT(finished.err, HasSubstr("no case matches --filter 'xgt_cnet/nonsense*'"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
-  EXPECT_THAT(run_tool({"run", "--filter", "xgt_cnet/rs/*", "--out", folder / "out"}).err,
+  EXPECT_THAT(run_tool({"run", "--filter", "xgt_cnet/rsss/*", "--out", folder / "out"}).err,
               HasSubstr("did you mean 'xgt_cnet/rss'?"));
 }
 

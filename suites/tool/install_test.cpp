@@ -37,8 +37,8 @@ TEST_F(Installed, runs_green_from_another_folder) {
 /// Not those of the source tree, which a developer's machine still has.
 TEST_F(Installed, takes_its_own_vectors_and_profiles) {
   const std::string data = folder_ / "usr/share/fieldproof";
-  for (const char* folder :
-       {"xgt_cnet", "modbus", "modbus_rtu", "modbus_ascii", "ls_bus", "user_frames", "udata"})
+  for (const char* folder : {"xgt_cnet", "modbus", "modbus_rtu", "modbus_ascii", "modbus_tcp",
+                             "ls_bus", "user_frames", "udata"})
     std::filesystem::remove_all(data + "/vectors/" + folder);
   nlohmann::ordered_json vector = small_vector("own/vector");
   vector["source"] = {

@@ -40,7 +40,7 @@ TEST(EmulateP2p, ErrorsNameFileAndKey) {
                         "block 0: save '%FW1': F is read only"));
   const Finished absent = run_tool({"emulate", "xbc-h", "--p2p", folder / "absent.json"});
   EXPECT_EQ(absent.code, 2);
-  EXPECT_THAT(absent.err, HasSubstr("absent.json: No such file"));
+  EXPECT_THAT(absent.err, HasSubstr("absent.json: no such file"));
 }
 
 }  // namespace

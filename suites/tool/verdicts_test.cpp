@@ -27,10 +27,10 @@ ordered_json below_floor() {
   return vector;
 }
 
-/// No endpoint of these has a link that a step opens.
-ordered_json needs_a_link() {
-  ordered_json vector = small_vector("v/needs_a_link");
-  vector["steps"] = {{{"open", "a"}}};
+/// No device of these can do it.
+ordered_json unknown_action() {
+  ordered_json vector = small_vector("v/unknown_action");
+  vector["steps"] = {{{"do", "explode"}}};
   return vector;
 }
 
@@ -67,7 +67,7 @@ const std::vector<Expectation>& expectations() {
       {small_vector("v/waived", wrong_word), "XFAIL", "skipped", 0, {}},
       {small_vector("v/waived_in_vain"), "XPASS", "failure", 1, {}},
       {with(small_vector("v/other_model"), "models", {"xec-h"}), "SKIP", "skipped", 4, {}},
-      {needs_a_link(), "BLOCKED", "skipped", 4, {"--qualify"}},
+      {unknown_action(), "BLOCKED", "skipped", 4, {"--qualify"}},
       {below_floor(), "INCONCLUSIVE", "skipped", 4, {"--qualify"}},
       {impossible_line(), "ERROR", "error", 3, {}},
   };

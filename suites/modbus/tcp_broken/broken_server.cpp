@@ -63,16 +63,22 @@ class BrokenServer : public plc::EmulatedDevice, public net::Host {
   void take_bytes(const Burst& heard) {
     Bytes& stream = streams_[heard.link];
     stream.insert(stream.end(), heard.bytes.begin(), heard.bytes.end());
-    while (stream.size() >= unit_at) {
-      const unsigned length = word_at(stream, length_at);
-      const bool possible = length >= least_length && length <= most_length;
-      if (possible && stream.size() < unit_at + length) return;
-      const auto end =
-          possible ? stream.begin() + static_cast<std::ptrdiff_t>(unit_at + length) : stream.end();
-      const Bytes request(stream.begin(), end);
-      stream.erase(stream.begin(), end);
-      ask(heard, request);
-    }
+    while (const std::optional<Bytes> request = next_request(heard.link)) ask(heard, *request);
+  }
+
+  /// Taken from the stream of the link, which may be gone: a request may make the server reset it.
+  std::optional<Bytes> next_request(LinkId link) {
+    const auto found = streams_.find(link);
+    if (found == streams_.end() || found->second.size() < unit_at) return std::nullopt;
+    Bytes& stream = found->second;
+    const unsigned length = word_at(stream, length_at);
+    const bool possible = length >= least_length && length <= most_length;
+    if (possible && stream.size() < unit_at + length) return std::nullopt;
+    const auto end =
+        possible ? stream.begin() + static_cast<std::ptrdiff_t>(unit_at + length) : stream.end();
+    const Bytes request(stream.begin(), end);
+    stream.erase(stream.begin(), end);
+    return request;
   }
 
   void ask(const Burst& heard, const Bytes& request) {

@@ -1,4 +1,4 @@
-#include "reports/results/case_result.hpp"
+#include "reports/results/result_json.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,6 +8,12 @@ namespace fieldproof::results {
 namespace {
 
 using nlohmann::json;
+
+json as_json(const auto& value) {
+  std::string text;
+  append_json(text, value);
+  return json::parse(text);
+}
 
 CaseResult full_result() {
   CaseResult result;
@@ -45,9 +51,9 @@ CaseResult full_result() {
 
 TEST(CaseResultJson, EveryFieldComesBack) {
   const CaseResult result = full_result();
-  const json first = result;
+  const json first = as_json(result);
   const auto again = json::parse(first.dump()).get<CaseResult>();
-  EXPECT_EQ(first, json(again));
+  EXPECT_EQ(first, as_json(again));
   EXPECT_EQ(result.id, again.id);
   EXPECT_EQ(2, again.repeat);
   EXPECT_EQ(Verdict::non_strict, again.verdict);
@@ -69,12 +75,12 @@ TEST(CaseResultJson, EveryFieldComesBack) {
 
 TEST(CaseResultJson, NoFieldIsForgotten) {
   // As many keys as fields, when none is empty. The binding does not compile once a field is added:
-  // then extend it, full_result(), to_json and from_json.
+  // then extend it, full_result() and `fields`.
   const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, manual, section, quote,
                verdict, message, notes, expected, expected_bytes, expected_hex, received,
                received_bytes, differences, exchange, recording, readings, response_ms, seconds,
                replay] = full_result();
-  EXPECT_EQ(27u, json(full_result()).size());
+  EXPECT_EQ(27u, as_json(full_result()).size());
 }
 
 TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
@@ -84,13 +90,13 @@ TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
   EXPECT_EQ(
       json::parse(
           R"({"id":"a/b","rev":1,"protocol":"","title":"","level":"","basis":"","verdict":"PASS","seconds":0.0})"),
-      json(result));
+      as_json(result));
 }
 
 TEST(CaseResultJson, BytesAreHex) {
   CaseResult result;
   for (int b = 0; b < 256; ++b) result.received_bytes.push_back(static_cast<Byte>(b));
-  const json object = result;
+  const json object = as_json(result);
   EXPECT_EQ("00 01 02", object["received_bytes"].get<std::string>().substr(0, 8));
   EXPECT_EQ(result.received_bytes, object.get<CaseResult>().received_bytes);
 }
@@ -115,15 +121,15 @@ TEST(RunJson, HeadAndEndComeBack) {
   const RunInfo info{
       "0.1.0", "2026-11-21T12:39:03+00:00", "emulator:xbc-h", "xbc-h", "fieldproof run",
       "a1b2",  {{"station", "1"}}};
-  const auto info_again = json(info).get<RunInfo>();
-  EXPECT_EQ(json(info), json(info_again));
+  const auto info_again = as_json(info).get<RunInfo>();
+  EXPECT_EQ(as_json(info), as_json(info_again));
   EXPECT_EQ("a1b2", info_again.vectors_hash);
   EXPECT_EQ(info.properties, info_again.properties);
-  EXPECT_EQ(7u, json(info).size()) << "what was not entered is left out";
+  EXPECT_EQ(7u, as_json(info).size()) << "what was not entered is left out";
 
   const RunEnd end{"2026-11-21T12:39:04+00:00", 1.5, 130, true, "interrupted"};
-  const auto end_again = json(end).get<RunEnd>();
-  EXPECT_EQ(json(end), json(end_again));
+  const auto end_again = as_json(end).get<RunEnd>();
+  EXPECT_EQ(as_json(end), as_json(end_again));
   EXPECT_EQ(130, end_again.exit_code);
   EXPECT_TRUE(end_again.interrupted);
   EXPECT_EQ("interrupted", end_again.trouble);
@@ -136,11 +142,11 @@ TEST(RunJson, IdentityHashesAndErrataComeBack) {
   info.hashes = {{"tool", "00ff"}};
   info.errata = {
       {"xgt_cnet/rss/two_words", "xgb-cnet-en-1.6", "7.1.5", "H2550", "H255057", "six characters"}};
-  const auto again = json(info).get<RunInfo>();
+  const auto again = as_json(info).get<RunInfo>();
   // As in NoFieldIsForgotten.
   const auto& [name, maker, model, serial, firmware, operator_name, notes, fingerprint,
                fingerprint_found] = again.identity;
-  EXPECT_EQ(9u, json(again)["identity"].size());
+  EXPECT_EQ(9u, as_json(again)["identity"].size());
   EXPECT_EQ("V1.8", firmware);
   EXPECT_EQ("Kim", operator_name);
   EXPECT_EQ(info.identity.fingerprint, fingerprint);
@@ -148,7 +154,7 @@ TEST(RunJson, IdentityHashesAndErrataComeBack) {
   EXPECT_EQ(info.hashes, again.hashes);
   ASSERT_EQ(1u, again.errata.size());
   EXPECT_EQ("six characters", again.errata[0].why);
-  EXPECT_EQ(json(info), json(again));
+  EXPECT_EQ(as_json(info), as_json(again));
 }
 
 TEST(RunJson, SeveralDevicesComeBack) {
@@ -157,13 +163,13 @@ TEST(RunJson, SeveralDevicesComeBack) {
                 {{"station", "3"}},
                 {"a", "LS", "XBL-C41A", "S/N 7", "V1.8", "Kim", "", {}, {}}},
                {"serial:/dev/b", {}, {}}};
-  const auto again = json(info).get<RunInfo>();
+  const auto again = as_json(info).get<RunInfo>();
   ASSERT_EQ(2u, again.duts.size());
   const auto& [endpoint, properties, identity] = again.duts[0];
   EXPECT_EQ("serial:/dev/a", endpoint);
   EXPECT_EQ(info.duts[0].properties, properties);
   EXPECT_EQ("S/N 7", identity.serial);
-  EXPECT_EQ(json(info), json(again));
+  EXPECT_EQ(as_json(info), as_json(again));
 }
 
 }  // namespace
