@@ -187,6 +187,9 @@ TEST_P(BadInputs, one_message_and_nothing_sent) {
                      {"--endpoint", "exec:touch " + quoted(folder / "started") + "; cat"});
   if (!names("--endpoint") && !names("--profile"))
     arguments.insert(arguments.end(), {"--profile", "xbc-h"});
+  if (!names("--vectors"))  // what is wrong is not in the vectors: one is quick
+    arguments.insert(arguments.end(),
+                     {"--vectors", write_vectors(folder, {small_vector("rss/one")})});
   for (const std::string& one : input.arguments) arguments.push_back(in_folder(one, folder));
   const Finished finished = run_tool(arguments);
   EXPECT_EQ(finished.code, input.code) << finished.out << finished.err;

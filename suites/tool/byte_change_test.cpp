@@ -205,13 +205,18 @@ std::vector<Change> change_sample(
 }
 
 /// Lines of `lint`; each names file, case and step.
-std::set<std::string> lint(const std::string& vectors) {
-  const Finished finished = run_tool({"lint", "--vectors", vectors});
-  EXPECT_EQ(finished.err, "");
+std::set<std::string> lines_of(const Finished& lint) {
+  EXPECT_EQ(lint.err, "");
   std::set<std::string> lines;
-  std::istringstream in(finished.out);
+  std::istringstream in(lint.out);
   for (std::string line; std::getline(in, line);) lines.insert(line);
   return lines;
+}
+
+/// Of the vectors as they are: once, for all that compare with it.
+const Finished& lint_of_the_vectors() {
+  static const Finished finished = run_tool({"lint"});
+  return finished;
 }
 
 bool is_of(const std::string& id, const std::vector<std::string>& vectors) {
@@ -231,10 +236,10 @@ bool names(const std::set<std::string>& lines, const std::vector<std::string>& v
 
 void expect_each_named(Vectors& vectors, const std::vector<Change>& changes) {
   ASSERT_EQ(changes.size(), sample) << "not enough vectors to change";
-  const std::set<std::string> before = lint(vectors.path());
+  const std::set<std::string> before = lines_of(lint_of_the_vectors());
   vectors.write();
   std::set<std::string> fresh;
-  for (const std::string& line : lint(vectors.path()))
+  for (const std::string& line : lines_of(run_tool({"lint", "--vectors", vectors.path()})))
     if (!before.contains(line)) fresh.insert(line);
   for (const Change& one : changes)
     EXPECT_TRUE(names(fresh, one.ids))
@@ -254,7 +259,7 @@ TEST(ByteChange, in_the_literal_bytes_is_found) {
 
 /// The other half of the proof: the vectors as they are have no problem at all.
 TEST(ByteChange, none_and_lint_is_green) {
-  const Finished finished = run_tool({"lint"});
+  const Finished& finished = lint_of_the_vectors();
   EXPECT_EQ(finished.code, 0) << finished.out.substr(0, 2000) << finished.err;
 }
 

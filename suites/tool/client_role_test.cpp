@@ -161,8 +161,9 @@ TEST_F(ClientRole, AProgramThatAsksTwiceFails) {
                 {{{"FIELDPROOF_CLIENT", "twice"}}, ""})
                 .code,
             1);
+  // 38 where the busy machine has heard the first two late.
   EXPECT_THAT(results.of("xgt_cnet/client/read/none").at("message").dump(),
-              HasSubstr("19 bytes came where silence is due"));
+              testing::ContainsRegex("(19|38) bytes came where silence is due"));
 }
 
 TEST_F(ClientRole, ADeviceThatAsksNothingIsTroubleOfTheBench) {

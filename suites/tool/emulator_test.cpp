@@ -11,54 +11,40 @@ namespace {
 
 using testing::HasSubstr;
 
-/// All vectors against the default endpoint, once for all tests of this suite.
-class DefaultRun : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = std::make_unique<TestFolder>();
-    finished_ = run_tool({"run", "--out", *folder_ / "out"});
-    results_ = read_results(*folder_ / "out/results.ndjson");
-  }
-  static void TearDownTestSuite() { folder_.reset(); }
-
-  static std::size_t count(const std::string& verdict) {
-    const auto counts = results_.counts();
-    const auto found = counts.find(verdict);
-    return found == counts.end() ? 0 : found->second;
-  }
-
-  static inline std::unique_ptr<TestFolder> folder_;
-  static inline Finished finished_;
-  static inline Results results_;
-};
-
-TEST_F(DefaultRun, is_green) {
-  EXPECT_EQ(finished_.code, 0) << finished_.out << finished_.err;
-  EXPECT_EQ(finished_.err, "");
-  EXPECT_GT(results_.cases.size(), 1000u);
-  EXPECT_EQ(results_.end.at("exit_code"), finished_.code);
+std::size_t count(const std::string& verdict) {
+  const auto counts = default_run().results.counts();
+  const auto found = counts.find(verdict);
+  return found == counts.end() ? 0 : found->second;
 }
 
-TEST_F(DefaultRun, judges_each_listed_case_once) {
+TEST(DefaultRuns, is_green) {
+  EXPECT_EQ(default_run().finished.code, 0)
+      << default_run().finished.out << default_run().finished.err;
+  EXPECT_EQ(default_run().finished.err, "");
+  EXPECT_GT(default_run().results.cases.size(), 1000u);
+  EXPECT_EQ(default_run().results.end.at("exit_code"), default_run().finished.code);
+}
+
+TEST(DefaultRuns, judges_each_listed_case_once) {
   const Finished list = run_tool({"list", "--json"});
   ASSERT_EQ(list.code, 0) << list.err;
   std::vector<std::string> listed;
   for (const nlohmann::json& one : nlohmann::json::parse(list.out)) listed.push_back(one.at("id"));
-  EXPECT_EQ(results_.ids(), listed);
+  EXPECT_EQ(default_run().results.ids(), listed);
 }
 
-TEST_F(DefaultRun, junit_is_valid_and_its_names_are_unique) {
-  expect_valid_junit(*folder_ / "out/junit.xml");
+TEST(DefaultRuns, junit_is_valid_and_its_names_are_unique) {
+  expect_valid_junit(default_run().out() + "/junit.xml");
   Junit junit;
-  read_junit(*folder_ / "out/junit.xml", junit);
+  read_junit(default_run().out() + "/junit.xml", junit);
   EXPECT_EQ(junit.cases.size(), junit.children);
 }
 
-TEST_F(DefaultRun, counts_of_junit_are_those_of_the_results) {
+TEST(DefaultRuns, counts_of_junit_are_those_of_the_results) {
   Junit junit;
-  read_junit(*folder_ / "out/junit.xml", junit);
-  EXPECT_EQ(junit.tests, results_.cases.size());
-  EXPECT_EQ(junit.children, results_.cases.size());
+  read_junit(default_run().out() + "/junit.xml", junit);
+  EXPECT_EQ(junit.tests, default_run().results.cases.size());
+  EXPECT_EQ(junit.children, default_run().results.cases.size());
   EXPECT_EQ(junit.failures, count("FAIL") + count("XPASS"));
   EXPECT_EQ(junit.failures, junit.with("failure"));
   EXPECT_EQ(junit.errors, count("ERROR"));
@@ -68,13 +54,13 @@ TEST_F(DefaultRun, counts_of_junit_are_those_of_the_results) {
   EXPECT_EQ(junit.skipped, junit.with("skipped"));
 }
 
-TEST_F(DefaultRun, counts_of_json_and_console_are_those_of_the_results) {
+TEST(DefaultRuns, counts_of_json_and_console_are_those_of_the_results) {
   nlohmann::json counts =
-      nlohmann::json::parse(read_text(*folder_ / "out/results.json")).at("counts");
-  EXPECT_EQ(counts["total"], results_.cases.size());
+      nlohmann::json::parse(read_text(default_run().out() + "/results.json")).at("counts");
+  EXPECT_EQ(counts["total"], default_run().results.cases.size());
   counts.erase("total");
   std::map<std::string, std::size_t> console;
-  std::istringstream lines(finished_.out);
+  std::istringstream lines(default_run().finished.out);
   for (std::string line;
        std::getline(lines, line);) {  // "  2199  PASS          as the manual says"
     std::istringstream words(line);
@@ -82,10 +68,10 @@ TEST_F(DefaultRun, counts_of_json_and_console_are_those_of_the_results) {
     std::string verdict;
     if (line.starts_with("  ") && words >> number >> verdict) console[verdict] = number;
   }
-  EXPECT_EQ(console, results_.counts());
+  EXPECT_EQ(console, default_run().results.counts());
   for (const auto& [verdict, number] : counts.items()) EXPECT_EQ(number, count(verdict)) << verdict;
-  EXPECT_THAT(finished_.out,
-              HasSubstr("\n" + std::to_string(results_.cases.size()) + " cases in "));
+  EXPECT_THAT(default_run().finished.out,
+              HasSubstr("\n" + std::to_string(default_run().results.cases.size()) + " cases in "));
 }
 
 /// What steers a run does not ask how many cases there are: sixty are quick.
@@ -201,13 +187,15 @@ TEST(EmulatorRun, dry_run_starts_and_writes_nothing) {
 
 TEST(EmulatorRun, filter_without_a_match_is_an_error) {
   const TestFolder folder;
-  const Finished finished =
-      run_tool({"run", "--filter", "xgt_cnet/nonsense*", "--out", folder / "out"});
+  const std::string vectors = write_vectors(folder, {small_vector("rss/one")});
+  const auto filtered = [&](const char* filter) {
+    return run_tool({"run", "--vectors", vectors, "--filter", filter, "--out", folder / "out"});
+  };
+  const Finished finished = filtered("xgt_cnet/nonsense*");
   EXPECT_EQ(finished.code, 4);
   EXPECT_THAT(finished.err, HasSubstr("no case matches --filter 'xgt_cnet/nonsense*'"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
-  EXPECT_THAT(run_tool({"run", "--filter", "xgt_cnet/rsss/*", "--out", folder / "out"}).err,
-              HasSubstr("did you mean 'xgt_cnet/rss'?"));
+  EXPECT_THAT(filtered("xgt_cnet/rsss/*").err, HasSubstr("did you mean 'xgt_cnet/rss'?"));
 }
 
 TEST(CommandLine, AMistypedWordIsSaid) {

@@ -234,15 +234,15 @@ TEST(EveryProtocol, speaks_over_a_pty) {
 
 /// `run` without a filter runs every suite, each case on a device that speaks its protocol.
 TEST(EveryProtocol, is_run_by_default) {
-  const TestFolder folder;
-  const Finished finished = run_tool({"run", "--out", folder / "out"});
+  const Finished& finished = default_run().finished;
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   std::map<std::string, int> passed;
-  for (const json& one : read_results(folder / "out/results.ndjson").cases) {
+  for (const json& one : default_run().results.cases) {
     EXPECT_NE(one.at("verdict"), "SKIP") << one.at("id");
     if (one.at("verdict") == "PASS") ++passed[one.at("protocol")];
   }
-  for (const char* protocol : {"xgt-cnet", "modbus-rtu", "modbus-ascii", "ls-bus", "user-frames"})
+  for (const char* protocol :
+       {"xgt-cnet", "modbus-rtu", "modbus-ascii", "modbus-tcp", "ls-bus", "user-frames"})
     EXPECT_GT(passed[protocol], 100) << protocol;
 }
 

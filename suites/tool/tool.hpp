@@ -125,7 +125,7 @@ class Process {
   }
 
   /// Until its end. A program that misses the limit is killed.
-  Finished wait(Limit limit = Limit(120)) {
+  Finished wait(Limit limit = Limit(300)) {
     const Clock::time_point deadline = Clock::now() + limit;
     while (!over(deadline)) {
     }

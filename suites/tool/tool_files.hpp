@@ -158,4 +158,21 @@ inline void expect_reports(const std::string& out) {
   EXPECT_EQ(junit.children, results.cases.size());
 }
 
+/// All vectors against the default endpoint: one run, however many tests of a program look at it.
+struct DefaultRun {
+  DefaultRun()
+      : finished(run_tool({"run", "--out", out()})),
+        results(read_results(out() + "/results.ndjson")) {}
+  std::string out() const { return folder / "out"; }
+
+  TestFolder folder;
+  Finished finished;
+  Results results;
+};
+
+inline const DefaultRun& default_run() {
+  static const DefaultRun run;
+  return run;
+}
+
 }  // namespace fieldproof::tool_tests
