@@ -77,6 +77,19 @@ class Protocol {
 
   /// The parts of a frame, as far as it can be read; never fails.
   virtual std::vector<Field> explain(ByteView frame) const = 0;
+  /// The same where the bench knows who sends it: a reply that happens to have the form of a
+  /// request is none.
+  virtual std::vector<Field> explain_as(ByteView frame, [[maybe_unused]] bool request) const {
+    return explain(frame);
+  }
+  /// Has a good reply to `request` the same bytes (Modbus 05, 06)? Else they are an echo.
+  virtual bool reply_repeats([[maybe_unused]] ByteView request) const { return false; }
+  /// A client's request in the letters of the vectors, its check recomputed, where the manuals
+  /// leave it to the client how letters are written (Cnet EN 7.1.3). As it is where nothing is
+  /// free.
+  virtual Bytes in_plain_letters(ByteView request) const {
+    return {request.begin(), request.end()};
+  }
 
   /// What a frame monitor says of a frame that a client (else a server) sends or receives:
   /// `unknown` where it is damaged, or none that this side deals with.

@@ -35,6 +35,10 @@ struct TestProtocol : Protocol, public Probing, public MemoryRequests, public Ta
     return fields;
   }
 
+  bool reply_repeats(ByteView request) const override {
+    return to_text(request).starts_with("<write");
+  }
+
   const Probing* probing() const override { return this; }
   const MemoryRequests* memory() const override { return this; }
   const Tables* tables() const override { return this; }

@@ -8,11 +8,11 @@ using harness::Field;
 using results::Difference;
 
 std::vector<Difference> compare_frames(ByteView expected, ByteView received,
-                                       const harness::Protocol& protocol) {
-  std::vector<harness::Field> due = protocol.explain(expected);
+                                       const harness::Protocol& protocol, bool requests) {
+  std::vector<harness::Field> due = protocol.explain_as(expected, requests);
   std::vector<std::pair<std::size_t, Difference>>
       found;  // with the place in the frame: what comes first, a check follows from
-  for (const harness::Field& field : protocol.explain(received)) {
+  for (const harness::Field& field : protocol.explain_as(received, requests)) {
     const auto same = std::ranges::find(due, field.name, &harness::Field::name);
     if (same == due.end()) {
       found.push_back({field.offset, {field.name, "nothing", field.text, field.problem}});

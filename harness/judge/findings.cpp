@@ -29,9 +29,15 @@ void Findings::block(std::string message) {
   missed_ = true;
 }
 
+/// What follows from the manuals only together with a decision of ours does not bind without it; a
+/// printed vector names decisions for its alternatives alone.
+static bool rests_on_decision(const vectors::Case& source) {
+  return source.basis == "decision" || (source.basis == "derived" && !source.decisions.empty());
+}
+
 void Findings::settle(const vectors::Case& source, bool binding_decisions) {
   if (result.verdict == Verdict::blocked) return;
-  if (missed_ && source.basis == "decision" && !binding_decisions) {
+  if (missed_ && rests_on_decision(source) && !binding_decisions) {
     result.verdict = Verdict::non_strict;
     result.notes.push_back("the manuals are silent here; this project decided: " + source.why);
   }

@@ -68,11 +68,18 @@ class Judge {
     Periods periods;
     for (int i = 0; i < step.step->times && record_ < transcript_.steps.size(); ++i, ++record_) {
       const bool came = judge_step(step, transcript_.steps[record_], shares_.steps[record_]);
-      if (came && i > 0 && step.step->every)
-        periods.add(*step.step->every, shares_.steps[record_ - 1].received,
-                    shares_.steps[record_].received, rules_, findings_);
+      if (step.step->kind == Step::Kind::act) paced_.clear();  // no period goes on over it
+      if (step.step->every) judge_pace(step, came, periods);
     }
     if (step.step->every) periods.note(*step.step->every, findings_);
+  }
+
+  /// The period from the last time that a step with `every` took the same frame.
+  void judge_pace(const PreparedStep& step, bool came, Periods& periods) {
+    const Received*& last = paced_[step.frames.front().frame.bytes];
+    const Received* const now = came ? &shares_.steps[record_].received : nullptr;
+    if (last && now) periods.add(*step.step->every, *last, *now, rules_, findings_);
+    last = now;
   }
 
   /// True: a frame came that the step is about.
@@ -110,6 +117,7 @@ class Judge {
     const Duration took = received.arrivals.front().start - record.cause;
     findings_.result.response_ms.push_back(to_ms(took));
     const PreparedFrame* match = matching(step, received.bytes);
+    if (!match && client_) match = in_other_letters(step, received.bytes);
     if (!match) {
       judge_mismatch(step, record, share);
       return false;
@@ -142,11 +150,28 @@ class Judge {
     return nullptr;
   }
 
+  const PreparedFrame* in_other_letters(const PreparedStep& step, ByteView bytes) {
+    const PreparedFrame* match = matching(step, spoken(step).in_plain_letters(bytes));
+    if (match)
+      findings_.lower_to(Verdict::non_strict,
+                         "allowed alternative: letters in the other case, where the manual leaves "
+                         "them to the client");
+    return match;
+  }
+
+  const harness::Protocol& spoken(const PreparedStep& step) const {
+    return step.protocol ? *step.protocol : protocol_;
+  }
+
   void judge_mismatch(const PreparedStep& step, const StepRecord& record, const Share& share) {
     if (findings_.missed()) return;
     const Received& received = share.received;
     expected(step, received);
-    if (received.bytes == last_sent())
+    const bool repeated = !client_ && received.bytes == last_sent();
+    if (repeated && spoken(step).reply_repeats(received.bytes))
+      return findings_.miss(difference(step, received) +
+                            " (the request came back, which is its normal reply)");
+    if (repeated)
       return findings_.miss(
           "our own request came back (echo) instead of a reply" +
           std::string(step.network ? ""
@@ -160,8 +185,8 @@ class Judge {
   std::string difference(const PreparedStep& step, const Received& received) {
     const PreparedFrame& nearest = *findings_.result.expected;
     auto& differences = findings_.result.differences;
-    differences = compare_frames(fill_holes(nearest.frame, received.bytes), received.bytes,
-                                 step.protocol ? *step.protocol : protocol_);
+    const Bytes came = client_ ? spoken(step).in_plain_letters(received.bytes) : received.bytes;
+    differences = compare_frames(fill_holes(nearest.frame, came), came, spoken(step), client_);
     const std::string_view name = client_ ? "request" : "reply";
     if (!differences.empty()) {
       const results::Difference& first = differences.front();
@@ -303,6 +328,7 @@ class Judge {
   notation::Captures captures_;
   std::set<std::string> unread_;  // memory that was to be checked
   std::size_t record_ = 0;
+  std::map<Bytes, const Received*> paced_;  // what came at the pace of a clock last
 };
 
 }  // namespace

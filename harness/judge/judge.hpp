@@ -47,8 +47,9 @@ void note_transposition(const exchange::PreparedCase& prepared, results::CaseRes
 /// Writes a judgement into the result of its case.
 void take_judgement(Judgement judgement, results::CaseResult& result);
 
-/// The fields in which two frames differ, named by the protocol.
+/// The fields in which two frames differ, named by the protocol. `requests`: both are those of a
+/// client, else replies.
 std::vector<results::Difference> compare_frames(ByteView expected, ByteView received,
-                                                const harness::Protocol& protocol);
+                                                const harness::Protocol& protocol, bool requests);
 
 }  // namespace fieldproof::judging

@@ -311,6 +311,26 @@ TEST_F(JudgeTest, LevelAndBasisDecideWhatAMissMeans) {
   EXPECT_EQ(judged(ask(), "must", "decision").verdict, Verdict::non_strict);
 }
 
+TEST_F(JudgeTest, WhatIsDerivedFromADecisionBindsAsThatDoes) {
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<no>"}};
+  rules.binding_decisions = false;
+  EXPECT_EQ(judged(ask(), "must", "derived").verdict, Verdict::fail);
+  const std::string resting = R"(derived", "decision": ["cnet/bcc"], "rev": 1, "level": "must)";
+  EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::non_strict);
+  rules.binding_decisions = true;
+  EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::fail);
+}
+
+/// A refusal is due, and the device does what was asked: no wiring is to blame.
+TEST_F(JudgeTest, ANormalReplyThatRepeatsTheRequestIsNoEcho) {
+  endpoint.answers["<write>"] = Pieces{{1ms, "<write>"}};
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<ask>"}};
+  EXPECT_THAT(judged(R"({"send": "'<write>'"}, {"expect": "'<no>'"})").message,
+              HasSubstr("the request came back, which is its normal reply"));
+  EXPECT_THAT(judged(R"({"send": "'<ask>'"}, {"expect": "'<no>'"})").message,
+              HasSubstr("our own request came back (echo)"));
+}
+
 TEST_F(JudgeTest, AFailingPortIsAnErrorNotAFailure) {
   endpoint.fails_after = 0;
   const Judgement result = judged(ask());
@@ -332,6 +352,31 @@ TEST_F(JudgeTest, ACadenceIsMeasured) {
   EXPECT_EQ(judged(steps).verdict, Verdict::pass);
   endpoint.answers["<go>"][2].after = 450ms;
   EXPECT_THAT(judged(steps).message, HasSubstr("came after 150.0 ms instead of every 200.0 ms"));
+}
+
+/// The period of a frame goes on over the steps between, and past other frames.
+TEST_F(JudgeTest, ACadenceGoesOnOverOtherSteps) {
+  endpoint.answers["<go>"] = Pieces{{100ms, "<tick>"}, {110ms, "<tock>"}, {300ms, "<tick>"}};
+  const std::string steps =
+      R"({"send": "'<go>'"}, {"expect": "'<tick>'", "every": "200ms"}, {"expect": "'<tock>'"},
+         {"wait": "20ms"}, {"expect": "'<tick>'", "every": "200ms"})";
+  EXPECT_EQ(judged(steps).verdict, Verdict::pass) << judged(steps).message;
+  endpoint.answers["<go>"][2].after = 350ms;
+  EXPECT_THAT(judged(steps).message, HasSubstr("came after 250.0 ms instead of every 200.0 ms"));
+}
+
+/// A clock of 200 ms over a link that can be 20 ms late.
+TEST_F(JudgeTest, PastALimitByLessThanTheFloorIsInconclusive) {
+  const std::string steps = R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "200ms"})";
+  const auto verdict = [&](Duration after) {
+    endpoint.answers["<ask>"] = Pieces{{after, "<answer>"}};
+    return judged(steps).verdict;
+  };
+  EXPECT_EQ(verdict(200400us), Verdict::fail);
+  rules.timing_floor = 20ms;
+  EXPECT_EQ(verdict(200400us), Verdict::inconclusive);
+  EXPECT_EQ(verdict(220ms), Verdict::inconclusive);
+  EXPECT_EQ(verdict(220001us), Verdict::fail);
 }
 
 TEST_F(JudgeTest, PausesStandWhereTheNotationHasThem) {

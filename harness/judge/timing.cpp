@@ -24,6 +24,15 @@ bool judge_limit(const Limit& one, const JudgeRules& rules, Findings& findings) 
                     to_ms(one.limit), to_ms(rules.timing_floor)));
     return false;
   }
+  if (one.took > one.limit && one.took <= one.limit + rules.timing_floor) {
+    findings.lower_to(
+        Verdict::inconclusive,
+        fmt::format("{} {:.1f} ms after {}, the limit is {:.0f} ms: the floor of this link, {:.1f} "
+                    "ms, is more than the difference",
+                    one.what, to_ms(one.took), one.after, to_ms(one.limit),
+                    to_ms(rules.timing_floor)));
+    return false;
+  }
   if (one.took > one.limit) {
     findings.miss_or_lower(rules.binding_timing || one.stated,
                            fmt::format("late {}: {:.1f} ms after {}, the limit is {:.0f} ms",

@@ -74,7 +74,7 @@ class Ascii : public Framing {
     return next < bytes.size() ? std::optional(next) : std::nullopt;
   }
 
-  std::vector<Field> explain(ByteView frame) const override {
+  std::vector<Field> explain(ByteView frame, Way way) const override {
     if (frame.empty()) return {};
     if (frame[0] != start)
       return {{"foreign bytes", 0, frame.size(), notation::print_bytes(frame),
@@ -84,7 +84,7 @@ class Ascii : public Framing {
     const std::size_t decoded_end = 1 + bytes.size() * 2;
     const bool whole = decoded_end == end && !bytes.empty();
     std::vector<Field> fields{{"header", 0, 1, ":", ""}};
-    for (Part& part : message_parts(ByteView(bytes).first(bytes.size() - (whole ? 1 : 0)))) {
+    for (Part& part : message_parts(ByteView(bytes).first(bytes.size() - (whole ? 1 : 0)), way)) {
       fields.push_back({std::move(part.name), 1 + part.at * 2, part.size * 2, std::move(part.text),
                         std::move(part.problem)});
       note_lower_case(frame, fields.back());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/protocol.hpp"
+#include "suites/modbus/message.hpp"
 
 namespace fieldproof::modbus_suite {
 
@@ -28,7 +29,7 @@ class Framing {
   /// Length of the first complete frame, request or reply. Bytes that begin no frame count as a
   /// piece of their own.
   virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
-  virtual std::vector<harness::Field> explain(ByteView frame) const = 0;
+  virtual std::vector<harness::Field> explain(ByteView frame, Way way) const = 0;
   virtual const notation::Dressing& dressing() const = 0;
   virtual Duration frame_gap(Duration character_time) const = 0;
 

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 Bytes bytes(std::string_view hex) { return *from_hex(hex); }
 
 std::string part(const Framing& framing, ByteView frame, std::string_view name) {
-  for (const harness::Field& field : framing.explain(frame))
+  for (const harness::Field& field : framing.explain(frame, Way::unknown))
     if (field.name == name)
       return field.problem.empty() ? field.text : field.text + " ! " + field.problem;
   return "absent";
@@ -104,7 +104,7 @@ TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
                                        {&ascii_framing(), to_bytes(published_ascii_request)},
                                        {&ascii_framing(), to_bytes(":01030G6B")}}) {
     std::size_t at = 0;
-    for (const harness::Field& field : framing->explain(frame)) {
+    for (const harness::Field& field : framing->explain(frame, Way::unknown)) {
       EXPECT_EQ(field.offset, at) << field.name;
       at += field.size;
     }
@@ -125,7 +125,8 @@ TEST(Explain, AnyBytesAreReadWithoutHarm) {
     state = state * 1103515245u + 12345u;
     for (const Framing* framing : {&rtu_framing(), &ascii_framing()}) {
       std::size_t covered = 0;
-      for (const harness::Field& field : framing->explain(frame)) covered += field.size;
+      for (const harness::Field& field : framing->explain(frame, Way::unknown))
+        covered += field.size;
       EXPECT_EQ(covered, frame.size()) << to_hex(frame);
       (void)framing->unwrap(frame);
       (void)framing->messages(frame);
@@ -232,6 +233,14 @@ TEST(MessagesTcp, AreAllThatADeviceCouldRead) {
       << "a length that lies";
   EXPECT_THAT(messages("00 01 00 00 00 00 01 06 00 01 12 34"),
               testing::Contains("01 06 00 01 12 34"));
+}
+
+/// 01 03 12 31 05 has the form of a request of 3105 coils from 0312 on.
+TEST(Framing, AReplyIsNoRequestWhereItIsKnownToBeOne) {
+  const Bytes reply = rtu_framing().wrap(Bytes{0x01, 0x01, 0x03, 0x12, 0x31});
+  const auto function = [&](Way way) { return rtu_framing().explain(reply, way).at(1).text; };
+  EXPECT_EQ(function(Way::reply), "01 Read Coil Status, reply");
+  EXPECT_EQ(function(Way::request), "01 Read Coil Status, request");
 }
 
 }  // namespace

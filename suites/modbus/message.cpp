@@ -27,7 +27,7 @@ constexpr std::size_t exception_reply = 3;
 
 class Reader {
  public:
-  explicit Reader(ByteView message) : message_(message) {}
+  Reader(ByteView message, Way way) : message_(message), way_(way) {}
 
   std::vector<Part> read() {
     take("station", 1);
@@ -96,6 +96,7 @@ class Reader {
 
   /// Where the byte count agrees with the length it is a reply.
   bool is_reading_request(const FunctionCode& known) const {
+    if (way_ != Way::unknown) return way_ == Way::request;
     const std::size_t follow = left() > 0 ? left() - 1 : 0;
     if (left() > 0 && message_[at_] != 0 && message_[at_] == follow) return false;
     if (message_.size() != reading_request)
@@ -108,7 +109,7 @@ class Reader {
 
   /// A write of one bit or word, and its reply, are the same.
   void write_one(const FunctionCode& known) {
-    note("request or reply");
+    note(way_ == Way::unknown ? "request or reply" : kind());
     take("address", 2);
     const ByteView value = take("value", 2);
     if (!value.empty() && known.bits && word_at(value, 0) != 0xFF00 && word_at(value, 0) != 0)
@@ -116,7 +117,8 @@ class Reader {
   }
 
   void write_many(const FunctionCode& known) {
-    note(message_.size() <= acknowledgement ? "reply" : "request");
+    const bool short_one = message_.size() <= acknowledgement;
+    note(way_ != Way::unknown ? kind() : short_one ? "reply" : "request");
     take("address", 2);
     count(known);
     const ByteView bytes = take("byte count", 1);
@@ -135,9 +137,11 @@ class Reader {
       problem(fmt::format("not 1 to {} {}", known.limit, known.bits ? "bits" : "words"));
   }
 
+  std::string_view kind() const { return way_ == Way::request ? "request" : "reply"; }
   void note(std::string_view kind) { parts_.back().text += fmt::format(", {}", kind); }
 
   ByteView message_;
+  Way way_;
   std::size_t at_ = 0;
   std::size_t count_ = 0;
   std::vector<Part> parts_;
@@ -145,8 +149,8 @@ class Reader {
 
 }  // namespace
 
-std::vector<Part> message_parts(ByteView message) {
-  return message.empty() ? std::vector<Part>() : Reader(message).read();
+std::vector<Part> message_parts(ByteView message, Way way) {
+  return message.empty() ? std::vector<Part>() : Reader(message, way).read();
 }
 
 std::vector<std::size_t> message_lengths(ByteView bytes) {

@@ -27,10 +27,13 @@ void put_word(Bytes& message, std::size_t value);
 /// Two hex digits a byte, without spaces.
 std::string digits(ByteView bytes);
 
+/// Who sends a message, where it is known.
+enum class Way { unknown, request, reply };
+
 /// The parts of a request, reply or exception (Cnet EN 9.4) as far as it can be read. Which one it
-/// is, is told by what fits its length: a reply where the byte count agrees, else a request. The
-/// parts cover the message.
-std::vector<Part> message_parts(ByteView message);
+/// is, where `way` is unknown, is told by what fits its length: a reply where the byte count
+/// agrees, else a request. The parts cover the message.
+std::vector<Part> message_parts(ByteView message, Way way = Way::unknown);
 
 /// The lengths that a message which begins like `bytes` can have, replies before requests; empty
 /// where the function code tells none.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/device_names.hpp"
+#include "src/base/letters.hpp"
 #include "src/modbus/modbus_plc.hpp"
 #include "src/modbus/p2p_driver.hpp"
 #include "src/p2p/p2p_plc.hpp"
@@ -63,7 +64,23 @@ class Modbus : public Protocol,
     return framing_.frame_length(bytes);
   }
   std::vector<harness::Field> explain(ByteView frame) const override {
-    return framing_.explain(frame);
+    return framing_.explain(frame, Way::unknown);
+  }
+  std::vector<harness::Field> explain_as(ByteView frame, bool request) const override {
+    return framing_.explain(frame, request ? Way::request : Way::reply);
+  }
+  /// A write of one bit or word (Cnet EN 9.4.5, 9.4.6).
+  bool reply_repeats(ByteView request) const override {
+    const Bytes message = framing_.unwrap(request);
+    const FunctionCode* function = message.size() > 1 ? find_function(message[1]) : nullptr;
+    return function && function->write && !function->many;
+  }
+  /// Nothing says in which case the digits of ASCII are written; the LRC is that of the bytes.
+  Bytes in_plain_letters(ByteView request) const override {
+    Bytes plain(request.begin(), request.end());
+    if (is_text())
+      for (Byte& b : plain) b = static_cast<Byte>(upper(static_cast<char>(b)));
+    return plain;
   }
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = client == sent;

@@ -61,10 +61,10 @@ class Rtu : public Framing {
     return lengths.front() + checks::crc.size;
   }
 
-  std::vector<harness::Field> explain(ByteView frame) const override {
+  std::vector<harness::Field> explain(ByteView frame, Way way) const override {
     std::vector<harness::Field> fields;
     const std::size_t size = message_size(frame);
-    for (Part& part : message_parts(frame.first(size)))
+    for (Part& part : message_parts(frame.first(size), way))
       fields.push_back({std::move(part.name), part.at, part.size, std::move(part.text),
                         std::move(part.problem)});
     const ByteView rest = frame.subspan(size);

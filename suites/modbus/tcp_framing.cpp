@@ -50,7 +50,7 @@ class Tcp : public Framing {
     return size <= bytes.size() ? std::optional(size) : std::nullopt;
   }
 
-  std::vector<Field> explain(ByteView frame) const override {
+  std::vector<Field> explain(ByteView frame, Way way) const override {
     std::vector<Field> fields;
     for (const char* name : {"transaction", "protocol", "length"}) {
       const std::size_t at = fields.size() * 2;
@@ -66,7 +66,7 @@ class Tcp : public Framing {
       fields[2].problem =
           fmt::format("{:04X} is right: unit and what follows it, {} bytes", rest, rest);
     const std::size_t size = due < 2 ? rest : std::min(due, rest);
-    for (Part& part : message_parts(frame.subspan(prefix, size)))
+    for (Part& part : message_parts(frame.subspan(prefix, size), way))
       fields.push_back({part.at == 0 ? "unit" : std::move(part.name), prefix + part.at, part.size,
                         std::move(part.text), std::move(part.problem)});
     if (size < rest)

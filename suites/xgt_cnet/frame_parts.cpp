@@ -266,6 +266,31 @@ std::optional<std::size_t> frame_length(ByteView bytes) {
   return tail + 3 <= bytes.size() ? std::optional(tail + 3) : std::nullopt;
 }
 
+Bytes in_plain_letters(ByteView request) {
+  constexpr std::size_t command = 3, check = 2;
+  Bytes plain(request.begin(), request.end());
+  if (plain.size() <= command + check || plain[0] != enq) return plain;
+  const auto bcc = [&](std::size_t size) {
+    const auto end = plain.begin() + static_cast<std::ptrdiff_t>(size);
+    return to_bytes(hex_number(std::accumulate(plain.begin(), end, 0u) & 0xFF, 2));
+  };
+  const auto raise = [](Bytes& bytes, std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i)
+      bytes[i] = static_cast<Byte>(upper(static_cast<char>(bytes[i])));
+  };
+  const bool checked = is_lower(plain[command]);
+  const std::size_t body = plain.size() - (checked ? check : 0);
+  if (checked) {
+    raise(plain, body, plain.size());
+    if (!std::ranges::equal(ByteView(plain).subspan(body), bcc(body)))
+      return {request.begin(), request.end()};
+  }
+  raise(plain, 1, command);
+  raise(plain, command + 1, body);
+  if (checked) std::ranges::copy(bcc(body), plain.begin() + static_cast<std::ptrdiff_t>(body));
+  return plain;
+}
+
 std::vector<harness::Field> explain(ByteView frame) { return Reader(frame).read(); }
 
 }  // namespace fieldproof::xgt_cnet_suite

@@ -19,6 +19,11 @@ std::optional<std::size_t> frame_length(ByteView bytes);
 /// The parts of a request, ACK or NAK (Cnet EN 7.1.5), as far as it can be read.
 std::vector<harness::Field> explain(ByteView frame);
 
+/// A request in upper case but for its main command, with the BCC of these bytes (Cnet EN 7.1.3:
+/// 'capitals or small letters for main commands, but not for the others'). As it is where its BCC
+/// is wrong.
+Bytes in_plain_letters(ByteView request);
+
 /// What an error code of Appendix 3.1 means; empty for an unknown one.
 std::string_view error_meaning(std::string_view code);
 

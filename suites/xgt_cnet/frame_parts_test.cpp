@@ -139,5 +139,31 @@ TEST(FrameLength, GarbageAndABrokenFrameEndAtTheNextHeader) {
       << "the BCC is missing";
 }
 
+/// Cnet EN 7.1.3: the main command alone tells capitals from small letters. 40 is the BCC that Cnet
+/// EN 11.2.4 prints for this request; four letters that are small add 4 x 20.
+TEST(FrameParts, LettersThatAreFreeArePlain) {
+  const auto plain = [](std::string_view text) {
+    const Bytes bytes = in_plain_letters(to_bytes(text));
+    return std::string(bytes.begin(), bytes.end());
+  };
+  EXPECT_EQ(plain("\x05"
+                  "01rss0104%mw0\x04"
+                  "c0"),
+            "\x05"
+            "01rSS0104%MW0\x04"
+            "40");
+  EXPECT_EQ(plain("\x05"
+                  "01Rss0104%mw0\x04"),
+            "\x05"
+            "01RSS0104%MW0\x04");
+  EXPECT_EQ(plain("\x05"
+                  "01rss0104%mw0\x04"
+                  "c1"),
+            "\x05"
+            "01rss0104%mw0\x04"
+            "c1")
+      << "a wrong BCC";
+}
+
 }  // namespace
 }  // namespace fieldproof::xgt_cnet_suite

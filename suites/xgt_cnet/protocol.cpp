@@ -70,6 +70,9 @@ class XgtCnet : public harness::Protocol,
   std::vector<harness::Field> explain(ByteView frame) const override {
     return xgt_cnet_suite::explain(frame);
   }
+  Bytes in_plain_letters(ByteView request) const override {
+    return xgt_cnet_suite::in_plain_letters(request);
+  }
 
   /// Requests go from the client to the server.
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
