@@ -169,11 +169,11 @@ std::vector<Fault> modbus_faults() {
       {"byte_count_missing", "0F and 10 have no byte count", sends([](Bytes& pdu) {
          if (pdu[0] >= write_coils) pdu.erase(pdu.begin() + 5);
        }),
-       "modbus_rtu/client/example/write_d0", "function code: expected"},
+       "modbus_rtu/client/example/write_d0", "byte count: expected 08"},
       {"byte_count_of_words", "the byte count is the count of words", sends([](Bytes& pdu) {
          if (pdu[0] == write_words) pdu.at(5) = pdu.at(4);
        }),
-       "modbus_rtu/client/example/write_d0", "function code: expected"},
+       "modbus_rtu/client/example/write_d0", "byte count: expected 08"},
       {"coil_on_is_0001", "a bit that is on goes out as 0001", sends([](Bytes& pdu) {
          if (pdu[0] == write_coil && pdu.at(3) == 0xFF) set_word(pdu, 3, 1);
        }),

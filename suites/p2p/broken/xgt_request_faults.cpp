@@ -1,7 +1,6 @@
 // Requests of the XGT client (Cnet EN and KO 6.3, 7.1).
 #include <fmt/format.h>
 
-#include <cctype>
 #include <map>
 
 #include "src/base/letters.hpp"
@@ -182,14 +181,6 @@ std::vector<Fault> xgt_request_faults() {
       {"write_halves_swapped", "what is written goes out low word first",
        digits(16, words_reversed), "xgt_cnet/client/write/two_dwords",
        "data 1: expected 75318642, got 86427531"},
-      {"write_lower_case", "hex digits of data go out in lower case",
-       digits(16,
-              [](std::string digits) {
-                for (char& c : digits)
-                  c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-                return digits;
-              }),
-       "xgt_cnet/client/example/write_m100_read_d100", "data: expected 5ABC, got 5abc"},
       {"writes_first_value", "every write sends what memory held at the first", remembers,
        "xgt_cnet/client/write/value_of_the_moment", "data: expected 5ABC, got 2468"},
   };
