@@ -78,12 +78,9 @@ std::string rough_time(double seconds) {
 
 std::string outcome(const Summary& summary, const ConsoleOptions& options) {
   const int code = summary.end.exit_code;
-  std::string text = coloured(text::exit_meaning(code), code == 0 ? "32" : "1;31", options);
-  if (const std::string red = text::red_counts(summary.tally, options.gate); !red.empty())
-    text += ": " + red;
-  if (!summary.end.trouble.empty())
-    text += fmt::format("; {}", text::xml_line(summary.end.trouble));
-  return fmt::format("exit {}: {}\n", code, text);
+  return fmt::format(
+      "exit {}: {}\n", code,
+      coloured(text::headline(summary.end, summary.tally), code == 0 ? "32" : "1;31", options));
 }
 
 /// Items side by side, in lines of a width: an item goes on in the next line only where it fits in
@@ -202,6 +199,7 @@ void ConsoleReport::count(const CaseResult& result) {
 }
 
 Status ConsoleReport::add(const Delivery& one) {
+  count(*one);
   if (const std::string text = case_report(*one, options_); !text.empty())
     print_(progress_.erase() + text);
   return ok();

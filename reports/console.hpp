@@ -80,7 +80,7 @@ class ConsoleReport final : public results::Sink {
   void erase_progress() { print_(progress_.erase()); }
 
   Status begin(const results::RunInfo& run) override;
-  /// Every result, also those of a soak that are not added.
+  /// One that a soak only counts.
   void count(const results::CaseResult& result);
   Status add(const results::Delivery& one) override;
   Status end(const results::RunLog& log) override;
@@ -88,6 +88,7 @@ class ConsoleReport final : public results::Sink {
   void add_path(const std::string& kind, const std::string& path) {
     summary_.reports.emplace_back(kind, path);
   }
+  const results::Gate& gate() const { return options_.gate; }
   const text::Tally& tally() const { return summary_.tally; }
 
  private:

@@ -183,6 +183,7 @@ TEST(RunSummary, CountsWhatOccurs) {
   summary.tally.add(Verdict::fail, 2);
   summary.tally.add(Verdict::blocked, 12);
   summary.end = samples::run_end(1);
+  summary.end.reasons = text::reasons_of(summary.tally, {});
   summary.red = {"a/b", "a/c #2"};
   summary.reports = {{"results", "out/results.ndjson"}, {"junit", "out/junit.xml"}};
   EXPECT_EQ(R"(
@@ -208,17 +209,20 @@ TEST(RunSummary, OfAGreenRunIsShort) {
   Summary summary;
   summary.tally.add(Verdict::pass);
   summary.end = samples::run_end(0);
-  EXPECT_EQ("\n1 case in 2.2 s\n  1  PASS          as the manual says\n\nexit 0: gate met\n",
-            run_summary(summary, {}));
-  EXPECT_THAT(run_summary(summary, terminal), HasSubstr("exit 0: \x1b[32mgate met\x1b[0m\n"));
+  EXPECT_EQ(
+      "\n1 case in 2.2 s\n  1  PASS          as the manual says\n\nexit 0: gate met: 1 of 1 "
+      "judged\n",
+      run_summary(summary, {}));
+  EXPECT_THAT(run_summary(summary, terminal),
+              HasSubstr("exit 0: \x1b[32mgate met: 1 of 1 judged\x1b[0m\n"));
 }
 
 TEST(RunSummary, SaysWhyARunStoppedEarly) {
   Summary summary;
   summary.end = samples::run_end(3);
-  summary.end.trouble = "nothing answers; check station and line";
+  summary.end.add({3, "trouble", "bench trouble: nothing answers; check station and line"});
   EXPECT_EQ(
-      "\n0 cases in 2.2 s\n\nexit 3: bench trouble; nothing answers; check station and line\n",
+      "\n0 cases in 2.2 s\n\nexit 3: bench trouble: nothing answers; check station and line\n",
       run_summary(summary, {}));
 }
 

@@ -66,7 +66,7 @@ class JsonReport final : public Sink {
  private:
   std::string path_;
   Tally tally_;
-  TimingTable timing_;
+  TimingTable timing_{10'000};
   Spill cases_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "reports/console.hpp"
 #include "reports/junit.hpp"
+#include "reports/results/test_as_json.hpp"
 #include "reports/testdata/samples.hpp"
 
 namespace fieldproof::reports {
@@ -18,7 +19,7 @@ using results::Verdict;
 namespace {
 
 using nlohmann::json;
-using samples::as_json;
+using results::test::as_json;
 using samples::with;
 
 class JsonReport : public testing::Test {

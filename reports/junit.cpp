@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "reports/text/case_text.hpp"
@@ -20,6 +21,7 @@ using results::CaseResult;
 using results::Delivery;
 using results::DutInfo;
 using results::Gate;
+using results::Reason;
 using results::RunInfo;
 using results::RunLog;
 using results::Sink;
@@ -132,6 +134,7 @@ class JunitReport final : public Sink {
   }
 
   Status end(const RunLog& log) override {
+    write_reasons(log);
     auto file = ReportFile::create(path_);
     if (!file) return file.error();
     // A run without a result still says what it was about, and why nothing came of it.
@@ -142,11 +145,58 @@ class JunitReport final : public Sink {
       if (Status copied = suite.cases.copy_to(file->out()); !copied) return copied;
       file->out() << suite_end(log);
     }
-    file->out() << "</testsuites>\n";
+    file->out() << reasons_suite() << "</testsuites>\n";
     return file->commit();
   }
 
  private:
+  /// What made the run red beside its cases: each reason is a test case of its own, so that no
+  /// reader of the report finds green where the exit code is not 0.
+  void write_reasons(const RunLog& log) {
+    reasons_.clear();
+    std::map<std::string, int> seen;
+    for (const Reason& reason : reasons_of(log)) {
+      if (is_shown_by_cases(reason)) continue;
+      const int number = ++seen[reason.what];
+      const bool failed = reason.exit_code == 1 || reason.exit_code == 4;
+      ++reasons_counts_.tests;
+      ++(failed ? reasons_counts_.failures : reasons_counts_.errors);
+      XmlWriter xml(reasons_);
+      xml.depth = 2;
+      xml.open("testcase",
+               {{"classname", "fieldproof.gate"},
+                {"name", number == 1 ? reason.what : fmt::format("{} #{}", reason.what, number)},
+                {"time", "0.000"}});
+      xml.leaf(failed ? "failure" : "error", {{"type", reason.what}, {"message", reason.message}},
+               fmt::format("exit {}: {}", reason.exit_code, reason.message));
+      xml.close("testcase");
+    }
+  }
+
+  static std::vector<Reason> reasons_of(const RunLog& log) {
+    if (log.end) return log.end->reasons;
+    return {{3, "killed", text::early_end(log)}};
+  }
+
+  std::string reasons_suite() const {
+    if (reasons_.empty()) return "";
+    std::string text;
+    XmlWriter xml(text);
+    xml.depth = 1;
+    xml.open("testsuite", {{"name", "gate"},
+                           {"tests", std::to_string(reasons_counts_.tests)},
+                           {"failures", std::to_string(reasons_counts_.failures)},
+                           {"errors", std::to_string(reasons_counts_.errors)},
+                           {"skipped", "0"},
+                           {"time", "0.000"}});
+    xml.open("properties", {});
+    xml.leaf("property", {{"name", "gate"}, {"value", text::to_string(gate_)}});
+    xml.close("properties");
+    text += reasons_;
+    xml.close("testsuite");
+    return text;
+  }
+
   Suite& suite_of(const std::string& protocol) {
     const auto found = std::ranges::find(suites_, protocol, &Suite::protocol);
     if (found != suites_.end()) return *found;
@@ -160,7 +210,10 @@ class JunitReport final : public Sink {
       all.add(suite.tally);
       seconds += suite.seconds;
     }
-    const Counts counts = counts_of(all, gate_);
+    Counts counts = counts_of(all, gate_);
+    counts.tests += reasons_counts_.tests;
+    counts.failures += reasons_counts_.failures;
+    counts.errors += reasons_counts_.errors;
     std::string text;
     XmlWriter(text).open("testsuites",
                          {{"name", "fieldproof"},
@@ -222,7 +275,9 @@ class JunitReport final : public Sink {
   std::string path_;
   Gate gate_;
   std::vector<Suite> suites_;  // few: found by looking at each
-  std::string text_;           // of one case; its room, from case to case
+  Counts reasons_counts_;
+  std::string reasons_;  // their test cases
+  std::string text_;     // of one case; its room, from case to case
 };
 
 }  // namespace

@@ -300,7 +300,38 @@ TEST_F(Junit, AKilledRunSaysSo) {
   EXPECT_STREQ("the run was killed: 2 results were written before, and one incomplete",
                suite().child("system-err").text().get());
   EXPECT_EQ(2u, suite().attribute("tests").as_uint());
+  EXPECT_STREQ("killed",
+               root().last_child().child("testcase").child("error").attribute("type").value());
   expect_counts_equal_children(root());
+}
+
+TEST_F(Junit, EachReasonThatNoCaseShowsIsACaseOfItsOwn) {
+  auto end = samples::run_end(0);
+  end.add({1, "verdicts", "conformance failed: 1 FAIL"});
+  end.add({1, "min-judged", "too little judged: 1 of 9"});
+  end.add({3, "trouble", "bench trouble: the port failed"});
+  end.add({3, "trouble", "bench trouble: the disk is full"});
+  {
+    auto writer = results::NdjsonWriter::create(results_);
+    ASSERT_TRUE(writer);
+    samples::hand_over(*writer, samples::run_info(), {samples::failure()}, end);
+  }
+  make();
+  const pugi::xml_node gate = root().find_child_by_attribute("testsuite", "name", "gate");
+  const auto says = [&](const char* name, const char* element) {
+    return std::string(gate.find_child_by_attribute("testcase", "name", name)
+                           .child(element)
+                           .attribute("message")
+                           .value());
+  };
+  EXPECT_EQ(3u, gate.attribute("tests").as_uint());
+  EXPECT_EQ("too little judged: 1 of 9", says("min-judged", "failure"));
+  EXPECT_EQ("bench trouble: the port failed", says("trouble", "error"));
+  EXPECT_EQ("bench trouble: the disk is full", says("trouble #2", "error"));
+  expect_counts_equal_children(root());
+  if (have_xmllint()) {
+    EXPECT_EQ("", xmllint());
+  }
 }
 
 TEST_F(Junit, ARunWithoutResultsSaysWhy) {

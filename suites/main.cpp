@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 
@@ -14,9 +15,20 @@ using namespace fieldproof;
 
 /// Appears in every help text, so that a pipeline's author need not open the README.
 constexpr const char* exit_codes =
-    "Exit codes: 0 gate met, 1 conformance failed, 2 usage or invalid input, 3 bench trouble, 4 "
-    "nothing selected or executed,\n"
+    "Exit codes: 0 gate met, 1 gate not met (conformance failed, or less judged than --qualify or\n"
+    "--min-judged asks), 2 usage or invalid input, 3 bench trouble, 4 nothing selected or "
+    "executed,\n"
     "77 hardware absent (--skip-absent), 130 interrupted.";
+
+/// "90%" or "90".
+double percent_of(const std::string& text) {
+  const std::string digits = text.substr(0, text.size() - (text.ends_with('%') ? 1 : 0));
+  char* end = nullptr;
+  const double percent = std::strtod(digits.c_str(), &end);
+  if (digits.empty() || *end != '\0' || !(percent > 0 && percent <= 100))
+    throw CLI::ValidationError("--min-judged", fmt::format("'{}' is no share; write 90%", text));
+  return percent;
+}
 
 /// What fails the gate, for commands that judge.
 template <typename Options>
@@ -27,6 +39,10 @@ void add_gate(CLI::App& app, Options& options) {
          "marginal: MARGINAL fails the gate")
       ->check(CLI::IsMember({"marginal"}));
   app.add_flag("--qualify", options.qualify, "BLOCKED and INCONCLUSIVE fail the gate");
+  app.add_option_function<std::string>(
+      "--min-judged",
+      [&options](const std::string& text) { options.min_judged = percent_of(text); },
+      "90%: less judged of what the device declares (all but SKIP) fails the gate");
 }
 
 void add_role(CLI::App& app, std::string& role) {
@@ -88,7 +104,8 @@ void add_run(CLI::App& app, run::RunOptions& run) {
                  "Results of an earlier run: what got worse since then fails the gate");
   app.add_option("--allow-write", run.allow_write,
                  "Real devices: what may be written: M, M100-M199, h1230-h12FF, all (outputs P, Q, "
-                 "U only when named)");
+                 "U only when named). Of exec: anything, where this is not given");
+  app.add_flag("--read-only", run.read_only, "Write nothing, to exec: neither");
   app.add_option(
       "--journal", run.journal,
       "Real devices: what they held before, instead of OUT/journal.ndjson; see fieldproof restore");
@@ -121,13 +138,16 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.prefix_command(false);
 }
 
-/// "--filter", "-v", ...: they live as long as `app`.
-std::vector<std::string_view> names_of_options(const CLI::App& app) {
-  static std::vector<std::string> names;
-  names.clear();
+/// "; did you mean '--filter'?" for "--filer=x"; empty for what is an option, or like none. Those
+/// that help does not show are not meant.
+std::string meant_option(const CLI::App& app, std::string_view word) {
+  word = word.substr(0, word.find('='));
+  std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return {names.begin(), names.end()};
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  if (!word.starts_with("--") || std::ranges::count(names, word) > 0) return {};
+  return suggestion(word, std::vector<std::string_view>(names.begin(), names.end()));
 }
 
 /// CLI11 leaves what it does not know here: GoogleTest's own options pass, but not those that would
@@ -142,7 +162,7 @@ std::string unknown_argument(const CLI::App& app, const std::vector<std::string>
     if (extra.starts_with("--gtest_filter")) return "--gtest_filter is refused: use --filter";
     if (!extra.starts_with("--gtest_"))
       return fmt::format("unknown argument '{}'{}; see fieldproof run --help", extra,
-                         suggestion(extra, names_of_options(app)));
+                         meant_option(app, extra));
     gtest_arguments.push_back(extra);
   }
   return {};
@@ -159,13 +179,8 @@ std::string slip_of(const CLI::App& app, int argc, char** argv) {
   std::string meant;
   if (!command && argc > 1)
     meant = suggestion(argv[1], std::vector<std::string_view>(commands.begin(), commands.end()));
-  for (int i = 2; command && i < argc && meant.empty(); ++i) {
-    const std::string_view word =
-        std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
-    const std::vector<std::string_view> known = names_of_options(*command);
-    if (word.starts_with("--") && std::ranges::count(known, word) == 0)
-      meant = suggestion(word, known);
-  }
+  for (int i = 2; command && i < argc && meant.empty(); ++i)
+    meant = meant_option(*command, argv[i]);
   return fmt::format("{}; see fieldproof {}--help", meant,
                      command ? command->get_name() + " " : "");
 }

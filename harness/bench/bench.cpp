@@ -315,6 +315,50 @@ Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
   return {};
 }
 
+/// Whatever can be settled before a byte is sent.
+Bench::Ready Bench::make_ready(const Case& source) const {
+  Ready ready;
+  const auto declined = [&](Eligibility why) {
+    ready.why = std::move(why);
+    return std::move(ready);
+  };
+  if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass)
+    return declined(outside);
+  Result<PreparedCase> prepared = prepare(source);
+  if (!prepared) return declined({Verdict::error, prepared.error().message});
+  if (const Eligibility why = blocked(source, *prepared); why.verdict != Verdict::pass)
+    return declined(why);
+  // A real device is written only where it is allowed.
+  const bool real = endpoint_.capabilities().real_device;
+  if (real && !prepared->is_client()) {
+    const Result<std::vector<results::Move>> planned =
+        safety::plan_moves(source, station_for(source), options_.fence, protocol_);
+    if (!planned) return declined({Verdict::blocked, planned.error().message});
+    ready.moves = *planned;
+  }
+  if (!ready.moves.empty()) {
+    Result<Case> moved = safety::moved_case(source, station_for(source), ready.moves, protocol_);
+    if (!moved) return declined({Verdict::blocked, moved.error().message});
+    ready.elsewhere = std::make_unique<Case>(std::move(*moved));
+    prepared = prepare(*ready.elsewhere);
+    if (!prepared) return declined({Verdict::error, prepared.error().message});
+  }
+  if (std::string why = real ? fence_objection(*prepared) : ""; !why.empty())
+    return declined({Verdict::blocked, why});
+  if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass)
+    return declined(why);
+  ready.prepared = std::move(*prepared);
+  return ready;
+}
+
+bool Bench::could_run(const Case& source) const { return make_ready(source).prepared.has_value(); }
+
+std::vector<Protocol::Written> Bench::written_by(const Case& source) const {
+  const Result<PreparedCase> prepared = prepare(source);
+  if (!prepared || prepared->is_client()) return {};
+  return written_by(*prepared);
+}
+
 CaseResult Bench::run(const Case& source) {
   CaseResult result = judging::result_of(source);
   result.replay = options_.replay + "'" + source.id + "'";
@@ -323,37 +367,13 @@ CaseResult Bench::run(const Case& source) {
     result.message = why.reason;
     return result;
   };
-  if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass)
-    return decline(outside);
-  const Result<PreparedCase> as_printed = prepare(source);
-  if (!as_printed) return decline({Verdict::error, as_printed.error().message});
-  if (const Eligibility why = blocked(source, *as_printed); why.verdict != Verdict::pass)
-    return decline(why);
-  // A real device is written only where it is allowed.
-  std::optional<Case> elsewhere;
-  std::vector<results::Move> moves;
-  if (endpoint_.capabilities().real_device && !as_printed->is_client()) {
-    const Result<std::vector<results::Move>> planned =
-        safety::plan_moves(source, station_for(source), options_.fence, protocol_);
-    if (!planned) return decline({Verdict::blocked, planned.error().message});
-    moves = *planned;
-  }
-  if (!moves.empty()) {
-    Result<Case> moved = safety::moved_case(source, station_for(source), moves, protocol_);
-    if (!moved) return decline({Verdict::blocked, moved.error().message});
-    elsewhere = std::move(*moved);
-  }
-  const Result<PreparedCase> prepared = elsewhere ? prepare(*elsewhere) : as_printed;
-  if (!prepared) return decline({Verdict::error, prepared.error().message});
-  if (endpoint_.capabilities().real_device)
-    if (std::string why = fence_objection(*prepared); !why.empty())
-      return decline({Verdict::blocked, why});
-  if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass)
-    return decline(why);
+  const Ready ready = make_ready(source);
+  if (!ready.prepared) return decline(ready.why);
   if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
-  for (const results::Move& move : moves) result.notes.push_back(safety::note_of(move, protocol_));
-  execute(*prepared, result);
-  if (!result.recording.stimulus.empty()) result.recording.moves = moves;
+  for (const results::Move& move : ready.moves)
+    result.notes.push_back(safety::note_of(move, protocol_));
+  execute(*ready.prepared, result);
+  if (!result.recording.stimulus.empty()) result.recording.moves = ready.moves;
   errors_in_a_row_ = result.verdict == Verdict::error ? errors_in_a_row_ + 1 : 0;
   if (errors_in_a_row_ == errors_to_stop && stopped_.empty())
     stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));

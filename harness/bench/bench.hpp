@@ -61,6 +61,11 @@ class Bench {
   /// Never throws; whatever goes wrong is in the result.
   results::CaseResult run(const vectors::Case& source);
 
+  /// Would it be sent, for all that can be known before?
+  bool could_run(const vectors::Case& source) const;
+  /// What its requests write, where it is not moved; nothing where it cannot be prepared.
+  std::vector<harness::Protocol::Written> written_by(const vectors::Case& source) const;
+
   /// After the last case: tries again to put back what could not be. Empty, or what a real device
   /// does not hold as before.
   std::string put_back();
@@ -75,10 +80,16 @@ class Bench {
     results::Verdict verdict = results::Verdict::pass;
     std::string reason;
   };
+  /// A case as it is sent, or why it is not.
+  struct Ready {
+    Eligibility why;
+    std::vector<results::Move> moves;
+    std::unique_ptr<vectors::Case> elsewhere;        // after the moves; nullptr: there are none
+    std::optional<exchange::PreparedCase> prepared;  // of one of the two; nothing: see `why`
+  };
+  Ready make_ready(const vectors::Case& source) const;
   Eligibility outside_profile(const vectors::Case& source) const;
   Eligibility blocked(const vectors::Case& source, const exchange::PreparedCase& prepared) const;
-  results::CaseResult run_as_it_is(const vectors::Case& source,
-                                   const std::vector<results::Move>& moves);
   Eligibility below_floor(const exchange::PreparedCase& prepared) const;
   std::string undeclared(const nlohmann::json& config) const;
   Result<std::vector<harness::Protocol::Written>> written_over_aux(

@@ -40,10 +40,33 @@ Status Benches::start() {
   return ok();
 }
 
-results::CaseResult Benches::run(const vectors::Case& source) {
+const Benches::Member& Benches::member_for(const vectors::Case& source) const {
   const auto own = std::ranges::find_if(
       members_, [&](const Member& member) { return member.protocol->name() == source.protocol; });
-  return (own == members_.end() ? members_.front() : *own).bench->run(source);
+  return own == members_.end() ? members_.front() : *own;
+}
+
+results::CaseResult Benches::run(const vectors::Case& source) {
+  return member_for(source).bench->run(source);
+}
+
+std::size_t Benches::could_run(const std::vector<const vectors::Case*>& cases,
+                               const BenchOptions& options) const {
+  std::size_t count = 0;
+  for (const Member& member : members_) {
+    const Bench other(*member.endpoint, member.configured ? *member.configured : *member.protocol,
+                      options);
+    count += static_cast<std::size_t>(std::ranges::count_if(cases, [&](const vectors::Case* one) {
+      return &member_for(*one) == &member && other.could_run(*one);
+    }));
+  }
+  return count;
+}
+
+std::pair<const harness::Protocol*, std::vector<harness::Protocol::Written>> Benches::written_by(
+    const vectors::Case& source) const {
+  const Member& member = member_for(source);
+  return {member.protocol, member.bench->written_by(source)};
 }
 
 Result<std::string> Benches::measure_floor() {

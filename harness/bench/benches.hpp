@@ -38,6 +38,13 @@ class Benches {
   /// On the bench of the case's protocol; a case of another protocol is SKIP.
   results::CaseResult run(const vectors::Case& source);
 
+  /// How many of these cases could run if the options were others; nothing is sent.
+  std::size_t could_run(const std::vector<const vectors::Case*>& cases,
+                        const BenchOptions& options) const;
+  /// What a case of one of the protocols writes, and the protocol that says it.
+  std::pair<const harness::Protocol*, std::vector<harness::Protocol::Written>> written_by(
+      const vectors::Case& source) const;
+
   /// Do the links carry speed and character format?
   bool wire() const { return members_.front().endpoint->capabilities().wire; }
   /// Closes the ports; nothing but opening anew may follow.
@@ -65,6 +72,8 @@ class Benches {
     std::unique_ptr<harness::Protocol> configured;  // of a real device: as it declares itself
     std::unique_ptr<Bench> bench;
   };
+  const Member& member_for(const vectors::Case& source) const;
+
   std::vector<Member> members_;
 };
 

@@ -100,11 +100,7 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
 }
 
 std::string known_profiles(const std::string& name, const fs::path& folder) {
-  std::vector<std::string> names;
-  if (fs::is_directory(folder))
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  std::ranges::sort(names);
+  const std::vector<std::string> names = profile_names(folder);
   const std::vector<std::string_view> views(names.begin(), names.end());
   return fmt::format("{}; there are {}", suggestion(name, views), fmt::join(names, ", "));
 }
@@ -176,6 +172,15 @@ Result<Profile> parse_profile(const std::string& text, const std::string& file, 
 
 fs::path profile_path(const std::string& name_or_path, const fs::path& folder) {
   return names_a_path(name_or_path) ? fs::path(name_or_path) : folder / (name_or_path + ".json");
+}
+
+std::vector<std::string> profile_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
 }
 
 Result<Profile> load_profile(const std::string& name_or_path, const fs::path& folder) {

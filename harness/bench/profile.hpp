@@ -39,6 +39,9 @@ struct Profile {
 std::filesystem::path profile_path(const std::string& name_or_path,
                                    const std::filesystem::path& folder);
 
+/// The names of the profiles in `folder`, sorted; none where there is no such folder.
+std::vector<std::string> profile_names(const std::filesystem::path& folder);
+
 /// Reads NAME from `folder`/NAME.json, or a path. "extends" names another profile, of its own
 /// folder or of `folder`: what stands there holds where this one says nothing; objects are laid
 /// over each other key by key, exclusions add up. Errors name the file and the key; an unknown name

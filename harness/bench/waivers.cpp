@@ -191,9 +191,15 @@ const Waiver* Waivers::find(const std::string& id) const {
 
 void Waivers::apply(results::CaseResult& result) {
   const Waiver* waiver = find(result.id);
-  if (!waiver || !results::is_judged(result.verdict)) return;
+  if (!waiver) return;
+  const bool judged = results::is_judged(result.verdict);
+  Came& came = came_[result.id];
+  came = std::max(came, result.verdict == Verdict::fail   ? Came::failed
+                        : result.verdict == Verdict::skip ? Came::skipped
+                        : judged                          ? Came::held
+                                                          : Came::unjudged);
+  if (!judged) return;
   const Firmware firmware = firmware_of(*waiver);
-  failed_[result.id] |= result.verdict == Verdict::fail;
   const auto note = [&](std::string text) { result.notes.push_back(std::move(text)); };
   if (result.verdict != Verdict::fail) {
     if (is_glob(*waiver) || firmware != Firmware::covered)
@@ -232,22 +238,26 @@ std::vector<results::CaseResult> Waivers::superfluous(const std::vector<std::str
   std::vector<results::CaseResult> results;
   for (const Waiver& waiver : waivers_) {
     if (!is_glob(waiver) || firmware_of(waiver) != Firmware::covered) continue;
-    std::size_t covered = 0;
-    const bool needed = std::ranges::any_of(ids, [&](const std::string& id) {
+    std::size_t covered = 0, judged = 0;
+    const bool failed = std::ranges::any_of(ids, [&](const std::string& id) {
       if (!vectors::matches_filter(id, waiver.id) || find(id) != &waiver) return false;
-      ++covered;
-      const auto judged = failed_.find(id);
-      return judged == failed_.end() || judged->second;  // what was not judged proves nothing
+      const auto found = came_.find(id);
+      const Came came = found == came_.end() ? Came::unjudged : found->second;
+      covered += came != Came::skipped;
+      judged += came >= Came::held;
+      return came == Came::failed;
     });
-    if (needed || covered == 0) continue;
+    // What was not judged proves nothing; some is never judged on any bench.
+    const bool enough = static_cast<double>(judged) >= enough_judged * static_cast<double>(covered);
+    if (failed || judged == 0 || !enough) continue;
     results::CaseResult result;
     result.id = std::string(waiver_result) + waiver.id;
     result.title = fmt::format("The waiver for {} is still needed", waiver.id);
     result.verdict = Verdict::xpass;
     result.message = fmt::format(
-        "none of the {} cases that {} covers fails any more, but they are waived until {}: {}; "
-        "remove the waiver",
-        covered, waiver.id, waiver.expires, by_whom(waiver));
+        "none of the {} cases that {} covers and that were judged fails any more, but they are "
+        "waived until {}: {}; remove the waiver",
+        judged, waiver.id, waiver.expires, by_whom(waiver));
     results.push_back(std::move(result));
   }
   return results;

@@ -120,6 +120,26 @@ TEST(Waivers, AGlobThatCoversNoFailureIsRedAtTheEnd) {
   EXPECT_THAT(at_the_end({b, c, failed("BCC: in the second repetition")}), IsEmpty());
   EXPECT_THAT(at_the_end({b}), IsEmpty()) << "the other case was not run";
   EXPECT_THAT(at_the_end({b, result_of("xgt_cnet/a/c", Verdict::blocked)}), IsEmpty());
+  EXPECT_EQ(at_the_end({b, result_of("xgt_cnet/a/c", Verdict::skip)}).size(), 1u)
+      << "this device cannot fail it";
+}
+
+TEST(Waivers, AGlobIsStaleWhereSomeCasesAreNeverJudged) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 20; ++i) ids.push_back(fmt::format("xgt_cnet/a/n{}", i));
+  const auto superfluous = [&](int unjudged) {
+    Waivers waivers(parsed(entry("xgt_cnet/a/*")), "2026-11-21", "");
+    for (int i = 0; i < 20; ++i) {
+      CaseResult one = result_of(ids[static_cast<std::size_t>(i)],
+                                 i < unjudged ? Verdict::blocked : Verdict::pass);
+      waivers.apply(one);
+    }
+    return waivers.superfluous(ids);
+  };
+  const std::vector<CaseResult> red = superfluous(2);
+  ASSERT_EQ(red.size(), 1u);
+  EXPECT_THAT(red[0].message, HasSubstr("none of the 18 cases"));
+  EXPECT_THAT(superfluous(3), IsEmpty()) << "too much of it was not looked at";
 }
 
 TEST(Waivers, UnknownTargetsGetASuggestion) {

@@ -50,9 +50,8 @@ std::vector<std::string> lint_profile(const bench::Profile& profile, const vecto
 std::vector<std::string> lint_profiles(const fs::path& folder, const vectors::VectorSet& set,
                                        bool whole, const harness::Protocols& protocols) {
   std::vector<std::string> problems;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json") continue;
-    const std::string file = entry.path().filename().string(), name = entry.path().stem().string();
+  for (const std::string& name : bench::profile_names(folder)) {
+    const std::string file = name + ".json";
     const Result<bench::Profile> profile = bench::load_profile(name, folder);
     if (!profile) {
       problems.push_back(profile.error().message);
@@ -87,8 +86,7 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
   add(problems, vectors::lint_decisions(set));
   add(problems, vectors::lint_readings(set));
   add(problems, vectors::lint_tables(set, protocols));
-  if (fs::is_directory(data.profiles))
-    add(problems, lint_profiles(data.profiles, set, options.vectors.empty(), protocols));
+  add(problems, lint_profiles(data.profiles, set, options.vectors.empty(), protocols));
   const std::vector<std::string> quotes = options.manuals.empty()
                                               ? vectors::lint_lock(set, read_lock(folder))
                                               : vectors::lint_quotes(set, options.manuals);

@@ -35,8 +35,8 @@ int merge_command(const MergeOptions& options) {
   Result<run::ReportPaths> paths =
       run::make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
-  Result<run::RunReport> report =
-      run::RunReport::create(std::move(*paths), run::console_options(text::gate_of(merged->run), false));
+  Result<run::RunReport> report = run::RunReport::create(
+      std::move(*paths), run::console_options(text::gate_of(merged->run), false));
   if (!report) return run::complain(report.error().message, run::exit_code::trouble);
   if (const Status begun = report->begin(merged->run); !begun)
     return run::complain(begun.error().message, run::exit_code::trouble);
@@ -45,7 +45,7 @@ int merge_command(const MergeOptions& options) {
   run::RunReport::End end;
   end.trouble = fmt::format("{}", fmt::join(merged->troubles, "; "));
   end.interrupted = merged->interrupted;
-  end.worse = merged->failed;
+  end.worse = merged->worse;
   end.seconds = merged->seconds;
   return report->finish(end);
 }

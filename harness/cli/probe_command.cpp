@@ -148,15 +148,14 @@ class ProgressLine {
 /// protocol's first model where there is one; else that model.
 std::string profile_of_a_module(const harness::Protocol& protocol) {
   const std::string first = protocol.models().front();
-  std::vector<std::string> names;
   const std::filesystem::path folder = harness::find_data().profiles;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const Result<bench::Profile> one = bench::load_profile(entry.path().string(), folder);
+  for (const std::string& name : bench::profile_names(folder)) {
+    const Result<bench::Profile> one = bench::load_profile(name, folder);
     if (one && !one->binding_decisions && one->model == first &&
         std::ranges::count(one->protocols, protocol.name()) > 0)
-      names.push_back(entry.path().stem().string());
+      return name;
   }
-  return names.empty() ? first : std::ranges::min(names);
+  return first;
 }
 
 /// Its own module's profile is for the engineer to choose.

@@ -12,6 +12,7 @@
 #include "harness/bench/watchdog.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/compare_command.hpp"
+#include "harness/run/coverage_hint.hpp"
 #include "harness/run/line_steps.hpp"
 #include "harness/run/ports.hpp"
 #include "harness/run/run_info.hpp"
@@ -90,7 +91,7 @@ class Run {
     } else {
       end_.trouble = started.error().message;
     }
-    put_back();
+    finish_up();
     return end_;
   }
 
@@ -181,6 +182,7 @@ class Run {
         std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
           report_.show_progress(total, source.id);
           waivers_.apply(result);
+          note(source, result);
           return report_.add(result) &&
                  !(options_.fail_fast && results::gates(result.verdict, report_.gate()));
         });
@@ -189,12 +191,19 @@ class Run {
       report_.add(result);
     end_.interrupted = shared.interrupted();
     end_.trouble = fmt::format("{}", fmt::join(shared.troubles(), "; "));
-    put_back();
+    finish_up();
     return end_;
   }
 
-  /// False: stop here.
-  bool run_case(const Case& source, int round) {
+  /// False: stop here. GoogleTest would swallow what is thrown, and the run would stay green.
+  bool run_case(const Case& source, int round) try {
+    return run_one(source, round);
+  } catch (const std::exception& error) {
+    end_.trouble = run::internal_error(source, error);
+    return false;
+  }
+
+  bool run_one(const Case& source, int round) {
     if (os::interrupted()) {
       end_.interrupted = true;
       return false;
@@ -214,6 +223,7 @@ class Run {
     if (hung)
       result.message = "the bench hung in this case for more than a minute; " + result.message;
     waivers_.apply(result);
+    note(source, result);
     result.repeat = soak ? round : round % options_.repeat;
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -222,11 +232,23 @@ class Run {
     return (soak ? add_to_soak(result) : report_.add(result)) && !stop_here;
   }
 
+  void finish_up() {
+    put_back();
+    if (!blocked_.empty() && plan_.matrix.empty() && end_.trouble.empty() && !end_.interrupted)
+      end_.hint = run::coverage_hint(benches_, plan_.bench, plan_.known,
+                                     {blocked_.begin(), blocked_.end()});
+  }
+
+  void note(const Case& source, const CaseResult& result) {
+    if (result.verdict == results::Verdict::blocked) blocked_.insert(&source);
+  }
+
   /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.
   void put_back() {
     if (end_.interrupted) os::clear_interrupt();
     for (std::size_t i = 0; i < ports_.size(); ++i)
-      if (const std::string open = ports_[i].put_back(); !open.empty())
+      if (const std::string open = ports_[i].put_back();
+          !open.empty() && (!plan_.dut(i).ends_with_run || plan_.dut(i).aux))
         end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}",
                                          end_.not_restored.empty() ? "" : "\n", open,
                                          run::shell_word(plan_.dut(i).journal));
@@ -244,6 +266,7 @@ class Run {
   std::vector<std::string> floors_;  // of each port: what its link can show, in words
   std::vector<std::string> unable_;  // of each port: why it cannot run; empty: it can
   std::chrono::steady_clock::time_point started_;
+  std::set<const Case*> blocked_;
   RunReport::End end_;
 };
 
@@ -254,18 +277,21 @@ int dry_run(const RunPlan& plan) {
   return run::exit_code::ok;
 }
 
-/// The results of this run against those of an earlier one, as far as it has the selected cases;
-/// was anything better then?
-bool worse_than(const RunSummary& baseline, const RunSummary& now, const RunOptions& options,
-                RunReport& report) {
+/// The results of this run against those of an earlier one, as far as it has the selected cases.
+void compare_with(const RunSummary& baseline, RunSummary now, const RunOptions& options,
+                  RunReport& report, RunReport::End& end) {
+  now.end = report.ended(end);
   const compare::ComparisonSet set({baseline, now});
   const std::filesystem::path out = options.out;
   const std::string html = (out / "compare.html").string(), junit = (out / "compare.xml").string();
-  if (const Status reported = report_comparison(set, html, junit); !reported)
-    run::complain(reported.error().message, 0);
-  report.add_path("compare", html);
-  report.add_path("compare", junit);
-  return set.worse();
+  if (const Status reported = report_comparison(set, html, junit); !reported) {
+    end.trouble += (end.trouble.empty() ? "" : "; ") + reported.error().message;
+  } else {
+    report.add_path("compare", html);
+    report.add_path("compare", junit);
+  }
+  if (set.worse())
+    end.worse = fmt::format("worse than {}: {}", baseline.path, outcome(set.comparisons.front()));
 }
 
 /// The baseline's results of the selected cases.
@@ -280,13 +306,9 @@ Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const
 }
 
 int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports,
-            const std::optional<RunSummary>& baseline) {
-  Result<run::ReportPaths> paths =
-      run::make_report_paths(options.out, options.json, options.junit, options.html);
-  if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
-  if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
+            run::ReportPaths paths, const std::optional<RunSummary>& baseline) {
   Result<RunReport> report = RunReport::create(
-      std::move(*paths), run::console_options(run::gate_of(options), options.verbose));
+      std::move(paths), run::console_options(run::gate_of(options), options.verbose));
   if (!report) return run::complain(report.error().message, run::exit_code::trouble);
   const Status same_devices =
       plan.matrix.empty() ? run::take_fingerprints(plan, ports, options.qualify) : ok();
@@ -298,7 +320,7 @@ int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& port
   if (const Status begun = report->begin(run.info()); !begun)
     return run::complain(begun.error().message, run::exit_code::trouble);
   RunReport::End end = run.execute(started);
-  if (baseline) end.worse = worse_than(*baseline, now, options, *report);
+  if (baseline) compare_with(*baseline, std::move(now), options, *report, end);
   return report->finish(end);
 }
 
@@ -322,13 +344,17 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
                                             ? run::exit_code::absent
                                             : run::exit_code::trouble);
   };
+  Result<run::ReportPaths> paths =
+      run::make_report_paths(options.out, options.json, options.junit, options.html);
+  if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
+  if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
   if (const Status opened = run::open_journals(options, *plan); !opened)
     return run::complain(opened.error().message, run::exit_code::usage);
   const Result<std::vector<run::Fixtures>> fixtures = run::open_fixtures(*plan);
   if (!fixtures) return trouble(fixtures.error());
   Result<std::vector<Benches>> ports = run::open_ports(*plan);
   if (!ports) return trouble(ports.error());
-  return execute(options, *plan, *ports, *baseline);
+  return execute(options, *plan, *ports, std::move(*paths), *baseline);
 }
 
 int report_command(const ReportOptions& options) {

@@ -12,6 +12,17 @@ namespace {
 
 using Cell = FrameTemplate::Cell;
 
+std::string unknown_check(const std::string& name, Checks checks) {
+  std::vector<std::string_view> names;
+  for (const Check& check : checks) names.push_back(check.name);
+  return fmt::format(
+      "unknown word '{}': it is no control character, and {}{}", name,
+      names.empty() ? "this protocol has no checks"
+                    : fmt::format("the checks of this protocol are {}", fmt::join(names, ", ")),
+      suggestion(name, names));
+}
+
+/// Of a notation whose words are known.
 class Builder {
  public:
   explicit Builder(const Fields& fields) : fields_(fields) {
@@ -31,10 +42,6 @@ class Builder {
  private:
   Status add(const Item& item) {
     if (item.kind == Item::Kind::alternatives) return fork(item);
-    if (item.kind == Item::Kind::check && !find_check(fields_.checks, item.text))
-      return fail(unknown_check(item.text));
-    if (item.kind == Item::Kind::name && !fields_.name_head)
-      return fail(fmt::format("name({}): frames of this protocol have no names", item.text));
     for (std::size_t i = 0; i < frames_.size(); ++i) add_to(frames_[i], begins_[i], item);
     return ok();
   }
@@ -111,16 +118,6 @@ class Builder {
     frame.open = true;
   }
 
-  std::string unknown_check(const std::string& name) const {
-    std::vector<std::string_view> names;
-    for (const Check& check : fields_.checks) names.push_back(check.name);
-    return fmt::format(
-        "unknown word '{}': it is no control character, and {}{}", name,
-        names.empty() ? "this protocol has no checks"
-                      : fmt::format("the checks of this protocol are {}", fmt::join(names, ", ")),
-        suggestion(name, names));
-  }
-
   static bool is_literal(const FrameTemplate& frame, std::size_t from, std::size_t to) {
     return std::all_of(frame.cells.begin() + static_cast<std::ptrdiff_t>(from),
                        frame.cells.begin() + static_cast<std::ptrdiff_t>(to),
@@ -194,7 +191,20 @@ bool cell_matches(const FrameTemplate& frame, std::size_t i, ByteView received,
 
 }  // namespace
 
+Status check_words(const Notation& notation, const Fields& fields) {
+  for (const Item& item : notation) {
+    if (item.kind == Item::Kind::check && !find_check(fields.checks, item.text))
+      return fail(unknown_check(item.text, fields.checks));
+    if (item.kind == Item::Kind::name && !fields.name_head)
+      return fail(fmt::format("name({}): frames of this protocol have no names", item.text));
+    for (const Item::Alternative& alternative : item.alternatives)
+      if (Status known = check_words(alternative.items, fields); !known) return known;
+  }
+  return ok();
+}
+
 Result<std::vector<FrameTemplate>> make_templates(const Notation& notation, const Fields& fields) {
+  if (const Status known = check_words(notation, fields); !known) return known.error();
   Builder builder(fields);
   if (Status added = builder.add_all(notation); !added) return added.error();
   return builder.take();

@@ -55,6 +55,10 @@ struct FrameTemplate {
       readings;  // alternatives taken inside the frame: name of the field -> "a"
 };
 
+/// Are all words of the notation known to the protocol: its checks, its names? The error names the
+/// first that is not.
+Status check_words(const Notation& notation, const Fields& fields);
+
 /// Every choice of named alternatives gives one template, the preferred one first.
 /// Errors: a check or a name that the protocol does not have, more than 64 alternatives.
 Result<std::vector<FrameTemplate>> make_templates(const Notation& notation, const Fields& fields);

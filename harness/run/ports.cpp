@@ -17,7 +17,8 @@ Status open_journal(const RunOptions& options, DutPlan& plan) {
   Result<safety::Journal> journal = safety::Journal::open(plan.journal);
   if (!journal) return journal.error();
   for (const safety::JournalDevice& device : {plan.bench.device, plan.bench.aux_device}) {
-    if (options.discard_journal)
+    // What a device that ended with its run had is gone with it.
+    if (options.discard_journal || (plan.ends_with_run && !plan.aux))
       if (Status discarded = journal->discard(device); !discarded) return discarded;
     const auto open = std::ranges::count_if(
         journal->open_entries(),

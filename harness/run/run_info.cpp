@@ -54,7 +54,7 @@ std::vector<results::ErratumInfo> errata(const RunPlan& plan) {
 }  // namespace
 
 results::Gate gate_of(const RunOptions& options) {
-  return {options.strict, options.fail_on_marginal, options.qualify};
+  return {options.strict, options.fail_on_marginal, options.qualify, options.min_judged};
 }
 
 results::RunInfo run_info(const RunOptions& options, const RunPlan& plan,
@@ -77,6 +77,9 @@ results::RunInfo run_info(const RunOptions& options, const RunPlan& plan,
   if (options.repeat > 1) info.properties["repeat"] = std::to_string(options.repeat);
   if (!plan.line.empty()) info.properties["line"] = plan.line;
   if (!plan.matrix.empty()) info.properties["matrix"] = options.matrix;
+  if (plan.writes_all)
+    info.properties["writes"] =
+        "anywhere: the device ends with the run (--read-only forbids it, --allow-write narrows it)";
   if (plan.soak > 0ns) info.properties["duration"] = options.duration;
   if (!floors.empty() && !floors.front().empty()) info.properties["floor"] = floors.front();
   info.properties["response_max_ms"] = fmt::format("{:g}", to_ms(plan.bench.profile.response_max));

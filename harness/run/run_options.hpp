@@ -25,6 +25,7 @@ struct RunOptions {
   std::string stimulus;  // what makes a device ask: a command, or "-": the program of exec:
   std::string aux;       // a second channel of the PLC under test
   std::vector<std::string> allow_write;
+  bool read_only = false;  // nothing is written, to no device
   std::vector<std::string> gtest_arguments;
   std::string floor;        // the link's own uncertainty: "2ms"; empty: measured
   std::string loop;         // endpoint with an emulator behind it, to measure the link with
@@ -35,6 +36,7 @@ struct RunOptions {
   int seed = -1;            // >= 0: shuffled by it
   int repeat = 1;
   bool strict = false, qualify = false, fail_on_marginal = false;
+  double min_judged = 0;  // percent; 0: any
   bool fail_fast = false, dry_run = false, verbose = false, skip_absent = false;
   std::string command;  // as typed, for reports
 };

@@ -9,7 +9,6 @@
 
 #include "harness/bench/bench_file.hpp"
 #include "harness/endpoints/kinds.hpp"
-#include "harness/exchange/prepared_case.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/exit_code.hpp"
 #include "harness/run/line_matrix.hpp"
@@ -34,6 +33,11 @@ safety::WordReader words_of(const harness::Protocols& known) {
 }
 
 bool is_emulated(const EndpointName& endpoint) { return endpoints::kind_of(endpoint).emulated; }
+
+/// A program that the bench starts: nobody's plant.
+bool ends_with_run(const EndpointName& endpoint) {
+  return !is_emulated(endpoint) && endpoints::kind_of(endpoint).can_restart;
+}
 
 /// A model without a profile of its own: what a user-defined frame file describes.
 bool is_bare_model(const EndpointName& endpoint, const DataPaths& data,
@@ -67,6 +71,7 @@ std::string replay_command(const RunOptions& options) {
   if (!options.vectors.empty()) command += " --vectors " + shell_word(options.vectors);
   for (const std::string& range : options.allow_write)
     command += " --allow-write " + shell_word(range);
+  if (options.read_only) command += " --read-only";
   if (!options.journal.empty()) command += " --journal " + shell_word(options.journal);
   if (!options.power_cycle.empty()) command += " --power-cycle " + shell_word(options.power_cycle);
   if (!options.stimulus.empty()) command += " --stimulus " + shell_word(options.stimulus);
@@ -91,6 +96,8 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
   for (const std::string& range : options.allow_write)
     if (Status allowed = bench.fence.allow(range, words_of(known)); !allowed)
       return allowed.error();
+  if (ends_with_run(endpoint) && options.allow_write.empty() && !options.read_only)
+    bench.fence.allow_everything();
   nlohmann::json station{{"station", endpoint.option("station", "1")}};
   const std::optional<int> number = vectors::config_station(station, 1);
   if (!number)
@@ -116,7 +123,8 @@ Result<RunOptions> with_bench_device(RunOptions options, const std::string& dut,
       plan.line = device->line;
     }
     if (options.profile.empty()) options.profile = device->profile;
-    if (options.allow_write.empty()) options.allow_write = device->allow_write;
+    if (options.allow_write.empty() && !options.read_only)
+      options.allow_write = device->allow_write;
     if (options.stimulus.empty()) options.stimulus = device->stimulus;
     if (options.aux.empty()) options.aux = device->aux;
     plan.identity = device->identity;
@@ -248,6 +256,8 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
   plan.bench.known = known;
+  plan.ends_with_run = ends_with_run(plan.endpoint);
+  plan.writes_all = plan.ends_with_run && options->allow_write.empty() && !options->read_only;
   plan.bench.device = {options->endpoint, plan.bench.station, "", plan.bench.profile.model,
                        plan.bench.profile.config};
   if (!is_emulated(plan.endpoint) && !plan.bench.fence.empty())
@@ -320,48 +330,13 @@ Status check_duts(const RunOptions& options) {
   return ok();
 }
 
-bool names_links(const vectors::Case& one) {
-  return std::ranges::any_of(one.steps, [](const vectors::Step& step) {
-    using Kind = vectors::Step::Kind;
-    return !step.on.empty() || step.kind == Kind::close || step.kind == Kind::expect_close;
-  });
-}
-
-/// An item that is no word of the protocol; nullptr: there is none.
-const notation::Item* unknown_check(const vectors::Step& step, const Protocol& protocol) {
-  for (const vectors::Frame& frame : step.frames)
-    for (const notation::Item& item : frame.notation)
-      if (item.kind == notation::Item::Kind::check &&
-          !notation::find_check(protocol.checks(), item.text))
-        return &item;
-  return nullptr;
-}
-
-/// What only the protocol of a case knows: the words of its notation, and which links it has.
-Status check_cases(const std::vector<const vectors::Case*>& selected,
-                   const harness::Protocols& known) {
-  for (const vectors::Case* one : selected) {
-    const harness::Protocol* const protocol = known.find(one->protocol);
-    if (!protocol || one->steps.empty()) continue;
-    for (std::size_t i = 0; !names_links(*one) && i < one->steps.size(); ++i)
-      if (const notation::Item* item = unknown_check(one->steps[i], *protocol))
-        return fail(
-            fmt::format("{}: {}: steps[{}]: unknown word '{}': it is no control "
-                        "character, and no check of {}",
-                        one->file, one->id, i, item->text, one->protocol));
-    if (!names_links(*one)) continue;
-    const int station = vectors::config_station(one->config, 1).value_or(1);
-    if (const auto prepared = exchange::prepare(*one, station, *protocol, {known}); !prepared)
-      return fail(fmt::format("{}: {}", one->file, prepared.error().message));
-  }
-  return ok();
-}
-
 }  // namespace
 
 Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocols& known) {
   RunPlan plan;
   if (const Status duts = check_duts(options); !duts) return duts.error();
+  if (options.read_only && !options.allow_write.empty())
+    return fail("--read-only and --allow-write exclude each other; give one");
   Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);
@@ -373,7 +348,6 @@ Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocol
   for (const Case& one : plan.vectors.cases)
     if (vectors::matches_filter(one.id, options.filter) && vectors::has_role(one, options.role))
       plan.selected.push_back(&one);
-  if (const Status right = check_cases(plan.selected, known); !right) return right.error();
   std::string profile;
   Result<DutPlan> first = make_dut_plan(
       options, known, options.duts.empty() ? "" : options.duts.front(), plan.selected, profile);

@@ -25,7 +25,10 @@ struct DutPlan {
   std::optional<endpoints::EndpointName> aux;
   results::Identity identity;  // of the bench file's device
   std::string line;            // as the bench file declares it
-  std::string journal;         // of a real device that may be written; empty: none
+  bool ends_with_run =
+      false;                // the bench starts the device itself: it forgets all with its process
+  bool writes_all = false;  // as such a device may be
+  std::string journal;      // of a real device that may be written; empty: none
 };
 
 struct RunPlan : DutPlan {

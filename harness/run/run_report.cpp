@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -14,7 +13,6 @@
 #include "reports/html/html.hpp"
 #include "reports/json_report.hpp"
 #include "reports/junit.hpp"
-#include "reports/text/case_text.hpp"
 
 namespace fieldproof::run {
 
@@ -23,14 +21,8 @@ using results::Delivery;
 using results::RunEnd;
 using results::RunInfo;
 using results::Sinks;
-using results::SoakSample;
-using results::SoakSummary;
-
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
 
 void print(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
@@ -57,10 +49,12 @@ Sinks sinks_for(const ReportPaths& paths) {
   Sinks sinks;
   for (const auto& [kind, path] : paths) {
     if (kind == "json") sinks.attach(reports::json_report(path));
-    if (kind == "junit") sinks.attach(reports::junit_report(path));
     if (kind == "html") sinks.attach(html::html_report(path));
     if (kind == "capture") sinks.attach(reports::capture_report(path));
   }
+  // The last, so that it tells which of the others could not be written: CI reads it as the gate.
+  for (const auto& [kind, path] : paths)
+    if (kind == "junit") sinks.attach(reports::junit_report(path));
   return sinks;
 }
 
@@ -89,62 +83,63 @@ Status RunReport::begin(const RunInfo& info) {
   return console_.begin(info);
 }
 
-bool RunReport::hand_on(const auto& one) {
-  if (const Status written = writer_.add(one); !written) {
-    write_trouble_ = written.error().message;
-    return false;
-  }
-  [[maybe_unused]] const Status taken = reports_.add(one);
-  return true;
+bool RunReport::kept(const Status& written) {
+  if (!written && write_trouble_.empty()) write_trouble_ = written.error().message;
+  return bool(written);
 }
 
 bool RunReport::add(const CaseResult& result, bool written) {
-  console_.count(result);
-  if (!written) return true;
+  if (!written) {
+    console_.count(result);
+    return true;
+  }
   const Delivery one(result);
   [[maybe_unused]] const Status shown = console_.add(one);
-  if (!hand_on(one)) return false;
+  if (!kept(writer_.add(one))) return false;
+  // The other reports tell of no more than the file of results does.
+  [[maybe_unused]] const Status taken = reports_.add(one);
   ++log_.results;
   return true;
 }
 
-bool RunReport::add(const SoakSample& sample) { return hand_on(log_.samples.emplace_back(sample)); }
-
-bool RunReport::add(const SoakSummary& soak) { return hand_on(log_.soak.emplace(soak)); }
-
-int RunReport::code(const End& end) const {
-  if (end.interrupted) return exit_code::interrupted;
-  if (!end.trouble.empty() || !write_trouble_.empty()) return exit_code::trouble;
-  // GoogleTest deals the cases out to shards; one of them may get none.
-  const bool empty_shard = tally().total() == 0 && std::getenv("GTEST_TOTAL_SHARDS");
-  const int code = empty_shard ? exit_code::ok : gate_exit_code(tally(), gate_, false);
-  if (end.worse && code != exit_code::trouble) return exit_code::failed;
-  return code == exit_code::ok && !end.not_restored.empty() ? exit_code::trouble : code;
-}
-
-int RunReport::finish(const End& end) {
-  RunEnd& ended = log_.end.emplace();
+RunEnd RunReport::ended(const End& end) const {
+  RunEnd ended;
   ended.finished = timestamp();
   ended.seconds =
       end.seconds >= 0
           ? end.seconds
           : std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
   ended.interrupted = end.interrupted;
+  ended.hint = end.hint;
   ended.trouble = !end.trouble.empty() ? end.trouble : write_trouble_;
-  ended.exit_code = code(end);
+  if (end.interrupted) ended.add({exit_code::interrupted, "interrupted", "interrupted"});
+  for (const std::string& trouble : {end.trouble, write_trouble_})
+    if (!trouble.empty()) ended.add({exit_code::trouble, "trouble", "bench trouble: " + trouble});
+  for (const std::string& trouble : reports_.troubles())
+    ended.add({exit_code::trouble, "report", trouble});
+  if (!end.not_restored.empty()) ended.add({exit_code::trouble, "not-restored", end.not_restored});
+  if (!end.worse.empty()) ended.add({exit_code::failed, "baseline", end.worse});
+  // GoogleTest deals the cases out to shards; one of them may get none. A run that ended early is
+  // not measured by how little it judged.
+  const bool empty_shard = tally().total() == 0 && std::getenv("GTEST_TOTAL_SHARDS");
+  if (!empty_shard)
+    for (results::Reason& reason : text::reasons_of(tally(), gate())) ended.add(std::move(reason));
+  return ended;
+}
+
+int RunReport::finish(const End& end) {
   console_.erase_progress();
-  if (const Status written = writer_.end(log_); !written) complain(written.error().message, 0);
+  log_.end = ended(end);
+  if (!kept(writer_.end(log_))) log_.end = ended(end);
   log_.sha256 = writer_.sha256();
   [[maybe_unused]] const Status reported = reports_.end(log_);
-  for (const std::string& trouble : reports_.troubles()) complain(trouble, 0);
-  if (!end.trouble.empty()) complain(end.trouble, 0);
+  log_.end = ended(end);  // with what could not be reported
   for (const auto& [kind, path] : paths_) console_.add_path(kind, path);
   [[maybe_unused]] const Status told = console_.end(log_);
-  if (!end.not_restored.empty()) complain(end.not_restored, 0);
-  const int report_code = reports_.troubles().empty() ? exit_code::ok : exit_code::trouble;
-  return ended.exit_code == exit_code::ok || ended.exit_code == exit_code::nothing
-             ? std::max(ended.exit_code, report_code)
-             : ended.exit_code;
+  for (const std::string& trouble : reports_.troubles()) complain(trouble, 0);
+  for (const std::string& trouble : {end.trouble, write_trouble_, end.not_restored})
+    if (!trouble.empty()) complain(trouble, 0);
+  return log_.end->exit_code;
 }
 
 }  // namespace fieldproof::run

@@ -43,24 +43,28 @@ class RunReport {
   }
   /// False: it could not be written, stop here. A soak counts most of its results and writes few.
   bool add(const results::CaseResult& result, bool written = true);
-  bool add(const results::SoakSample& sample);
-  bool add(const results::SoakSummary& soak);
+  bool add(const results::SoakSample& sample) {
+    return kept(writer_.add(log_.samples.emplace_back(sample)));
+  }
+  bool add(const results::SoakSummary& soak) { return kept(writer_.add(log_.soak.emplace(soak))); }
   /// A line for the engineer between the cases.
   void say(const std::string& line) { console_.say(line); }
 
   struct End {
     std::string trouble;  // empty, or why the run stopped early
     bool interrupted = false;
-    bool worse = false;        // than a baseline: fails a gate that was met
+    std::string worse;         // than which baseline, and in what; empty: not worse
     double seconds = -1;       // that the run took; negative: since this report was begun
-    std::string not_restored;  // what a real device does not hold as before, and what to type: a
-                               // gate that was met is trouble
+    std::string hint;          // which option would let it judge more
+    std::string not_restored;  // what a real device does not hold as before, and what to type
   };
+  /// As the file of results and the reports tell it.
+  results::RunEnd ended(const End& end) const;
   /// Writes the end and the reports, prints the summary; the exit code of the run.
   int finish(const End& end);
 
   const text::Tally& tally() const { return console_.tally(); }
-  const results::Gate& gate() const { return gate_; }
+  const results::Gate& gate() const { return console_.gate(); }
   /// The file of results.
   const std::string& path() const { return paths_.front().second; }
   void add_path(const std::string& kind, const std::string& path) {
@@ -70,16 +74,13 @@ class RunReport {
  private:
   RunReport(ReportPaths paths, const reports::ConsoleOptions& console, results::NdjsonWriter writer)
       : paths_(std::move(paths)),
-        gate_(console.gate),
         console_(console, print),
         writer_(std::move(writer)),
         reports_(sinks_for(paths_)) {}
-  /// Hands on what is in the file of results: the other reports tell of no more.
-  bool hand_on(const auto& one);
-  int code(const End& end) const;
+  /// False: it could not be written.
+  bool kept(const Status& written);
 
   ReportPaths paths_;
-  results::Gate gate_;
   reports::ConsoleReport console_;
   results::NdjsonWriter writer_;
   results::Sinks reports_;

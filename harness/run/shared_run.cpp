@@ -10,6 +10,10 @@
 
 namespace fieldproof::run {
 
+std::string internal_error(const vectors::Case& source, const std::exception& error) {
+  return fmt::format("internal error in {}: {}; please report it", source.id, error.what());
+}
+
 SharedRun::SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult on_result)
     : ports_(std::move(ports)), on_result_(std::move(on_result)), tasks_(std::move(tasks)) {}
 
@@ -20,16 +24,30 @@ void SharedRun::execute() {
   }
   interrupted_ = interrupted_ && !hung_;  // the watchdog ends a hanging case in the way of Ctrl-C
   if (interrupted_ || hung_) return;
-  for (Task task; take(task);) {
-    if (task.earlier) {
-      report({task.source, task.repeat}, *task.earlier);
-      continue;
+  for (Task task; take(task);) try {
+      finish(task);
+    } catch (const std::exception& error) {
+      return give_up(task, error);
     }
-    results::CaseResult result = judging::result_of(*task.source);
-    result.verdict = results::Verdict::blocked;
-    result.message = fmt::format("no port is left: {}", fmt::join(stops_, "; "));
-    report(task, std::move(result));
+}
+
+/// No port is left.
+void SharedRun::finish(const Task& task) {
+  if (task.earlier) return report({task.source, task.repeat}, *task.earlier);
+  results::CaseResult result = judging::result_of(*task.source);
+  result.verdict = results::Verdict::blocked;
+  result.message = fmt::format("no port is left: {}", fmt::join(stops_, "; "));
+  report(task, std::move(result));
+}
+
+void SharedRun::give_up(const Task& task, const std::exception& error) {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+    troubles_.push_back(internal_error(*task.source, error));
+    --running_;
   }
+  changed_.notify_all();
 }
 
 void SharedRun::serve(const Port& port) {
@@ -41,8 +59,11 @@ void SharedRun::serve(const Port& port) {
   };
   if (!port.unable.empty()) return cannot("", Error{port.unable});
   bench::Watchdog watchdog;
-  for (Task task; take(task);)
-    if (!run(port, task, watchdog)) return;
+  for (Task task; take(task);) try {
+      if (!run(port, task, watchdog)) return;
+    } catch (const std::exception& error) {
+      return give_up(task, error);
+    }
   if (fieldproof::os::interrupted()) return;
   if (const Status still = port.benches->start(); !still)
     cannot("after the last case: ", still.error());

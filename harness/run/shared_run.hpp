@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -14,6 +15,9 @@
 #include "harness/bench/watchdog.hpp"
 
 namespace fieldproof::run {
+
+/// What a case ended the run with: "internal error in ID: ...; please report it".
+std::string internal_error(const vectors::Case& source, const std::exception& error);
 
 class SharedRun {
  public:
@@ -47,7 +51,10 @@ class SharedRun {
   bool take(Task& task);
   /// False: the port is done.
   bool run(const Port& port, const Task& task, bench::Watchdog& watchdog);
+  void finish(const Task& task);
   void report(const Task& task, results::CaseResult result);
+  /// What was thrown ends the run.
+  void give_up(const Task& task, const std::exception& error);
 
   std::vector<Port> ports_;
   OnResult on_result_;

@@ -38,7 +38,9 @@ Status WriteFence::allow(const std::string& ranges, const WordReader& words) {
 bool WriteFence::allows(const harness::Protocol::Written& written,
                         std::string_view output_areas) const {
   if (written.area == "?")
-    return std::ranges::any_of(ranges_, [](const Range& range) { return range.area == "all"; });
+    return std::ranges::any_of(ranges_, [](const Range& range) {
+      return range.area == "all" || range.area == everything;
+    });
   return std::ranges::any_of(allowed(written.area, output_areas), [&](const Words& words) {
     return words.first <= written.first_word && written.last_word <= words.last;
   });
@@ -49,7 +51,7 @@ std::vector<WriteFence::Words> WriteFence::allowed(std::string_view area,
   const bool output = output_areas.find(area) != std::string_view::npos;
   std::vector<Words> found;
   for (const Range& range : ranges_)
-    if (range.area == "all" ? !output : range.area == area)
+    if (range.area == everything || (range.area == "all" ? !output : range.area == area))
       found.push_back({range.first, range.last});
   std::ranges::sort(found, {}, &Words::first);
   std::vector<Words> joined;

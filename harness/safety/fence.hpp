@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/protocol.hpp"
@@ -23,6 +24,9 @@ class WriteFence {
   /// when named. Errors name the part that is wrong.
   Status allow(const std::string& ranges, const WordReader& words);
 
+  /// All there is, outputs too: of a device that is nobody's plant.
+  void allow_everything() { ranges_.push_back({std::string(everything), 0, ~0u}); }
+
   bool empty() const { return ranges_.empty(); }
 
   /// Empty when all of it is allowed; else what must be allowed: "writes %MW100; allow it with
@@ -37,6 +41,7 @@ class WriteFence {
   std::vector<Words> allowed(std::string_view area, std::string_view output_areas) const;
 
  private:
+  static constexpr std::string_view everything = "*";
   struct Range {
     std::string area;  // "all" for every area
     std::uint32_t first = 0, last = 0;

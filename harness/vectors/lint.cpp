@@ -102,12 +102,6 @@ class FieldsOfSteps {
   std::map<std::string, const harness::Protocol*> services_;  // by link
 };
 
-bool prints_bytes(const Case& one) {
-  return std::ranges::any_of(one.steps, [](const Step& step) {
-    return std::ranges::any_of(step.frames, [](const Frame& f) { return f.wire.has_value(); });
-  });
-}
-
 /// Manuals and statements that cases cite are there.
 void lint_citations(const VectorSet& set, std::vector<std::string>& problems) {
   std::unordered_set<std::string_view> manuals, statements;
@@ -169,21 +163,34 @@ std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protoco
 
 namespace {
 
+/// Words of a step that its protocol does not have.
+Status check_words(const Step& step, const notation::Fields& fields) {
+  for (const Frame& frame : step.frames)
+    if (Status known = notation::check_words(frame.notation, fields); !known) return known;
+  return ok();
+}
+
 void contradictions_of(const Case& one, const harness::Protocol& protocol,
                        const harness::Protocols& protocols, std::vector<std::string>& problems) {
   FieldsOfSteps fields(one, protocol, protocols);
-  for (std::size_t i = 0; i < one.steps.size(); ++i)
-    if (const Result<notation::Fields> own = fields.next(one.steps[i]))
+  for (std::size_t i = 0; i < one.steps.size(); ++i) {
+    const Result<notation::Fields> own = fields.next(one.steps[i]);
+    const Status known = own ? check_words(one.steps[i], *own) : own.error();
+    if (known)
       lint_step(one, i, *own, false, problems);
+    else
+      problems.push_back(
+          fmt::format("{}: {}: steps[{}]: {}", one.file, one.id, i, known.error().message));
+  }
 }
 
 }  // namespace
 
 std::vector<std::string> contradictions(const VectorSet& set, const harness::Protocols& protocols) {
   std::vector<std::string> problems = lint_links(set, protocols);
+  if (!problems.empty()) return problems;  // what is spoken where is not known
   for (const Case& one : set.cases)
-    if (const harness::Protocol* protocol = protocols.find(one.protocol);
-        protocol && prints_bytes(one))
+    if (const harness::Protocol* protocol = protocols.find(one.protocol))
       contradictions_of(one, *protocol, protocols, problems);
   if (!set.manuals.empty()) lint_citations(set, problems);
   return problems;

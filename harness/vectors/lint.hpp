@@ -20,9 +20,9 @@ std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protoco
 /// A serial line is neither opened nor closed by a step.
 std::vector<std::string> lint_links(const VectorSet& set, const harness::Protocols& protocols);
 
-/// What makes verdicts of these cases worthless, checked before a run: literal bytes that a vector
-/// prints contradict its notation, it cites a manual or a statement that there is not (in a set
-/// that has manuals), or it closes a serial line.
+/// What makes verdicts of these cases worthless, checked before a run: words of a notation that the
+/// protocol does not have, literal bytes that contradict it, a manual or a statement that there is
+/// not (in a set that has manuals), a link that is not open or a serial line that is closed.
 std::vector<std::string> contradictions(const VectorSet& set, const harness::Protocols& protocols);
 
 /// Cited statements exist, every statement has a vector or a reason, manuals are known, ids are

@@ -83,15 +83,12 @@ class Summarizer final : public Sink {
     into_.gate = text::gate_of(run);
     return ok();
   }
-  void take(const CaseResult& result) {
-    into_.tally.add(result.verdict);
-    note(result, into_.cases[text::case_name(result)]);
-  }
-  Status add(const Delivery& one) override { return take(*one), ok(); }
-  Status end(const RunLog& log) override {
-    into_.end = log.end;
+  Status add(const Delivery& one) override {
+    into_.tally.add(one->verdict);
+    note(*one, into_.cases[text::case_name(*one)]);
     return ok();
   }
+  Status end(const RunLog&) override { return ok(); }  // known before: it says what was compared
 
  private:
   RunSummary& into_;
@@ -168,8 +165,8 @@ RunSummary summarize(const ResultFile& file) {
   Summarizer sink(summary);
   summary.path = file.path;
   summary.end = file.end;
-  [[maybe_unused]] const Status begun = sink.begin(file.run);
-  for (const CaseResult& result : file.results) sink.take(result);
+  [[maybe_unused]] Status taken = sink.begin(file.run);
+  for (const CaseResult& result : file.results) taken = sink.add(Delivery(result));
   return summary;
 }
 

@@ -37,7 +37,7 @@ struct RunSummary {
   std::map<std::string, CaseSummary> cases;
 };
 RunSummary summarize(const ResultFile& file);
-/// The same of a run as it happens, but for its path. `into` outlives the sink.
+/// The same of a run as it happens, but for its path and its end. `into` outlives the sink.
 std::unique_ptr<results::Sink> summarizer(RunSummary& into);
 
 /// In the order in which they are told.

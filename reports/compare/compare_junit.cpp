@@ -2,23 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <pugixml.hpp>
 #include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "reports/compare/compare_text.hpp"
 #include "reports/junit.hpp"
 #include "reports/text/report_file.hpp"
 #include "reports/text/xml_text.hpp"
+#include "reports/text/xml_writer.hpp"
 
 namespace fieldproof::compare {
-namespace {
 
-void set_text(pugi::xml_node node, const char* name, const std::string& value) {
-  node.append_attribute(name).set_value(text::xml_line(value).c_str());
-}
-void set_count(pugi::xml_node node, const char* name, std::size_t value) {
-  node.append_attribute(name).set_value(static_cast<unsigned long long>(value));
-}
+using results::Verdict;
+using text::XmlWriter;
+
+namespace {
 
 bool is_incomparable(Change change) {
   return change == Change::added || change == Change::removed || change == Change::revised;
@@ -36,86 +36,106 @@ std::string body_of(const CaseChange& change) {
   return body;
 }
 
-/// Class names begin with the suite's name: a case stands in each suite, and readers want it
-/// unique.
-pugi::xml_node add_case(pugi::xml_node suite, const std::string& id,
-                        const std::string& suffix = "") {
-  results::CaseResult named;
-  named.id = id;
-  const reports::JunitName name = reports::junit_name(named);
-  pugi::xml_node node = suite.append_child("testcase");
-  set_text(
-      node, "classname",
-      suite.attribute("name").value() + name.classname.substr(std::string("fieldproof").size()));
-  set_text(node, "name", name.name + suffix);
-  set_text(node, "time", "0.000");
-  return node;
+enum class Outcome { plain, failure, skipped };
+
+bool is_unjudged(const CaseSummary& one) {
+  return one.verdict == Verdict::skip || one.verdict == Verdict::blocked ||
+         one.verdict == Verdict::inconclusive;
 }
 
-void add_change(pugi::xml_node suite, const CaseChange& change) {
-  pugi::xml_node node = add_case(suite, change.id);
-  const bool worse = got_worse(change.change);
-  if (worse || is_incomparable(change.change)) {
-    pugi::xml_node outcome = node.append_child(worse ? "failure" : "skipped");
-    set_text(outcome, "type", to_string(change.change));
-    set_text(outcome, "message",
-             fmt::format("{}: {} -> {}", to_string(change.change), verdict_text(change.before),
-                         verdict_text(change.after)));
-    if (worse) outcome.text().set(text::xml_text(body_of(change)).c_str());
+/// What was not judged now is no success, changed or not.
+Outcome outcome_of(Change change, const CaseSummary* after) {
+  if (got_worse(change)) return Outcome::failure;
+  return is_incomparable(change) || !after || is_unjudged(*after) ? Outcome::skipped
+                                                                  : Outcome::plain;
+}
+
+/// One suite: the cases of one comparison, written as they are counted.
+class Suite {
+ public:
+  explicit Suite(std::string name) : name_(std::move(name)) { xml_.depth = 2; }
+
+  void add(const CaseChange& change) {
+    const std::string message =
+        fmt::format("{}: {} -> {}", to_string(change.change), verdict_text(change.before),
+                    verdict_text(change.after));
+    add_case(change.id, "", outcome_of(change.change, change.after), to_string(change.change),
+             message, body_of(change));
   }
-  if (!worse) node.append_child("system-out").text().set(text::xml_text(body_of(change)).c_str());
-}
 
-void add_shift(pugi::xml_node suite, const TimeShift& shift, const TimingTest& timing) {
-  pugi::xml_node node = add_case(suite, shift.id, " (reply time)");
-  const std::string body = fmt::format("{}\n{}\n", shift_text(shift), describe(timing));
-  if (shift.shift_ms < 0) {
-    node.append_child("system-out").text().set(("faster: " + body).c_str());
-    return;
+  void add(const TimeShift& shift, const TimingTest& timing) {
+    const bool slower = shift.shift_ms >= 0;
+    const std::string what = slower ? "slower" : "faster";
+    const std::string body = fmt::format("{}\n{}\n", shift_text(shift), describe(timing));
+    add_case(shift.id, " (reply time)", slower ? Outcome::failure : Outcome::plain, what,
+             what + ": " + shift_text(shift), slower ? body : what + ": " + body);
   }
-  pugi::xml_node failure = node.append_child("failure");
-  set_text(failure, "type", "slower");
-  set_text(failure, "message", "slower: " + shift_text(shift));
-  failure.text().set(body.c_str());
-}
 
-void add_property(pugi::xml_node properties, const std::string& name, const std::string& value) {
-  pugi::xml_node property = properties.append_child("property");
-  set_text(property, "name", name);
-  set_text(property, "value", value);
-}
+  void add_unchanged(const std::string& id, const CaseSummary& both) {
+    add_case(id, "", is_unjudged(both) ? Outcome::skipped : Outcome::plain, verdict_text(&both),
+             fmt::format("{}: {}", verdict_text(&both), both.message), "");
+  }
 
-struct SuiteCounts {
-  std::size_t tests = 0, failures = 0;
+  std::size_t tests = 0, failures = 0, skipped = 0;
+
+  /// All of it, with the properties given.
+  std::string text(const std::vector<std::pair<std::string, std::string>>& properties) const {
+    std::string text;
+    XmlWriter xml(text);
+    xml.depth = 1;
+    xml.open("testsuite", {{"name", name_},
+                           {"tests", std::to_string(tests)},
+                           {"failures", std::to_string(failures)},
+                           {"errors", "0"},
+                           {"skipped", std::to_string(skipped)},
+                           {"time", "0.000"}});
+    xml.open("properties", {});
+    for (const auto& [name, value] : properties)
+      xml.leaf("property", {{"name", name}, {"value", value}});
+    xml.close("properties");
+    text += cases_;
+    xml.close("testsuite");
+    return text;
+  }
+
+ private:
+  /// Class names begin with the suite's name: a case stands in each suite, and readers want it
+  /// unique.
+  void add_case(const std::string& id, const std::string& suffix, Outcome outcome,
+                const std::string& type, const std::string& message, const std::string& body) {
+    results::CaseResult named;
+    named.id = id;
+    const reports::JunitName name = reports::junit_name(named);
+    const std::string classname =
+        name_ + name.classname.substr(std::string_view("fieldproof").size());
+    const std::string own_name = name.name + suffix;
+    const XmlWriter::Attributes attributes{
+        {"classname", classname}, {"name", own_name}, {"time", "0.000"}};
+    ++tests;
+    failures += outcome == Outcome::failure;
+    skipped += outcome == Outcome::skipped;
+    if (outcome == Outcome::plain && body.empty()) return xml_.leaf("testcase", attributes);
+    xml_.open("testcase", attributes);
+    if (outcome == Outcome::failure)
+      xml_.leaf("failure", {{"type", type}, {"message", message}}, body);
+    if (outcome == Outcome::skipped) xml_.leaf("skipped", {{"type", type}, {"message", message}});
+    if (outcome != Outcome::failure && !body.empty()) xml_.leaf("system-out", {}, body);
+    xml_.close("testcase");
+  }
+
+  std::string name_, cases_;
+  XmlWriter xml_{cases_};
 };
 
-SuiteCounts add_suite(pugi::xml_node root, const Comparison& comparison, const std::string& name) {
-  pugi::xml_node suite = root.append_child("testsuite");
-  std::size_t failures = comparison.slower(), skipped = 0;
-  for (const CaseChange& change : comparison.changes) {
-    failures += got_worse(change.change);
-    skipped += is_incomparable(change.change);
-  }
-  set_text(suite, "name", name);
-  const SuiteCounts counts{
-      comparison.unchanged + comparison.changes.size() + comparison.shifts.size(), failures};
-  set_count(suite, "tests", counts.tests);
-  set_count(suite, "failures", counts.failures);
-  set_count(suite, "errors", 0);
-  set_count(suite, "skipped", skipped);
-  set_text(suite, "time", "0.000");
-  pugi::xml_node properties = suite.append_child("properties");
-  add_property(properties, "before",
-               comparison.before->path + ": " + run_facts(*comparison.before));
-  add_property(properties, "after", comparison.after->path + ": " + run_facts(*comparison.after));
-  add_property(properties, "outcome", outcome(comparison));
-  for (const CaseChange& change : comparison.changes) add_change(suite, change);
-  for (const TimeShift& shift : comparison.shifts) add_shift(suite, shift, comparison.timing);
+void fill(Suite& suite, const Comparison& comparison) {
   std::set<std::string> changed;
-  for (const CaseChange& change : comparison.changes) changed.insert(change.id);
+  for (const CaseChange& change : comparison.changes) {
+    suite.add(change);
+    changed.insert(change.id);
+  }
+  for (const TimeShift& shift : comparison.shifts) suite.add(shift, comparison.timing);
   for (const auto& [id, summary] : comparison.before->cases)
-    if (!changed.contains(id)) add_case(suite, id);
-  return counts;
+    if (!changed.contains(id)) suite.add_unchanged(id, summary);
 }
 
 }  // namespace
@@ -123,22 +143,27 @@ SuiteCounts add_suite(pugi::xml_node root, const Comparison& comparison, const s
 Status write_compare_junit(const ComparisonSet& set, const std::string& path) {
   auto file = text::ReportFile::create(path);
   if (!file) return file.error();
-  pugi::xml_document document;
-  pugi::xml_node root = document.append_child("testsuites");
-  set_text(root, "name", "fieldproof compare");
-  SuiteCounts all;
+  std::string suites;
+  std::size_t tests = 0, failures = 0;
   for (std::size_t i = 0; i < set.comparisons.size(); ++i) {
-    const SuiteCounts counts = add_suite(
-        root, set.comparisons[i],
+    const Comparison& one = set.comparisons[i];
+    Suite suite(
         fmt::format("compare_{}_{}", ComparisonSet::letter(0), ComparisonSet::letter(i + 1)));
-    all.tests += counts.tests;
-    all.failures += counts.failures;
+    fill(suite, one);
+    suites += suite.text({{"before", one.before->path + ": " + run_facts(*one.before)},
+                          {"after", one.after->path + ": " + run_facts(*one.after)},
+                          {"outcome", outcome(one)}});
+    tests += suite.tests;
+    failures += suite.failures;
   }
-  set_count(root, "tests", all.tests);
-  set_count(root, "failures", all.failures);
-  set_count(root, "errors", 0);
-  set_text(root, "time", "0.000");
-  document.save(file->out(), "  ", pugi::format_default, pugi::encoding_utf8);
+  std::string head;
+  XmlWriter(head).open("testsuites", {{"name", "fieldproof compare"},
+                                      {"tests", std::to_string(tests)},
+                                      {"failures", std::to_string(failures)},
+                                      {"errors", "0"},
+                                      {"time", "0.000"}});
+  file->out() << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+              << head << suites << "</testsuites>\n";
   return file->commit();
 }
 

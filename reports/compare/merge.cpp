@@ -174,10 +174,14 @@ void note_ends(const std::vector<ResultFile>& files, MergedRun& merged) {
       continue;
     }
     merged.interrupted |= file.end->interrupted;
-    merged.failed |= file.end->exit_code == 1;
     merged.seconds = std::max(merged.seconds, file.end->seconds);
     if (!file.end->trouble.empty())
       merged.troubles.push_back(fmt::format("{}: {}", file.path, file.end->trouble));
+    for (const results::Reason& reason : file.end->reasons) {
+      if (reason.what == "report" || reason.what == "not-restored")
+        merged.troubles.push_back(fmt::format("{}: {}", file.path, reason.message));
+      if (reason.what == "baseline") join(merged.worse, reason.message);
+    }
   }
 }
 

@@ -15,7 +15,7 @@ struct MergedRun {
   std::vector<std::string> troubles;  // a shard is missing, was killed, or had trouble of its own:
                                       // the merged run is not whole
   bool interrupted = false;           // one of them was
-  bool failed = false;                // one of them ended with exit 1, whatever its cases say
+  std::string worse;                  // than which baseline one of them was
   double seconds = 0;                 // of the longest
 };
 

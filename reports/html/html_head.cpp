@@ -16,9 +16,16 @@ using text::Tally;
 namespace {
 
 /// As the run ended; a killed run is red whatever it had found so far.
-int exit_code_of(const HtmlSurvey& survey, const Gate& gate) {
-  return survey.log.end ? survey.log.end->exit_code
-                        : text::gate_exit_code(survey.tally, gate, true);
+int exit_code_of(const HtmlSurvey& survey) {
+  constexpr int killed = 130;
+  return survey.log.end ? survey.log.end->exit_code : killed;
+}
+
+/// The gravest reason up to its details: "conformance failed", "not qualified", "gate met".
+std::string title_of(const HtmlSurvey& survey) {
+  if (!survey.log.end) return "killed before its end";
+  const std::string line = text::headline(*survey.log.end, survey.tally);
+  return line.substr(0, line.find_first_of(":;"));
 }
 
 std::string capitalised(std::string text) {
@@ -142,22 +149,12 @@ std::string device_title(const results::RunInfo& run) {
 }
 
 void write_verdict_of_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
-  const int code = exit_code_of(survey, gate);
-  const std::string why = text::early_end(survey.log);
-  std::string detail = text::red_counts(survey.tally, gate);
-  // The gate was met, and the run still failed: `run --baseline` found it worse than the run
-  // before.
-  if (detail.empty() && code == 1)
-    detail = "no case turns the gate red, but the comparison with the baseline did";
-  if (detail.empty() && survey.tally.total() > 0)
-    detail = fmt::format("{} cases, none turns the gate red", survey.tally.total());
-  if (!why.empty()) detail += (detail.empty() ? "" : "; ") + why;
+  const int code = exit_code_of(survey);
+  const std::string detail =
+      survey.log.end ? text::headline(*survey.log.end, survey.tally) : text::early_end(survey.log);
   out.element("header", {{"class", code == 0 ? "banner good" : "banner bad"}}, [&] {
     out.element("p", {{"class", "device"}}, "Conformance of " + device_title(survey.log.run));
-    out.element(
-        "h1", {},
-        (code == 0 ? "\u2713 " : "\u2717 ") +
-            capitalised(survey.log.end ? text::exit_meaning(code) : "killed before its end"));
+    out.element("h1", {}, (code == 0 ? "\u2713 " : "\u2717 ") + capitalised(title_of(survey)));
     out.element("p", {{"class", "detail"}},
                 detail + (survey.log.end ? fmt::format(" (exit {})", code) : ""));
   });

@@ -53,12 +53,6 @@ int compare_naturally(std::string_view a, std::string_view b) {
 bool unexecuted(Verdict verdict) { return verdict == Verdict::skip || verdict == Verdict::blocked; }
 bool unjudged(Verdict verdict) { return unexecuted(verdict) || verdict == Verdict::inconclusive; }
 
-/// Folder and group of an id: "xgt_cnet/rss".
-std::string group_of(const std::string& id) {
-  const std::size_t first = id.find('/');
-  return first == std::string::npos ? id : id.substr(0, id.find('/', first + 1));
-}
-
 /// Whether the report has room for one more.
 bool fits(std::size_t& used, std::size_t limit) { return used < limit && ++used > 0; }
 
@@ -124,7 +118,7 @@ void HtmlSurveyor::add_remarkable(SectionReport& section, const CaseResult& resu
 
 void HtmlSurveyor::add_facts(const CaseResult& result) {
   if (!result.response_ms.empty()) {
-    ResponseTimes& times = survey_.response_ms[group_of(result.id)];
+    ResponseTimes& times = survey_.response_ms[text::group_of(result.id)];
     for (const double ms : result.response_ms) times.add(ms);
   }
   for (const auto& [name, taken] : result.readings) {

@@ -72,10 +72,14 @@ class Html : public testing::Test {
 };
 
 TEST_F(Html, TheVerdictOfTheGateStandsAtTheTop) {
-  const ParsedHtml page(report({samples::failure(), samples::with(Verdict::pass, "a/one"),
-                                samples::with(Verdict::skip, "a/two", "other model")}));
+  results::RunEnd end = samples::run_end();
+  end.add({1, "verdicts", "conformance failed: 1 FAIL"});
+  const ParsedHtml page(report(samples::run_info(),
+                               {samples::failure(), samples::with(Verdict::pass, "a/one"),
+                                samples::with(Verdict::skip, "a/two", "other model")},
+                               end));
   EXPECT_EQ("\u2717 Conformance failed", page.text("//body/main/*[1]/h1"));
-  EXPECT_EQ("1 FAIL (exit 1)", page.text("//p[@class='detail']"));
+  EXPECT_EQ("conformance failed: 1 FAIL (exit 1)", page.text("//p[@class='detail']"));
   EXPECT_EQ(1u, page.tile("FAIL"));
   EXPECT_EQ(1u, page.tile("PASS"));
   EXPECT_EQ(1u, page.tile("SKIP"));
@@ -87,7 +91,7 @@ TEST_F(Html, AMetGateSaysSo) {
   const ParsedHtml page(
       report(samples::run_info(), {samples::with(Verdict::pass, "a/one")}, samples::run_end(0)));
   EXPECT_EQ("\u2713 Gate met", page.text("//h1"));
-  EXPECT_EQ("1 cases, none turns the gate red (exit 0)", page.text("//p[@class='detail']"));
+  EXPECT_EQ("gate met: 1 of 1 judged (exit 0)", page.text("//p[@class='detail']"));
   EXPECT_EQ(0u, page.count("//h2[@id='red']"));
 }
 
@@ -100,10 +104,11 @@ TEST_F(Html, AKilledRunIsNoSuccess) {
 
 TEST_F(Html, ARunWithoutAResultHasAReport) {
   results::RunEnd end = samples::run_end(3);
-  end.trouble = "nothing answers on serial:/dev/ttyUSB0";
+  end.add({3, "trouble", "bench trouble: nothing answers on serial:/dev/ttyUSB0"});
   const ParsedHtml page(report(samples::run_info(), {}, end));
   EXPECT_EQ("\u2717 Bench trouble", page.text("//h1"));
-  EXPECT_EQ("nothing answers on serial:/dev/ttyUSB0 (exit 3)", page.text("//p[@class='detail']"));
+  EXPECT_EQ("bench trouble: nothing answers on serial:/dev/ttyUSB0 (exit 3)",
+            page.text("//p[@class='detail']"));
 }
 
 TEST_F(Html, IdentityAndRunAreNamed) {

@@ -24,4 +24,9 @@ Identity in_common(Identity a, const Identity& b) {
   return a;
 }
 
+void RunEnd::add(Reason reason) {
+  reasons.push_back(std::move(reason));
+  exit_code = exit_code_of(reasons);
+}
+
 }  // namespace fieldproof::results

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "reports/results/reason.hpp"
 #include "reports/results/verdict.hpp"
 #include "src/base/burst.hpp"
 #include "src/base/result.hpp"
@@ -156,7 +157,12 @@ struct RunEnd {
   double seconds = 0;
   int exit_code = 0;
   bool interrupted = false;
-  std::string trouble;  // empty, or why the run stopped early
+  std::string trouble;               // empty, or why the run stopped early
+  std::string hint = {};             // which option would let it judge more: "with X: 250 more"
+  std::vector<Reason> reasons = {};  // why the exit code is not 0
+
+  /// One more; the exit code follows.
+  void add(Reason reason);
 };
 
 }  // namespace fieldproof::results

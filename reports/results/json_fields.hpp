@@ -42,8 +42,9 @@ template <typename T>
 concept Word = std::is_enum_v<T>;
 
 /// How reading a foreign shape ends.
-[[noreturn]] inline void refuse(const std::string& message, const nlohmann::json& context = {}) {
-  throw nlohmann::json::other_error::create(501, message, &context);
+[[noreturn]] inline void refuse(const std::string& message) {
+  const nlohmann::json none;
+  throw nlohmann::json::other_error::create(501, message, &none);
 }
 
 class FieldWriter {
@@ -186,13 +187,13 @@ class FieldReader {
 
   static void read_bytes(const nlohmann::json& json, Bytes& bytes, const char* key) {
     std::optional<Bytes> parsed = from_hex(json.get<std::string>());
-    if (!parsed) refuse(fmt::format("'{}' is not hex", key), json);
+    if (!parsed) refuse(fmt::format("'{}' is not hex", key));
     bytes = std::move(*parsed);
   }
 
   static void read_time(const nlohmann::json& json, Duration& time, const char* key) {
     const double ms = json.get<double>();
-    if (!(std::abs(ms) < 9e12)) refuse(fmt::format("'{}' is not a time of a run", key), json);
+    if (!(std::abs(ms) < 9e12)) refuse(fmt::format("'{}' is not a time of a run", key));
     time = from_ms(ms);
   }
 

@@ -82,10 +82,14 @@ class Reader {
       ++log_.results;
       return sink_.add(Delivery(result));
     }
-    if (key == "sample") return sink_.add(log_.samples.emplace_back(value.get<SoakSample>()));
-    if (key == "soak") return sink_.add(log_.soak.emplace(value.get<SoakSummary>()));
-    if (key != "end") return damaged(fmt::format("unknown key '{}'", key));
-    log_.end = value.get<RunEnd>();
+    if (key == "sample")
+      log_.samples.push_back(value.get<SoakSample>());
+    else if (key == "soak")
+      log_.soak = value.get<SoakSummary>();
+    else if (key == "end")
+      log_.end = value.get<RunEnd>();
+    else
+      return damaged(fmt::format("unknown key '{}'", key));
     return ok();
   }
 

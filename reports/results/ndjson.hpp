@@ -30,8 +30,8 @@ class NdjsonWriter final : public Sink {
   /// with its last complete line, and writing may go on.
   Status begin(const RunInfo& run) override;
   Status add(const Delivery& one) override;
-  Status add(const SoakSample& sample) override;
-  Status add(const SoakSummary& soak) override;
+  Status add(const SoakSample& sample);
+  Status add(const SoakSummary& soak);
   Status end(const RunLog& log) override;
 
   /// Of all that was written.

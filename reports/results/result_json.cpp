@@ -156,10 +156,18 @@ void fields(auto& json, Of<RunInfo> auto& info) {
   json.always("vectors_hash", info.vectors_hash);
 }
 
+void fields(auto& json, Of<Reason> auto& reason) {
+  json.must("exit_code", reason.exit_code);
+  json.always("message", reason.message);
+  json.must("what", reason.what);
+}
+
 void fields(auto& json, Of<RunEnd> auto& end) {
   json.must("exit_code", end.exit_code);
   json.always("finished", end.finished);
+  json.may("hint", end.hint);
   json.always("interrupted", end.interrupted);
+  json.may("reasons", end.reasons);
   json.always("seconds", end.seconds);
   json.may("trouble", end.trouble);
 }

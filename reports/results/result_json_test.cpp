@@ -4,16 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reports/results/test_as_json.hpp"
+
 namespace fieldproof::results {
 namespace {
 
 using nlohmann::json;
 
-json as_json(const auto& value) {
-  std::string text;
-  append_json(text, value);
-  return json::parse(text);
-}
+using test::as_json;
 
 CaseResult full_result() {
   CaseResult result;

@@ -1,6 +1,6 @@
 // Where the results of a run go, once and in the order in which they happen: the file of results
 // and each report take them from the run itself, or from such a file (`replay`), in the same way.
-//   begin, then add for each result, sample and summary, then end
+//   begin, then add for each result, then end
 #pragma once
 
 #include <memory>
@@ -48,14 +48,12 @@ class Sink {
 
   virtual Status begin(const RunInfo& run) = 0;
   virtual Status add(const Delivery& one) = 0;
-  virtual Status add(const SoakSample&) { return ok(); }
-  virtual Status add(const SoakSummary&) { return ok(); }
   /// Nothing more comes: whatever the run came to, the report is put in its place. Without it there
   /// is none.
   virtual Status end(const RunLog& log) = 0;
 };
 
-/// Hands on to several. What one of them cannot take stops that one alone.
+/// Hands on to several. What one of them cannot take, or throws at, stops that one alone.
 class Sinks final : public Sink {
  public:
   void attach(std::unique_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
@@ -63,8 +61,7 @@ class Sinks final : public Sink {
   /// Always ok: see `troubles`.
   Status begin(const RunInfo& run) override;
   Status add(const Delivery& one) override;
-  Status add(const SoakSample& sample) override;
-  Status add(const SoakSummary& soak) override;
+  /// In the order in which they were attached; each is told what those before it could not.
   Status end(const RunLog& log) override;
 
   /// Of those that stopped, in the order in which they did.

@@ -16,18 +16,20 @@ class Notes final : public Sink {
       : notes_(notes), fails_at_(std::move(fails_at)) {}
   Status begin(const RunInfo& run) override { return note("run " + run.endpoint); }
   Status add(const Delivery& one) override { return note(one->id); }
-  Status add(const SoakSample&) override { return note("sample"); }
-  Status add(const SoakSummary&) override { return note("soak"); }
   Status end(const RunLog& log) override { return note(log.end ? "end" : "killed"); }
 
  private:
   Status note(const std::string& what) {
     notes_.push_back(what);
+    if (what == throws_at) throw std::runtime_error("a bug");
     if (what == fails_at_) return fail("cannot write " + what);
     return ok();
   }
   std::vector<std::string>& notes_;
   std::string fails_at_;
+
+ public:
+  std::string throws_at;
 };
 
 void run_through(Sink& sink) {
@@ -39,8 +41,6 @@ void run_through(Sink& sink) {
   ASSERT_TRUE(sink.add(Delivery(result)));
   result.id = "a/two";
   ASSERT_TRUE(sink.add(Delivery(result)));
-  ASSERT_TRUE(sink.add(SoakSample{}));
-  ASSERT_TRUE(sink.add(SoakSummary{}));
   ASSERT_TRUE(sink.end({}));
 }
 
@@ -50,7 +50,7 @@ TEST(Sinks, EachGetsAllOfIt) {
   sinks.attach(std::make_unique<Notes>(a));
   sinks.attach(std::make_unique<Notes>(b));
   run_through(sinks);
-  EXPECT_THAT(a, ElementsAre("run x", "a/one", "a/two", "sample", "soak", "killed"));
+  EXPECT_THAT(a, ElementsAre("run x", "a/one", "a/two", "killed"));
   EXPECT_EQ(a, b);
   EXPECT_THAT(sinks.troubles(), ElementsAre());
 }
@@ -63,8 +63,42 @@ TEST(Sinks, OneThatFailsStopsAlone) {
   sinks.attach(std::make_unique<Notes>(c, "killed"));
   run_through(sinks);
   EXPECT_THAT(a, ElementsAre("run x", "a/one"));
-  EXPECT_EQ(6u, b.size());
+  EXPECT_EQ(4u, b.size());
   EXPECT_THAT(sinks.troubles(), ElementsAre("cannot write a/one", "cannot write killed"));
+}
+
+TEST(Sinks, OneThatThrowsStopsAloneAndIsTold) {
+  std::vector<std::string> a, b;
+  auto thrower = std::make_unique<Notes>(a);
+  thrower->throws_at = "a/one";
+  Sinks sinks;
+  sinks.attach(std::move(thrower));
+  sinks.attach(std::make_unique<Notes>(b));
+  run_through(sinks);
+  EXPECT_EQ(2u, a.size());
+  EXPECT_EQ(4u, b.size());
+  EXPECT_THAT(sinks.troubles(), ElementsAre("internal error in a report: a bug; please report it"));
+}
+
+TEST(Sinks, TheLastIsToldWhatOthersCouldNotWrite) {
+  struct Told final : Sink {
+    explicit Told(RunEnd& end) : end_(end) {}
+    Status begin(const RunInfo&) override { return ok(); }
+    Status add(const Delivery&) override { return ok(); }
+    Status end(const RunLog& log) override { return end_ = *log.end, ok(); }
+    RunEnd& end_;
+  };
+  std::vector<std::string> a;
+  RunEnd told;
+  Sinks sinks;
+  sinks.attach(std::make_unique<Notes>(a, "end"));
+  sinks.attach(std::make_unique<Told>(told));
+  RunLog log;
+  log.end.emplace();
+  ASSERT_TRUE(sinks.end(log));
+  EXPECT_EQ(3, told.exit_code);
+  ASSERT_EQ(1u, told.reasons.size());
+  EXPECT_EQ("cannot write end", told.reasons.front().message);
 }
 
 TEST(Delivery, ItsTextIsMadeOnce) {

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -14,7 +13,6 @@
 #include "reports/results/case_result.hpp"
 #include "reports/results/ndjson.hpp"
 #include "reports/results/whole_file.hpp"
-#include "reports/results/result_json.hpp"
 #include "reports/text/tally.hpp"
 
 namespace fieldproof::samples {
@@ -132,13 +130,6 @@ inline void write_results(const std::string& path, const std::vector<results::Ca
   auto writer = results::NdjsonWriter::create(path);
   ASSERT_TRUE(writer) << writer.error().message;
   hand_over(*writer, run_info(gate), results, end ? std::optional(run_end()) : std::nullopt);
-}
-
-/// A value as it stands in a file of results.
-inline nlohmann::json as_json(const auto& value) {
-  std::string text;
-  append_json(text, value);
-  return nlohmann::json::parse(text);
 }
 
 }  // namespace fieldproof::samples

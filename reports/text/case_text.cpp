@@ -179,6 +179,11 @@ std::string case_name(const CaseResult& result) {
                              : fmt::format("{} [{}]", xml_line(result.id), xml_line(result.line));
 }
 
+std::string group_of(const std::string& id) {
+  const std::size_t first = id.find('/');
+  return first == std::string::npos ? id : id.substr(0, id.find('/', first + 1));
+}
+
 std::string case_label(const CaseResult& result) {
   return result.repeat == 0 ? case_name(result)
                             : fmt::format("{} #{}", case_name(result), result.repeat + 1);

@@ -25,6 +25,9 @@ std::string case_name(const results::CaseResult& result);
 /// The name, with " #2" for its first repetition.
 std::string case_label(const results::CaseResult& result);
 
+/// Folder and group of an id: "xgt_cnet/rss".
+std::string group_of(const std::string& id);
+
 /// One line: what is wrong; the verdict's word where nothing is said.
 std::string case_message(const results::CaseResult& result);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "reports/text/xml_text.hpp"
+
 namespace fieldproof::text {
 
 using results::Verdict;
@@ -34,13 +36,13 @@ std::string gate_hint(Verdict verdict, const results::Gate& gate) {
   }
 }
 
-std::string red_counts(const Tally& tally, const results::Gate& gate) {
-  std::string text;
-  for (Verdict verdict : Tally::verdicts) {
-    if (tally.of(verdict) == 0 || !results::gates(verdict, gate)) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", tally.of(verdict),
-                        results::to_string(verdict));
+std::string headline(const results::RunEnd& end, const Tally& tally) {
+  std::string text = xml_line(results::to_string(end.reasons));
+  if (text.empty()) {
+    text = exit_meaning(end.exit_code);
+    if (tally.applicable() > 0) text += ": " + judged_text(tally);
   }
+  if (!end.hint.empty()) text += "; " + xml_line(end.hint);
   return text;
 }
 

@@ -15,12 +15,12 @@ std::string verdict_meaning(results::Verdict verdict);
 /// others.
 std::string gate_hint(results::Verdict verdict, const results::Gate& gate);
 
-/// "1 FAIL, 1 ERROR": what turned the gate red.
-std::string red_counts(const Tally& tally, const results::Gate& gate);
-
 /// "LS ELECTRIC XBL-C41A, serial number 2219-00417, firmware V1.41, at serial:/dev/ttyUSB0
 /// 38400-8N1, station 3".
 std::string device_text(const results::DutInfo& dut);
+
+/// "gate met: 1,824 of 2,948 judged", or why it was not; a line.
+std::string headline(const results::RunEnd& end, const Tally& tally);
 
 /// Why a run did not end as it should: killed, interrupted, trouble. Empty for one that did.
 std::string early_end(const results::RunLog& log);

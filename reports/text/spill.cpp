@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "reports/results/file_error.hpp"
@@ -28,7 +29,10 @@ int open_nameless(const std::string& folder) {
 int open_beside(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const int fd = open_nameless(folder.empty() ? "." : folder);
-  return fd >= 0 ? fd : open_nameless(std::filesystem::temp_directory_path().string());
+  if (fd >= 0) return fd;
+  std::error_code none;  // an unusable TMPDIR: /tmp, which says why it cannot be either
+  const std::filesystem::path temporary = std::filesystem::temp_directory_path(none);
+  return open_nameless(none ? "/tmp" : temporary.string());
 }
 
 }  // namespace

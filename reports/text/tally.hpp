@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "reports/results/case_result.hpp"
 #include "reports/results/verdict.hpp"
@@ -29,6 +30,10 @@ class Tally {
     return counts_[static_cast<std::size_t>(verdict)];
   }
   std::size_t total() const;
+  /// Those with a verdict on the device.
+  std::size_t judged() const;
+  /// Those that could have one: all but SKIP.
+  std::size_t applicable() const { return total() - of(results::Verdict::skip); }
   /// How many results turn the gate red.
   std::size_t gating(const results::Gate& gate) const;
   bool operator==(const Tally&) const = default;
@@ -42,21 +47,26 @@ std::string to_string(const Tally& tally);
 
 /// How a verdict stands in JUnit: `failure` follows the gate. What was not judged stays `skipped`
 /// whatever the gate says, because a reader of the report would look for a frame that never was;
-/// the exit code says that the gate is red.
+/// that the gate is red stands in a test case of its own.
 enum class JunitOutcome { plain, failure, error, skipped };
 JunitOutcome junit_outcome(results::Verdict verdict, const results::Gate& gate);
 
-/// The exit code of a run that was started, by precedence: 130 interrupted, 3 any ERROR, 1
-/// conformance failed, 4 nothing selected or judged (no result, or only SKIP, BLOCKED and
-/// INCONCLUSIVE), 0 gate met. 2 and 77 are decided before a run starts, as are trouble without a
-/// result (3) and the empty shard of a selection that is not (0).
-int gate_exit_code(const Tally& tally, const results::Gate& gate, bool interrupted);
+/// "1,824 of 2,948 judged": of those that the device could be judged by.
+std::string judged_text(const Tally& tally);
 
-/// "conformance failed", for any exit code of the tool.
+/// "1,824".
+std::string grouped(std::size_t number);
+
+/// Why these results do not meet the gate; nothing where they do. An ERROR is bench trouble (3),
+/// whatever fails the gate is 1, as is less judged than it asks for, and nothing judged at all (no
+/// result, or only SKIP, BLOCKED and INCONCLUSIVE) is 4.
+std::vector<results::Reason> reasons_of(const Tally& tally, const results::Gate& gate);
+
+/// "gate not met", for any exit code of the tool.
 std::string exit_meaning(int exit_code);
 
 /// The gate as a property of a run, so that a report made later from the results judges alike:
-/// "strict, qualify"; "default" when no option is set.
+/// "strict, qualify, min-judged 90%"; "default" when no option is set.
 std::string to_string(const results::Gate& gate);
 /// The reverse; what it does not know counts as not set.
 results::Gate parse_gate(const std::string& text);

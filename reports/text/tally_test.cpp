@@ -1,5 +1,6 @@
 #include "reports/text/tally.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -28,22 +29,25 @@ TEST(Tally, SaysWhatOccurs) {
             to_string(tally_of({Verdict::error, Verdict::pass, Verdict::fail, Verdict::pass})));
 }
 
-TEST(GateExitCode, ByPrecedence) {
-  const Gate gate;
-  EXPECT_EQ(130, gate_exit_code(tally_of({Verdict::error, Verdict::fail}), gate, true));
-  EXPECT_EQ(3,
-            gate_exit_code(tally_of({Verdict::error, Verdict::fail, Verdict::pass}), gate, false));
-  EXPECT_EQ(1, gate_exit_code(tally_of({Verdict::fail, Verdict::skip}), gate, false));
-  EXPECT_EQ(1, gate_exit_code(tally_of({Verdict::xpass, Verdict::pass}), gate, false));
-  EXPECT_EQ(4, gate_exit_code(tally_of({Verdict::skip, Verdict::blocked}), gate, false));
-  EXPECT_EQ(4, gate_exit_code(Tally{}, gate, false));
-  EXPECT_EQ(0, gate_exit_code(tally_of({Verdict::pass, Verdict::skip}), gate, false));
-  EXPECT_EQ(0, gate_exit_code(tally_of({Verdict::xfail}), gate, false));
+std::string why(std::initializer_list<Verdict> verdicts, const Gate& gate = {}) {
+  const std::vector<results::Reason> reasons = reasons_of(tally_of(verdicts), gate);
+  return fmt::format("{} {}", results::exit_code_of(reasons), results::to_string(reasons));
 }
 
-TEST(GateExitCode, EachVerdictAlone) {
+TEST(Reasons, ByPrecedence) {
+  EXPECT_EQ("3 bench trouble: 1 ERROR; conformance failed: 1 FAIL",
+            why({Verdict::error, Verdict::fail, Verdict::pass}));
+  EXPECT_EQ("1 conformance failed: 1 FAIL", why({Verdict::fail, Verdict::skip}));
+  EXPECT_EQ("1 conformance failed: 1 XPASS", why({Verdict::xpass, Verdict::pass}));
+  EXPECT_EQ("4 nothing selected or executed", why({Verdict::skip, Verdict::blocked}));
+  EXPECT_EQ("4 nothing selected or executed", why({}));
+  EXPECT_EQ("0 ", why({Verdict::pass, Verdict::skip}));
+  EXPECT_EQ("0 ", why({Verdict::xfail}));
+}
+
+TEST(Reasons, OfEachVerdictAlone) {
   const auto code = [](Verdict verdict, const Gate& gate) {
-    return gate_exit_code(tally_of({verdict}), gate, false);
+    return results::exit_code_of(reasons_of(tally_of({verdict}), gate));
   };
   EXPECT_EQ(0, code(Verdict::pass, {}));
   EXPECT_EQ(0, code(Verdict::info, {}));
@@ -56,6 +60,27 @@ TEST(GateExitCode, EachVerdictAlone) {
   EXPECT_EQ(4, code(Verdict::blocked, {}));
   EXPECT_EQ(1, code(Verdict::blocked, {.qualify = true}));
   EXPECT_EQ(4, code(Verdict::skip, {.strict = true, .fail_on_marginal = true, .qualify = true}));
+}
+
+TEST(Reasons, AQualificationWithNothingFailedIsNoFailure) {
+  EXPECT_EQ("1 not qualified: 2 not judged",
+            why({Verdict::pass, Verdict::blocked, Verdict::inconclusive}, {.qualify = true}));
+  EXPECT_EQ("1 conformance failed: 1 FAIL; not qualified: 1 not judged",
+            why({Verdict::fail, Verdict::blocked}, {.qualify = true}));
+}
+
+TEST(Reasons, TooLittleJudged) {
+  Tally tally;
+  tally.add(Verdict::pass, 1800);
+  tally.add(Verdict::blocked, 200);
+  tally.add(Verdict::skip, 5000);  // no device could be judged by them
+  EXPECT_EQ("1,800 of 2,000 judged", judged_text(tally));
+  EXPECT_TRUE(reasons_of(tally, {.min_judged = 90}).empty());
+  tally.add(Verdict::inconclusive);
+  const std::vector<results::Reason> reasons = reasons_of(tally, {.min_judged = 90});
+  EXPECT_EQ("too little judged: 1,800 of 2,001 judged (90.0%), --min-judged asks for 90%",
+            results::to_string(reasons));
+  EXPECT_EQ(1, results::exit_code_of(reasons));
 }
 
 TEST(JunitOutcome, FollowsTheGateExceptForWhatWasNotJudged) {
@@ -84,6 +109,8 @@ TEST(GateText, ReadsBack) {
     EXPECT_EQ(gate.fail_on_marginal, again.fail_on_marginal) << bits;
     EXPECT_EQ(gate.qualify, again.qualify) << bits;
   }
+  EXPECT_EQ("qualify, min-judged 92.5%", to_string(Gate{.qualify = true, .min_judged = 92.5}));
+  EXPECT_EQ(92.5, parse_gate("qualify, min-judged 92.5%").min_judged);
   EXPECT_EQ("default", to_string(Gate{}));
   EXPECT_EQ("strict, fail-on marginal", to_string(Gate{.strict = true, .fail_on_marginal = true}));
   EXPECT_FALSE(parse_gate("stricter").strict);

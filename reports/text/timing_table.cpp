@@ -29,18 +29,12 @@ void add(Times& all, const std::string& name, const results::CaseResult& result)
 
 void TimingTable::add(const results::CaseResult& result) {
   if (result.response_ms.empty()) return;
-  const std::size_t first = result.id.find('/');
   const std::string line = result.line.empty() ? "" : " [" + result.line + "]";
-  fieldproof::text::add(protocols_, result.id.substr(0, first), result);
-  fieldproof::text::add(
-      groups_,
-      (first == std::string::npos ? result.id
-                                  : result.id.substr(0, result.id.find('/', first + 1))) +
-          line,
-      result);
+  fieldproof::text::add(protocols_, result.id.substr(0, result.id.find('/')), result);
+  fieldproof::text::add(groups_, group_of(result.id) + line, result);
   if (too_many_) return;
   fieldproof::text::add(cases_, case_name(result), result);
-  too_many_ = cases_.size() > case_limit;
+  too_many_ = cases_.size() > case_limit_;
   if (too_many_) cases_.clear();
 }
 

@@ -78,6 +78,14 @@ struct Results {
     const nlohmann::json one = of(id);
     return one.is_null() ? "no result" : one.at("verdict").get<std::string>();
   }
+  /// Test cases of JUnit that are no cases of the run: what else made it red.
+  std::size_t gate_cases() const {
+    if (end.is_null()) return 1;
+    std::size_t count = 0;
+    for (const nlohmann::json& reason : end.value("reasons", nlohmann::json::array()))
+      count += reason.at("what") != "verdicts";
+    return count;
+  }
   std::map<std::string, std::size_t> counts() const {
     std::map<std::string, std::size_t> result;
     for (const nlohmann::json& one : cases) ++result[one.at("verdict")];
@@ -154,8 +162,11 @@ inline void expect_reports(const std::string& out) {
   expect_valid_junit(out + "/junit.xml");
   Junit junit;
   read_junit(out + "/junit.xml", junit);
-  EXPECT_EQ(junit.tests, results.cases.size());
-  EXPECT_EQ(junit.children, results.cases.size());
+  const std::size_t expected = results.cases.size() + results.gate_cases();
+  EXPECT_EQ(junit.tests, expected);
+  EXPECT_EQ(junit.children, expected);
+  const bool red = results.end.is_null() || results.end["exit_code"] != 0;
+  EXPECT_EQ(red, junit.failures + junit.errors > 0) << "JUnit contradicts the exit code";
 }
 
 /// All vectors against the default endpoint: one run, however many tests of a program look at it.
