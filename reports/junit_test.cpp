@@ -236,11 +236,20 @@ TEST_F(Junit, NothingThatADeviceSendsBreaksTheFile) {
   }
 }
 
-TEST_F(Junit, AFrameOfAMebibyteIsWhole) {
+/// head -c 1048576 /dev/zero | tr '\\0' '\\025' | sha256sum
+const std::string mebibyte_of_nak =
+    "f9c0c8ea7970297fbf51afb2343fdeed507dfb68529aaa8eae7dd04ecbca490d";
+
+TEST_F(Junit, OfAFrameOfAMebibyteItHasAnExtract) {
   auto result = samples::failure();
   result.received_bytes.assign(1 << 20, 0x15);
   report({result, samples::with(Verdict::pass, "xgt_cnet/rss/after")});
-  EXPECT_THAT(testcase("one_word").child("failure").text().get(), HasSubstr("FFFF0  15 15"));
+  const std::string body = testcase("one_word").child("failure").text().get();
+  EXPECT_THAT(body, HasSubstr("0030  15 15"));
+  EXPECT_THAT(body, HasSubstr("... 1,048,448 bytes left out\n"));
+  EXPECT_THAT(body, HasSubstr("FFFF0  15 15"));
+  EXPECT_THAT(body, HasSubstr("1,048,576 bytes in all, sha256 " + mebibyte_of_nak));
+  EXPECT_LT(body.size(), 10'000u);
   expect_counts_equal_children(root());
   if (have_xmllint()) {
     EXPECT_EQ("", xmllint());

@@ -83,6 +83,9 @@ void add_run(CLI::App& app, run::RunOptions& run) {
                  "What the device declares: a name from the profiles folder, or a JSON file");
   app.add_option("--filter", run.filter,
                  "Cases by id: globs separated by ':', a leading '-' excludes");
+  app.add_option("--protocol", run.protocol,
+                 "Which protocol of the profile the endpoint speaks (default the one that --filter "
+                 "selects, else the first)");
   add_role(app, run.role);
   app.add_option("--stimulus", run.stimulus,
                  "Client role: command that makes the device ask, told by lines of JSON; -: the "
@@ -131,6 +134,9 @@ void add_run(CLI::App& app, run::RunOptions& run) {
       ->check(CLI::Range(1, 1'000'000));
   add_gate(app, run);
   app.add_flag("--fail-fast", run.fail_fast, "Stop at the first verdict that fails the gate");
+  app.add_option("--max-failures", run.max_failures,
+                 "After so many results that fail the gate the rest is not run (BLOCKED)")
+      ->check(CLI::Range(1, 1'000'000));
   app.add_flag("--dry-run", run.dry_run, "Print what would run");
   app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
   app.add_flag("-v,--verbose", run.verbose, "Show every case with its exchange");

@@ -12,8 +12,10 @@
 #include "harness/bench/watchdog.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/compare_command.hpp"
+#include "harness/judge/judge.hpp"
 #include "harness/run/coverage_hint.hpp"
 #include "harness/run/line_steps.hpp"
+#include "harness/run/long_texts.hpp"
 #include "harness/run/ports.hpp"
 #include "harness/run/run_info.hpp"
 #include "harness/run/run_plan.hpp"
@@ -182,8 +184,9 @@ class Run {
         std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
           report_.show_progress(total, source.id);
           waivers_.apply(result);
+          long_texts_.shorten(result);
           note(source, result);
-          return report_.add(result) &&
+          return report_.add(result) && !too_many_failures() &&
                  !(options_.fail_fast && results::gates(result.verdict, report_.gate()));
         });
     shared.execute();
@@ -203,6 +206,19 @@ class Run {
     return false;
   }
 
+  bool too_many_failures() const {
+    return options_.max_failures > 0 &&
+           report_.tally().gating({options_.strict, options_.fail_on_marginal}) >=
+               static_cast<std::size_t>(options_.max_failures);
+  }
+
+  CaseResult not_run(const Case& source) const {
+    CaseResult result = judging::result_of(source);
+    result.verdict = results::Verdict::blocked;
+    result.message = fmt::format("not run: --max-failures {} was reached", options_.max_failures);
+    return result;
+  }
+
   bool run_one(const Case& source, int round) {
     if (os::interrupted()) {
       end_.interrupted = true;
@@ -210,11 +226,14 @@ class Run {
     }
     const bool matrix = !plan_.matrix.empty(), soak = plan_.soak > 0ns;
     if (matrix && !enter_step(static_cast<std::size_t>(round / options_.repeat))) return false;
-    if (soak && !soak_goes_on(round)) return false;
+    if (soak && (too_many_failures() || !soak_goes_on(round))) return false;
     report_.show_progress(expected_results(), source.id);
     const auto started = std::chrono::steady_clock::now();
     watchdog_.watch(source.id);
-    CaseResult result = matrix ? lines_.run(source) : benches_.run(source);
+    const bool enough = too_many_failures();
+    CaseResult result = enough   ? not_run(source)
+                        : matrix ? lines_.run(source)
+                                 : benches_.run(source);
     const bool hung = watchdog_.done();
     if (benches_.interrupted() && !hung) {
       end_.interrupted = true;  // the case was not finished: it has no result
@@ -223,6 +242,7 @@ class Run {
     if (hung)
       result.message = "the bench hung in this case for more than a minute; " + result.message;
     waivers_.apply(result);
+    long_texts_.shorten(result);
     note(source, result);
     result.repeat = soak ? round : round % options_.repeat;
     result.seconds =
@@ -240,7 +260,8 @@ class Run {
   }
 
   void note(const Case& source, const CaseResult& result) {
-    if (result.verdict == results::Verdict::blocked) blocked_.insert(&source);
+    if (result.verdict == results::Verdict::blocked && !too_many_failures())
+      blocked_.insert(&source);
   }
 
   /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.
@@ -250,7 +271,7 @@ class Run {
       if (const std::string open = ports_[i].put_back();
           !open.empty() && (!plan_.dut(i).ends_with_run || plan_.dut(i).aux))
         end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}",
-                                         end_.not_restored.empty() ? "" : "\n", open,
+                                         end_.not_restored.empty() ? "" : "\n", run::bounded(open),
                                          run::shell_word(plan_.dut(i).journal));
   }
 
@@ -266,6 +287,7 @@ class Run {
   std::vector<std::string> floors_;  // of each port: what its link can show, in words
   std::vector<std::string> unable_;  // of each port: why it cannot run; empty: it can
   std::chrono::steady_clock::time_point started_;
+  run::LongTexts long_texts_;
   std::set<const Case*> blocked_;
   RunReport::End end_;
 };

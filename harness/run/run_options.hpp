@@ -10,7 +10,8 @@ struct RunOptions {
   std::string endpoint;  // empty: of the bench file's device, else "emulator:"
   std::string profile;   // empty: by the endpoint
   std::string filter;
-  std::string vectors;  // empty: the tool's own
+  std::string protocol;  // which of the profile's; empty: see RunPlan
+  std::string vectors;   // empty: the tool's own
   std::string out = "fieldproof-out";
   std::string junit, json, html;  // empty: in `out`
   std::string capture;            // empty: none
@@ -35,6 +36,7 @@ struct RunOptions {
   std::string duration;     // soak: "8h"
   int seed = -1;            // >= 0: shuffled by it
   int repeat = 1;
+  int max_failures = 0;  // then the rest is not run; 0: no limit
   bool strict = false, qualify = false, fail_on_marginal = false;
   double min_judged = 0;  // percent; 0: any
   bool fail_fast = false, dry_run = false, verbose = false, skip_absent = false;

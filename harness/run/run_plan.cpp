@@ -15,6 +15,7 @@
 #include "harness/run/tool_vectors.hpp"
 #include "harness/system/stable_name.hpp"
 #include "reports/results/sha256.hpp"
+#include "reports/results/shard.hpp"
 #include "src/base/duration.hpp"
 
 namespace fieldproof::run {
@@ -49,6 +50,30 @@ bool is_bare_model(const EndpointName& endpoint, const DataPaths& data,
   return protocol && (*protocol)->has_model(endpoint.target);
 }
 
+/// A definition that cannot be read is the user's mistake, not trouble of the bench.
+Status check_definition(const EndpointName& endpoint, const DataPaths& data,
+                        const harness::Protocols& known) {
+  if (!is_emulated(endpoint) || !is_bare_model(endpoint, data, known)) return ok();
+  const Result<const Protocol*> protocol =
+      known.choose(endpoint.option("protocol", ""), endpoint.target);
+  if (!protocol) return protocol.error();
+  const auto device = (*protocol)->make_device(endpoint.target, nlohmann::json::object());
+  return device ? ok() : Status(device.error());
+}
+
+/// A model that no case is for selects nothing of what it should.
+Status check_model(const bench::Profile& profile, const harness::Protocols& known) {
+  if (profile.model.empty() || !profile.notes.empty()) return ok();
+  for (const std::string& name : profile.protocols)
+    if (const Protocol* protocol = known.find(name); protocol && protocol->has_model(profile.model))
+      return ok();
+  const Result<const Protocol*> any = known.choose("", profile.model);
+  return fail(
+      fmt::format("cannot use profile {}: no case is for the model '{}'{}; correct it, or write in "
+                  "\"notes\" why",
+                  profile.name, profile.model, any ? "" : " (" + any.error().message + ")"));
+}
+
 /// The model that an endpoint emulates is its profile; a real device has one of its own.
 std::string profile_for(const RunOptions& options, const EndpointName& endpoint,
                         const DataPaths& data, const harness::Protocols& known) {
@@ -72,6 +97,7 @@ std::string replay_command(const RunOptions& options) {
   for (const std::string& range : options.allow_write)
     command += " --allow-write " + shell_word(range);
   if (options.read_only) command += " --read-only";
+  if (!options.protocol.empty()) command += " --protocol " + shell_word(options.protocol);
   if (!options.journal.empty()) command += " --journal " + shell_word(options.journal);
   if (!options.power_cycle.empty()) command += " --power-cycle " + shell_word(options.power_cycle);
   if (!options.stimulus.empty()) command += " --stimulus " + shell_word(options.stimulus);
@@ -91,6 +117,7 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
   Result<bench::Profile> profile = bench::load_profile(profile_name, data.profiles);
   if (!profile) return profile.error();
   bench.profile = std::move(*profile);
+  if (const Status right = check_model(bench.profile, known); !right) return right.error();
   if (is_emulated(endpoint) && bench.profile.model.empty())
     bench.profile.model = fs::path(endpoint.target).stem();
   for (const std::string& range : options.allow_write)
@@ -190,15 +217,28 @@ Status hash_files(const fs::path& vectors, const std::string& profile, const Dat
   return ok();
 }
 
+/// Of all the cases; empty where they are of several.
+std::string only_protocol(const std::vector<const Case*>& selected) {
+  if (selected.empty()) return {};
+  const std::string& name = selected.front()->protocol;
+  const bool all =
+      std::ranges::all_of(selected, [&](const Case* one) { return one->protocol == name; });
+  return all ? name : std::string();
+}
+
 /// The option `protocol`; else what the profile declares: of an emulator all that cases are
-/// selected of, else the first.
+/// selected of, else the one that they are all of, else the first.
 Result<std::vector<const Protocol*>> protocols_of(const DutPlan& plan,
                                                   const std::vector<const Case*>& selected) {
   std::vector<std::string> names = plan.bench.profile.protocols;
   const auto is_selected = [&](const std::string& name) {
     return std::ranges::any_of(selected, [&](const Case* one) { return one->protocol == name; });
   };
-  const std::string first = plan.endpoint.option("protocol", names.empty() ? "" : names.front());
+  std::string first = plan.endpoint.option("protocol", names.empty() ? "" : names.front());
+  if (!plan.endpoint.options.contains("protocol"))
+    if (const std::string only = only_protocol(selected);
+        std::ranges::find(names, only) != names.end())
+      first = only;
   if (is_emulated(plan.endpoint) && !plan.endpoint.options.contains("protocol"))
     std::erase_if(names, std::not_fn(is_selected));
   else
@@ -245,6 +285,13 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   Result<EndpointName> endpoint = endpoints::parse_endpoint(options->endpoint);
   if (!endpoint) return endpoint.error();
   plan.endpoint = std::move(*endpoint);
+  if (!options->protocol.empty()) {
+    const std::string there = plan.endpoint.option("protocol", options->protocol);
+    if (there != options->protocol)
+      return fail(fmt::format("--protocol {}: the endpoint says {}; leave one of the two",
+                              options->protocol, there));
+    plan.endpoint.options["protocol"] = options->protocol;
+  }
   if (const std::string stable =
           endpoints::kind_of(plan.endpoint).local_port ? os::stable_name(plan.endpoint.target) : "";
       !stable.empty())
@@ -255,6 +302,7 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   Result<bench::BenchOptions> bench = bench_options(*options, plan.endpoint, profile, data, known);
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
+  if (const Status made = check_definition(plan.endpoint, data, known); !made) return made.error();
   plan.bench.known = known;
   plan.ends_with_run = ends_with_run(plan.endpoint);
   plan.writes_all = plan.ends_with_run && options->allow_write.empty() && !options->read_only;
@@ -334,6 +382,7 @@ Status check_duts(const RunOptions& options) {
 
 Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocols& known) {
   RunPlan plan;
+  if (const Status shard = results::check_shard_environment(); !shard) return shard.error();
   if (const Status duts = check_duts(options); !duts) return duts.error();
   if (options.read_only && !options.allow_write.empty())
     return fail("--read-only and --allow-write exclude each other; give one");

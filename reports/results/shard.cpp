@@ -28,6 +28,17 @@ std::optional<Shard> shard_of_environment() {
   return index && total ? sound(number(index), number(total)) : std::nullopt;
 }
 
+Status check_shard_environment() {
+  const char* index = std::getenv("GTEST_SHARD_INDEX");
+  const char* total = std::getenv("GTEST_TOTAL_SHARDS");
+  if ((!index && !total) || shard_of_environment()) return ok();
+  return fail(
+      fmt::format("GTEST_SHARD_INDEX={} of GTEST_TOTAL_SHARDS={} is no shard; set both, the index "
+                  "from 0 to one "
+                  "less than the total",
+                  index ? index : "(not set)", total ? total : "(not set)"));
+}
+
 std::string to_string(const Shard& shard) {
   return fmt::format("{}/{}", shard.index + 1, shard.total);
 }

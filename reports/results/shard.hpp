@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "src/base/result.hpp"
+
 namespace fieldproof::results {
 
 struct Shard {
@@ -16,8 +18,9 @@ struct Shard {
   auto operator<=>(const Shard&) const = default;
 };
 
-/// Nothing where the environment asks for none, or for what is no shard (GoogleTest then says so
-/// and ends).
+/// What the environment says is a shard, or nothing: GoogleTest would end the tool in the middle.
+Status check_shard_environment();
+/// Nothing where the environment asks for none.
 std::optional<Shard> shard_of_environment();
 
 /// "2/3", counted from 1.

@@ -1,4 +1,5 @@
 #include "reports/text/case_text.hpp"
+#include "reports/results/sha256.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "reports/text/frame_cells.hpp"
+#include "reports/text/tally.hpp"
 #include "reports/text/xml_text.hpp"
 
 namespace fieldproof::text {
@@ -19,6 +21,8 @@ using results::Event;
 namespace {
 
 constexpr std::size_t bytes_a_line = 16;
+constexpr std::size_t longest_frame = 4096;  // bytes that are shown in full
+constexpr std::size_t extract_end = 64;      // bytes of each end of a longer one
 
 std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t last, bool offsets) {
   std::string text = offsets ? fmt::format("{:04X}  ", first) : "";
@@ -32,13 +36,31 @@ std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t la
   return text + '\n' + (marks.empty() ? "" : marks + '\n');
 }
 
-std::string dump(const FrameCells& cells, const CaseTextOptions& options, bool offsets) {
+std::string dump_lines(const FrameCells& cells, std::size_t first, std::size_t end, bool offsets) {
+  std::string text;
+  for (; first < end; first += bytes_a_line)
+    text += dump_line(cells, first, std::min(first + bytes_a_line, end), offsets);
+  return text;
+}
+
+/// Of a flood: both ends, how much it was, and what tells it from another one.
+std::string extract(const FrameCells& cells, ByteView bytes) {
+  results::Sha256 sum;
+  sum.add(to_text(bytes));
+  const std::size_t tail = (cells.size() - extract_end) / bytes_a_line * bytes_a_line;
+  return dump_lines(cells, 0, extract_end, true) +
+         fmt::format("... {} bytes left out\n", grouped(tail - extract_end)) +
+         dump_lines(cells, tail, cells.size(), true) +
+         fmt::format("{} bytes in all, sha256 {}\n", grouped(bytes.size()), sum.digits());
+}
+
+/// `bytes`: those of the cells.
+std::string dump(const FrameCells& cells, ByteView bytes, const CaseTextOptions& options,
+                 bool offsets) {
+  if (cells.size() > longest_frame) return extract(cells, bytes);
   const std::size_t shown =
       options.limit == 0 ? cells.size() : std::min(cells.size(), options.limit);
-  std::string text;
-  for (std::size_t first = 0; first < shown; first += bytes_a_line) {
-    text += dump_line(cells, first, std::min(first + bytes_a_line, shown), offsets);
-  }
+  std::string text = dump_lines(cells, 0, shown, offsets);
   if (shown < cells.size()) text += fmt::format("... {} more bytes\n", cells.size() - shown);
   return text;
 }
@@ -140,10 +162,12 @@ void add_frames(Block& block, const CaseResult& result, const CaseTextOptions& o
   if (const Event* request = request_of(result)) {
     block.add("sent", frame(request->text, hex_dump(request->bytes, options), options));
   }
-  const std::string expected_bytes =
-      expected ? dump(*expected, options, offsets) : shorten(result.expected_hex, options);
+  const std::string expected_bytes = expected
+                                         ? dump(*expected, result.expected_bytes, options, offsets)
+                                         : shorten(result.expected_hex, options);
   block.add("expected", frame(result.expected, expected_bytes, options));
-  const std::string came = frame(result.received, dump(received, options, offsets), options);
+  const std::string came =
+      frame(result.received, dump(received, result.received_bytes, options, offsets), options);
   block.add("received", came.empty() ? "nothing" : came);
 }
 
@@ -162,7 +186,8 @@ const char* arrow(Event::Kind kind) {
 }  // namespace
 
 std::string shorten(const std::string& text, const CaseTextOptions& options) {
-  const std::size_t limit = options.limit * 4;  // a byte in notation takes one to four characters
+  // A byte in notation takes one to four characters.
+  const std::size_t limit = text.size() > 4 * longest_frame ? 4 * extract_end : 4 * options.limit;
   // Cleaning never shortens: what stands far behind the cut need not be cleaned. A character split
   // here is behind it, too.
   const std::string clean =
@@ -211,7 +236,7 @@ std::string case_message(const CaseResult& result) {
 }
 
 std::string hex_dump(ByteView bytes, const CaseTextOptions& options) {
-  return dump(cells_of(bytes), options, bytes.size() > bytes_a_line);
+  return dump(cells_of(bytes), bytes, options, bytes.size() > bytes_a_line);
 }
 
 std::string indent(std::string_view lines, std::size_t columns) {

@@ -11,7 +11,8 @@
 namespace fieldproof::text {
 
 struct CaseTextOptions {
-  std::size_t limit = 0;  // bytes of a frame that are shown; 0: all
+  std::size_t limit =
+      0;  // bytes of a frame that are shown; 0: all, but of more than 4096 an extract
   bool exchange =
       false;  // the exchange in any case; else only where a case sends more than one frame
 };
@@ -53,7 +54,8 @@ std::string case_block(const results::CaseResult& result, const CaseTextOptions&
 /// it (ms), direction.
 std::string frame_monitor(const results::CaseResult& result, const CaseTextOptions& options = {});
 
-/// Hex in lines of 16 bytes, with offsets where there is more than one line: "06 30 31 ...".
+/// Hex in lines of 16 bytes, with offsets where there is more than one line: "06 30 31 ...". Of
+/// more than 4096 bytes the first and the last 64, how many they are, and their SHA-256.
 std::string hex_dump(ByteView bytes, const CaseTextOptions& options = {});
 
 /// Each line that is not empty moved to the right.

@@ -123,16 +123,28 @@ TEST(CaseBlock, Timing) {
 
 TEST(CaseBlock, LongFramesAreCutWhereAskedAndWholeElsewhere) {
   CaseResult result;
-  result.received_bytes.assign(1 << 20, 0x41);
-  result.received = "'" + std::string(1 << 20, 'A') + "'";
+  result.received_bytes.assign(4096, 0x41);
+  result.received = "'" + std::string(4096, 'A') + "'";
   const std::string cut = case_block(result, {.limit = 32});
   EXPECT_LT(cut.size(), 500u);
   EXPECT_THAT(cut, HasSubstr("AAA ...\n"));
   EXPECT_THAT(cut, HasSubstr("0010  41"));
-  EXPECT_THAT(cut, HasSubstr("... 1048544 more bytes\n"));
+  EXPECT_THAT(cut, HasSubstr("... 4064 more bytes\n"));
   const std::string whole = case_block(result);
-  EXPECT_THAT(whole, HasSubstr("\n          FFFF0  41"));
+  EXPECT_THAT(whole, HasSubstr("\n          0FF0  41"));
   EXPECT_THAT(whole, HasSubstr(result.received));
+}
+
+TEST(CaseBlock, OfAFloodThereIsAnExtract) {
+  CaseResult result;
+  result.received_bytes.assign(1'234'567, 0x41);
+  result.received = "'" + std::string(1'234'567, 'A') + "'";
+  result.exchange.push_back(
+      {results::Event::Kind::received, 0s, 1s, result.received_bytes, "A..."});
+  const std::string block = case_block(result, {.exchange = true});
+  EXPECT_LT(block.size(), 3000u);
+  EXPECT_THAT(block, HasSubstr("... 1,234,432 bytes left out\n"));
+  EXPECT_THAT(block, HasSubstr("1,234,567 bytes in all, sha256 "));
 }
 
 TEST(CaseBlock, NothingInItHarmsATerminalOrXml) {

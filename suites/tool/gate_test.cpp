@@ -197,6 +197,54 @@ TEST_F(Gate, CompareCountsWhatWasNotJudgedAsSkipped) {
   expect_valid_junit(folder_ / "compare.xml");
 }
 
+TEST_F(Gate, MaxFailuresEndsTheRun) {
+  std::vector<ordered_json> vectors;
+  for (int i = 0; i < 9; ++i)
+    vectors.push_back(small_vector("g/n" + std::to_string(i), i > 0 ? wrong_word : zero_word));
+  const Finished finished = run(vectors, {"--max-failures", "3"});
+  EXPECT_EQ(finished.code, 1);
+  const std::map<std::string, std::size_t> expected{{"PASS", 1}, {"FAIL", 3}, {"BLOCKED", 5}};
+  EXPECT_EQ(results().counts(), expected);
+  EXPECT_EQ(results().of("xgt_cnet/g/n8").at("message"), "not run: --max-failures 3 was reached");
+  expect_reports(folder_ / "out");
+}
+
+TEST_F(Gate, AFilterOfOneProtocolChoosesIt) {
+  const std::string profile = folder_.write(
+      "p.json", R"({"name": "p", "model": "xbc-h", "protocols": ["modbus-rtu", "xgt-cnet"]})");
+  const std::vector<std::string> device{"--endpoint", good_device, "--profile", profile};
+  const auto run_device = [&](std::vector<std::string> more) {
+    more.insert(more.end(), device.begin(), device.end());
+    return run({small_vector("g/read")}, more);
+  };
+  EXPECT_EQ(run_device({}).code, 0) << "all cases are of xgt-cnet";
+  EXPECT_EQ(results().verdict("xgt_cnet/g/read"), "PASS");
+  EXPECT_EQ(run_device({"--protocol", "xgt-cnet"}).code, 0);
+  EXPECT_EQ(run_device({"--protocol", "modbus-rtu", "--dry-run"}).code, 0);
+  EXPECT_EQ(run_device({"--protocol", "modbus"}).code, 2);
+}
+
+TEST_F(Gate, WhatIsWrongBeforeAByteIsSentIsUsage) {
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why,
+                           const ProcessOptions& options = {}) {
+    std::vector<std::string> all{"run", "--vectors", write_vectors(folder_, {small_vector("g/a")}),
+                                 "--out", folder_ / "out"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Finished finished = run_tool(all, options);
+    EXPECT_EQ(finished.code, 2) << finished.out;
+    EXPECT_THAT(finished.err, AllOf(testing::StartsWith("fieldproof: "), HasSubstr(why)));
+  };
+  refused(
+      {"--profile",
+       folder_.write("p.json", R"({"name": "p", "model": "xbc-hh", "protocols": ["xgt-cnet"]})")},
+      "no case is for the model 'xbc-hh'");
+  refused({"--endpoint", "emulator:" + folder_.path() + "/none.json"}, "cannot read ");
+  refused({"--endpoint", "emulator:" + folder_.write("broken.json", R"({"frames": )")},
+          "broken.json");
+  refused({}, "is no shard", {{{"GTEST_TOTAL_SHARDS", "2"}, {"GTEST_SHARD_INDEX", "2"}}, {}});
+  refused({"--floor", "2"}, "--floor: '2' is no duration");
+}
+
 /// The recipes of the README as they are printed, with a good device in the place of ./my_plc.
 TEST(Readme, RecipesPassAsPrinted) {
   const std::string readme = read_text(FIELDPROOF_SOURCE_DIR "/README.md");

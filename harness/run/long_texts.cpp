@@ -1,0 +1,34 @@
+#include "harness/run/long_texts.hpp"
+
+#include <fmt/format.h>
+
+namespace fieldproof::run {
+
+namespace {
+
+constexpr std::size_t longest = 1000, kept_at_an_end = 400;
+constexpr std::size_t worth_a_reference = 200, beginning = 80;
+constexpr std::size_t most_kept = 1000;  // notes that a later one may refer to
+
+}  // namespace
+
+std::string bounded(std::string_view text) {
+  if (text.size() <= longest) return std::string(text);
+  return fmt::format("{} ... ({} characters left out) ... {}", text.substr(0, kept_at_an_end),
+                     text.size() - 2 * kept_at_an_end, text.substr(text.size() - kept_at_an_end));
+}
+
+void LongTexts::shorten(results::CaseResult& result) {
+  result.message = bounded(result.message);
+  for (std::string& note : result.notes) {
+    if (note.size() < worth_a_reference) continue;
+    note = bounded(note);
+    const auto known = seen_.find(note);
+    if (known != seen_.end())
+      note = fmt::format("{} ..., in full at {}", note.substr(0, beginning), known->second);
+    else if (seen_.size() < most_kept)
+      seen_.emplace(note, result.id);
+  }
+}
+
+}  // namespace fieldproof::run

@@ -1,0 +1,26 @@
+// What a run says at length is said once: a note of thousands of digits in each of a thousand
+// results would be what the reports consist of.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "reports/results/case_result.hpp"
+
+namespace fieldproof::run {
+
+/// At most about a thousand characters: the middle of a longer text is left out, and counted.
+std::string bounded(std::string_view text);
+
+class LongTexts {
+ public:
+  /// Message and notes are bounded. A long note that an earlier case had is told by its beginning,
+  /// and where it stands.
+  void shorten(results::CaseResult& result);
+
+ private:
+  std::map<std::string, std::string> seen_;  // bounded note: id of its first case
+};
+
+}  // namespace fieldproof::run
