@@ -96,8 +96,9 @@ Status Bench::start() {
   json config = json::object();
   config["station"] = station;
   if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
-  if (Status begun = endpoint_.begin(config); !begun) return begun;
   const bool listens = endpoint_.capabilities().real_device && !options_.client_cases.empty();
+  if (listens) config["role"] = "client";
+  if (Status begun = endpoint_.begin(config); !begun) return begun;
   if (listens) {
     const Result<bool> asked = wait_for_request();
     port_failed_ = !asked;

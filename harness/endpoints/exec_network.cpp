@@ -41,7 +41,9 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   Status begin(const nlohmann::json& config) override {
     const bool client = config.value("role", "server") == "client";
     if (!child_ || client != client_) return start(client);
-    return client ? ok() : NetworkEndpoint::begin(config);
+    if (!client) return NetworkEndpoint::begin(config);
+    sockets().end_closed();  // it may keep a connection over several cases, but not one of these
+    return ok();
   }
 
   Result<LinkId> open(Transport transport, std::uint16_t port) override {

@@ -82,6 +82,21 @@ TEST(ExecNetwork, AClientFindsTheBenchListening) {
   EXPECT_EQ(next_event(*endpoint), "own 1 opened");
 }
 
+/// It may say more on a connection that the bench has closed: that is of the case before.
+TEST(ExecNetwork, AConnectionThatTheBenchHasClosedIsOverWithItsCase) {
+  const auto endpoint = open(
+      "/usr/bin/python3 -c \"import socket; s = socket.create_connection(('127.0.0.1', {port})); "
+      "s.sendall(b'one'); s.recv(1); s.sendall(b'late'); s.recv(1); input()\"");
+  ASSERT_TRUE(endpoint->begin(as_client));
+  const Result<Burst> opened = endpoint->receive(endpoint->now() + 10s);
+  ASSERT_TRUE(opened);
+  EXPECT_EQ(opened->event, LinkEvent::opened);
+  EXPECT_THAT(next_event(*endpoint), HasSubstr("data 'one'"));
+  ASSERT_TRUE(endpoint->close(opened->link, Closing::fin));
+  ASSERT_TRUE(endpoint->begin(as_client));
+  EXPECT_EQ(next_event(*endpoint, 200ms), "-");
+}
+
 TEST(ExecNetwork, AClientIsToldWhatToAsk) {
   const auto endpoint = open("exec socat - TCP:127.0.0.1:{port}");
   ASSERT_TRUE(endpoint->begin(as_client));

@@ -35,7 +35,11 @@ class ListenEndpoint final : public NetworkEndpoint {
   std::string describe() const override {
     return NetworkEndpoint::describe() + " (" + where_ + ')';
   }
-  Status begin(const nlohmann::json&) override { return ok(); }
+  /// The device may keep a connection over several cases, but not one that the bench has closed.
+  Status begin(const nlohmann::json&) override {
+    sockets().end_closed();
+    return ok();
+  }
   Result<LinkId> open(Transport transport, std::uint16_t) override {
     return cannot_open(transport,
                        "there the device opens the links; write tcp:HOST:PORT for a server");

@@ -35,6 +35,8 @@ class BenchSockets {
 
   /// Ends all links, those that the device has opened too, and goes on listening.
   void end_all() { links_.end_all(); }
+  /// Ends those that this side has closed; what still comes on them is not told.
+  void end_closed() { links_.end_closed(); }
 
  private:
   Result<bool> wait(Time deadline, bool hearing);

@@ -147,6 +147,10 @@ void SocketLinks::end_all() {
     }
 }
 
+void SocketLinks::end_closed() {
+  std::erase_if(connections_, [](const auto& one) { return !one.second.connection.is_open(); });
+}
+
 void SocketLinks::add_to(std::vector<pollfd>& fds, bool hearing) const {
   for (const auto& [id, link] : connections_) fds.push_back(link.connection.to_poll(hearing));
   if (!hearing) return;

@@ -46,6 +46,8 @@ class SocketLinks {
 
   /// Ends all links, those that wait to be accepted too, and goes on listening.
   void end_all();
+  /// Ends the connections that this side has closed, whatever the other one has still to say.
+  void end_closed();
   /// What to wait for; `hearing` false: that something can be sent again.
   void add_to(std::vector<pollfd>& fds, bool hearing = true) const;
 

@@ -46,8 +46,8 @@ Status read_tcp_config(const nlohmann::json& config, TcpServerConfig& to) {
     return fail(
         fmt::format("cannot read {}: connections is 0; give 1 to {}", whose, most_connections));
   if (config.contains("waiting_time") && wait < shortest_wait)
-    return fail(fmt::format("cannot read {}: waiting_time is {}; give {} to {} seconds", whose, wait,
-                            shortest_wait, longest_wait));
+    return fail(fmt::format("cannot read {}: waiting_time is {}; give {} to {} seconds", whose,
+                            wait, shortest_wait, longest_wait));
   to.waiting_time = std::chrono::seconds(wait);
   return ok();
 }
@@ -70,8 +70,7 @@ Status add_modbus_server(plc::Plc& plc, ModbusMode mode, unsigned channel,
   if (!data) return data.error();
   if (mode != ModbusMode::tcp)
     return plc.add(channel, std::make_unique<ModbusServer>(mode, std::move(*data), port));
-  plc.add(std::make_unique<ModbusTcpServer>(std::move(*data), tcp));
-  return ok();
+  return plc.add(std::make_unique<ModbusTcpServer>(std::move(*data), tcp));
 }
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_modbus_plc(ModbusMode mode,

@@ -32,9 +32,7 @@ class ModbusTcpServer : public plc::NetworkService, private plc::FrameSink {
   ModbusTcpServer(std::unique_ptr<DataSpace> data, const TcpServerConfig& config)
       : data_(std::move(data)), config_(config) {}
 
-  bool listens(Transport transport, std::uint16_t port) const override {
-    return transport == Transport::tcp && port == config_.port;
-  }
+  std::vector<Port> ports() const override { return {{Transport::tcp, config_.port}}; }
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   std::vector<Burst> advance(Time now) override;

@@ -66,7 +66,7 @@ Bytes P2pClient::advance(Time now) {
     const std::uint16_t late = noise_ ? p2p_error::head : p2p_error::time_out;
     const bool timed_out = awaits_reply_;
     finish(*busy_, timed_out ? late : p2p_error::none);
-    if (timed_out && on_time_out_) on_time_out_();
+    if (timed_out && end_connection_) end_connection_();
   }
   tick();
   while (!busy_ && now_ >= free_at()) {
@@ -124,7 +124,7 @@ Bytes P2pClient::request(std::size_t block) {
   busy_ = block;
   noise_ = false;
   awaits_reply_ = driver_->awaits_reply(blocks_[block]);
-  if (awaits_reply_) driver_->reset();
+  if (awaits_reply_ && !end_connection_) driver_->reset();
   const Time sent = now_ + timing_.character_time * static_cast<Duration::rep>(bytes->size());
   heard_until_ = sent;
   deadline_ = awaits_reply_ ? sent + timing_.time_out : sent;
@@ -176,6 +176,7 @@ void P2pClient::on_frame(ByteView frame, Time) {
 }
 
 void P2pClient::on_broken_frame(std::uint16_t why) {
+  if (end_connection_) end_connection_();
   if (!busy_ || !awaits_reply_) return;
   if (why == plc::service_status::head)
     noise_ = true;

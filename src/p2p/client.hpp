@@ -58,8 +58,10 @@ class P2pClient : public plc::LineService, private plc::FrameSink {
   const plc::ServiceCounters& counters() const override { return counters_; }
 
   // Where it is behind a connection (network_client.hpp):
-  /// `then` is called when a reply has not come in time.
-  void on_time_out(std::function<void()> then) { on_time_out_ = std::move(then); }
+  /// `end` is called when the connection is of no use any more: a reply has not come in time, or
+  /// what came cannot be followed. What was half received is kept from one request to the next.
+  void behind_connection(std::function<void()> end) { end_connection_ = std::move(end); }
+  void connection_opened() { driver_->reset(); }
   /// No reply to what is under way can come any more: it ends with STATUS 07.
   void connection_lost();
 
@@ -87,7 +89,7 @@ class P2pClient : public plc::LineService, private plc::FrameSink {
   std::vector<P2pResultFlags> results_;
   std::unique_ptr<P2pDriver> driver_;
   Timing timing_;
-  std::function<void()> saved_, on_time_out_;
+  std::function<void()> saved_, end_connection_;
   std::vector<Clock> clocks_;
   bool clocks_run_ = false;
   bool run_ = false, link_;

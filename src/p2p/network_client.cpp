@@ -8,22 +8,26 @@ namespace fieldproof::p2p {
 NetworkClient::NetworkClient(std::unique_ptr<P2pClient> client, NetworkPartner partner,
                              net::OwnLinks& links)
     : client_(std::move(client)), partner_(std::move(partner)), links_(links) {
-  client_->on_time_out([this] { close(); });
+  client_->behind_connection([this] { close(); });
 }
 
 void NetworkClient::receive(const Burst& burst) {
   now_ = std::max(now_, burst.start);
-  if (burst.link != link_) {
-    // A connection from before the power went, or one that was closed.
-    if (burst.event == LinkEvent::data) event(burst.link, LinkEvent::reset);
-    return;
-  }
+  if (burst.link != link_) return receive_of_old(burst);
   if (burst.event == LinkEvent::data) return client_->receive(burst);
-  if (burst.event == LinkEvent::closed)
-    close();
-  else
-    link_ = none;
+  if (burst.event == LinkEvent::closed) event(link_, LinkEvent::closed);
+  link_ = none;
   client_->connection_lost();
+}
+
+/// On a connection that was closed, or from before the power went. RST is the answer but to what
+/// ends it.
+void NetworkClient::receive_of_old(const Burst& burst) {
+  const bool over = burst.event == LinkEvent::reset ||
+                    (burst.event == LinkEvent::closed && burst.link == half_closed_);
+  if (burst.link == half_closed_) half_closed_ = none;
+  std::erase(forgotten_, burst.link);
+  if (!over) event(burst.link, LinkEvent::reset);
 }
 
 std::optional<Time> NetworkClient::wake_at() const {
@@ -38,6 +42,8 @@ std::vector<Burst> NetworkClient::advance(Time now) {
 
 void NetworkClient::send(Bytes request) {
   if (link_ == none) {
+    end_old();
+    client_->connection_opened();
     link_ = links_.next();
     doings_.push_back({.bytes = {},
                        .start = now_,
@@ -50,7 +56,14 @@ void NetworkClient::send(Bytes request) {
 }
 
 void NetworkClient::close() {
-  if (link_ != none) event(std::exchange(link_, none), LinkEvent::closed);
+  if (link_ == none) return;
+  event(link_, LinkEvent::closed);
+  half_closed_ = std::exchange(link_, none);
+}
+
+void NetworkClient::end_old() {
+  if (half_closed_ != none) event(std::exchange(half_closed_, none), LinkEvent::reset);
+  for (const LinkId link : std::exchange(forgotten_, {})) event(link, LinkEvent::reset);
 }
 
 void NetworkClient::event(LinkId link, LinkEvent what) {
@@ -59,7 +72,7 @@ void NetworkClient::event(LinkId link, LinkEvent what) {
 
 void NetworkClient::power_cycle() {
   client_->power_cycle();
-  link_ = none;
+  if (link_ != none) forgotten_.push_back(std::exchange(link_, none));
   doings_.clear();
 }
 

@@ -5,7 +5,9 @@
 // it was lost or a reply has not come in time. What is under way when it is lost, or refused, ends
 // with STATUS 07 (Cnet EN Appendix 3.3: it could not be sent); the manual prints no code
 // (decision). After a time-out the client closes with FIN: a reply that comes late belongs to no
-// request.
+// request. Where the stream cannot be followed any more the connection ends, too. What is left of
+// an old connection, closed by the client alone or forgotten when the power went, ends by RST
+// before the next one is opened.
 #pragma once
 
 #include <memory>
@@ -29,7 +31,7 @@ class NetworkClient : public plc::NetworkService {
   /// `links` outlives the client.
   NetworkClient(std::unique_ptr<P2pClient> client, NetworkPartner partner, net::OwnLinks& links);
 
-  bool listens(Transport, std::uint16_t) const override { return false; }
+  std::vector<Port> ports() const override { return {}; }
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
   std::vector<Burst> advance(Time now) override;
@@ -47,12 +49,16 @@ class NetworkClient : public plc::NetworkService {
 
   void send(Bytes request);
   void close();
+  void receive_of_old(const Burst& burst);
+  void end_old();
   void event(LinkId link, LinkEvent what);
 
   std::unique_ptr<P2pClient> client_;
   NetworkPartner partner_;
   net::OwnLinks& links_;
   LinkId link_ = none;
+  LinkId half_closed_ = none;      // by this client; its partner may still send
+  std::vector<LinkId> forgotten_;  // when the power went
   std::vector<Burst> doings_;
   Time now_{};
 };

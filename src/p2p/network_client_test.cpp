@@ -143,6 +143,20 @@ TEST_F(Client, TimesOutAfterFiveSecondsAndClosesTheConnection) {
   EXPECT_EQ(heard(), "1:opened 1:ask 0");
 }
 
+/// A partner that never closes its side costs one connection, not one a time-out.
+TEST_F(Client, WhatTheTimeOutLeftHalfClosedEndsBeforeTheNextConnection) {
+  for (unsigned link = 0; link < 3; ++link) {
+    pulse(0);
+    const std::string number = std::to_string(link);
+    const std::string before = link == 0 ? "" : std::to_string(link - 1) + ":reset ";
+    EXPECT_EQ(heard(), before + number + ":opened " + number + ":ask 0");
+    EXPECT_EQ(heard(5s), number + ":closed");
+  }
+  ASSERT_TRUE(network.close(first_own_link + 2, Closing::fin));
+  pulse(0);
+  EXPECT_EQ(heard(), "3:opened 3:ask 0") << "both sides have closed the one before";
+}
+
 TEST_F(Client, RestsInStopAndWithTheLinkOff) {
   for (const auto& [off, on] : {std::pair{"stop", "run"}, {"link off", "link on"}}) {
     ASSERT_TRUE(plc->act(off));
@@ -165,6 +179,14 @@ TEST_F(Client, APowerCycleForgetsTheConnection) {
   EXPECT_EQ(result(0), "0000 0000");
   pulse(0);
   EXPECT_EQ(heard(), "1:opened 1:ask 0");
+  ASSERT_TRUE(plc->act("power_cycle"));
+  ASSERT_TRUE(network.close(first_own_link + 1, Closing::fin));
+  EXPECT_EQ(heard(), "1:reset") << "nobody knows that connection";
+  pulse(0);
+  EXPECT_EQ(heard(), "2:opened 2:ask 0");
+  ASSERT_TRUE(plc->act("power_cycle"));
+  pulse(0);
+  EXPECT_EQ(heard(), "2:reset 3:opened 3:ask 0") << "a partner that says nothing keeps no link";
 }
 
 TEST_F(Client, ShowsTheChannelWhereAStationWouldBe) {

@@ -100,8 +100,12 @@ Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, std::uin
   for (const unsigned channel : channels_in_use(*parameters)) {
     auto client = make_client(plc.memory(), *parameters, channel, driver(), {network_time_out});
     if (!client) return client.error();
-    plc.add(std::make_unique<NetworkClient>(
-        std::move(*client), NetworkPartner{parameters->partner, port}, plc.own_links()));
+    const NetworkPartner partner{
+        parameters->partner,
+        parameters->port != 0 ? static_cast<std::uint16_t>(parameters->port) : port};
+    const Status added =
+        plc.add(std::make_unique<NetworkClient>(std::move(*client), partner, plc.own_links()));
+    if (!added) return added;
   }
   return ok();
 }

@@ -39,6 +39,7 @@ struct P2pParameters {
   std::vector<P2pBlock> blocks{};  // in the order of their numbers
   bool network = false;            // of an Ethernet module
   std::string partner{};           // its address; empty: whoever is there
+  unsigned port = 0;               // where it listens; 0: where the service has its port
 };
 
 /// What holds whatever the driver is. Errors name the block and the key: "cannot set up P2P block

@@ -16,9 +16,10 @@ Status Controller::add(unsigned channel, std::unique_ptr<LineService> service) {
   return ok();
 }
 
-void Controller::add(std::unique_ptr<NetworkService> service) {
-  ethernet_.add(*service);
+Status Controller::add(std::unique_ptr<NetworkService> service) {
+  if (const Status added = ethernet_.add(*service); !added) return added;
   take(std::move(service));
+  return ok();
 }
 
 void Controller::take(std::unique_ptr<Service> service) {
@@ -32,6 +33,8 @@ line::Device* Controller::line(unsigned channel) {
 }
 
 Result<std::string> Controller::get_of_service(std::string_view name, std::size_t digits) const {
+  if (services_.empty())
+    return fail(fmt::format("cannot read {}: the device has no service; add one", name));
   return services_.front()->get(name, digits);
 }
 

@@ -22,9 +22,9 @@ class Controller : public EmulatedDevice {
 
   /// The first service is the main one: `line()` leads to its channel where it has one, and the '@'
   /// names of the back door are its. Services are told the mode when they are added.
-  /// Errors: the channel has a service already.
+  /// Errors: the channel has a service already, or a port of the network.
   Status add(unsigned channel, std::unique_ptr<LineService> service);
-  void add(std::unique_ptr<NetworkService> service);
+  Status add(std::unique_ptr<NetworkService> service);
   /// For services that open links.
   net::OwnLinks& own_links() { return ethernet_.own_links(); }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace fieldproof::plc {
 
 bool Ethernet::listens(Transport transport, std::uint16_t port) const {
@@ -10,18 +12,39 @@ bool Ethernet::listens(Transport transport, std::uint16_t port) const {
       services_, [&](const NetworkService* service) { return service->listens(transport, port); });
 }
 
+Status Ethernet::add(NetworkService& service) {
+  for (const NetworkService::Port& port : service.ports())
+    if (listens(port.transport, port.number))
+      return fail(fmt::format("cannot put two services on {} port {}; leave one of them out",
+                              port.transport == Transport::tcp ? "TCP" : "UDP", port.number));
+  services_.push_back(&service);
+  return ok();
+}
+
 NetworkService* Ethernet::owner(const Burst& burst) {
-  if (const auto known = owners_.find(burst.link); known != owners_.end()) return known->second;
+  if (const auto known = owners_.find(burst.link); known != owners_.end())
+    return known->second.service;
   const Transport transport = burst.event == LinkEvent::datagram ? Transport::udp : Transport::tcp;
   const auto found = std::ranges::find_if(services_, [&](const NetworkService* service) {
     return service->listens(transport, burst.port);
   });
-  return found == services_.end() ? nullptr : owners_[burst.link] = *found;
+  if (found == services_.end()) return nullptr;
+  owners_[burst.link].service = *found;
+  return *found;
+}
+
+/// What a burst in one direction, whose FIN `closed` remembers, does to its link.
+void Ethernet::note(const Burst& burst, bool Owner::*closed) {
+  const auto known = owners_.find(burst.link);
+  if (known == owners_.end()) return;
+  if (burst.event == LinkEvent::closed) known->second.*closed = true;
+  const bool both = known->second.closed_by_client && known->second.closed_by_us;
+  if (both || burst.event == LinkEvent::reset) owners_.erase(known);
 }
 
 void Ethernet::receive(const Burst& burst) {
   NetworkService* const service = owner(burst);
-  if (burst.event == LinkEvent::reset) owners_.erase(burst.link);
+  note(burst, &Owner::closed_by_client);
   if (service) service->receive(burst);
 }
 
@@ -37,7 +60,9 @@ std::vector<Burst> Ethernet::advance(Time now) {
   std::vector<Burst> all;
   for (NetworkService* service : services_) {
     for (Burst& burst : service->advance(now)) {
-      if (burst.link >= first_own_link) owners_[burst.link] = service;
+      const bool ends = burst.event == LinkEvent::closed || burst.event == LinkEvent::reset;
+      if (burst.link >= first_own_link && !ends) owners_[burst.link].service = service;
+      note(burst, &Owner::closed_by_us);
       all.push_back(std::move(burst));
     }
   }

@@ -12,9 +12,11 @@ namespace fieldproof::plc {
 
 class Ethernet : public net::Host {
  public:
-  /// `service` outlives the module.
-  void add(NetworkService& service) { services_.push_back(&service); }
+  /// `service` outlives the module. Errors: another one listens on a port of it.
+  Status add(NetworkService& service);
   bool empty() const { return services_.empty(); }
+  /// Links that are there; for tests.
+  std::size_t links() const { return owners_.size(); }
   /// For services that open links.
   net::OwnLinks& own_links() { return own_links_; }
 
@@ -24,10 +26,16 @@ class Ethernet : public net::Host {
   std::vector<Burst> advance(Time now) override;
 
  private:
+  /// Whose a link is, and who has closed it: both, and it is gone (src/net/host.hpp).
+  struct Owner {
+    NetworkService* service = nullptr;
+    bool closed_by_client = false, closed_by_us = false;
+  };
   NetworkService* owner(const Burst& burst);
+  void note(const Burst& burst, bool Owner::*closed);
 
   std::vector<NetworkService*> services_;
-  std::map<LinkId, NetworkService*> owners_;
+  std::map<LinkId, Owner> owners_;  // of the links that are there
   net::OwnLinks own_links_;
 };
 

@@ -55,7 +55,9 @@ class NetNoter : public Noting<NetworkService> {
  public:
   NetNoter(PlcMemory& memory, std::string& notes, std::uint16_t port, net::OwnLinks& links)
       : Noting(memory, notes), port_(port), links_(links) {}
-  bool listens(Transport, std::uint16_t port) const override { return port == port_; }
+  std::vector<Port> ports() const override {
+    return {{Transport::tcp, port_}, {Transport::udp, port_}};
+  }
   void receive(const Burst& burst) override {
     hear(burst);
     notes_ += std::to_string(port_) + ":" + to_text(burst.bytes) + " ";
@@ -85,8 +87,8 @@ class PlcTest : public testing::Test {
   Status add_line(unsigned channel) {
     return plc.add(channel, std::make_unique<LineNoter>(plc.memory(), notes));
   }
-  void add_network(std::uint16_t port) {
-    plc.add(std::make_unique<NetNoter>(plc.memory(), notes, port, plc.own_links()));
+  Status add_network(std::uint16_t port) {
+    return plc.add(std::make_unique<NetNoter>(plc.memory(), notes, port, plc.own_links()));
   }
   std::string noted() { return std::exchange(notes, {}); }
 
@@ -102,15 +104,20 @@ TEST_F(PlcTest, HasWhatWasAdded) {
   EXPECT_EQ(plc.line(), plc.line(2)) << "the first that is added is the main one";
   EXPECT_EQ(plc.line(1), nullptr);
   EXPECT_EQ(plc.network(), nullptr);
-  add_network(502);
+  ASSERT_TRUE(add_network(502));
   EXPECT_TRUE(plc.network()->listens(Transport::tcp, 502));
   EXPECT_FALSE(plc.network()->listens(Transport::tcp, 503));
   EXPECT_THAT(add_line(2).error().message, HasSubstr("channel 2"));
+  EXPECT_THAT(add_network(502).error().message, HasSubstr("two services on TCP port 502"));
+}
+
+TEST_F(PlcTest, WithoutAServiceNothingIsCounted) {
+  EXPECT_THAT(plc.get("@services", 0).error().message, HasSubstr("has no service"));
 }
 
 TEST_F(PlcTest, ServicesShareOneMemoryAndHearOfItsChanges) {
   ASSERT_TRUE(add_line(1));
-  add_network(502);
+  ASSERT_TRUE(add_network(502));
   noted();
   plc.line()->receive({.bytes = {0x12}});
   EXPECT_EQ(noted(), "scan scan ");
@@ -123,7 +130,7 @@ TEST_F(PlcTest, ServicesShareOneMemoryAndHearOfItsChanges) {
 
 TEST_F(PlcTest, ModeAndPowerAreThoseOfAll) {
   ASSERT_TRUE(add_line(1));
-  add_network(502);
+  ASSERT_TRUE(add_network(502));
   EXPECT_EQ(noted(), "run run ");
   ASSERT_TRUE(plc.act("stop"));
   EXPECT_EQ(noted(), "stop stop ");
@@ -135,7 +142,7 @@ TEST_F(PlcTest, ModeAndPowerAreThoseOfAll) {
 }
 
 TEST_F(PlcTest, ActionsOfServices) {
-  add_network(502);
+  ASSERT_TRUE(add_network(502));
   EXPECT_EQ(plc.act("wink").error().message,
             "cannot do 'wink': there is no such action; use run, stop or power_cycle");
   ASSERT_TRUE(add_line(1));
@@ -158,8 +165,8 @@ TEST_F(PlcTest, CountersAreThoseOfTheMainService) {
 }
 
 TEST_F(PlcTest, ServicesOfTheEthernetModuleShareItsNetwork) {
-  add_network(502);
-  add_network(2004);
+  ASSERT_TRUE(add_network(502));
+  ASSERT_TRUE(add_network(2004));
   net::SimulatedNetwork network;
   network.attach(*plc.network());
   const LinkId a = network.open(Transport::tcp, 2004), b = network.open(Transport::tcp, 502),

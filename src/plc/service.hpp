@@ -2,6 +2,8 @@
 // Ethernet module. It shares memory, mode and power with the others (controller.hpp).
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +42,21 @@ class Service {
 };
 
 class LineService : public Service, public line::Device {};
-class NetworkService : public Service, public net::Host {};
+
+class NetworkService : public Service, public net::Host {
+ public:
+  struct Port {
+    Transport transport = Transport::tcp;
+    std::uint16_t number = 0;
+    bool operator==(const Port&) const = default;
+  };
+  /// Where it listens, the same all its life; none: it only opens links of its own.
+  virtual std::vector<Port> ports() const = 0;
+
+  bool listens(Transport transport, std::uint16_t port) const final {
+    const std::vector<Port> all = ports();
+    return std::ranges::find(all, Port{transport, port}) != all.end();
+  }
+};
 
 }  // namespace fieldproof::plc

@@ -68,8 +68,7 @@ Status add_modbus_server(XinjePlc& plc, ModbusMode mode, unsigned channel,
     return plc.add(channel, std::make_unique<modbus::ModbusServer>(mode, std::move(data), port));
   modbus::TcpServerConfig tcp;
   if (const Status read = modbus::read_tcp_config(config, tcp); !read) return read;
-  plc.add(std::make_unique<modbus::ModbusTcpServer>(std::move(data), tcp));
-  return ok();
+  return plc.add(std::make_unique<modbus::ModbusTcpServer>(std::move(data), tcp));
 }
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_xinje_plc(ModbusMode mode,

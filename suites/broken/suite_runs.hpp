@@ -23,8 +23,10 @@ namespace fieldproof::broken {
 
 /// One run of the tool.
 struct Trial {
-  std::string name;    // unique
-  std::string device;  // command that starts it, with {tty} and options: "PROGRAM {tty}?station=1"
+  std::string name;  // unique
+  // Command that starts it, with {tty} and options: "PROGRAM {tty}?station=1"; or the endpoint of
+  // one that runs already: "tcp:127.0.0.1:1502?protocol=modbus-tcp".
+  std::string device;
   std::string profile = "xbc-h";
   std::string vectors{};  // a file or a folder; empty: the whole suite, which starts first
   std::string filter{};   // empty: all
@@ -43,7 +45,8 @@ inline SuiteRun run_trial(Trial trial, const std::string& folder) {
   constexpr std::string_view mark = "{folder}";
   if (const std::size_t at = trial.device.find(mark); at != std::string::npos)
     trial.device.replace(at, mark.size(), folder);
-  std::vector<std::string> arguments{"run",         "--endpoint",  "exec:" + trial.device,
+  if (!trial.device.starts_with("tcp:")) trial.device.insert(0, "exec:");
+  std::vector<std::string> arguments{"run",         "--endpoint",  trial.device,
                                      "--profile",   trial.profile, "--allow-write",
                                      "all,P,Q,U,H", "--out",       folder};
   if (!trial.vectors.empty()) arguments.insert(arguments.end(), {"--vectors", trial.vectors});

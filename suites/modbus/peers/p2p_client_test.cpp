@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "suites/modbus/peers/test_ports.hpp"
 #include "suites/tool/tool.hpp"
 
 namespace fieldproof::modbus_peers {
@@ -65,8 +66,9 @@ json block(const char* function, const char* type, const char* read, const char*
   return made;
 }
 
-/// Block 0 knocks until the server is up, the last one shows that those before it are done.
-json parameters() {
+/// Block 0 knocks until the server is up, the last one shows that those before it are done. By TCP
+/// the server is at `port`.
+json parameters(std::uint16_t port) {
   json knock = block("read", "word", "0x40000", "%MW300");
   knock["flag"] = "F93";
   const json blocks{
@@ -81,12 +83,13 @@ json parameters() {
       block("read", "bit", "0x10C81", "%MX02300"),      // and inputs the same bits
       block("read", "word", "0x4FFF0", "%MW240"),       // exception 02
       block("read", "word", "0x400FE", "%MW301")};
+  if (port != 0) return {{"p2p", {{"blocks", blocks}, {"partner", "127.0.0.1"}, {"port", port}}}};
   return {{"time_out", 20}, {"p2p", {{"blocks", blocks}}}};
 }
 
 struct Server {
   std::string name, mode;
-  std::vector<std::string> command;  // and the terminal
+  std::vector<std::string> command;  // and the terminal, or the port
 };
 
 const std::vector<Server> servers{
@@ -94,7 +97,9 @@ const std::vector<Server> servers{
     {"pymodbus_rtu", "rtu", {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "rtu"}},
     {"pymodbus_ascii",
      "ascii",
-     {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "ascii"}}};
+     {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "ascii"}},
+    {"libmodbus_tcp", "tcp", {LIBMODBUS_SERVER, "tcp"}},
+    {"pymodbus_tcp", "tcp", {"/usr/bin/python3", folder_of_servers + "pymodbus_server.py", "tcp"}}};
 
 void PrintTo(const Server& server, std::ostream* out) { *out << server.name; }
 
@@ -113,10 +118,14 @@ INSTANTIATE_TEST_SUITE_P(Servers, P2pMaster, testing::ValuesIn(servers),
                          [](const auto& test) { return test.param.name; });
 
 TEST_P(P2pMaster, IsAnsweredByAServerOfOthers) {
-  const std::string tty = folder / "plc", file = folder.write("p2p.json", parameters().dump());
-  tool_tests::Process master(
-      tool_tests::tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--p2p",
-                                  file, "--pty", tty, "--control", plc.far_end(), "-v"}));
+  const std::uint16_t port = GetParam().mode == "tcp" ? free_port() : 0;
+  const std::string tty = folder / "plc";
+  std::vector<std::string> asks{"emulate",   "xbc-h?protocol=modbus-" + GetParam().mode,
+                                "--p2p",     folder.write("p2p.json", parameters(port).dump()),
+                                "--control", plc.far_end(),
+                                "-v"};
+  if (port == 0) asks.insert(asks.end(), {"--pty", tty});
+  tool_tests::Process master(tool_tests::tool_arguments(asks));
   plc.given_away();
   ASSERT_NE(plc.get("%MW0"), "") << master.wait().err;  // an answer: the terminal is there
   plc.set("%MW100", "9ABC");
@@ -124,13 +133,13 @@ TEST_P(P2pMaster, IsAnsweredByAServerOfOthers) {
   plc.set("%MX0001F", "01");
   plc.set("%MW101", "81CD0005");
   std::vector<std::string> command = GetParam().command;
-  command.push_back(tty);
+  command.push_back(port == 0 ? tty : std::to_string(port));
   const tool_tests::Process server(command);
   ASSERT_TRUE(master.wait_for("received")) << "nobody answers the first block";
   plc.set("%MX00000", "01");
-  const bool rtu = GetParam().mode == "rtu";
+  const bool ascii = GetParam().mode == "ascii";
   const std::string last_request =
-      rtu ? "01 03 00 FE 00 01" : "3A 30 31 30 33 30 30 46 45 30 30 30 31";
+      ascii ? "3A 30 31 30 33 30 30 46 45 30 30 30 31" : "01 03 00 FE 00 01";
   ASSERT_TRUE(master.wait_for(last_request));
 
   for (unsigned number = 1; number <= 8; ++number)

@@ -1,7 +1,7 @@
-"""pymodbus_client.py rtu|ascii TTY: a master made of pymodbus. What it writes one way it reads another."""
+"""pymodbus_client.py rtu|ascii TTY, or tcp PORT: a master made of pymodbus. What it writes one way it reads another."""
 import sys
 
-from pymodbus.client import ModbusSerialClient
+from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 from pymodbus.transaction import ModbusAsciiFramer, ModbusRtuFramer
 
 failures = 0
@@ -20,10 +20,13 @@ def word_bits(*words):
 
 
 def main():
-    mode, tty = sys.argv[1:]
-    line = ModbusSerialClient(port=tty, framer={"rtu": ModbusRtuFramer, "ascii": ModbusAsciiFramer}[mode],
-                              baudrate=9600, bytesize=8, parity="N", stopbits=1, timeout=2)
-    check(line.connect(), True, "open the terminal")
+    mode, where = sys.argv[1:]
+    if mode == "tcp":
+        line = ModbusTcpClient("127.0.0.1", port=int(where), timeout=2)
+    else:
+        line = ModbusSerialClient(port=where, framer={"rtu": ModbusRtuFramer, "ascii": ModbusAsciiFramer}[mode],
+                                  baudrate=9600, bytesize=8, parity="N", stopbits=1, timeout=2)
+    check(line.connect(), True, "open the line")
 
     check(line.write_registers(100, [0x9ABC, 0x1234], slave=1).count, 2, "10 writes two registers")
     check(line.read_coils(1600, 32, slave=1).bits, word_bits(0x9ABC, 0x1234), "01 reads what 10 wrote")

@@ -1,13 +1,13 @@
-"""pymodbus_server.py rtu|ascii TTY: a server made of pymodbus, as a device under test that nobody here has written.
+"""pymodbus_server.py rtu|ascii TTY, or tcp PORT: a server made of pymodbus, as a device under test that nobody here has written.
 
-Station 1. Its memory is laid out as that of an XBC-DxxxH with all four bases at M0: coils and inputs are the bits of
+Station 1; by TCP whatever the unit. Its memory is laid out as that of an XBC-DxxxH with all four bases at M0: coils and inputs are the bits of
 the words, input registers are the holding registers.
 """
 import sys
 
 from pymodbus.datastore import ModbusSequentialDataBlock, ModbusServerContext, ModbusSlaveContext
 from pymodbus.datastore.store import BaseModbusDataBlock
-from pymodbus.server import StartSerialServer
+from pymodbus.server import StartSerialServer, StartTcpServer
 from pymodbus.transaction import ModbusAsciiFramer, ModbusRtuFramer
 
 WORDS = 1024  # M of an XBC-DxxxH
@@ -33,14 +33,17 @@ class BitsOfWords(BaseModbusDataBlock):
 
 
 def main():
-    mode, tty = sys.argv[1:]
+    mode, where = sys.argv[1:]
     words = ModbusSequentialDataBlock(0, [0] * WORDS)
     bits = BitsOfWords(words)
     memory = ModbusSlaveContext(di=bits, co=bits, hr=words, ir=words, zero_mode=True)
+    if mode == "tcp":
+        StartTcpServer(context=ModbusServerContext(slaves=memory, single=True), address=("127.0.0.1", int(where)))
+        return
     StartSerialServer(
         context=ModbusServerContext(slaves={1: memory}, single=False),
         framer={"rtu": ModbusRtuFramer, "ascii": ModbusAsciiFramer}[mode],
-        port=tty, baudrate=9600, bytesize=8, parity="N", stopbits=1, ignore_missing_slaves=True)
+        port=where, baudrate=9600, bytesize=8, parity="N", stopbits=1, ignore_missing_slaves=True)
 
 
 main()

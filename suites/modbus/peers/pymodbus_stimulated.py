@@ -1,4 +1,4 @@
-"""pymodbus_stimulated.py rtu|ascii TTY: a master made of pymodbus, as a device under test in the client role.
+"""pymodbus_stimulated.py rtu|ascii TTY, or tcp PORT: a master made of pymodbus, as a device under test in the client role.
 
 What it asks comes as lines of JSON on standard input (README 'The module as client'): at once, or at the pace of a clock
 until "over". Ends with its input; what failed is told on standard error.
@@ -6,10 +6,12 @@ until "over". Ends with its input; what failed is told on standard error.
 import json
 import os
 import select
+import socket
 import sys
 import time
 
-from pymodbus.client import ModbusSerialClient
+from pymodbus.client import ModbusSerialClient, ModbusTcpClient
+from pymodbus.exceptions import ConnectionException
 from pymodbus.transaction import ModbusAsciiFramer, ModbusRtuFramer
 
 PERIODS = {"F90": 0.02, "F92": 0.2, "F93": 1.0, "_T20MS": 0.02, "_T200MS": 0.2, "_T1S": 1.0}
@@ -24,7 +26,22 @@ def elements(digits, size):
     return [int(digits[at:at + size], 16) for at in range(0, len(digits), size)]
 
 
+def connect_again_if_closed(line):
+    """A connection that the partner has closed between two requests is made anew."""
+    try:
+        if line.socket and line.socket.recv(1, socket.MSG_PEEK | socket.MSG_DONTWAIT):
+            return
+    except BlockingIOError:
+        return
+    except OSError:
+        pass
+    line.close()
+    line.connect()
+
+
 def ask(line, request):
+    if isinstance(line, ModbusTcpClient):
+        connect_again_if_closed(line)
     block = request["block"]
     writes = block.get("function", "read") == "write"
     partner = address_of(block["save" if writes else "read"])  # "0x40001"
@@ -74,11 +91,14 @@ class Jobs:
 
 
 def main():
-    mode, tty = sys.argv[1:]
-    line = ModbusSerialClient(port=tty, framer={"rtu": ModbusRtuFramer, "ascii": ModbusAsciiFramer}[mode],
-                              baudrate=9600, bytesize=8, parity="N", stopbits=1, timeout=1, retries=0)
+    mode, where = sys.argv[1:]
+    if mode == "tcp":
+        line = ModbusTcpClient("127.0.0.1", port=int(where), timeout=1, retries=0)
+    else:
+        line = ModbusSerialClient(port=where, framer={"rtu": ModbusRtuFramer, "ascii": ModbusAsciiFramer}[mode],
+                                  baudrate=9600, bytesize=8, parity="N", stopbits=1, timeout=1, retries=0)
     if not line.connect():
-        sys.exit(f"pymodbus_stimulated: cannot open {tty}")
+        sys.exit(f"pymodbus_stimulated: cannot open {where}")
     jobs, heard, wait = Jobs(line), b"", None
     while True:
         if select.select([0], [], [], wait)[0]:
@@ -90,9 +110,13 @@ def main():
         for text in lines:
             try:
                 jobs.take(text)
-            except (ValueError, KeyError, IndexError) as error:
+            except (ValueError, KeyError, IndexError, ConnectionException) as error:
                 print(f"pymodbus_stimulated: cannot take the line {text.decode()}: {error!r}", file=sys.stderr)
-        wait = jobs.run_due()
+        try:
+            wait = jobs.run_due()
+        except ConnectionException as error:
+            print(f"pymodbus_stimulated: {error}", file=sys.stderr)
+            wait = 0
 
 
 main()

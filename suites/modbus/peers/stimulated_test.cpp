@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include "suites/modbus/peers/test_ports.hpp"
 #include "suites/tool/tool.hpp"
 
 namespace fieldproof::modbus_peers {
@@ -12,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 struct Master {
-  std::string name, mode, command;  // and the terminal
+  std::string name, mode, command;  // and the terminal, or the port
 };
 
 const std::string python =
@@ -21,7 +22,9 @@ const std::string python =
 const std::vector<Master> masters{
     {"libmodbus_rtu", "rtu", tool_tests::quoted(LIBMODBUS_STIMULATED)},
     {"pymodbus_rtu", "rtu", python + " rtu"},
-    {"pymodbus_ascii", "ascii", python + " ascii"}};
+    {"pymodbus_ascii", "ascii", python + " ascii"},
+    {"libmodbus_tcp", "tcp", tool_tests::quoted(LIBMODBUS_STIMULATED) + " tcp"},
+    {"pymodbus_tcp", "tcp", python + " tcp"}};
 
 void PrintTo(const Master& master, std::ostream* out) { *out << master.name; }
 
@@ -47,9 +50,9 @@ const std::vector<Line> lines{
     {R"("function":"read","command":"continuous","type":"bit","size":16,"read":["0x100A0"],"save":["%MX01800"])",
      "", "02 00 A0 00 10"}};
 
-/// As the wire has it: RTU bytes, or the characters of ASCII.
+/// As the wire has it: bytes, or the characters of ASCII.
 std::string on_the_wire(const std::string& mode, const std::string& hex) {
-  if (mode == "rtu") return "01 " + hex;
+  if (mode != "ascii") return "01 " + hex;
   std::string characters = "01" + hex;
   std::erase(characters, ' ');
   return ':' + characters;
@@ -63,22 +66,24 @@ std::string line_of(const std::string& block, const std::string& values, const s
 class StimulatedMaster : public testing::TestWithParam<Master> {
  protected:
   tool_tests::TestFolder folder;
-  const std::string tty = folder / "plc";
-  tool_tests::Process plc{tool_tests::tool_arguments(
-      {"emulate", "xbc-h?protocol=modbus-" + GetParam().mode, "--pty", tty, "-v"})};
+  const bool tcp = GetParam().mode == "tcp";
+  const std::string where = tcp ? std::to_string(free_port()) : folder / "plc";
+  tool_tests::Process plc{
+      tool_tests::tool_arguments({"emulate", "xbc-h?protocol=modbus-" + GetParam().mode,
+                                  tcp ? "--tcp" : "--pty", where, "-v"})};
 };
 
 INSTANTIATE_TEST_SUITE_P(Masters, StimulatedMaster, testing::ValuesIn(masters),
                          [](const auto& test) { return test.param.name; });
 
 TEST_P(StimulatedMaster, AsksWhatTheLinesSay) {
-  ASSERT_TRUE(plc.wait_for(tty));
+  ASSERT_TRUE(plc.wait_for(where));
   std::string text;
   for (const Line& line : lines) text += line_of(line.block, line.values, "%MX00000");
   const std::string input = folder.write("lines.json", text);
   const tool_tests::Finished master =
       tool_tests::run_program({"/bin/sh", "-c",
-                               "exec " + GetParam().command + ' ' + tool_tests::quoted(tty) +
+                               "exec " + GetParam().command + ' ' + tool_tests::quoted(where) +
                                    " < " + tool_tests::quoted(input)});
   EXPECT_EQ(master.code, 0);
   EXPECT_EQ(master.err, "") << "every request was answered";
@@ -89,7 +94,7 @@ TEST_P(StimulatedMaster, AsksWhatTheLinesSay) {
 }
 
 TEST_P(StimulatedMaster, AsksAtThePaceOfAClockUntilItIsOver) {
-  ASSERT_TRUE(plc.wait_for(tty));
+  ASSERT_TRUE(plc.wait_for(where));
   const std::string clock = line_of(lines[4].block, "", "F92"),
                     once = line_of(lines[6].block, "", "%MX00000");
   const std::string over = R"({"case":"c","over":true})"
@@ -97,8 +102,8 @@ TEST_P(StimulatedMaster, AsksAtThePaceOfAClockUntilItIsOver) {
   const std::string pipe = folder / "lines";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   tool_tests::Process master({"/bin/sh", "-c",
-                              "exec " + GetParam().command + ' ' + tool_tests::quoted(tty) + " < " +
-                                  tool_tests::quoted(pipe)});
+                              "exec " + GetParam().command + ' ' + tool_tests::quoted(where) +
+                                  " < " + tool_tests::quoted(pipe)});
   const int lines_in = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
   const auto tell = [lines_in](const std::string& line) {
     return ::write(lines_in, line.data(), line.size()) == static_cast<ssize_t>(line.size());
@@ -115,11 +120,12 @@ TEST_P(StimulatedMaster, AsksAtThePaceOfAClockUntilItIsOver) {
 /// standard input what to ask.
 TEST_P(StimulatedMaster, IsJudgedByTheBench) {
   const std::string vectors = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/stimulated_vectors.json";
-  const tool_tests::Finished run = tool_tests::run_tool(
-      {"run", "--role", "client", "--vectors", vectors, "--filter",
-       "modbus_" + GetParam().mode + "/*", "--stimulus", "-", "--endpoint",
-       "exec:" + GetParam().command + " {tty}?station=0&protocol=modbus-" + GetParam().mode,
-       "--profile", "xbc-h", "--out", folder / "out"});
+  const tool_tests::Finished run =
+      tool_tests::run_tool({"run", "--role", "client", "--vectors", vectors, "--filter",
+                            "modbus_" + GetParam().mode + "/*", "--stimulus", "-", "--endpoint",
+                            "exec:exec " + GetParam().command + (tcp ? " {port}" : " {tty}") +
+                                "?station=0&protocol=modbus-" + GetParam().mode,
+                            "--profile", "xbc-h", "--out", folder / "out"});
   EXPECT_EQ(run.code, 0) << run.out << run.err;
   EXPECT_THAT(run.out, HasSubstr("  4  PASS"));
 }

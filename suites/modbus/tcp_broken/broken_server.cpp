@@ -133,7 +133,9 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(Behaviour behavi
   if (behaviour.settings) behaviour.settings(settings);
   Result<std::unique_ptr<modbus::DataSpace>> data = data_of((*good)->memory(), config);
   if (!data) return data.error();
-  (*good)->add(std::make_unique<modbus::ModbusTcpServer>(std::move(*data), settings));
+  const Status added =
+      (*good)->add(std::make_unique<modbus::ModbusTcpServer>(std::move(*data), settings));
+  if (!added) return added.error();
   return std::unique_ptr<plc::EmulatedDevice>(
       std::make_unique<BrokenServer>(std::move(behaviour), std::move(*good)));
 }

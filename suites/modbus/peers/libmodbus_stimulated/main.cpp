@@ -1,19 +1,20 @@
-// libmodbus_stimulated TTY: an RTU master made of libmodbus, as a device under test in the client
-// role. What it asks comes as lines of JSON on standard input (README 'The module as client'): at
-// once, or at the pace of a clock until "over". Ends with its input; what failed is told on
-// standard error.
-#include <modbus/modbus.h>
+// libmodbus_stimulated TTY | tcp PORT: a master made of libmodbus, as a device under test in the
+// client role. What it asks comes as lines of JSON on standard input (README 'The module as
+// client'): at once, or at the pace of a clock until "over". Ends with its input; what failed is
+// told on standard error.
 #include <poll.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "suites/modbus/peers/libmodbus_way.hpp"
 
 namespace {
 
@@ -78,7 +79,20 @@ int read(modbus_t* line, char table, int address, int count) {
   }
 }
 
+/// A connection that the partner has closed between two requests is made anew; a terminal is not
+/// closed.
+void connect_again_if_closed(modbus_t* line) {
+  char byte = 0;
+  if (::recv(modbus_get_socket(line), &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0 || errno == EAGAIN ||
+      errno == ENOTSOCK)
+    return;
+  modbus_close(line);
+  modbus_connect(line);
+}
+
 void ask(modbus_t* line, const json& request) {
+  errno = 0;
+  connect_again_if_closed(line);
   const json& block = request.at("block");
   const bool writes = block.value("function", "read") == "write";
   const std::string partner = text_at(block, writes ? "save" : "read");  // "0x40001"
@@ -118,20 +132,13 @@ int run_due(modbus_t* line, std::vector<Job>& jobs) {
       std::max<long long>(0, std::chrono::ceil<Milliseconds>(next->next - Clock::now()).count()));
 }
 
-struct Deleter {
-  void operator()(modbus_t* context) const { modbus_free(context); }
-};
-
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count != 2) {
-    std::fprintf(stderr, "usage: libmodbus_stimulated TTY\n");
-    return 2;
-  }
-  const std::unique_ptr<modbus_t, Deleter> line(modbus_new_rtu(arguments[1], 9600, 'N', 8, 1));
-  if (!line || modbus_connect(line.get()) != 0) {
-    std::fprintf(stderr, "libmodbus_stimulated: cannot open %s: %s\n", arguments[1],
+  const Modbus line = make_modbus("libmodbus_stimulated", count, arguments);
+  if (!line) return 2;
+  if (modbus_connect(line.get()) != 0) {
+    std::fprintf(stderr, "libmodbus_stimulated: cannot open %s: %s\n", arguments[count - 1],
                  modbus_strerror(errno));
     return 3;
   }
