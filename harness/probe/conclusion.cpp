@@ -175,7 +175,7 @@ void add_troubles(const Search& search, std::vector<Finding>& findings) {
   const bool named = !findings.empty();
   if (const auto seen = those(search, [](const Observation& one) { return one.diagnosis.echo; });
       !seen.empty())
-    add(Kind::echo, seen, std::string(echo_text) + ", and nothing else", echo_advice);
+    add(Kind::echo, seen, fmt::format("{}, and nothing else", echo_text), echo_advice);
   const auto garbage = those(search, [](const Observation& one) {
     const Symptom symptom = one.diagnosis.symptom;
     return symptom == Symptom::garbage || symptom == Symptom::inverted ||
