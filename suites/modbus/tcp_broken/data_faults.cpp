@@ -182,7 +182,7 @@ std::vector<Fault> data_faults() {
        "modbus_tcp/bases/tcp_four", "data"},
       {"any_value_is_on", "FC 05 takes any value but 0000 for on",
        coil_value([](unsigned value) { return value ? 0xFF00u : 0u; }),
-       "modbus_tcp/examples/fc05_as_printed/table_5_31", "echo"},
+       "modbus_tcp/examples/fc05_as_printed/table_5_31", "the request came back"},
       {"off_is_on", "FC 05 switches on, whatever its value",
        coil_value([](unsigned) { return 0xFF00u; }), "modbus_tcp/data/tcp_bit_in_word/b0_off", ""},
       {"word_echo_of_zeros", "the reply to FC 06 has value 0",
