@@ -49,6 +49,10 @@ struct Special {
   const char* not_run = nullptr;  // why
 };
 
+/// What the recipes of a gate select takes a minute each; Readme.RecipesPassAsPrinted runs it.
+constexpr const char* all_of_a_gate = "*:-*/line/*:-*/timing/*:-*/status_by_service/*";
+constexpr const char* a_few = "xgt_cnet/rs*/*refused/*";
+
 const std::map<std::string, Special> specials{
     {"./test.sh", {.not_run = "it is what runs this test"}},
     {"cmake --build --preset plain && build/plain/fieldproof_bench",
@@ -67,7 +71,7 @@ const std::map<std::string, Special> specials{
      {.replaced = "socat ", .by = "socat -d -d ", .shows = "starting data transfer loop"}},
     {"./run.sh emulate xbc-h --pty /tmp/plc -v &", {.shows = "plc"}},
     {"./run.sh run --endpoint 'tcp:192.168.1.10?protocol=modbus-tcp' --profile xbc-dxxxh "
-     "--allow-write M100-M199",
+     "--role server --allow-write M0-M199 --min-judged 80%",
      // An emulator of this test stands in for the PLC at that address.
      {.replaced = "192.168.1.10", .by = "127.0.0.1:$PORT"}},
     {"./run.sh emulate 'xbc-h?protocol=modbus-tcp' --tcp 1502 -v",
@@ -89,9 +93,9 @@ const std::map<std::string, Special> specials{
 
 /// A folder that has what the commands name: the tool, a program that is a PLC, an adapter, a bench
 /// file, results of earlier runs under the names that README gives them.
-class Readme : public testing::Test {
+class ReadmeRuns : public testing::Test {
  protected:
-  Readme() {
+  ReadmeRuns() {
     namespace fs = std::filesystem;
     fs::create_directories(folder_ / "build/plain");
     fs::create_directories(folder_ / "DIR");
@@ -180,6 +184,8 @@ class Readme : public testing::Test {
       ASSERT_NE(at, std::string::npos) << special.replaced;
       command.replace(at, special.replaced.size(), special.by);
     }
+    if (const std::size_t at = command.find(all_of_a_gate); at != std::string::npos)
+      command.replace(at, std::string_view(all_of_a_gate).size(), a_few);
     for (std::size_t at; (at = command.find("/tmp/")) != std::string::npos;) command.erase(at, 5);
     if (const std::size_t at = command.find("$PORT"); at != std::string::npos)
       command.replace(at, 5, port_);
@@ -208,7 +214,7 @@ TEST(ReadmeCommands, each_special_one_is_there) {
   for (const auto& [command, special] : specials) EXPECT_THAT(commands, testing::Contains(command));
 }
 
-TEST_F(Readme, each_command_runs) {
+TEST_F(ReadmeRuns, each_command_runs) {
   plug_in_adapter();
   const std::vector<std::string> commands = readme_commands();
   EXPECT_GT(commands.size(), 30u);
