@@ -83,6 +83,7 @@ const std::map<std::string, Special> specials{
     {"fieldproof run --endpoint 'exec:build/plain/xgt_cnet_broken_server 0011_for_1132 {tty}' "
      "--profile 'xbc-h' --filter 'xgt_cnet/rss/refused/lower'",
      {.code = 1}},
+    {"fieldproof run --max-failures N", {.replaced = " N", .by = " 2"}},
     {"fieldproof run --duration 8h", {.replaced = "8h", .by = "1s"}},
     {"fieldproof run --waivers FILE", {.replaced = "FILE", .by = "waivers.json"}},
     {"fieldproof compare OLD NEW...", {.replaced = "NEW...", .by = "NEW"}},
