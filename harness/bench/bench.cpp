@@ -52,11 +52,10 @@ Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptio
     : endpoint_(endpoint),
       protocol_(protocol),
       options_(std::move(options)),
-      arming_(protocol, {options_.endpoint_is_stimulus
-                             ? [&endpoint](const std::string& line) { return endpoint.tell(line); }
-                             : options_.stimulus,
-                         exchange::complete_blocks(options_.profile.prepared_blocks),
-                         options_.aux.endpoint != nullptr}),
+      arming_(protocol,
+              {options_.endpoint_is_stimulus ? exchange::program_of(endpoint) : options_.stimulus,
+               exchange::complete_blocks(options_.profile.prepared_blocks),
+               options_.aux.endpoint != nullptr}),
       memory_({&endpoint, &protocol, options_.station}, options_.profile.response_max, options_.aux,
               &arming_),
       exchange_(endpoint, protocol, timing(), options_.aux, &arming_),
@@ -112,18 +111,31 @@ Status Bench::start() {
   return answers_ ? ok() : Status(fail(why_silent({&endpoint_, &protocol_, station}, *sign)));
 }
 
-/// Clocks of a stimulus stop with their case; what they asked last is given up before the next one
-/// begins.
-Status Bench::end_asking(const PreparedCase& prepared) {
-  if (!endpoint_.capabilities().real_device || !prepared.runs_by_clock()) return ok();
+/// A program is told that the case is over. What it asked last is given up before the next one
+/// begins: `waits` for an answer, or the clocks of a stimulus, which stop with their case.
+Status Bench::end_asking(const PreparedCase& prepared, bool waits) {
+  if (!endpoint_.capabilities().real_device || !prepared.is_client()) return ok();
   const Result<bool> stopped = arming_.end();
   if (!stopped) return stopped.error();
-  return *stopped ? exchange_.settle(prepared.client_time_out() + 100ms) : ok();
+  if (!*stopped || !(waits || prepared.runs_by_clock())) return ok();
+  return exchange_.settle(std::max(prepared.client_time_out(), arming_.time_out()) + 100ms);
+}
+
+/// The program under test has ended in the middle of a case that waits for its requests. It is
+/// started again, so that the others are judged.
+bool Bench::gave_up(const PreparedCase& prepared, const Error& trouble, CaseResult& result) {
+  if (!prepared.is_client() || !options_.endpoint_is_stimulus || trouble.interrupted) return false;
+  result.verdict = Verdict::fail;
+  result.message = "the client gave up: " + trouble.message;
+  client_gave_up_ = true;
+  if (!arming_.revive()) stop("the client gave up too often, last in " + result.id);
+  return true;
 }
 
 /// The first case that can run shows whether the device asks at all. True as well where none can:
 /// each says why.
 Result<bool> Bench::wait_for_request() {
+  arming_.greet();
   for (const Case* one : options_.client_cases) {
     if (outside_profile(*one).verdict != Verdict::pass) continue;
     const Result<PreparedCase> prepared =
@@ -133,9 +145,16 @@ Result<bool> Bench::wait_for_request() {
         below_floor(*prepared).verdict != Verdict::pass)
       continue;
     CaseResult given;
-    if (!save_memory(*prepared, given) || !begin_case(*prepared, given)) return fail(given.message);
-    const Result<bool> asked = exchange_.anything_is_asked(*prepared, start_patience);
-    if (const Status over = end_asking(*prepared); !over) return over.error();
+    arming_.next_is_probe();
+    const bool begun = save_memory(*prepared, given) && begin_case(*prepared, given);
+    const Result<bool> asked = begun ? exchange_.anything_is_asked(*prepared, start_patience)
+                                     : Result<bool>(fail(given.message));
+    // One that gives up is judged, case by case.
+    const bool ended = !asked && !asked.error().interrupted &&
+                       (client_gave_up_ || (arming_.declares() && arming_.gave_up()));
+    if (ended && (arming_.revive() || client_gave_up_)) return true;
+    if (!asked) return asked.error();
+    if (const Status over = end_asking(*prepared, true); !over) return over.error();
     [[maybe_unused]] const std::string problem =
         saved_for(*prepared).restore();  // told at the end, where it lasts
     return asked;
@@ -198,12 +217,13 @@ std::string Bench::undeclared(const json& config) const {
   const bool asks = config.value("role", "server") == "client";
   for (const auto& [key, value] : config.items()) {
     if (key == "station" || key == "p2p" || (key == "role" && asks)) continue;  // Arming tells
+    if (asks && arming_.tells(key)) continue;
     const json& declared = options_.profile.config;
     const json fallback = default_config().value(key, json());
     const json has = declared.value(key, fallback);
     if (!has.is_null() && plain(has) == plain(value)) continue;
-    return fmt::format("needs {} = {}; the profile declares {}", key, plain(value),
-                       has.is_null() ? "nothing" : plain(has));
+    return fmt::format("needs {} = {}; the profile declares {}{}", key, plain(value),
+                       has.is_null() ? "nothing" : plain(has), asks ? arming_.not_told(key) : "");
   }
   return {};
 }
@@ -281,14 +301,17 @@ Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepar
   const endpoints::Capabilities& can = endpoint_.capabilities();
   if (!can.real_device) return {};
   if (prepared.is_client()) {
+    if (std::string why = arming_.undeclared(source, options_.profile.config); !why.empty())
+      return {Verdict::skip, why};
     if (std::string why = arming_.objection(source, device_config(source)); !why.empty())
-      return {Verdict::blocked, why};
+      return {arming_.declares() ? Verdict::skip : Verdict::blocked, why};
   } else if (!source.transpose &&
              vectors::config_station(source.config, options_.station) != options_.station)
     return {Verdict::blocked,
             fmt::format("is about station {}; the device is station {}",
                         *vectors::config_station(source.config, 1), options_.station)};
-  if (std::string why = undeclared(source.config); !why.empty()) return {Verdict::blocked, why};
+  if (std::string why = undeclared(source.config); !why.empty())
+    return {prepared.is_client() && arming_.declares() ? Verdict::skip : Verdict::blocked, why};
   if (prepared.looks_at_counters() && !prepared.is_client())
     return {Verdict::blocked,
             "looks at the status counters, which no command reads; see XG5000, status by service"};
@@ -368,6 +391,7 @@ CaseResult Bench::run(const Case& source) {
     result.message = why.reason;
     return result;
   };
+  if (vectors::is_client_case(source) && endpoint_.capabilities().real_device) arming_.greet();
   const Ready ready = make_ready(source);
   if (!ready.prepared) return decline(ready.why);
   if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
@@ -394,7 +418,8 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
 void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
   exchange::Transcript transcript = exchange_.run(prepared);
   if (!transcript.trouble)
-    if (const Status over = end_asking(prepared); !over) transcript.trouble = over.error();
+    if (const Status over = end_asking(prepared, exchange::leaves_open(transcript)); !over)
+      transcript.trouble = over.error();
   judge_exchange(prepared, transcript, result);
   after(prepared, transcript, result);
   readings_.note(result);
@@ -449,7 +474,7 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   };
   if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun)
     return give_up(Verdict::error, begun.error());
-  if (prepared.source->fresh && real && !power_cycle(result))
+  if (prepared.source->fresh && real && !power_cycle(result, prepared.is_client()))
     return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
   // What a clock asked between the cases is no part of this one. It waits for its answer before it
   // asks again.
@@ -486,7 +511,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   if (asks) {
     if (const Status begun = arming_.begin(*prepared.source, device_config(*prepared.source));
         !begun)
-      return give_up(Verdict::error, begun.error());
+      return give_up(arming_.gave_up() ? Verdict::fail : Verdict::error, begun.error());
     // A flag that an earlier case left on would have no rising edge.
     if (arming_.aux())
       for (const std::string& flag : arming_.flags())
@@ -495,7 +520,8 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   }
   for (const auto& [address, hex] : prepared.source->memory)
     if (const Status done = set(address, hex); !done)
-      return give_up(memory_.refused() ? Verdict::fail : Verdict::error, done.error());
+      return give_up(memory_.refused() || arming_.gave_up() ? Verdict::fail : Verdict::error,
+                     done.error());
   return true;
 }
 
@@ -514,6 +540,7 @@ void Bench::judge_exchange(const PreparedCase& prepared, const exchange::Transcr
 
 void Bench::after(const PreparedCase& prepared, const exchange::Transcript& transcript,
                   CaseResult& result) {
+  if (transcript.trouble && gave_up(prepared, *transcript.trouble, result)) return;
   if (transcript.trouble)
     return stop("the port failed in " + result.id + ": " + transcript.trouble->message,
                 &*transcript.trouble);
@@ -556,7 +583,7 @@ void Bench::revive(CaseResult& result) {
         result.id));
 }
 
-bool Bench::power_cycle(CaseResult& result) {
+bool Bench::power_cycle(CaseResult& result, bool client) {
   const bool hook = !options_.power_cycle_command.empty();
   if (hook && !os::run_hook(options_.power_cycle_command, {}, {})) {
     result.notes.push_back("the --power-cycle command failed");
@@ -565,6 +592,7 @@ bool Bench::power_cycle(CaseResult& result) {
   if (!hook && (!endpoint_.capabilities().can_power_cycle || !endpoint_.act("power_cycle")))
     return false;
   result.notes.push_back("power-cycled the device");
+  if (client) return arming_.started_anew();  // it answers no probe
   const Result<exchange::Sign> sign =
       exchange_.anything_answers(options_.station, revive_patience, {}, true);
   return sign && *sign == exchange::Sign::alive;

@@ -29,7 +29,7 @@ struct BenchOptions {
   std::string replay;                 // command line that the id of the case completes
   exchange::Channel aux;              // --aux: a second channel of the PLC under test
   harness::Protocols known{{}};       // of further services that a case speaks to
-  exchange::TellStimulus stimulus;    // --stimulus: what makes the device ask; empty: none
+  exchange::ClientProgram stimulus;   // --stimulus: what makes the device ask; empty: none
   bool endpoint_is_stimulus = false;  // --stimulus -: the endpoint's own program is told
   std::vector<const vectors::Case*>
       client_cases;  // all that are selected, where every one of them is of a device that asks
@@ -103,7 +103,9 @@ class Bench {
   exchange::ExchangeTiming timing() const;
 
   Result<bool> wait_for_request();
-  Status end_asking(const exchange::PreparedCase& prepared);
+  Status end_asking(const exchange::PreparedCase& prepared, bool waits);
+  bool gave_up(const exchange::PreparedCase& prepared, const Error& trouble,
+               results::CaseResult& result);
   bool begin_case(const exchange::PreparedCase& prepared, results::CaseResult& result);
   void execute(const exchange::PreparedCase& prepared, results::CaseResult& result);
   std::vector<harness::Protocol::Written> written_by(const exchange::PreparedCase& prepared) const;
@@ -117,7 +119,7 @@ class Bench {
                       const exchange::Transcript& transcript, results::CaseResult& result);
   void look_for_device(results::CaseResult& result);
   void revive(results::CaseResult& result);
-  bool power_cycle(results::CaseResult& result);
+  bool power_cycle(results::CaseResult& result, bool client = false);
   void after(const exchange::PreparedCase& prepared, const exchange::Transcript& transcript,
              results::CaseResult& result);
   void stop(std::string why, const Error* error = nullptr);
@@ -136,6 +138,7 @@ class Bench {
   bool port_failed_ = false;
   bool answers_ = false;  // the device answers probes
   bool interrupted_ = false;
+  bool client_gave_up_ = false;  // the program under test, in some case
 };
 
 }  // namespace fieldproof::bench

@@ -89,6 +89,8 @@ Status Endpoint::tell(std::string_view) {
       describe()));
 }
 
+std::string Endpoint::answer(Duration) { return {}; }
+
 std::string Endpoint::line_errors() { return {}; }
 
 std::string EndpointName::option(const std::string& key, const std::string& fallback) const {

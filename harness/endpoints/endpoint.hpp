@@ -75,6 +75,8 @@ class Endpoint {
   /// A line to the standard input of the device under test, where the endpoint has started it
   /// (`--stimulus -`).
   virtual Status tell(std::string_view line);
+  /// The first line of its standard output that begins with '{'; empty: none came within that time.
+  virtual std::string answer(Duration patience);
 
   /// Errors that the driver has counted since the last call ("3 parity errors, 1 break"), or empty.
   virtual std::string line_errors();

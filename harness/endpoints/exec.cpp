@@ -76,6 +76,8 @@ class ExecEndpoint final : public Endpoint {
     return fail(fmt::format("cannot tell {} what to request: {}", describe(), child_->how()));
   }
 
+  std::string answer(Duration patience) override { return child_->answer(patience); }
+
   Status act(std::string_view action) override {
     if (action == "power_cycle") return start();
     return fail(

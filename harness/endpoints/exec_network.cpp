@@ -64,6 +64,8 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
     return fail(fmt::format("cannot tell {} what to request: {}", describe(), child_->how()));
   }
 
+  std::string answer(Duration patience) override { return child_->answer(patience); }
+
   Status act(std::string_view action) override {
     if (action == "power_cycle") return start(client_);
     return fail(

@@ -1,7 +1,10 @@
 #include "harness/exchange/arming.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "harness/exchange/p2p_blocks.hpp"
 
@@ -13,15 +16,13 @@ using nlohmann::json;
 
 bool is_on(const std::string& digits) { return digits.find_first_not_of('0') != std::string::npos; }
 
-bool same_place(const json& a, const json& b) {
-  return a.value("parameter", json()) == b.value("parameter", json()) &&
-         a.value("block", json()) == b.value("block", json());
-}
+constexpr Duration answer_patience = 2s;
+constexpr int most_restarts = 3;  // of a program that gives up
 
 }  // namespace
 
 Status Arming::load(const vectors::Case& source, const json& config) {
-  case_ = source.id;
+  case_ = &source;
   blocks_ = p2p_blocks(source.config);
   json own = config;
   const std::string model = own.value("model", "");
@@ -56,25 +57,6 @@ std::vector<std::string> Arming::flags() const {
   return flags;
 }
 
-/// What must be set up in the module, in words.
-std::string Arming::missing_block() const {
-  std::string missing;
-  for (const json& block : blocks_)
-    if (std::ranges::find(ways_.prepared, block) == ways_.prepared.end())
-      missing += (missing.empty() ? "" : "; ") + in_words(block, protocol_.name());
-  return missing;
-}
-
-/// A prepared block that asks whether the case wants it or not.
-std::string Arming::foreign_clock() const {
-  for (const json& one : ways_.prepared) {
-    const bool wanted =
-        std::ranges::any_of(blocks_, [&](const json& block) { return same_place(block, one); });
-    if (!wanted && runs_by_clock(one)) return in_words(one, protocol_.name());
-  }
-  return {};
-}
-
 /// The first memory without which the line shows something else, when nobody can set it.
 Result<std::string> Arming::needs_memory(const vectors::Case& source) {
   Result<Image> before = image();
@@ -96,21 +78,100 @@ Result<std::string> Arming::needs_memory(const vectors::Case& source) {
   return needed;
 }
 
+void Arming::greet() {
+  if (greeted_ || !ways_.stimulus) return;
+  greeted_ = true;
+  if (!ways_.stimulus.tell(json{{"hello", 1}, {"protocol", protocol_.name()}}.dump())) return;
+  if (!ways_.stimulus.answer) return;
+  const Result<Declared> declared = read_declaration(ways_.stimulus.answer(answer_patience));
+  if (declared)
+    declared_ = *declared;
+  else
+    bad_answer_ = declared.error().message;
+}
+
+bool Arming::share_memory(const std::string& a, const std::string& b) const {
+  if (a == b) return true;
+  const auto one = protocol_.named(a, 4), other = protocol_.named(b, 4);
+  const bool bits = a.size() > 2 && b.size() > 2 && a[2] == 'X' && b[2] == 'X';
+  return one && other && !bits && one->area == other->area && one->first_word <= other->last_word &&
+         other->first_word <= one->last_word;
+}
+
+std::string Arming::undeclared(const vectors::Case& source, const json& declared) const {
+  if (!ways_.stimulus) return {};
+  std::set<std::string> needs =
+      needs_of(source, protocol_.default_port() == 0,
+               [this](const std::string& a, const std::string& b) { return share_memory(a, b); });
+  if (declared.contains("time_out")) needs.erase("time_out");
+  for (const std::string& need : needs)
+    if (!declared_.follows.contains(need))
+      return fmt::format(
+          "needs '{}', which the program of --stimulus does not declare to follow (README, \"The "
+          "module as client\")",
+          need);
+  return {};
+}
+
+bool Arming::tells(std::string_view config_key) const {
+  const std::string_view as = told_as(config_key);
+  return ways_.stimulus && !as.empty() && declared_.follows.contains(std::string(as));
+}
+
+std::string Arming::not_told(std::string_view config_key) const {
+  const std::string_view as = told_as(config_key);
+  if (!ways_.stimulus || as.empty()) return {};
+  return fmt::format(", and the program of --stimulus does not declare to follow '{}'", as);
+}
+
+bool Arming::follows(std::string_view action) const {
+  const std::string_view as = action.starts_with("link")            ? "link"
+                              : action.starts_with("send ")         ? "frames"
+                              : action == "stop" || action == "run" ? "mode"
+                              : action == "power_cycle"             ? "power_cycle"
+                                                                    : "";
+  return ways_.stimulus && declared_.answered && declared_.follows.contains(std::string(as));
+}
+
+Status Arming::act(const std::string& action) { return tell({{"do", action}}); }
+
+Status Arming::done(std::string_view action) {
+  if (action != "power_cycle" || follows(action) || !ways_.stimulus) return ok();
+  greeted_ = false;
+  greet();
+  return tell_of_case();
+}
+
+bool Arming::started_anew() {
+  gave_up_ = greeted_ = false;
+  greet();
+  return true;
+}
+
+bool Arming::revive() {
+  return ways_.stimulus.restart && ++restarts_ <= most_restarts && ways_.stimulus.restart() &&
+         started_anew();
+}
+
 std::string Arming::objection(const vectors::Case& source, const json& config) const {
+  if (source.config.contains("monitor"))
+    return "looks at the frame monitor of the module, which no command reads; see XG5000, frame "
+           "monitor (Cnet EN 11.1.3)";
   Arming trial(protocol_, ways_);
   if (ways_.stimulus) {
+    if (!bad_answer_.empty()) return bad_answer_;
     const Status loaded = trial.load(source, config);
     return loaded ? "" : loaded.error().message;
   }
   trial.blocks_ = p2p_blocks(source.config);
   if (trial.blocks_.empty()) return "has no P2P blocks, which alone a bench can prepare";
   const std::string set_up = "set up in XG5000 and list in \"prepared_blocks\" of the profile: ";
+  const std::string missing = not_prepared(trial.blocks_, ways_.prepared, protocol_.name());
   if (ways_.prepared.empty())
-    return "nothing makes the device ask: give --stimulus COMMAND, or " + set_up +
-           trial.missing_block();
-  if (const std::string missing = trial.missing_block(); !missing.empty())
-    return "the module does not ask this: " + set_up + missing;
-  if (const std::string other = trial.foreign_clock(); !other.empty())
+    return "nothing makes the device ask: give --stimulus COMMAND, or " + set_up + missing;
+  if (!missing.empty()) return "the module does not ask this: " + set_up + missing;
+  if (const std::string other = asks_uncalled(trial.blocks_, ways_.prepared, protocol_.name());
+      !other.empty())
     return "another block asks all the time; take its link enable away: " + other;
   if (ways_.aux) return {};
   if (const Status loaded = trial.load(source, config); !loaded) return loaded.error().message;
@@ -123,25 +184,51 @@ std::string Arming::objection(const vectors::Case& source, const json& config) c
                                *needed);
 }
 
-Status Arming::ask_for(const json& block) const {
+/// A line of the case. A program that ended gets another chance with the next case.
+Status Arming::tell(json line) {
+  line["case"] = case_->id;
+  if (declared_.answered) line["number"] = number_;
+  if (probing_) line["probe"] = true;
+  const Status told = ways_.stimulus.tell(line.dump());
+  gave_up_ = !told;
+  return told;
+}
+
+/// One line a block, in their order; the last says so.
+Status Arming::ask_for(std::vector<json> blocks) {
+  if (blocks.empty()) return ok();
   const Result<Image> now = image();
   if (!now) return now.error();
-  json values = json::object();
-  for (const std::string& address : sent_addresses(block)) values[address] = now->at(address);
-  return ways_.stimulus(json{{"case", case_}, {"block", block}, {"values", values}}.dump());
+  std::ranges::stable_sort(
+      blocks, {}, [](const json& block) { return block.value("block", json(0)).get<int>(); });
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    json values = json::object();
+    for (const std::string& address : sent_addresses(blocks[i])) values[address] = now->at(address);
+    json line{{"block", blocks[i]}, {"values", values}, {"last", i + 1 == blocks.size()}};
+    if (const Status told = tell(std::move(line)); !told) return told;
+  }
+  return ok();
+}
+
+Status Arming::tell_of_case() {
+  if (declared_.answered)
+    if (const Status told = tell({{"begin", set_up_of(*case_)}}); !told) return told;
+  std::vector<json> clocks;
+  std::ranges::copy_if(blocks_, std::back_inserter(clocks), runs_by_clock);
+  return ask_for(std::move(clocks));
 }
 
 Status Arming::begin(const vectors::Case& source, const json& config) {
-  case_ = source.id;
+  case_ = &source;
   blocks_ = p2p_blocks(source.config);
   if (!ways_.stimulus) return ok();
+  if (gave_up_ && !revive()) return fail("the program of --stimulus has ended too often");
+  ++number_;
+  probing_ = std::exchange(probe_, false);
   if (const Status loaded = load(source, config); !loaded) return loaded;
   for (const auto& [address, hex] : source.memory)
     if (const Status set = shadow_->set(address, hex); !set) return set;
-  for (const json& block : blocks_)
-    if (runs_by_clock(block))
-      if (const Status asked = ask_for(block); !asked) return asked;
-  return ok();
+  return tell_of_case();
 }
 
 Status Arming::set(const std::string& address, const std::string& hex) {
@@ -149,19 +236,22 @@ Status Arming::set(const std::string& address, const std::string& hex) {
   const Result<Image> before = image();
   if (!before) return before.error();
   if (const Status set = shadow_->set(address, hex); !set) return set;
+  if (declared_.answered && declared_.follows.contains("memory"))
+    if (const Status told = tell({{"set", {{address, hex}}}}); !told) return told;
   const Result<Image> after = image();
   if (!after) return after.error();
+  std::vector<json> rising;
   for (const json& block : blocks_) {
     const auto was = before->find(flag_of(block)), is = after->find(flag_of(block));
-    if (is == after->end() || is_on(was->second) || !is_on(is->second)) continue;
-    if (const Status asked = ask_for(block); !asked) return asked;
+    if (is != after->end() && !is_on(was->second) && is_on(is->second)) rising.push_back(block);
   }
-  return ok();
+  return ask_for(std::move(rising));
 }
 
 Result<bool> Arming::end() {
-  if (!ways_.stimulus) return false;
-  const Status told = ways_.stimulus(json{{"case", case_}, {"over", true}}.dump());
+  if (!ways_.stimulus || !case_ || gave_up_) return false;
+  if (!declared_.answered && std::ranges::none_of(blocks_, runs_by_clock)) return true;
+  const Status told = tell({{"over", true}});
   return told ? Result<bool>(true) : told.error();
 }
 

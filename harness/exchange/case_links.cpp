@@ -69,8 +69,14 @@ void CaseRun::await_ending(const PreparedStep& step) {
 }
 
 void CaseRun::act(const std::string& action) {
-  if (const Status done = around_.device.endpoint->act(action); !done) {
+  Arming* const told = client_ && can().real_device ? around_.arming : nullptr;
+  const Status done =
+      told && told->follows(action) ? told->act(action) : around_.device.endpoint->act(action);
+  if (!done) {
     record().refused = done.error().message;
+  } else if (told) {
+    // A client answers no probe.
+    if (const Status again = told->done(action); !again) record().refused = again.error().message;
   } else if (action == "power_cycle" && can().real_device) {
     // A real device needs time to start again.
     Channel device = around_.device;
@@ -98,7 +104,7 @@ void CaseRun::set_memory(const Step& step) {
     links_.note(now(), fmt::format("set {} = {}", address, hex));
     if (done) continue;
     record().refused = done.error().message;
-    record().refused_by_device = memory_.refused();
+    record().refused_by_device = memory_.refused() || (around_.arming && around_.arming->gave_up());
     break;
   }
   memory_.leave();

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "src/base/letters.hpp"
 
 namespace fieldproof::exchange {
@@ -49,7 +51,8 @@ std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
     if (function == "read" || function == "write")
       block.update({{"command", "single"}, {"type", "word"}, {"size", 1}});
     block.update(given);
-    for (json& value : block) value = plain_value(value);
+    for (const char* key : {"parameter", "block", "channel", "size", "station"})
+      if (block.contains(key)) block[key] = plain_value(block[key]);
     if (block.contains("flag")) block["flag"] = upper(block["flag"].get<std::string>());
     make_list(block, "read");
     make_list(block, "save");
@@ -97,6 +100,55 @@ std::string in_words(const json& block, std::string_view protocol) {
     text += fmt::format(", from {}, into {}{}", list_of(block, "read"), list_of(block, "save"),
                         station);
   return text;
+}
+
+namespace {
+
+bool same_place(const json& a, const json& b) {
+  return a.value("parameter", json()) == b.value("parameter", json()) &&
+         a.value("block", json()) == b.value("block", json());
+}
+
+/// "station is 3, 2 is needed".
+std::string differences(const json& wanted, const json& set_up) {
+  std::vector<std::string> found;
+  const auto text = [](const json& block, const std::string& key) {
+    return block.contains(key) ? block[key].dump() : std::string("nothing");
+  };
+  json keys = wanted;
+  keys.update(set_up);
+  for (const auto& [key, value] : keys.items())
+    if (text(wanted, key) != text(set_up, key))
+      found.push_back(
+          fmt::format("{} is {}, {} is needed", key, text(set_up, key), text(wanted, key)));
+  return fmt::format("{}", fmt::join(found, "; "));
+}
+
+}  // namespace
+
+std::string not_prepared(const std::vector<json>& blocks, const std::vector<json>& prepared,
+                         std::string_view protocol) {
+  std::string missing;
+  for (const json& block : blocks) {
+    if (std::ranges::find(prepared, block) != prepared.end()) continue;
+    if (!missing.empty()) missing += "; ";
+    missing += in_words(block, protocol);
+    const auto place =
+        std::ranges::find_if(prepared, [&](const json& one) { return same_place(one, block); });
+    if (place != prepared.end())
+      missing += fmt::format(" (listed there is another: {})", differences(block, *place));
+  }
+  return missing;
+}
+
+std::string asks_uncalled(const std::vector<json>& blocks, const std::vector<json>& prepared,
+                          std::string_view protocol) {
+  for (const json& one : prepared) {
+    const bool wanted =
+        std::ranges::any_of(blocks, [&](const json& block) { return same_place(block, one); });
+    if (!wanted && runs_by_clock(one)) return in_words(one, protocol);
+  }
+  return {};
 }
 
 }  // namespace fieldproof::exchange

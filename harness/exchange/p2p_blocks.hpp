@@ -28,4 +28,12 @@ std::vector<std::string> sent_addresses(const nlohmann::json& block);
 /// 2, into %MW200".
 std::string in_words(const nlohmann::json& block, std::string_view protocol);
 
+/// What of `blocks` the blocks that an engineer has set up (`prepared`, complete_blocks()) do not
+/// do, in words: one that is missing, or the keys in which one is another. Empty: nothing.
+std::string not_prepared(const std::vector<nlohmann::json>& blocks,
+                         const std::vector<nlohmann::json>& prepared, std::string_view protocol);
+/// One of `prepared` that asks all the time although none of `blocks` has its place, in words.
+std::string asks_uncalled(const std::vector<nlohmann::json>& blocks,
+                          const std::vector<nlohmann::json>& prepared, std::string_view protocol);
+
 }  // namespace fieldproof::exchange

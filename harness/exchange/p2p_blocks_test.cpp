@@ -44,5 +44,25 @@ TEST(P2pBlocks, AnEngineerCanSetThemUpFromTheWords) {
             "%MW100 of station 2, into %MW200");
 }
 
+/// An inverter's address keeps its four digits: it is no number.
+TEST(P2pBlocks, AddressesStayTextAsTheyAreSpelled) {
+  const json block = complete_blocks(
+      json::parse(R"([{"read": "0100", "save": "%MW1", "size": "4", "station": "2"}])"))[0];
+  EXPECT_EQ(block["read"], json::parse(R"(["0100"])"));
+  EXPECT_EQ(block["size"], 4);
+  EXPECT_EQ(block["station"], 2);
+}
+
+TEST(P2pBlocks, WhatIsPreparedOtherwiseIsNamedByItsKeys) {
+  const auto blocks = complete_blocks(json::parse(R"([{"read": "%MW1", "station": 2}])"));
+  const auto other =
+      complete_blocks(json::parse(R"([{"read": "%MW1", "station": 3, "type": "byte"}])"));
+  EXPECT_EQ(not_prepared(blocks, blocks, "xgt-cnet"), "");
+  EXPECT_THAT(not_prepared(blocks, other, "xgt-cnet"),
+              testing::EndsWith("(listed there is another: station is 3, 2 is needed; type is "
+                                "\"byte\", \"word\" is needed)"));
+  EXPECT_THAT(not_prepared(blocks, {}, "xgt-cnet"), testing::EndsWith("of station 2, into ?"));
+}
+
 }  // namespace
 }  // namespace fieldproof::exchange

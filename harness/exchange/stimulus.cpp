@@ -7,18 +7,23 @@
 namespace fieldproof::exchange {
 
 Result<std::unique_ptr<Stimulus>> Stimulus::start(const std::string& command) {
+  auto stimulus = std::make_unique<Stimulus>();
+  stimulus->command_ = command;
+  if (const Status started = stimulus->restart(); !started) return started.error();
+  return stimulus;
+}
+
+Status Stimulus::restart() {
   Result<os::LinePipe> pipe = os::open_line_pipe();
   if (!pipe) return pipe.error();
   os::ChildOptions options;
-  options.arguments = os::shell(command);
+  options.arguments = os::shell(command_);
   options.standard_input = pipe->child.get();
   Result<std::unique_ptr<os::ChildProcess>> child = os::ChildProcess::start(options);
-  if (!child) return fail("cannot start --stimulus '" + command + "': " + child.error().message);
-  auto stimulus = std::make_unique<Stimulus>();
-  stimulus->command_ = command;
-  stimulus->child_ = std::move(*child);
-  stimulus->input_ = std::move(pipe->bench);
-  return stimulus;
+  if (!child) return fail("cannot start --stimulus '" + command_ + "': " + child.error().message);
+  input_ = std::move(pipe->bench);
+  child_ = std::move(*child);
+  return ok();
 }
 
 Status Stimulus::tell(const std::string& line) {

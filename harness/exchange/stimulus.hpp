@@ -20,6 +20,10 @@ class Stimulus {
   static Result<std::unique_ptr<Stimulus>> start(const std::string& command);
   /// Errors say how the program ended.
   Status tell(const std::string& line);
+  /// What it says to the first line; empty: nothing within that time.
+  std::string answer(Duration patience) { return child_->answer(patience); }
+  /// Starts it anew.
+  Status restart();
 
  private:
   std::string command_;

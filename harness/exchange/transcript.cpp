@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include <algorithm>
+
 namespace fieldproof::exchange {
 
 using results::Event;
@@ -62,6 +64,15 @@ Shares shares_of(const Transcript& transcript) {
     }
   }
   return shares;
+}
+
+bool leaves_open(const Transcript& transcript) {
+  using Kind = results::Event::Kind;
+  const auto spoken = std::find_if(
+      transcript.events.rbegin(), transcript.events.rend(), [](const results::Event& event) {
+        return event.kind == Kind::sent || event.kind == Kind::received;
+      });
+  return spoken != transcript.events.rend() && spoken->kind == Kind::received;
 }
 
 }  // namespace fieldproof::exchange

@@ -69,4 +69,7 @@ struct Shares {
 /// Points into the transcript.
 Shares shares_of(const Transcript& transcript);
 
+/// Is what the device said last still without a word of the bench behind it?
+bool leaves_open(const Transcript& transcript);
+
 }  // namespace fieldproof::exchange

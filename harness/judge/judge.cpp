@@ -107,6 +107,10 @@ class Judge {
     const Received& received = share.received;
     if (received.arrivals.empty()) {
       expected(step, received);
+      if (client_ && came_too_early(step)) {
+        findings_.miss(pipelining + std::string(", while the one before it was unanswered"));
+        return false;
+      }
       const std::string why =
           share.ending ? ": " + in_words(share.ending, record.cause, before())
                        : fmt::format(" within {:.0f} ms{}", to_ms(record.deadline - record.cause),
@@ -115,6 +119,12 @@ class Judge {
       return false;
     }
     const Duration took = received.arrivals.front().start - record.cause;
+    if (client_ && took < -rules_.timing_floor && is_end_of_answer(record.cause)) {
+      findings_.miss(
+          fmt::format("{}: {:.1f} ms before the answer to the one before it was complete",
+                      pipelining, -to_ms(took)));
+      return false;
+    }
     findings_.result.response_ms.push_back(to_ms(took));
     const PreparedFrame* match = matching(step, received.bytes);
     if (!match && client_) match = in_other_letters(step, received.bytes);
@@ -131,6 +141,27 @@ class Judge {
     if (!step.network || step.step->max_gap)
       judge_gaps(received, step.step->max_gap.value_or(rules_.max_gap), findings_);
     return true;
+  }
+
+  static constexpr const char* pipelining = "pipelining: the request came too early";
+
+  bool is_end_of_answer(Time moment) const {
+    return std::ranges::any_of(transcript_.events, [&](const results::Event& event) {
+      return event.kind == results::Event::Kind::sent && event.end == moment;
+    });
+  }
+
+  /// Was the request among what no step was waiting for?
+  bool came_too_early(const PreparedStep& step) const {
+    const ByteView surplus = shares_.surplus.received.bytes;
+    return std::ranges::any_of(step.frames, [&](const PreparedFrame& one) {
+      const std::size_t size = one.frame.bytes.size();
+      for (std::size_t at = 0; at + size <= surplus.size(); ++at) {
+        notation::Captures captures = captures_;
+        if (!notation::first_mismatch(one.frame, surplus.subspan(at, size), captures)) return true;
+      }
+      return false;
+    });
   }
 
   /// Bytes that came on another link while this one was silent.

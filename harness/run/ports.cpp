@@ -59,10 +59,7 @@ Result<Fixtures> Fixtures::open(const DutPlan& plan) {
 void Fixtures::give(bench::BenchOptions& bench, const std::string& stimulus) const {
   if (aux_) bench.aux = {aux_.get(), aux_protocol_, aux_station_};
   bench.endpoint_is_stimulus = stimulus == "-";
-  if (stimulus_)
-    bench.stimulus = [program = stimulus_.get()](const std::string& line) {
-      return program->tell(line);
-    };
+  if (stimulus_) bench.stimulus = exchange::program_of(*stimulus_);
 }
 
 Status Fixtures::open_aux(const endpoints::EndpointName& name, const safety::JournalDevice& device,

@@ -122,6 +122,8 @@ void ChildProcess::watch() {
     if (fds[2].revents != 0) {
       ended_ = true;
       fds[2].fd = -1;
+      const std::lock_guard lock(mutex_);
+      said_more_.notify_all();
     }
   }
 }
@@ -131,8 +133,30 @@ void ChildProcess::read_standard_error() {
   std::array<char, 4096> buffer;
   const ssize_t n = ::read(standard_error_.get(), buffer.data(), buffer.size());
   if (n <= 0) return;
-  said_.append(buffer.data(), static_cast<std::size_t>(n));
+  const std::string_view more(buffer.data(), static_cast<std::size_t>(n));
+  look_for_answer(more);
+  said_ += more;
   if (said_.size() > said_limit) said_.erase(0, said_.size() - said_limit);
+}
+
+void ChildProcess::look_for_answer(std::string_view more) {
+  for (const char c : more) {
+    if (!answer_.empty()) return;
+    if (c == '\n') {
+      if (line_.starts_with('{')) answer_ = line_;
+      line_.clear();
+    } else if (line_.size() < said_limit) {
+      line_ += c;
+    }
+  }
+  if (!answer_.empty()) said_more_.notify_all();
+}
+
+std::string ChildProcess::answer(Duration patience) {
+  read_standard_error();  // what was said before this moment is in the pipe
+  std::unique_lock lock(mutex_);
+  said_more_.wait_for(lock, patience, [&] { return !answer_.empty() || ended_; });
+  return answer_;
 }
 
 std::string ChildProcess::last_lines() {

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -46,11 +47,15 @@ class ChildProcess final : public FarEnd {
   /// "the process ended with exit status 3; it said: ..." (the last lines of stderr), or that it
   /// still runs.
   std::string how() override;
+  /// The first line of its output that begins with '{'; empty: it has said none within that time,
+  /// or has ended without one.
+  std::string answer(Duration patience);
 
  private:
   ChildProcess(pid_t pid, UniqueFd pid_fd, UniqueFd standard_error);
   void watch();
   void read_standard_error();
+  void look_for_answer(std::string_view more);
   std::string last_lines();
 
   pid_t pid_;
@@ -58,8 +63,10 @@ class ChildProcess final : public FarEnd {
   UniqueFd standard_error_;
   UniqueFd stop_;  // wakes the watcher for its end
   std::atomic<bool> ended_{false};
-  std::mutex mutex_;  // guards said_
+  std::mutex mutex_;  // guards what follows
   std::string said_;
+  std::string line_, answer_;  // the line that is not complete yet; what answer() waits for
+  std::condition_variable said_more_;
   std::thread watcher_;
 };
 

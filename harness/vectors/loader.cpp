@@ -145,7 +145,7 @@ class FolderLoader {
   }
 
   void load_file(const fs::path& path, const std::string& name) {
-    if (name == "schema.json" || name.starts_with("wires/")) return;
+    if (name.ends_with("schema.json") || name.starts_with("wires/")) return;
     guarded(name, [&] {
       std::string text = text_of_file(path);
       hash_ = extend_fingerprint(extend_fingerprint(hash_, name), text);

@@ -160,6 +160,8 @@ def stimulated(port):
         for line in map(json.loads, complete):
             if line.get("over"):
                 clock = Clock()
+            elif "block" not in line:
+                continue  # it answers nothing to "hello", and is told no more than what to ask
             elif line["block"]["flag"] == "F92":
                 clock.start(line["block"], line["values"])
             else:
