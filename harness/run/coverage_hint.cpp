@@ -76,7 +76,7 @@ std::vector<Option> options_for(const bench::Benches& port, const BenchOptions& 
   }
   if (!options.stimulus) {
     all.push_back({"--stimulus COMMAND", options});
-    all.back().with.stimulus = [](const std::string&) { return ok(); };
+    all.back().with.stimulus.tell = [](const std::string&) { return ok(); };
   }
   if (options.power_cycle_command.empty()) {
     all.push_back({"--power-cycle COMMAND", options});
