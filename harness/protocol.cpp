@@ -57,6 +57,20 @@ Result<std::string> Protocol::read_reply(ByteView reply) const {
   return memory()->digits_in(reply);
 }
 
+Status Protocol::sound_reply(ByteView request, ByteView reply) const {
+  if (!memory()) return no_request(*this, "memory");
+  if (reply.empty()) return fail("no answer");
+  const std::vector<Field> fields = explain(reply);
+  if (fields.empty()) return fail("the answer is no frame");
+  for (const Field& field : fields)
+    if (!field.problem.empty())
+      return fail(fmt::format("the answer is damaged: {} {}: {}", field.name, field.text,
+                              field.problem));
+  if (frame_length(reply) != reply.size()) return fail("the answer is no whole frame");
+  if (!memory()->answers(request, reply)) return fail("the answer is one to another request");
+  return ok();
+}
+
 Status Protocol::check_fact(const nlohmann::json& facts) const {
   if (tables()) return tables()->check_table(facts);
   return fail(fmt::format("the suite of {} has no tables; write a case", name()));

@@ -70,6 +70,9 @@ class Protocol {
   /// shares none.
   virtual const notation::Dressing* dressing() const { return nullptr; }
 
+  /// No frame of it has more bytes: what goes on for longer does not end.
+  virtual std::size_t longest_frame() const { return 1024; }
+
   /// Do its frames have an end, by which one can be told from the next?
   virtual bool has_frame_ends() const { return true; }
   /// The length of the first complete frame in `bytes`, or nothing while it is incomplete.
@@ -113,6 +116,9 @@ class Protocol {
                                            std::size_t digits) const;
   Status write_reply(ByteView reply) const;
   Result<std::string> read_reply(ByteView reply) const;
+  /// Is `reply` the undamaged answer to that request for memory, a refusal included? The error says
+  /// what is wrong with it.
+  Status sound_reply(ByteView request, ByteView reply) const;
   Status check_fact(const nlohmann::json& facts) const;
 
   /// This protocol as a device of `model` that declares `config` (keys of given.config) speaks it:

@@ -38,6 +38,16 @@ class MemoryRequests {
   virtual Status acknowledged(ByteView reply) const = 0;
   /// The hex digits in a reply to a read request; an error when it is a refusal or no such reply.
   virtual Result<std::string> digits_in(ByteView reply) const = 0;
+
+  /// Does `reply`, whole and with the right check, answer this request: the same station and
+  /// command, and as many digits as it asks for, or a refusal? A late reply to another may not.
+  virtual bool answers(ByteView request, ByteView reply) const = 0;
+  /// Do this request and its reply carry a check? Without one a damaged request may do harm
+  /// elsewhere, and a damaged reply looks like a sound one.
+  virtual bool is_checked([[maybe_unused]] ByteView request) const { return true; }
+  /// The same request in a mode in which neither it nor its reply carries a check; empty: there is
+  /// no such mode.
+  virtual Bytes without_check([[maybe_unused]] ByteView request) const { return {}; }
 };
 
 /// Tables of a manual as src/ has them.

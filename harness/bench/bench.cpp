@@ -8,6 +8,7 @@
 #include "harness/bench/what_to_check.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/judge/recording.hpp"
+#include "harness/notation/notation.hpp"
 #include "harness/safety/transposition.hpp"
 #include "harness/system/hook.hpp"
 #include "harness/vectors/loader.hpp"
@@ -62,7 +63,8 @@ Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptio
       saved_(endpoint, protocol, options_.profile.response_max, options_.device, options_.journal),
       saved_over_aux_(options_.aux.endpoint ? *options_.aux.endpoint : endpoint,
                       options_.aux.protocol ? *options_.aux.protocol : protocol,
-                      options_.profile.response_max, options_.aux_device, options_.journal) {}
+                      options_.profile.response_max, options_.aux_device, options_.journal),
+      worth_asking_(options_.max_restarts) {}
 
 exchange::ExchangeTiming Bench::timing() const {
   exchange::ExchangeTiming timing;
@@ -397,7 +399,12 @@ CaseResult Bench::run(const Case& source) {
   if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
   for (const results::Move& move : ready.moves)
     result.notes.push_back(safety::note_of(move, protocol_));
+  set_up_answered_ = true;
   execute(*ready.prepared, result);
+  if (port_failed_ && !interrupted_) start_again(result);
+  set_up_findings_.note(result);
+  if (endpoint_.capabilities().real_device && !ready.prepared->is_client() && stopped_.empty())
+    stopped_ = worth_asking_.after(result, protocol_, set_up_answered_);
   if (!result.recording.stimulus.empty()) result.recording.moves = ready.moves;
   errors_in_a_row_ = result.verdict == Verdict::error ? errors_in_a_row_ + 1 : 0;
   if (errors_in_a_row_ == errors_to_stop && stopped_.empty())
@@ -432,14 +439,28 @@ bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
         "not saved before: nobody can tell where a damaged write request would write");
   safety::SavedMemory& memory = saved_for(prepared);
   const Status saved = memory.save(written);
+  set_up_answered_ = !memory.unserved();
+  if (saved && memory.damaged() > 0 && writes_without_check(prepared)) {
+    result.verdict = Verdict::blocked;
+    result.message = fmt::format(
+        "the line has damaged {} answers to what the bench reads before it writes; this case "
+        "writes by a request without a check, which could write elsewhere when it is damaged, too. "
+        "Mend the line (cable, termination, ground, speed)",
+        memory.damaged());
+    return false;
+  }
   if (saved) return true;
   // A device that the bench starts itself forgets all with its process: there the case may name the
   // fault.
   if (endpoint_.capabilities().can_power_cycle && !memory.port_failed() && !prepared.is_client() &&
       options_.journal) {
     result.notes.push_back(saved.error().message);
-    // An answer that is only late must not be taken for one to what is tested.
-    return !memory.silent() || exchange_.settle(timing().late_watch);
+    if (!memory.silent()) return true;
+    result.message = saved.error().message;
+    look_for_device(result);
+    if (result.verdict == Verdict::fail) return false;
+    result.message.clear();
+    return true;
   }
   result.verdict = memory.port_failed() ? Verdict::error : Verdict::blocked;
   result.message = (prepared.is_client() ? "--aux: " : "") + saved.error().message;
@@ -448,6 +469,16 @@ bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
   else if (memory.silent())
     prepared.is_client() ? stop(result.message) : look_for_device(result);
   return false;
+}
+
+/// On a line; a network has its own checks.
+bool Bench::writes_without_check(const PreparedCase& prepared) const {
+  if (protocol_.default_port() != 0 || !protocol_.memory() || prepared.is_client()) return false;
+  return std::ranges::any_of(prepared.steps, [&](const exchange::PreparedStep& step) {
+    if (step.step->kind != vectors::Step::Kind::send) return false;
+    const Bytes& request = step.frames.front().frame.bytes;
+    return !protocol_.written_by(request).empty() && !protocol_.memory()->is_checked(request);
+  });
 }
 
 std::string Bench::put_back() {
@@ -518,10 +549,17 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
         if (const Status reset = set(flag, "00"); !reset)
           return give_up(Verdict::error, reset.error());
   }
-  for (const auto& [address, hex] : prepared.source->memory)
-    if (const Status done = set(address, hex); !done)
-      return give_up(memory_.refused() || arming_.gave_up() ? Verdict::fail : Verdict::error,
-                     done.error());
+  for (const auto& [address, hex] : prepared.source->memory) {
+    const Status done = set(address, hex);
+    if (done) continue;
+    if (!memory_.refused())
+      return give_up(arming_.gave_up() ? Verdict::fail : Verdict::error, done.error());
+    const Time now = endpoint_.now();
+    result.exchange.push_back({results::Event::Kind::note, now, now, {}, memory_.said()});
+    set_up_answered_ = !memory_.unserved();
+    return give_up(Verdict::blocked,
+                   Error{std::string(exchange::set_up_failure) + done.error().message});
+  }
   return true;
 }
 
@@ -572,11 +610,31 @@ void Bench::look_for_device(CaseResult& result) {
   if (!alive)
     return stop("the port failed in " + result.id + ": " + alive.error().message, &alive.error());
   if (*alive == exchange::Sign::alive) return;
+  result.verdict = Verdict::fail;
   result.message += "; nothing answers any more";
   revive(result);
 }
 
+/// A device that the bench has started itself, and whose process has ended.
+void Bench::start_again(CaseResult& result) {
+  if (!endpoint_.capabilities().real_device || !endpoint_.capabilities().can_power_cycle ||
+      !options_.power_cycle_command.empty() || options_.endpoint_is_stimulus)
+    return;
+  const auto last = std::ranges::find(result.exchange.rbegin(), result.exchange.rend(),
+                                      results::Event::Kind::sent, &results::Event::kind);
+  const std::string frame =
+      last == result.exchange.rend() ? "in the set-up" : "after " + notation::print_bytes(last->bytes);
+  result.message = fmt::format("the device ended {}: {}", frame, stopped_);
+  result.verdict = Verdict::fail;
+  stopped_.clear();
+  port_failed_ = false;
+  revive(result);
+}
+
 void Bench::revive(CaseResult& result) {
+  if (endpoint_.capabilities().can_power_cycle && options_.power_cycle_command.empty())
+    if (std::string enough = worth_asking_.restart(result); !enough.empty())
+      return stop(std::move(enough));
   if (!power_cycle(result))
     stop(fmt::format(
         "the link is dead since {}; power-cycle the device, or give --power-cycle COMMAND",

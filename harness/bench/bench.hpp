@@ -11,6 +11,8 @@
 #include "harness/bench/adapter_floor.hpp"
 #include "harness/bench/fingerprint.hpp"
 #include "harness/bench/profile.hpp"
+#include "harness/bench/set_up_findings.hpp"
+#include "harness/bench/worth_asking.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/exchange/exchange.hpp"
 #include "harness/judge/judge.hpp"
@@ -26,6 +28,7 @@ struct BenchOptions {
   safety::WriteFence fence;
   int station = 1;  // the device's, where the endpoint cannot become another station
   std::string power_cycle_command;    // --power-cycle: what switches a real device off and on
+  int max_restarts = 5;              // --max-restarts: of a device that the bench starts itself
   std::string replay;                 // command line that the id of the case completes
   exchange::Channel aux;              // --aux: a second channel of the PLC under test
   harness::Protocols known{{}};       // of further services that a case speaks to
@@ -70,6 +73,9 @@ class Bench {
   /// does not hold as before.
   std::string put_back();
 
+  /// Set-up writes that the device did not take.
+  const SetUpFindings& set_up_findings() const { return set_up_findings_; }
+
   /// Why no further case can run: the port failed, or the link is dead. Empty while all is well.
   const std::string& stopped() const { return stopped_; }
   bool port_failed() const { return port_failed_; }
@@ -113,11 +119,13 @@ class Bench {
     return prepared.is_client() ? saved_over_aux_ : saved_;
   }
   bool save_memory(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  bool writes_without_check(const exchange::PreparedCase& prepared) const;
   void exchange(const exchange::PreparedCase& prepared, results::CaseResult& result);
   bool prepare_device(const exchange::PreparedCase& prepared, results::CaseResult& result);
   void judge_exchange(const exchange::PreparedCase& prepared,
                       const exchange::Transcript& transcript, results::CaseResult& result);
   void look_for_device(results::CaseResult& result);
+  void start_again(results::CaseResult& result);
   void revive(results::CaseResult& result);
   bool power_cycle(results::CaseResult& result, bool client = false);
   void after(const exchange::PreparedCase& prepared, const exchange::Transcript& transcript,
@@ -133,8 +141,11 @@ class Bench {
   std::optional<AdapterFloor> floor_;  // nothing: what is declared
   judging::Readings readings_;
   safety::SavedMemory saved_, saved_over_aux_;
+  SetUpFindings set_up_findings_;
+  WorthAsking worth_asking_;
   std::string stopped_;
   int errors_in_a_row_ = 0;
+  bool set_up_answered_ = true;  // in the present case: saving and setting memory
   bool port_failed_ = false;
   bool answers_ = false;  // the device answers probes
   bool interrupted_ = false;

@@ -106,6 +106,13 @@ std::string Benches::stopped() const {
              : members_.front().bench->stopped();
 }
 
+std::vector<results::CaseResult> Benches::set_up_findings() const {
+  std::vector<results::CaseResult> all;
+  for (const Member& member : members_)
+    std::ranges::move(member.bench->set_up_findings().results(), std::back_inserter(all));
+  return all;
+}
+
 std::string Benches::put_back() {
   std::string open;
   for (Member& member : members_)

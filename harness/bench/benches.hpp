@@ -52,6 +52,8 @@ class Benches {
 
   /// By the first protocol.
   Result<Fingerprint> fingerprint() { return members_.front().bench->fingerprint(); }
+  /// SetUpFindings::results of all.
+  std::vector<results::CaseResult> set_up_findings() const;
   /// `Bench::put_back` of all.
   std::string put_back();
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "harness/bench/rejudge.hpp"
+#include "harness/bench/set_up_findings.hpp"
 #include "harness/bench/waivers.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/paths.hpp"
@@ -113,6 +114,10 @@ News judge_all(const JudgeOptions& options, const JudgePlan& plan, run::RunRepor
   bench::Waivers waivers(plan.waivers, run::timestamp().substr(0, 10),
                          plan.recorded.run.identity.firmware);
   for (const results::CaseResult* one : plan.selected) {
+    if (one->id.starts_with(bench::set_up_result)) {  // no case: there is nothing to judge again
+      if (!report.add(*one)) return news;
+      continue;
+    }
     auto [result, why_not] = rejudge.judge(*one);
     result.replay = replay_command(options) + "'" + result.id + "'";
     waivers.apply(result);

@@ -85,6 +85,7 @@ class Run {
       if (!os::interrupted() && lines_.live())
         if (const Status still = benches_.start(); !still && !still.error().interrupted)
           end_.trouble = "after the last case: " + still.error().message;
+      report_set_up();
       // Waivers that the whole run has shown to be needless turn the gate red.
       for (const CaseResult& result : waivers_.superfluous(run::case_ids(plan_.vectors)))
         report_.add(result);
@@ -190,6 +191,7 @@ class Run {
                  !(options_.fail_fast && results::gates(result.verdict, report_.gate()));
         });
     shared.execute();
+    report_set_up();
     for (const CaseResult& result : waivers_.superfluous(run::case_ids(plan_.vectors)))
       report_.add(result);
     end_.interrupted = shared.interrupted();
@@ -262,6 +264,14 @@ class Run {
   void note(const Case& source, const CaseResult& result) {
     if (result.verdict == results::Verdict::blocked && !too_many_failures())
       blocked_.insert(&source);
+  }
+
+  void report_set_up() {
+    for (const Benches& port : ports_)
+      for (CaseResult& result : port.set_up_findings()) {
+        waivers_.apply(result);
+        report_.add(result);
+      }
   }
 
   /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.

@@ -89,7 +89,7 @@ bool CaseRun::probe(Link& link, std::optional<int> step) {
   else
     link.pending.leave_over(before, transcript_);
   // What comes behind the answer is the probe's, too: a device may spoil that one alone.
-  link.pending.drop(link.pending.bytes().size(), transcript_);
+  link.pending.drop();
   links_.note(now(), answered ? "probe answered: nothing else was on its way"
                               : "probe not answered as expected");
   return end > 0;

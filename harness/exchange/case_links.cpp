@@ -48,7 +48,7 @@ void CaseRun::close(const PreparedStep& step) {
   // Behind a FIN answers may still come; nothing is heard behind a RST.
   if (step.step->closing != Closing::fin) {
     // The answer to what was asked last may have been quicker: whether it was, says nothing.
-    if (link.asked) link.pending.drop(link.pending.bytes().size(), transcript_);
+    if (link.asked) link.pending.drop();
     link.pending.leave_over();
   }
   if (!link.gone) links_.close(link, step.step->closing);
@@ -103,8 +103,9 @@ void CaseRun::set_memory(const Step& step) {
     const Status done = memory_.set(prepared_, address, hex);
     links_.note(now(), fmt::format("set {} = {}", address, hex));
     if (done) continue;
-    record().refused = done.error().message;
-    record().refused_by_device = memory_.refused() || (around_.arming && around_.arming->gave_up());
+    record().refused = std::string(memory_.refused() ? set_up_failure : "") + done.error().message;
+    record().refused_by_device = around_.arming && around_.arming->gave_up();
+    if (memory_.refused()) links_.note(now(), memory_.said());
     break;
   }
   memory_.leave();
@@ -131,8 +132,8 @@ void CaseRun::look_at_memory(const Step& step) {
       links_.note(now(), fmt::format("check {}: {}", address, *value));
       continue;
     }
-    record().refused = value.error().message;
-    record().refused_by_device = memory_.refused();
+    record().refused = "the bench cannot look: " + value.error().message;
+    if (memory_.refused()) links_.note(now(), memory_.said());
     break;
   }
   memory_.leave();

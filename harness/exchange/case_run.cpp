@@ -8,14 +8,6 @@ namespace fieldproof::exchange {
 
 using vectors::Step;
 
-namespace {
-
-/// No reply of these protocols is longer on the wire at the slowest speed: bytes that trickle in
-/// for longer are no reply.
-constexpr Duration longest_reply = 10s;
-
-}  // namespace
-
 CaseRun::CaseRun(const Surroundings& around, const PreparedCase& prepared)
     : around_(around),
       prepared_(prepared),
@@ -130,7 +122,8 @@ void CaseRun::await_frame(const PreparedStep& step) {
   record().cause = link->cause;
   record().deadline = link->cause + reply_limit(*step.step, around_.timing.response_max);
   const Time give_up = record().deadline + around_.timing.late_watch;
-  const Time cut_off = give_up + longest_reply;
+  const Time cut_off = give_up + longest_reply(link->to.protocol->longest_frame(),
+                                               link->to.endpoint->character_time());
   std::optional<std::size_t> length;
   while (!(length = complete(step, *link))) {
     const bool next_may_come = link->by_device && link->name.empty();  // another connection
@@ -139,8 +132,11 @@ void CaseRun::await_frame(const PreparedStep& step) {
         link->pending.empty()
             ? give_up
             : std::max(record().deadline, link->pending.last() + around_.timing.quiet);
-    if (!links_.listen(*link, std::min(until, cut_off)) || link->to.endpoint->now() >= cut_off)
+    if (!links_.listen(*link, std::min(until, cut_off))) break;
+    if (link->to.endpoint->now() >= cut_off) {
+      transcript_.flooded = true;
       break;
+    }
     link = links_.find(step.link);
   }
   take_frame(*link, length);

@@ -11,6 +11,9 @@
 
 namespace fieldproof::exchange {
 
+/// How the message of a case begins whose set-up the device did not take.
+inline constexpr std::string_view set_up_failure = "set-up: ";
+
 class MemoryAccess {
  public:
   /// `aux`: a second channel of the PLC under test, as server. `arming` may be nullptr: then sets
@@ -28,8 +31,13 @@ class MemoryAccess {
   bool can_read(const PreparedCase& prepared, const std::string& address) const;
   /// The last error came from the device (a NAK, no answer), not from a way that does not exist.
   bool refused() const { return refused_; }
+  /// The last request got no sound answer, not even a refusal.
+  bool unserved() const { return unserved_; }
   /// The last request was not answered at all.
   bool silent() const { return silent_; }
+
+  /// The last request over the wire, and what came to it, for reports.
+  const std::string& said() const { return said_; }
 
   /// Over the wire, of a server, whatever the case.
   Status set(int station, const std::string& address, const std::string& hex);
@@ -49,6 +57,8 @@ class MemoryAccess {
   Status write(const Channel& server, const std::string& address, const std::string& hex);
   Result<std::string> read(const Channel& server, const std::string& address, std::size_t digits);
   Result<Bytes> ask(const Channel& server, ByteView request);
+  Result<Bytes> ask_again(const Channel& server, ByteView request);
+  static Status let_pass(Visit& visit, Time until);
 
   Channel device_;
   Duration patience_;
@@ -56,7 +66,9 @@ class MemoryAccess {
   Arming* arming_;
   Visit visit_;
   std::optional<Visit> aux_visit_;
-  bool refused_ = false, silent_ = false;
+  bool refused_ = false, unserved_ = false, silent_ = false;
+  bool unsound_ = false;  // what the device answers does not become sound by asking again
+  std::string said_;
 };
 
 /// Leaves at the end of a scope.

@@ -8,8 +8,6 @@ using results::Event;
 
 namespace {
 
-constexpr int nobody = -1;
-
 std::ptrdiff_t distance(std::size_t count) { return static_cast<std::ptrdiff_t>(count); }
 
 }  // namespace
@@ -56,7 +54,10 @@ Time Pending::give_front(int step) {
   return event->end;
 }
 
-void Pending::drop(std::size_t count, Transcript& transcript) { give(count, nobody, transcript); }
+void Pending::drop() {
+  events_.clear();
+  bytes_.clear();
+}
 
 void Pending::leave_over(std::size_t count, Transcript& transcript) {
   while (count > 0 && !events_.empty()) {

@@ -26,8 +26,8 @@ class Pending {
   /// The first `count` bytes are the step's. When the last of them came.
   Time give(std::size_t count, int step, Transcript& transcript);
   Time give_front(int step);
-  /// The first `count` bytes are nobody's: a probe's reply.
-  void drop(std::size_t count, Transcript& transcript);
+  /// All of it is nobody's: a probe's reply, and what comes behind it.
+  void drop();
   /// Nobody was waiting for the first `count` bytes; or for any of it.
   void leave_over(std::size_t count, Transcript& transcript);
   void leave_over();

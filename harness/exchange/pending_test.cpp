@@ -40,10 +40,11 @@ TEST_F(PendingTest, AnEventOfWhichAPartIsTakenBecomesTwo) {
   come("abcdef", 1ms, 2ms);
   EXPECT_EQ(pending.give(2, 0, transcript), Time(2ms));
   EXPECT_EQ(to_text(pending.bytes()), "cdef");
-  pending.drop(1, transcript);
   pending.leave_over(2, transcript);
-  pending.give(9, 1, transcript);
-  EXPECT_THAT(events(), ElementsAre("0: ab 1-2", "-1: c 2-2", "left: de 2-2", "1: f 2-2"));
+  pending.give(1, 1, transcript);
+  pending.drop();
+  EXPECT_TRUE(pending.empty());
+  EXPECT_THAT(events(), ElementsAre("0: ab 1-2", "left: cd 2-2", "1: e 2-2", "-1: f 2-2"));
 }
 
 TEST_F(PendingTest, AnEmptyDatagramIsThere) {

@@ -41,6 +41,8 @@ Result<Sign> Sanity::anything_answers(Duration patience, Duration reply_delay, b
 
 /// Until as many answers have come as were asked for, and never ends in mid-frame.
 Status Sanity::hear_answers(Time until, Time begun) {
+  const Time cut_off = until + longest_reply(device_.protocol->longest_frame(),
+                                             device_.endpoint->character_time());
   while (answers_ < probes_) {
     const Result<Burst> burst = visit_.receive(until);
     if (!burst) return burst.error();
@@ -50,8 +52,10 @@ Status Sanity::hear_answers(Time until, Time begun) {
     answers_ += take_frames(heard_);
     // Answers to earlier probes may still be on their way: as long as the first one took.
     const Time now = device_.endpoint->now();
-    until = now +
-            std::max<Duration>(heard_.empty() ? timing_.quiet : timing_.response_max, now - begun);
+    until = std::min(
+        now + std::max<Duration>(heard_.empty() ? timing_.quiet : timing_.response_max, now - begun),
+        cut_off);
+    if (now >= cut_off) return ok();
   }
   return ok();
 }
@@ -119,10 +123,11 @@ Result<results::ResponseTimes> Sanity::time_probes(int count, Duration budget) {
 
 Status settle(endpoints::Endpoint& endpoint, Duration silence) {
   const Time give_up = endpoint.now() + settle_patience;
-  while (endpoint.now() < give_up) {
+  for (std::size_t heard = 0; endpoint.now() < give_up && heard <= flood_limit;) {
     const Result<Burst> burst = endpoint.receive(endpoint.now() + silence);
     if (!burst) return burst.error();
     if (is_nothing(*burst)) return ok();
+    heard += burst->bytes.size();
   }
   return ok();
 }

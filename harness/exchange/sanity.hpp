@@ -45,7 +45,8 @@ class Sanity {
   std::size_t probes_ = 0, answers_ = 0;  // over the present connection
 };
 
-/// Listens until the endpoint is silent for so long; at most ten seconds. Nothing of it is judged.
+/// Listens until the endpoint is silent for so long; at most ten seconds, or a flood. Nothing of it
+/// is judged.
 Status settle(endpoints::Endpoint& endpoint, Duration silence);
 
 }  // namespace fieldproof::exchange

@@ -26,7 +26,8 @@ class ScriptedEndpoint : public endpoints::Endpoint {
   std::vector<nlohmann::json> begun;
   int fails_after = -1;  // transmissions until the port fails
   int power_cycles = 0;
-  std::string forgets;  // answered once, then never again
+  std::string forgets;  // answered so often, then never again
+  int forgets_after = 1;
 
   const endpoints::Capabilities& capabilities() const override { return can; }
   std::string describe() const override { return "scripted"; }
@@ -46,7 +47,7 @@ class ScriptedEndpoint : public endpoints::Endpoint {
     now_ = when.end;
     for (const Piece& piece : answers[sent.back()])
       coming_.push_back({to_bytes(piece.text), now_ + piece.after, character_time()});
-    if (sent.back() == forgets) answers.erase(forgets);
+    if (sent.back() == forgets && --forgets_after == 0) answers.erase(forgets);
     return when;
   }
 

@@ -13,6 +13,12 @@ struct ExchangeTiming {
   Duration quiet = 100ms;          // no further byte for so long: what is incomplete stays so
 };
 
+/// How long a whole frame may be on its way at most: twice its characters, and a second for pauses
+/// between them. Bytes that trickle in for longer are no frame.
+inline Duration longest_reply(std::size_t longest_frame, Duration character_time) {
+  return 2 * character_time * static_cast<Duration::rep>(longest_frame) + 1s;
+}
+
 /// More than any exchange of these protocols comes to: the device floods.
 inline constexpr std::size_t flood_limit = 16'384;
 

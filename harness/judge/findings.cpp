@@ -29,6 +29,11 @@ void Findings::block(std::string message) {
   missed_ = true;
 }
 
+void Findings::miss_in_any_case(std::string message) {
+  if (result.verdict == Verdict::blocked) missed_ = false;
+  miss(std::move(message));
+}
+
 /// What follows from the manuals only together with a decision of ours does not bind without it; a
 /// printed vector names decisions for its alternatives alone.
 static bool rests_on_decision(const vectors::Case& source) {

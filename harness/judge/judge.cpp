@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "harness/exchange/timing.hpp"
 #include "harness/judge/endings.hpp"
 #include "harness/judge/findings.hpp"
 #include "harness/judge/timing.hpp"
@@ -42,13 +43,13 @@ class Judge {
 
   Judgement judge() {
     if (transcript_.trouble) return error(transcript_.trouble->message);
-    if (transcript_.flooded) findings_.miss("the device floods the line: it sends without end");
+    if (transcript_.flooded) findings_.miss(without_end());
     for (const PreparedStep& step : prepared_.steps) judge_repeated(step);
     if (findings_.result.verdict == Verdict::pass && record_ == 0)
       return error("no step was executed");
     judge_surplus();
     if (!transcript_.dead.empty())
-      findings_.miss("link dead after this frame: " + transcript_.dead);
+      findings_.miss_in_any_case("link dead after this frame: " + transcript_.dead);
     findings_.settle(*prepared_.source, rules_.binding_decisions);
     if (!unread_.empty())
       findings_.result.notes.push_back(
@@ -98,6 +99,20 @@ class Judge {
       case Step::Kind::expect_open: judge_opening(step, record, share.opened); return false;
       default: return false;
     }
+  }
+
+  std::string without_end() const {
+    std::size_t count = 0;
+    Time first{}, last{};
+    for (const results::Event& event : transcript_.events) {
+      if (event.kind != results::Event::Kind::received) continue;
+      if (count == 0) first = event.start;
+      count += event.bytes.size();
+      last = event.end;
+    }
+    if (count > exchange::flood_limit) return "the device floods the line: it sends without end";
+    return fmt::format("the {} does not end: {} bytes came in {:.0f} ms", frame(), count,
+                       to_ms(last - first));
   }
 
   std::string frame() const { return client_ ? "request" : "answer"; }

@@ -50,80 +50,85 @@ std::vector<Protocol::Place> SavedMemory::words_of(const std::string& address,
 }
 
 /// A device that cannot read several words may still read one.
-Result<std::string> SavedMemory::word_by_word(const Protocol::Place& place) {
-  std::string value;
+Reading SavedMemory::word_by_word(const Protocol::Place& place) {
+  Reading all{Reading::Kind::digits, "", {}};
   for (const Protocol::Place& word : words_of(place.address, place.digits)) {
-    const Result<std::string> digits = memory_.get(device_.station, word.address, word_digits);
-    if (!digits) return digits.error();
-    value += *digits;
+    Reading one = memory_.read(word.address, word_digits);
+    if (one.kind != Reading::Kind::digits) return one;
+    all.digits += one.digits;
   }
-  return value;
+  return all;
 }
 
-Result<std::string> SavedMemory::read(const Protocol::Place& place) {
-  Result<std::string> value = memory_.get(device_.station, place.address, place.digits);
-  endpoint_failed_ = !value && !memory_.refused() &&
-                     protocol_.read_requests(device_.station, place.address, place.digits);
-  if (!value && memory_.refused() && place.declared && place.digits > word_digits)
-    value = word_by_word(place);
-  if (value && value->size() != place.digits)
-    return fail(fmt::format("cannot read {}: {} digits came, {} are due", place.address,
-                            value->size(), place.digits));
-  return value;
+Reading SavedMemory::read(const Protocol::Place& place) {
+  Reading reading = memory_.read(place.address, place.digits);
+  if (reading.kind == Reading::Kind::refused && place.declared && place.digits > word_digits)
+    reading = word_by_word(place);
+  return reading;
 }
 
 Status SavedMemory::save(const std::vector<Protocol::Written>& written) {
+  failure_ = Reading::Kind::digits;
   if (written.empty()) return ok();
   if (!journal_) return fail("writes, and no journal is open that would keep what the device held");
-  const exchange::Leaving leaving(memory_);  // the case has all connections of the device
   std::vector<OpenEntry> entries;
   std::optional<Error> unreadable;
   for (const Protocol::Written& one : joined(written)) {
     for (const Protocol::Place& place : protocol_.places(one)) {
       const Key key{place.address, place.digits};
       if (!known_.contains(key)) {
-        const Result<std::string> value = read(place);
-        const bool absent = !value && memory_.refused() && !place.declared;
-        if (!value && !absent) {
-          port_failed_ = endpoint_failed_;
-          unreadable = Error{fmt::format("cannot save what it writes: {}", value.error().message),
-                             value.error().interrupted};
-          if (port_failed_) return *unreadable;
+        const Reading reading = read(place);
+        const bool absent = reading.kind == Reading::Kind::refused && !place.declared;
+        if (reading.kind != Reading::Kind::digits && !absent) {
+          failure_ = reading.kind;
+          unreadable = Error{"cannot save what it writes: " + reading.why.message,
+                             reading.why.interrupted};
+          if (port_failed()) return *unreadable;
           continue;
         }
-        known_[key] = value ? *value : "";
+        known_[key] = reading.digits;
       }
       if (!known_[key].empty() && !is_open(key))
         entries.push_back({0, device_, place.address, known_[key]});
     }
   }
+  memory_.leave();  // the case has all connections of the device
   if (Status kept = journal_->save(entries); !kept) return kept;
   return unreadable ? Status(*unreadable) : ok();
 }
 
+/// A device that cannot write several words may still write one.
 Status SavedMemory::write(const OpenEntry& entry, const std::string& holds) {
-  const Status whole = memory_.set(device_.station, entry.address, entry.value);
-  if (whole || entry.value.size() <= word_digits) return whole;
+  const Status whole = memory_.write(entry.address, entry.value);
+  if (whole || !memory_.refused() || entry.value.size() <= word_digits) return whole;
   const std::vector<Protocol::Place> words = words_of(entry.address, entry.value.size());
   if (words.size() * word_digits != entry.value.size()) return whole;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string word = entry.value.substr(i * word_digits, word_digits);
     if (holds.compare(i * word_digits, word_digits, word) == 0) continue;
-    if (Status set = memory_.set(device_.station, words[i].address, word); !set) return set;
+    if (Status set = memory_.write(words[i].address, word); !set) return set;
   }
   return ok();
 }
 
+/// What a write came to is seen by reading: its answer may be lost, or late.
 Status SavedMemory::put_back(const OpenEntry& entry) {
+  constexpr int attempts = 3;
   const Protocol::Place place{entry.address, entry.value.size()};
-  Result<std::string> holds = read(place);
-  if (!holds) return holds.error();
-  if (*holds == entry.value) return ok();
-  if (Status written = write(entry, *holds); !written) return written;
-  holds = read(place);
-  if (!holds) return holds.error();
-  if (*holds == entry.value) return ok();
-  return fail(fmt::format("{} holds {} and not {}", entry.address, *holds, entry.value));
+  Status done = ok();
+  for (int i = 0; i <= attempts; ++i) {
+    Reading holds = memory_.look(place.address, place.digits);
+    if (holds.kind == Reading::Kind::refused && place.digits > word_digits)
+      holds = word_by_word(place);
+    failure_ = holds.kind;
+    if (holds.kind != Reading::Kind::digits) return holds.why;
+    if (holds.digits == entry.value) return ok();
+    if (!done && memory_.refused()) return done;
+    if (i == attempts)
+      return fail(fmt::format("{} holds {} and not {}", entry.address, holds.digits, entry.value));
+    done = write(entry, holds.digits);
+  }
+  return done;
 }
 
 std::string SavedMemory::open_places() const {
@@ -138,15 +143,15 @@ std::string SavedMemory::open_places() const {
 std::string SavedMemory::restore() {
   std::string problem;
   if (!journal_) return problem;
-  const exchange::Leaving leaving(memory_);
   const std::vector<OpenEntry> entries = journal_->open_entries();
   for (auto one = entries.rbegin(); one != entries.rend(); ++one) {
     if (!is_same_device(one->device, device_)) continue;
     Status done = put_back(*one);
     if (done) done = journal_->restored(*one);
     if (!done && problem.empty()) problem = done.error().message;
-    if (!done && (memory_.silent() || !memory_.refused())) break;  // nobody answers the next either
+    if (!done && (port_failed() || silent())) break;  // nobody answers the next either
   }
+  memory_.leave();
   return problem;
 }
 

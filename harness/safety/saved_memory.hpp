@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/exchange/memory_access.hpp"
 #include "harness/safety/journal.hpp"
+#include "harness/safety/sure_access.hpp"
 
 namespace fieldproof::safety {
 
@@ -22,37 +22,41 @@ class SavedMemory {
         device_(std::move(device)),
         journal_(std::move(journal)) {}
 
-  /// Before a case: each place that is not known from an earlier case is read, and all are on the
-  /// disk when this returns. Errors say why the case must not write; what could be read is in the
-  /// journal then, too.
+  /// Before a case: each place that is not known from an earlier case is read surely, and all are
+  /// on the disk when this returns. Errors say why the case must not write; what could be read is
+  /// in the journal then, too.
   Status save(const std::vector<harness::Protocol::Written>& written);
   /// The last error of `save` was of the port, not of the device.
-  bool port_failed() const { return port_failed_; }
-  /// The device left the last read or write unanswered.
-  bool silent() const { return memory_.silent(); }
+  bool port_failed() const { return failure_ == Reading::Kind::port; }
+  /// The last error of `save` is that the device did not answer.
+  bool silent() const { return failure_ == Reading::Kind::unanswered; }
+  /// It is that no sound answer came.
+  bool unserved() const { return silent() || failure_ == Reading::Kind::unsure; }
+  /// SureAccess::damaged.
+  unsigned damaged() const { return memory_.damaged(); }
 
   /// After it: what has changed is put back, the latest first. Empty, or what could not be, and
   /// why.
   std::string restore();
   /// What is not put back: "%MW100 = 00E2, %MW101 = 0000".
   std::string open_places() const;
-  /// Puts back one entry of a journal. Errors say what it holds instead.
+  /// Puts back one entry of a journal, and reads it again. Errors say what it holds instead.
   Status put_back(const OpenEntry& entry);
 
  private:
   using Key = std::pair<std::string, std::size_t>;  // address and digits
-  Result<std::string> read(const harness::Protocol::Place& place);
+  Reading read(const harness::Protocol::Place& place);
   std::vector<harness::Protocol::Place> words_of(const std::string& address,
                                                  std::size_t digits) const;
-  Result<std::string> word_by_word(const harness::Protocol::Place& place);
+  Reading word_by_word(const harness::Protocol::Place& place);
   Status write(const OpenEntry& entry, const std::string& holds);
   bool is_open(const Key& key) const;
 
   const harness::Protocol& protocol_;
-  exchange::MemoryAccess memory_;
+  SureAccess memory_;
   JournalDevice device_;
   std::shared_ptr<Journal> journal_;
-  bool port_failed_ = false, endpoint_failed_ = false;
+  Reading::Kind failure_ = Reading::Kind::digits;  // of the last save or put_back
   std::map<Key, std::string>
       known_;  // what places held when this run first came to them; empty: no such memory
 };

@@ -123,6 +123,21 @@ Result<std::string> read_reply(ByteView reply) {
   return digits;
 }
 
+bool answers(ByteView request, ByteView reply) {
+  constexpr std::size_t body_at = 4;  // header, station and command stand before it
+  if (request.size() < body_at || reply.size() < body_at) return false;
+  if (!std::ranges::equal(request.subspan(1, body_at - 1), reply.subspan(1, body_at - 1)))
+    return false;
+  if (reply[0] == nak || request[body_at - 1] != 'R') return true;
+  const std::size_t asked = body_at + digits_of_a_word;  // where its number of words stands
+  std::size_t digits = 0;
+  for (const harness::Field& field : explain(reply))
+    if (field.name.starts_with("data")) digits += field.size;
+  return request.size() > asked &&
+         digits == digits_of_a_word *
+                       static_cast<std::size_t>(hex_digit(static_cast<char>(request[asked])));
+}
+
 std::vector<Protocol::Place> places(const Protocol::Written& written) {
   const auto within = [](const auto& ranges, std::uint32_t word) {
     return std::ranges::any_of(

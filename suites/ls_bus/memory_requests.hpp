@@ -26,6 +26,8 @@ Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_v
                                          std::size_t digits);
 Status write_reply(ByteView reply);
 Result<std::string> read_reply(ByteView reply);
+/// harness::MemoryRequests::answers.
+bool answers(ByteView request, ByteView reply);
 
 /// Runs of parameters that are not read only; those that the emulated inverter lacks are not
 /// declared.

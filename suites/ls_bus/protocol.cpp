@@ -82,6 +82,8 @@ class LsBus : public Protocol,
 
   notation::Checks checks() const override { return {&checks::sum, 1}; }
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
+  /// Eight words in twice the digits, for what is wrong with it.
+  std::size_t longest_frame() const override { return 96; }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return ls_bus_suite::frame_length(bytes);
   }
@@ -123,6 +125,9 @@ class LsBus : public Protocol,
   Status acknowledged(ByteView reply) const override { return ls_bus_suite::write_reply(reply); }
   Result<std::string> digits_in(ByteView reply) const override {
     return ls_bus_suite::read_reply(reply);
+  }
+  bool answers(ByteView request, ByteView reply) const override {
+    return ls_bus_suite::answers(request, reply);
   }
   std::vector<Written> written_by(ByteView request) const override {
     return ls_bus_suite::written_by(request, order_);

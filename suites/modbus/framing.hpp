@@ -31,6 +31,12 @@ class Framing {
   virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
   virtual std::vector<harness::Field> explain(ByteView frame, Way way) const = 0;
   virtual const notation::Dressing& dressing() const = 0;
+  /// Does a frame carry a check?
+  virtual bool has_check() const { return true; }
+  /// Can this be the reply to that request by what the framing alone says of them?
+  virtual bool pairs([[maybe_unused]] ByteView request, [[maybe_unused]] ByteView reply) const {
+    return true;
+  }
   virtual Duration frame_gap(Duration character_time) const = 0;
 
   /// Every message that a device could read in these bytes, whole or damaged: several frames, a

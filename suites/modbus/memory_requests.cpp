@@ -231,6 +231,18 @@ Result<std::string> read_reply(const Framing& framing, ByteView reply) {
   return digits;
 }
 
+bool answers(const Framing& framing, ByteView request, ByteView reply) {
+  const Bytes asked = framing.unwrap(request), answer = framing.unwrap(reply);
+  if (asked.size() < 6 || answer.size() < 3 || !framing.pairs(request, reply)) return false;
+  if (answer[0] != asked[0] || (answer[1] & ~exception_bit) != asked[1]) return false;
+  if (answer[1] & exception_bit) return true;
+  const FunctionCode* function = find_function(asked[1]);
+  if (!function) return false;
+  if (function->write) return std::equal(answer.begin(), answer.end(), asked.begin());
+  const unsigned count = word_at(asked, 4);
+  return answer[2] == (function->bits ? (count + 7) / 8 : count * 2);
+}
+
 std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases,
                                           ByteView request) {
   std::vector<Protocol::Written> result;

@@ -32,6 +32,8 @@ Result<std::vector<Bytes>> read_requests(const Framing& framing, const Bases& ba
 /// Anything but an exception: its form is for the cases to judge.
 Status write_reply(const Framing& framing, ByteView reply);
 Result<std::string> read_reply(const Framing& framing, ByteView reply);
+/// harness::MemoryRequests::answers.
+bool answers(const Framing& framing, ByteView request, ByteView reply);
 
 /// What the messages in a request would write.
 std::vector<harness::Protocol::Written> written_by(const Framing& framing, const Bases& bases,

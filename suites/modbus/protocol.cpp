@@ -60,6 +60,8 @@ class Modbus : public Protocol,
   }
   bool is_text() const override { return framing_.dressing().digits; }
   const notation::Dressing* dressing() const override { return &framing_.dressing(); }
+  /// 256 bytes (Cnet EN 9.3.2), each in two characters where it is text, and start and end.
+  std::size_t longest_frame() const override { return is_text() ? 520 : 264; }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return framing_.frame_length(bytes);
   }
@@ -130,6 +132,10 @@ class Modbus : public Protocol,
   Result<std::string> digits_in(ByteView reply) const override {
     return modbus_suite::read_reply(framing_, reply);
   }
+  bool answers(ByteView request, ByteView reply) const override {
+    return modbus_suite::answers(framing_, request, reply);
+  }
+  bool is_checked(ByteView) const override { return framing_.has_check(); }
   std::vector<Written> written_by(ByteView request) const override {
     return modbus_suite::written_by(framing_, bases_, request);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <numeric>
 #include <optional>
 
 #include "harness/device_names.hpp"
@@ -78,8 +79,14 @@ Protocol::Written written(const std::string& address, std::uint32_t count,
   return {std::string(1, name->area), words->first, words->last, address};
 }
 
+constexpr std::size_t command_at = 3, frame_head = 6;  // header, station, command and its type
+
+/// In lower case, with a BCC (Cnet EN 7.1.3).
 Bytes request(std::string_view station, std::string_view command, std::string_view rest) {
-  return to_bytes(fmt::format("\x05{}{}{}\x04", station, command, rest));
+  Bytes frame = to_bytes(fmt::format("\x05{}{}{}\x04", station, command, rest));
+  const unsigned sum = std::accumulate(frame.begin(), frame.end(), 0u);
+  for (const char digit : hex_number(sum & 0xFF, 2)) frame.push_back(static_cast<Byte>(digit));
+  return frame;
 }
 
 std::string with_length(std::string_view name) {
@@ -151,10 +158,10 @@ Result<std::vector<Bytes>> write_requests(std::string_view station, std::string_
   std::vector<Bytes> requests;
   for (const Part& part : *parts) {
     if (part.count == 1)
-      requests.push_back(request(station, "WSS", "01" + with_length(part.name) + part.hex));
+      requests.push_back(request(station, "wSS", "01" + with_length(part.name) + part.hex));
     else
       requests.push_back(
-          request(station, "WSB", with_length(part.name) + hex_number(part.count, 2) + part.hex));
+          request(station, "wSB", with_length(part.name) + hex_number(part.count, 2) + part.hex));
   }
   return requests;
 }
@@ -168,10 +175,10 @@ Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_v
   std::vector<Bytes> requests;
   for (const Part& part : *parts) {
     if (part.count == 1)
-      requests.push_back(request(station, "RSS", "01" + with_length(part.name)));
+      requests.push_back(request(station, "rSS", "01" + with_length(part.name)));
     else
       requests.push_back(
-          request(station, "RSB", with_length(part.name) + hex_number(part.count, 2)));
+          request(station, "rSB", with_length(part.name) + hex_number(part.count, 2)));
   }
   return requests;
 }
@@ -188,6 +195,51 @@ Result<std::string> read_reply(ByteView reply) {
     if (field.name == "data") digits += field.text;
   if (digits.empty()) return fail("the answer holds no data");
   return digits;
+}
+
+namespace {
+
+/// Digits that the data fields of a reply hold.
+std::size_t digits_of_data(ByteView reply) {
+  std::size_t count = 0;
+  for (const Field& field : explain(reply))
+    if (field.name == "data") count += field.size;
+  return count;
+}
+
+/// Digits that a read request of this room asks for; 0: it reads nothing.
+std::size_t digits_asked_for(ByteView request) {
+  std::size_t count = 1, element = 0;
+  for (const Field& field : explain(request)) {
+    if (field.name == "number of data")
+      if (const std::optional<Bytes> value = from_hex(field.text)) count = value->front();
+    if (field.name == "name")
+      if (const std::optional<Name> name = read_name(field.text))
+        element = name->element_bytes() * 2;
+  }
+  return request[command_at] == 'r' || request[command_at] == 'R' ? count * element : 0;
+}
+
+}  // namespace
+
+bool answers(ByteView request, ByteView reply) {
+  if (request.size() < frame_head || reply.size() < frame_head) return false;
+  if (!std::ranges::equal(request.subspan(1, frame_head - 1), reply.subspan(1, frame_head - 1)))
+    return false;
+  return reply[0] == nak || digits_of_data(reply) == digits_asked_for(request);
+}
+
+bool is_checked(ByteView request) {
+  return request.size() > command_at && std::islower(request[command_at]);
+}
+
+Bytes without_check(ByteView request) {
+  if (!is_checked(request)) return {};
+  const auto tail = std::ranges::find(request, eot);
+  if (tail == request.end()) return {};
+  Bytes plain(request.begin(), std::next(tail));
+  plain[command_at] = static_cast<Byte>(std::toupper(plain[command_at]));
+  return plain;
 }
 
 namespace {

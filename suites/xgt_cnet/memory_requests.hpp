@@ -1,5 +1,5 @@
-// Memory through the XGT protocol itself, where there is no back door: requests in upper case,
-// which need no BCC.
+// Memory through the XGT protocol itself, where there is no back door: requests in lower case,
+// whose BCC tells what a bad line has made of them.
 #pragma once
 
 #include <string>
@@ -20,6 +20,10 @@ Result<std::vector<Bytes>> read_requests(std::string_view station, std::string_v
                                          std::size_t digits);
 Status write_reply(ByteView reply);
 Result<std::string> read_reply(ByteView reply);
+/// harness::MemoryRequests, of the same names.
+bool answers(ByteView request, ByteView reply);
+bool is_checked(ByteView request);
+Bytes without_check(ByteView request);
 
 /// What a request frame would write. Without a model device names are read leniently: what a name
 /// could touch on any model counts as touched.

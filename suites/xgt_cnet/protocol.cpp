@@ -64,6 +64,8 @@ class XgtCnet : public harness::Protocol,
     return [](std::size_t characters) { return to_bytes(hex_number(characters, 2)); };
   }
   Bytes station_bytes(int station) const override { return to_bytes(station_text(station)); }
+  /// WSS of 16 long words with names of 16 characters (Cnet EN 7.1.5 (2)).
+  std::size_t longest_frame() const override { return 600; }
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return xgt_cnet_suite::frame_length(bytes);
   }
@@ -116,6 +118,13 @@ class XgtCnet : public harness::Protocol,
   Status acknowledged(ByteView reply) const override { return xgt_cnet_suite::write_reply(reply); }
   Result<std::string> digits_in(ByteView reply) const override {
     return xgt_cnet_suite::read_reply(reply);
+  }
+  bool answers(ByteView request, ByteView reply) const override {
+    return xgt_cnet_suite::answers(request, reply);
+  }
+  bool is_checked(ByteView request) const override { return xgt_cnet_suite::is_checked(request); }
+  Bytes without_check(ByteView request) const override {
+    return xgt_cnet_suite::without_check(request);
   }
   std::vector<Written> written_by(ByteView request) const override {
     return xgt_cnet_suite::written_by(request, model_);

@@ -178,7 +178,7 @@ std::vector<Fault> request_faults() {
        }),
        "read/count/words_3", "data"},
       {"count_first", "writes are read with the count first", misread(count_first),
-       "write/example_address_first", "cannot set"},
+       "write/then_read/one", "expected ACK, got NAK"},
       {"reads_one_higher", "reads begin one word higher", moves_address('R', 1), "read/example",
        "data"},
       {"reads_one_lower", "reads begin one word lower", moves_address('R', 0xFFFF), "read/example",

@@ -157,7 +157,7 @@ std::vector<Fault> limit_faults() {
        }),
        "modbus_rtu/limits/read_words_refused/c0000", "function code"},
       {"last_address_refused", "the last address of each area is refused", answer_with(refuse_last),
-       "modbus_rtu/addressing/end_of_words_03/xbc_h", "02 Illegal Address"},
+       "modbus_rtu/addressing/end_of_bits_01/xbc_h", "exception to Read Coil Status"},
       {"past_the_end_is_zero", "what lies past the end of an area reads 0",
        answer_with(zeros_past_the_end), "modbus_rtu/exceptions/address_read/f03/a4000",
        "function code"},

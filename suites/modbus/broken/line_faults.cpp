@@ -174,7 +174,7 @@ std::vector<Fault> line_faults() {
       {"late_answer", "replies come after 700 ms", send_with([](const Bytes&, Bytes reply) {
          return Sendings{{std::move(reply), 700ms}};
        }),
-       "modbus_rtu/modes/serves", ""},
+       "modbus_rtu/modes/ten_in_a_row", ""},
       {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves),
        "modbus_rtu/modes/serves", "split answer"},
       {"echo", "the request comes back before the reply",

@@ -5,6 +5,9 @@ They answer each request that ends with EOT and its check with one word of zero 
   die N              ends with exit status 3 at the request after the N-th
   mute N             is silent for ever after the N-th request
   flood              sends without end once it was asked
+  trickle N          sends one byte every 100 ms without end from the request after the N-th on
+  half N             sends the first half of its answers from the request after the N-th on
+  garbage N          sends 40 bytes of noise instead of answers from the request after the N-th on
   drip               sends its answers, one byte a second
   twice              answers again 50 ms later, as a second device of the same station number does
   parity             sends the eighth bit as even parity, as a device set to 7E1 does
@@ -12,6 +15,7 @@ They answer each request that ends with EOT and its check with one word of zero 
   close LINK N       makes a pty of its own, linked from LINK, says 'ready', and closes it at the request after the N-th
 """
 import os
+import random
 import select
 import sys
 import tty
@@ -53,10 +57,19 @@ def flood(port):
         os.write(port, b"\x00" * 4096)
 
 
+def trickle(port):
+    while True:
+        os.write(port, b"0")
+        select.select([], [], [], 0.1)
+
+
 def drip(port, data):
     for byte in data:
         os.write(port, bytes([byte]))
         select.select([], [], [], 1.0)
+
+
+noise = random.Random(1)
 
 
 def main():
@@ -70,13 +83,20 @@ def main():
         port = os.open(path, os.O_RDWR | os.O_NOCTTY)
         tty.setraw(port, 0)  # TCSANOW: what waits already is kept
     requests = Requests(port)
-    last = int(arguments[-1]) if behaviour in ("die", "mute", "tell", "close") else None
+    ends = behaviour in ("die", "mute", "tell", "close", "trickle", "half", "garbage")
+    last = int(arguments[-1]) if ends else None
     asked = 0
     while True:
         request = requests.next()
         asked += 1
         if last is not None and asked > last:
-            break
+            if behaviour == "trickle":
+                trickle(port)
+            if behaviour not in ("half", "garbage"):
+                break
+            whole = answer(request)
+            os.write(port, whole[:len(whole) // 2] if behaviour == "half" else noise.randbytes(40))
+            continue
         if behaviour == "flood":
             flood(port)
         elif behaviour == "drip":

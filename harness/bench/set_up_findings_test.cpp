@@ -1,0 +1,45 @@
+#include "harness/bench/set_up_findings.hpp"
+
+#include <gmock/gmock.h>
+
+namespace fieldproof::bench {
+namespace {
+
+using results::Verdict;
+using testing::HasSubstr;
+
+results::CaseResult blocked(const std::string& id, const std::string& message) {
+  results::CaseResult result;
+  result.id = id;
+  result.protocol = "p";
+  result.verdict = Verdict::blocked;
+  result.message = message;
+  return result;
+}
+
+TEST(SetUpFindings, AreOneForEachWayInWhichWritesFail) {
+  SetUpFindings findings;
+  findings.note(blocked("p/a/1", "set-up: cannot set %MW1: the device answers NAK 1132"));
+  findings.note(blocked("p/a/2", "set-up: cannot set %MW2: the device answers NAK 1132"));
+  findings.note(blocked("p/a/3", "set-up: cannot set %MW1: no answer"));
+  findings.note(blocked("p/a/4", "writes %MW1; allow it with --allow-write M1"));
+  const std::vector<results::CaseResult> results = findings.results();
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[1].id, "set_up/p/2");
+  EXPECT_EQ(results[1].verdict, Verdict::fail);
+  EXPECT_THAT(results[1].message,
+              HasSubstr("cannot set %MW1: the device answers NAK 1132; 2 cases are BLOCKED by it, "
+                        "first p/a/1"));
+  EXPECT_THAT(results[0].message, HasSubstr("no answer; 1 case is BLOCKED by it, first p/a/3"));
+}
+
+TEST(SetUpFindings, AreNoneWhereWritesAreTaken) {
+  SetUpFindings findings;
+  results::CaseResult failed = blocked("p/a/1", "set-up: cannot set %MW1: no answer");
+  failed.verdict = Verdict::fail;
+  findings.note(failed);
+  EXPECT_TRUE(findings.results().empty());
+}
+
+}  // namespace
+}  // namespace fieldproof::bench

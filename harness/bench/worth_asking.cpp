@@ -1,0 +1,55 @@
+#include "harness/bench/worth_asking.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace fieldproof::bench {
+
+namespace {
+
+using results::Event;
+
+constexpr int most_doubt = 20;  // cases without a whole frame; those that take long count for more
+
+/// Did a whole frame come, or an end of a connection, which is an answer of its own?
+bool anything_whole(const results::CaseResult& result, const harness::Protocol& protocol) {
+  Bytes came;
+  for (const Event& event : result.exchange) {
+    if (event.kind == Event::Kind::received)
+      came.insert(came.end(), event.bytes.begin(), event.bytes.end());
+    if (event.by_device) return true;
+  }
+  const auto length = protocol.frame_length(came);
+  if (!length) return false;
+  const std::vector<harness::Field> fields = protocol.explain(ByteView(came).first(*length));
+  return !fields.empty() && fields.front().problem.empty();
+}
+
+}  // namespace
+
+std::string WorthAsking::after(const results::CaseResult& result,
+                               const harness::Protocol& protocol, bool set_up) {
+  const bool asked = std::ranges::any_of(
+      result.exchange, [](const Event& event) { return event.kind == Event::Kind::sent; });
+  if ((!asked && set_up) || !protocol.has_frame_ends()) return {};
+  if (!result.recording.flooded && anything_whole(result, protocol)) {
+    doubt_ = 0;
+    return {};
+  }
+  doubt_ += result.recording.flooded || !set_up ? 5 : 1;
+  if (doubt_ < most_doubt) return {};
+  return fmt::format(
+      "no whole frame came from the device in the last cases, up to {}: {}. Further cases would "
+      "say the same",
+      result.id, result.message);
+}
+
+std::string WorthAsking::restart(const results::CaseResult& result) {
+  if (restarts_++ < max_restarts_) return {};
+  return fmt::format(
+      "the device died {} times, the last time in {}; it is not started again (--max-restarts {})",
+      restarts_, result.id, max_restarts_);
+}
+
+}  // namespace fieldproof::bench

@@ -1,0 +1,66 @@
+#include "harness/bench/worth_asking.hpp"
+
+#include <gmock/gmock.h>
+
+#include "harness/test_protocol.hpp"
+
+namespace fieldproof::bench {
+namespace {
+
+using results::CaseResult;
+using results::Event;
+using testing::HasSubstr;
+
+CaseResult with(const std::string& received) {
+  CaseResult result;
+  result.id = "p/a/b";
+  result.message = "what failed";
+  result.exchange = {{Event::Kind::sent, 0ns, 0ns, to_bytes("<ask>"), ""}};
+  if (!received.empty())
+    result.exchange.push_back({Event::Kind::received, 0ns, 0ns, to_bytes(received), ""});
+  return result;
+}
+
+class WorthAskingTest : public testing::Test {
+ protected:
+  int cases_until_the_end(const CaseResult& result, bool set_up = true) {
+    for (int i = 1; i < 100; ++i)
+      if (!worth_.after(result, protocol_, set_up).empty()) return i;
+    return 0;
+  }
+  WorthAsking worth_{2};
+  harness::TestProtocol protocol_;
+};
+
+TEST_F(WorthAskingTest, ADeviceThatSendsFramesIs) { EXPECT_EQ(cases_until_the_end(with("<x>")), 0); }
+
+TEST_F(WorthAskingTest, OneThatSendsHalvesIsNot) {
+  EXPECT_EQ(cases_until_the_end(with("<x")), 20);
+  EXPECT_THAT(worth_.after(with("<x"), protocol_, true),
+              HasSubstr("no whole frame came from the device in the last cases, up to p/a/b: what "
+                        "failed"));
+}
+
+TEST_F(WorthAskingTest, AFrameWipesTheDoubt) {
+  for (int i = 0; i < 50; ++i)
+    EXPECT_EQ(worth_.after(with(i % 10 == 9 ? "<x>" : "<"), protocol_, true), "");
+}
+
+TEST_F(WorthAskingTest, WhatTakesLongCountsForMore) {
+  CaseResult endless = with("<xxxxx");
+  endless.recording.flooded = true;
+  EXPECT_EQ(cases_until_the_end(endless), 4);
+}
+
+TEST_F(WorthAskingTest, ASetUpThatNobodyAnswersCountsForMore) {
+  EXPECT_EQ(cases_until_the_end(with(""), false), 4);
+}
+
+TEST_F(WorthAskingTest, ADeviceIsStartedAgainSoOften) {
+  EXPECT_EQ(worth_.restart(with("")), "");
+  EXPECT_EQ(worth_.restart(with("")), "");
+  EXPECT_THAT(worth_.restart(with("")), HasSubstr("died 3 times, the last time in p/a/b"));
+}
+
+}  // namespace
+}  // namespace fieldproof::bench
