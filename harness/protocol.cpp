@@ -64,8 +64,8 @@ Status Protocol::sound_reply(ByteView request, ByteView reply) const {
   if (fields.empty()) return fail("the answer is no frame");
   for (const Field& field : fields)
     if (!field.problem.empty())
-      return fail(fmt::format("the answer is damaged: {} {}: {}", field.name, field.text,
-                              field.problem));
+      return fail(
+          fmt::format("the answer is damaged: {} {}: {}", field.name, field.text, field.problem));
   if (frame_length(reply) != reply.size()) return fail("the answer is no whole frame");
   if (!memory()->answers(request, reply)) return fail("the answer is one to another request");
   return ok();
@@ -80,6 +80,12 @@ Result<std::unique_ptr<Protocol>> Protocol::configured(std::string_view,
                                                        const nlohmann::json&) const {
   return std::unique_ptr<Protocol>();
 }
+
+Result<Protocol::Placed> Protocol::placed(std::string_view address, std::string_view hex,
+                                          const std::vector<Bytes>&) const {
+  return Placed{std::string(address), std::string(hex)};
+}
+std::string Protocol::tied_to_default(const std::vector<Bytes>&) const { return {}; }
 
 bool Protocol::has_model(std::string_view model) const {
   return std::ranges::count(models(), model) > 0;

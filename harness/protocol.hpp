@@ -127,6 +127,17 @@ class Protocol {
   virtual Result<std::unique_ptr<Protocol>> configured(std::string_view model,
                                                        const nlohmann::json& config) const;
 
+  /// What a vector calls an address, and the digits there, on the declared device, for a case that
+  /// sends these requests. Errors say why the case cannot be moved to where they lie.
+  struct Placed {
+    std::string address, hex;
+  };
+  virtual Result<Placed> placed(std::string_view address, std::string_view hex,
+                                const std::vector<Bytes>& requests) const;
+  /// Why such requests mean something else on the declared device than on one that declares
+  /// nothing; empty: they do not.
+  virtual std::string tied_to_default(const std::vector<Bytes>& requests) const;
+
   /// Memory that a request or an address names: words of an area, or its contacts (bits of T and
   /// C), which are apart.
   struct Written {

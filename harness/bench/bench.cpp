@@ -9,6 +9,7 @@
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/judge/recording.hpp"
 #include "harness/notation/notation.hpp"
+#include "harness/safety/placement.hpp"
 #include "harness/safety/transposition.hpp"
 #include "harness/system/hook.hpp"
 #include "harness/vectors/loader.hpp"
@@ -354,18 +355,25 @@ Bench::Ready Bench::make_ready(const Case& source) const {
   if (!prepared) return declined({Verdict::error, prepared.error().message});
   if (const Eligibility why = blocked(source, *prepared); why.verdict != Verdict::pass)
     return declined(why);
-  // A real device is written only where it is allowed.
+  // Memory is asked for where a real device declares it to lie, and written only where it is
+  // allowed.
   const bool real = endpoint_.capabilities().real_device;
   if (real && !prepared->is_client()) {
+    Result<std::optional<Case>> placed = safety::placed_case(*prepared, protocol_);
+    if (!placed) return declined({Verdict::blocked, placed.error().message});
+    if (*placed) ready.elsewhere = std::make_unique<Case>(std::move(**placed));
+    const Case& here = ready.elsewhere ? *ready.elsewhere : source;
     const Result<std::vector<results::Move>> planned =
-        safety::plan_moves(source, station_for(source), options_.fence, protocol_);
+        safety::plan_moves(here, station_for(source), options_.fence, protocol_);
     if (!planned) return declined({Verdict::blocked, planned.error().message});
     ready.moves = *planned;
+    if (!ready.moves.empty()) {
+      Result<Case> moved = safety::moved_case(here, station_for(source), ready.moves, protocol_);
+      if (!moved) return declined({Verdict::blocked, moved.error().message});
+      ready.elsewhere = std::make_unique<Case>(std::move(*moved));
+    }
   }
-  if (!ready.moves.empty()) {
-    Result<Case> moved = safety::moved_case(source, station_for(source), ready.moves, protocol_);
-    if (!moved) return declined({Verdict::blocked, moved.error().message});
-    ready.elsewhere = std::make_unique<Case>(std::move(*moved));
+  if (ready.elsewhere) {
     prepared = prepare(*ready.elsewhere);
     if (!prepared) return declined({Verdict::error, prepared.error().message});
   }
@@ -622,8 +630,9 @@ void Bench::start_again(CaseResult& result) {
     return;
   const auto last = std::ranges::find(result.exchange.rbegin(), result.exchange.rend(),
                                       results::Event::Kind::sent, &results::Event::kind);
-  const std::string frame =
-      last == result.exchange.rend() ? "in the set-up" : "after " + notation::print_bytes(last->bytes);
+  const std::string frame = last == result.exchange.rend()
+                                ? "in the set-up"
+                                : "after " + notation::print_bytes(last->bytes);
   result.message = fmt::format("the device ended {}: {}", frame, stopped_);
   result.verdict = Verdict::fail;
   stopped_.clear();

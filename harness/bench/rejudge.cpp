@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "harness/judge/recording.hpp"
+#include "harness/safety/placement.hpp"
 #include "harness/safety/transposition.hpp"
 
 namespace fieldproof::bench {
@@ -47,8 +48,15 @@ Rejudge::Outcome Rejudge::judge(const results::CaseResult& recorded) {
   const Result<std::unique_ptr<harness::Protocol>> configured =
       protocol->configured(profile_.model, profile_.config);
   const harness::Protocol& declared = configured && *configured ? **configured : *protocol;
-  const Result<vectors::Case> moved = safety::moved_case(
-      *source->second, recorded.recording.station, recorded.recording.moves, declared);
+  const Result<exchange::PreparedCase> as_printed =
+      exchange::prepare(*source->second, recorded.recording.station, *protocol, {protocols_});
+  if (!as_printed) return not_judged(recorded, as_printed.error().message);
+  // An emulated device took its memory as the vector has it.
+  const Result<std::optional<vectors::Case>> placed = safety::placed_case(*as_printed, declared);
+  const bool elsewhere = placed && *placed && !judging::replay(recorded, *as_printed, {});
+  const Result<vectors::Case> moved =
+      safety::moved_case(elsewhere ? **placed : *source->second, recorded.recording.station,
+                         recorded.recording.moves, declared);
   if (!moved) return not_judged(recorded, moved.error().message);
   const Result<exchange::PreparedCase> prepared =
       exchange::prepare(*moved, recorded.recording.station, *protocol, {protocols_});

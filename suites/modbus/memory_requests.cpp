@@ -161,10 +161,12 @@ Result<Bases> declared_bases(std::string_view model, const nlohmann::json& confi
   plc::ConfigReader reader(config, "the Modbus bases");
   for (std::size_t i = 0; i < bases.size(); ++i)
     reader.text((std::string(modbus::modbus_base_names[i]) + "_base").c_str(), bases[i]);
+  bool separate = false;
+  reader.either("tables", "separate", "overlapping", separate);
   if (reader.error()) return *reader.error();
   const Result<modbus::ModbusTables> tables = modbus::place_modbus_tables(*known, bases);
   if (!tables) return tables.error();
-  return Bases{known, *tables};
+  return Bases{known, *tables, separate};
 }
 
 Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station,
@@ -272,13 +274,12 @@ std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written&
   for (Protocol::Place& place : harness::places_on(*bases.model, written)) {
     const bool by_words =
         place_of(bases, place.address) && place_of(bases, place.address)->writable;
-    if (by_words || written.contacts || !place.declared) {
-      result.push_back(std::move(place));
-      continue;
-    }
     const std::string bytes = fmt::format("%{}B{}", written.area, written.first_word * 2);
     const Result<Place> by_bits = place_of(bases, bytes);
-    result.push_back({by_bits && by_bits->writable ? bytes : place.address, place.digits, true});
+    const bool bits = by_bits && by_bits->writable && !written.contacts && place.declared;
+    // Where tables are separate nobody says which of the two was meant: both are kept.
+    if (bits && (!by_words || bases.separate)) result.push_back({bytes, place.digits, true});
+    if (!bits || by_words) result.push_back(std::move(place));
   }
   return result;
 }

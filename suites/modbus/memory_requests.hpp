@@ -16,10 +16,12 @@ namespace fieldproof::modbus_suite {
 struct Bases {
   const plc::PlcModel* model = nullptr;
   modbus::ModbusTables tables;
+  bool separate = false;  // coils and registers are no memory in common
 };
 /// Of xbc-h: P0, M0, P0, M0.
 const Bases& default_bases();
-/// `config`: bit_read_base and its like (vectors/README.md). Errors name the model or the key.
+/// `config`: bit_read_base and its like, tables (vectors/README.md). Errors name the model or the
+/// key.
 Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config);
 
 /// Few enough words a request for a frame of 255 characters (DECISIONS.md modbus/ascii-length), and

@@ -17,6 +17,7 @@
 #include "suites/modbus/functions.hpp"
 #include "suites/modbus/memory_requests.hpp"
 #include "suites/modbus/message.hpp"
+#include "suites/modbus/placing.hpp"
 #include "suites/services/services.hpp"
 
 namespace fieldproof::modbus_suite {
@@ -145,6 +146,13 @@ class Modbus : public Protocol,
     Result<Bases> bases = declared_bases(model, config);
     if (!bases) return bases.error();
     return std::unique_ptr<Protocol>(std::make_unique<Modbus>(mode_, framing_, std::move(*bases)));
+  }
+  Result<Placed> placed(std::string_view address, std::string_view hex,
+                        const std::vector<Bytes>& requests) const override {
+    return modbus_suite::placed(framing_, bases_, address, hex, requests);
+  }
+  std::string tied_to_default(const std::vector<Bytes>& requests) const override {
+    return modbus_suite::tied_to_default(framing_, bases_, requests);
   }
   std::vector<Place> places(const Written& written) const override {
     return modbus_suite::places(bases_, written);
