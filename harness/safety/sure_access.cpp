@@ -41,8 +41,8 @@ Reading SureAccess::once(const Requests& requests, std::size_t digits) {
     reading.digits += *part;
   }
   if (reading.digits.size() < digits)
-    return {Kind::unsure, "", fail(fmt::format("{} digits came, {} are due", reading.digits.size(),
-                                               digits))};
+    return {Kind::unsure, "",
+            fail(fmt::format("{} digits came, {} are due", reading.digits.size(), digits))};
   reading.digits.resize(digits);
   return reading;
 }
@@ -84,7 +84,9 @@ Reading SureAccess::until_sure(const std::string& address, std::size_t digits, b
   const harness::MemoryRequests* protocol = device_.protocol->memory();
   const Result<Requests> checked =
       device_.protocol->read_requests(device_.station, address, digits);
-  if (!checked) return {Kind::refused, "", checked.error()};
+  if (!checked)
+    return {Kind::no_request, "",
+            fail(fmt::format("cannot read {}: {}", address, checked.error().message))};
   Requests plain;
   for (const Bytes& request : *checked)
     if (Bytes other = protocol->without_check(request); !other.empty())
@@ -93,8 +95,8 @@ Reading SureAccess::until_sure(const std::string& address, std::size_t digits, b
   Reading reading;
   if (!unchecked_) reading = ask(*checked, digits, twice);
   answers_ = answers_ || (!unchecked_ && is_sound(reading));
-  const bool lost = reading.kind == Kind::port ||
-                    (reading.kind == Kind::unanswered && answers_ && !unchecked_);
+  const bool lost =
+      reading.kind == Kind::port || (reading.kind == Kind::unanswered && answers_ && !unchecked_);
   const bool sure = !unchecked_ && reading.kind == Kind::digits;
   if (!sure && !lost && may_go_unchecked_ && plain.size() == checked->size()) {
     Reading other = ask(plain, digits, true);
@@ -133,12 +135,10 @@ Status SureAccess::write_one(const std::string& address, ByteView request) {
 
 Status SureAccess::write(const std::string& address, const std::string& hex) {
   refused_ = false;
-  const Result<Requests> requests =
-      device_.protocol->write_requests(device_.station, address, hex);
+  const Result<Requests> requests = device_.protocol->write_requests(device_.station, address, hex);
   if (!requests) return requests.error();
   for (const Bytes& request : *requests) {
-    const Bytes plain =
-        unchecked_ ? device_.protocol->memory()->without_check(request) : Bytes{};
+    const Bytes plain = unchecked_ ? device_.protocol->memory()->without_check(request) : Bytes{};
     if (const Status done = write_one(address, plain.empty() ? request : plain); !done) return done;
   }
   return ok();

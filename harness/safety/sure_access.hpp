@@ -16,6 +16,7 @@ struct Reading {
   enum class Kind {
     digits,      // sure
     refused,     // by the device, twice
+    no_request,  // of the protocol reads it
     unanswered,  // not a byte, again and again
     unsure,      // damaged again and again, or never twice the same
     port         // the port failed

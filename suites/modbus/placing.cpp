@@ -53,7 +53,7 @@ struct Origin {
 Origin origin_of(const Bases& bases, ModbusBase base) {
   const plc::DeviceAddress& first = bases.tables[base].first;
   const bool bits = is_bit_table(base) && !first.contact;
-  return {static_cast<char>(first.area), first.contact, bits ? first.index / 16 : first.index,
+  return {bases.model->areas[first.area].letter, first.contact, bits ? first.index / 16 : first.index,
           bits ? first.index % 16 : 0};
 }
 
