@@ -137,6 +137,9 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.add_option("--max-failures", run.max_failures,
                  "After so many results that fail the gate the rest is not run (BLOCKED)")
       ->check(CLI::Range(1, 1'000'000));
+  app.add_option("--max-restarts", run.max_restarts,
+                 "How often a device that exec: has started is started again after it died (20)")
+      ->check(CLI::Range(0, 1'000'000));
   app.add_flag("--dry-run", run.dry_run, "Print what would run");
   app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
   app.add_flag("-v,--verbose", run.verbose, "Show every case with its exchange");

@@ -30,7 +30,10 @@ void Findings::block(std::string message) {
 }
 
 void Findings::miss_in_any_case(std::string message) {
-  if (result.verdict == Verdict::blocked) missed_ = false;
+  if (result.verdict == Verdict::blocked) {
+    missed_ = false;
+    message += "; " + result.message;
+  }
   miss(std::move(message));
 }
 

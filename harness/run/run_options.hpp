@@ -36,7 +36,8 @@ struct RunOptions {
   std::string duration;     // soak: "8h"
   int seed = -1;            // >= 0: shuffled by it
   int repeat = 1;
-  int max_failures = 0;  // then the rest is not run; 0: no limit
+  int max_restarts = 20;  // of a device that the bench starts itself
+  int max_failures = 0;   // then the rest is not run; 0: no limit
   bool strict = false, qualify = false, fail_on_marginal = false;
   double min_judged = 0;  // percent; 0: any
   bool fail_fast = false, dry_run = false, verbose = false, skip_absent = false;

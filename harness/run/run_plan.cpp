@@ -132,6 +132,7 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
         fmt::format("station '{}' is not a number from 0 to 255", endpoint.option("station", "1")));
   bench.station = *number;
   bench.power_cycle_command = options.power_cycle;
+  bench.max_restarts = options.max_restarts;
   bench.replay = replay_command(options);
   return bench;
 }

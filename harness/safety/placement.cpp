@@ -6,19 +6,55 @@ namespace {
 
 using Memory = std::vector<std::pair<std::string, std::string>>;
 
-/// False: nothing of it lies elsewhere.
-Result<bool> place(Memory& memory, const std::vector<Bytes>& requests,
-                   const harness::Protocol& declared) {
-  bool moved = false;
-  for (auto& [address, hex] : memory) {
-    Result<harness::Protocol::Placed> placed = declared.placed(address, hex, requests);
+using Written = harness::Protocol::Written;
+
+bool overlap(const Written& one, const Written& other) {
+  return one.area == other.area && one.contacts == other.contacts &&
+         one.first_word <= other.last_word && other.first_word <= one.last_word;
+}
+
+class Placing {
+ public:
+  Placing(const std::vector<Bytes>& requests, const harness::Protocol& declared)
+      : requests_(requests), declared_(declared) {}
+
+  Status place(Memory& memory) {
+    for (auto& [address, hex] : memory)
+      if (const Status placed = place(address, hex); !placed) return placed;
+    return ok();
+  }
+  bool moved() const { return moved_; }
+
+ private:
+  Status place(std::string& address, std::string& hex) {
+    Result<harness::Protocol::Placed> placed = declared_.placed(address, hex, requests_);
     if (!placed) return placed.error();
-    moved = moved || placed->address != address || placed->hex != hex;
+    if (Status apart = keep_apart(address, hex.size(), *placed); !apart) return apart;
+    moved_ = moved_ || placed->address != address || placed->hex != hex;
     address = std::move(placed->address);
     hex = std::move(placed->hex);
+    return ok();
   }
-  return moved;
-}
+
+  /// What the vector has in two places must not come together.
+  Status keep_apart(const std::string& address, std::size_t digits,
+                    const harness::Protocol::Placed& placed) {
+    const auto from = declared_.named(address, digits);
+    const auto to = declared_.named(placed.address, placed.hex.size());
+    if (!from || !to) return ok();
+    for (const auto& [other_from, other_to] : places_)
+      if (overlap(*to, other_to) && !overlap(*from, other_from))
+        return fail("needs " + address + " and " + other_from.address +
+                    " apart; the declared device has both at " + placed.address);
+    places_.emplace_back(*from, *to);
+    return ok();
+  }
+
+  const std::vector<Bytes>& requests_;
+  const harness::Protocol& declared_;
+  std::vector<std::pair<Written, Written>> places_;  // in the vector, on the device
+  bool moved_ = false;
+};
 
 }  // namespace
 
@@ -31,15 +67,12 @@ Result<std::optional<vectors::Case>> placed_case(const exchange::PreparedCase& p
   if (std::string why = declared.tied_to_default(requests); !why.empty())
     return fail(std::move(why));
   vectors::Case moved = *prepared.source;
-  Result<bool> changed = place(moved.memory, requests, declared);
-  bool any = changed && *changed;
-  for (vectors::Step& step : moved.steps) {
-    if (!changed) break;
-    changed = place(step.memory, requests, declared);
-    any = any || (changed && *changed);
-  }
-  if (!changed) return changed.error();
-  return any ? std::optional(std::move(moved)) : std::nullopt;
+  Placing placing(requests, declared);
+  Status placed = placing.place(moved.memory);
+  for (vectors::Step& step : moved.steps)
+    if (placed) placed = placing.place(step.memory);
+  if (!placed) return placed.error();
+  return placing.moved() ? std::optional(std::move(moved)) : std::nullopt;
 }
 
 }  // namespace fieldproof::safety
