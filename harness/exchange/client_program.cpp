@@ -7,6 +7,7 @@
 #include <array>
 
 #include "harness/exchange/p2p_blocks.hpp"
+#include "harness/exchange/prepared_case.hpp"
 
 namespace fieldproof::exchange {
 
@@ -31,12 +32,6 @@ constexpr std::array<Told, 8> told{{{"mode", "mode"},
                                     {"write_order", "write_order"},
                                     {"line", "line"},
                                     {"bench_line", "line"}}};
-
-/// Values of a configuration may be numbers or text.
-int number_of(const json& config, const char* key, int fallback) {
-  const json value = config.value(key, json(fallback));
-  return value.is_string() ? std::stoi(value.get<std::string>()) : value.get<int>();
-}
 
 bool sets_flag(const Step& step, const std::string& flag) {
   return step.kind == Step::Kind::set &&

@@ -12,16 +12,11 @@ namespace fieldproof::exchange {
 
 using vectors::Step;
 
-namespace {
-
-/// Values of a configuration may be numbers or text.
 int number_of(const nlohmann::json& config, const char* key, int fallback) {
   const nlohmann::json value = config.value(key, nlohmann::json(fallback));
   if (value.is_string()) return std::atoi(value.get_ref<const std::string&>().c_str());
   return value.is_number() ? value.get<int>() : fallback;
 }
-
-}  // namespace
 
 bool PreparedCase::is_client() const { return vectors::is_client_case(*source); }
 

@@ -55,6 +55,9 @@ struct PreparedCase {
 /// How long after its stimulus the first byte of an expected frame may come.
 Duration reply_limit(const vectors::Step& step, Duration response_max);
 
+/// A number of a configuration, which may be given as text.
+int number_of(const nlohmann::json& config, const char* key, int fallback);
+
 /// What else of the same device a case may speak to.
 struct OtherWays {
   harness::Protocols known{{}};  // for services that a case opens
