@@ -52,11 +52,11 @@ std::string test_name(const Peer& peer) {
 
 /// The server in a process of its own, for as long as the tests run; where it is.
 std::string start(const Peer& peer) {
-  static std::vector<std::unique_ptr<tool_tests::Process>> servers;
+  static std::vector<std::unique_ptr<tool_tests::Process>> started;
   const std::uint16_t port = free_port();
   std::string command = peer.command;
   command.replace(command.find("{port}"), 6, std::to_string(port));
-  servers.push_back(std::make_unique<tool_tests::Process>(
+  started.push_back(std::make_unique<tool_tests::Process>(
       std::vector<std::string>{"/bin/sh", "-c", command + " > /dev/null 2>&1"}));
   EXPECT_TRUE(is_served(port)) << command;
   return fmt::format("tcp:127.0.0.1:{}", port);
