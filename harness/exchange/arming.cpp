@@ -156,7 +156,7 @@ bool Arming::revive() {
 std::string Arming::objection(const vectors::Case& source, const json& config) const {
   if (source.config.contains("monitor"))
     return "looks at the frame monitor of the module, which no command reads; see XG5000, frame "
-           "monitor (Cnet EN 11.1.3)";
+           "monitor";
   Arming trial(protocol_, ways_);
   if (ways_.stimulus) {
     if (!bad_answer_.empty()) return bad_answer_;
