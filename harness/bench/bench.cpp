@@ -626,7 +626,8 @@ void Bench::look_for_device(CaseResult& result) {
 /// A device that the bench has started itself, and whose process has ended.
 void Bench::start_again(CaseResult& result) {
   if (!endpoint_.capabilities().real_device || !endpoint_.capabilities().can_power_cycle ||
-      !options_.power_cycle_command.empty() || options_.endpoint_is_stimulus)
+      !options_.power_cycle_command.empty() || options_.endpoint_is_stimulus ||
+      options_.max_restarts == 0)
     return;
   const auto last = std::ranges::find(result.exchange.rbegin(), result.exchange.rend(),
                                       results::Event::Kind::sent, &results::Event::kind);

@@ -91,7 +91,8 @@ TEST_F(SharedRuns, EveryReportNamesTheDevice) {
 
 TEST_F(SharedRuns, WhatAVanishedDeviceLeavesGoesToTheOthers) {
   // The sanity exchange and the floor are its first 21 requests, so it dies in its second case.
-  const Finished finished = run({{"mortal", device("die", "24")}, {"b", device("good")}}, 20);
+  const Finished finished =
+      run({{"mortal", device("die", "24")}, {"b", device("good")}}, 20, {"--max-restarts", "0"});
   EXPECT_EQ(finished.code, 3) << finished.out;
   EXPECT_THAT(finished.err, HasSubstr("mortal: the port failed in xgt_cnet/many/"));
   expect_reports(folder_ / "out");
@@ -108,7 +109,8 @@ TEST_F(SharedRuns, WhatAVanishedDeviceLeavesGoesToTheOthers) {
 }
 
 TEST_F(SharedRuns, WithNoDeviceLeftTheRestIsBlocked) {
-  const Finished finished = run({{"a", device("die", "25")}, {"b", device("die", "25")}}, 20);
+  const Finished finished =
+      run({{"a", device("die", "25")}, {"b", device("die", "25")}}, 20, {"--max-restarts", "0"});
   EXPECT_EQ(finished.code, 3) << finished.out;
   const Results shared = results();
   EXPECT_THAT(shared.ids(), UnorderedElementsAreArray(ids(20))) << "each case has a result";

@@ -107,12 +107,6 @@ TEST_F(LiteralClient, WhoSaysNothingIsToldNoMoreThanWhatToAsk) {
   EXPECT_EQ(told.at(6).at("last"), true);
 }
 
-TEST_F(LiteralClient, PipeliningIsCalledSo) {
-  EXPECT_EQ(run("pipelines", "xgt_cnet/client/schedule/block_order").code, 1);
-  EXPECT_THAT(results.of("xgt_cnet/client/schedule/block_order").at("message").dump(),
-              HasSubstr("pipelining"));
-}
-
 /// Cnet EN 7.1.3: capitals or small letters tell main commands apart, 'but not for the others'.
 TEST_F(LiteralClient, SmallLettersAreAnAllowedAlternative) {
   EXPECT_EQ(run("small", "xgt_cnet/client/schedule/block_order").code, 0);
