@@ -147,6 +147,10 @@ class Protocol {
     std::string address;  // as it stands in the request, for messages
     bool contacts = false;
 
+    bool overlaps(const Written& other) const {
+      return area == other.area && contacts == other.contacts && first_word <= other.last_word &&
+             other.first_word <= last_word;
+    }
     /// Nobody can tell which words of the area; of area "?", not even that.
     bool unknown() const { return last_word == ~0u || area == "?"; }
   };

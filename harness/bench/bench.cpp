@@ -463,19 +463,15 @@ bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
   if (endpoint_.capabilities().can_power_cycle && !memory.port_failed() && !prepared.is_client() &&
       options_.journal) {
     result.notes.push_back(saved.error().message);
-    if (!memory.silent()) return true;
-    result.message = saved.error().message;
-    look_for_device(result);
-    if (result.verdict == Verdict::fail) return false;
-    result.message.clear();
-    return true;
+    return !memory.silent() || look_for_device(result, saved.error().message);
   }
   result.verdict = memory.port_failed() ? Verdict::error : Verdict::blocked;
   result.message = (prepared.is_client() ? "--aux: " : "") + saved.error().message;
   if (memory.port_failed())
     stop("the port failed before " + result.id + ": " + result.message, &saved.error());
   else if (memory.silent())
-    prepared.is_client() ? stop(result.message) : look_for_device(result);
+    prepared.is_client() ? stop(result.message)
+                         : void(look_for_device(result, saved.error().message));
   return false;
 }
 
@@ -523,7 +519,7 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (begin_case(prepared, result)) return true;
   if (!real || prepared.is_client() || interrupted_) return false;
   if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
-  if (memory_.silent()) look_for_device(result);
+  if (memory_.silent()) look_for_device(result, result.message);
   return false;
 }
 
@@ -611,16 +607,22 @@ void Bench::after(const PreparedCase& prepared, const exchange::Transcript& tran
   if (dead && endpoint_.capabilities().real_device) revive(result);
 }
 
-/// It did not answer when its memory was read or set for a case: does it still answer anything?
-void Bench::look_for_device(CaseResult& result) {
+/// It did not answer when its memory was read or set for a case: does it still answer anything? If
+/// not, the case says so after `what`.
+bool Bench::look_for_device(CaseResult& result, const std::string& what) {
   const Result<exchange::Sign> alive =
       exchange_.anything_answers(options_.station, 3 * options_.profile.response_max);
-  if (!alive)
-    return stop("the port failed in " + result.id + ": " + alive.error().message, &alive.error());
-  if (*alive == exchange::Sign::alive) return;
+  if (!alive) {
+    result.verdict = Verdict::error;
+    result.message = alive.error().message;
+    stop("the port failed in " + result.id + ": " + result.message, &alive.error());
+    return false;
+  }
+  if (*alive == exchange::Sign::alive) return true;
   result.verdict = Verdict::fail;
-  result.message += "; nothing answers any more";
+  result.message = what + "; nothing answers any more";
   revive(result);
+  return false;
 }
 
 /// A device that the bench has started itself, and whose process has ended.

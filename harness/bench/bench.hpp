@@ -125,7 +125,7 @@ class Bench {
   bool prepare_device(const exchange::PreparedCase& prepared, results::CaseResult& result);
   void judge_exchange(const exchange::PreparedCase& prepared,
                       const exchange::Transcript& transcript, results::CaseResult& result);
-  void look_for_device(results::CaseResult& result);
+  bool look_for_device(results::CaseResult& result, const std::string& what);
   void start_again(results::CaseResult& result);
   void revive(results::CaseResult& result);
   bool power_cycle(results::CaseResult& result, bool client = false);

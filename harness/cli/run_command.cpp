@@ -184,8 +184,7 @@ class Run {
     run::SharedRun shared(
         std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
           report_.show_progress(total, source.id);
-          waivers_.apply(result);
-          long_texts_.shorten(result);
+          settle(result);
           note(source, result);
           return report_.add(result) && !too_many_failures() &&
                  !(options_.fail_fast && results::gates(result.verdict, report_.gate()));
@@ -243,8 +242,7 @@ class Run {
     }
     if (hung)
       result.message = "the bench hung in this case for more than a minute; " + result.message;
-    waivers_.apply(result);
-    long_texts_.shorten(result);
+    settle(result);
     note(source, result);
     result.repeat = soak ? round : round % options_.repeat;
     result.seconds =
@@ -269,9 +267,15 @@ class Run {
   void report_set_up() {
     for (const Benches& port : ports_)
       for (CaseResult& result : port.set_up_findings()) {
-        waivers_.apply(result);
+        settle(result);
         report_.add(result);
       }
+  }
+
+  /// As it goes to the reports.
+  void settle(CaseResult& result) {
+    waivers_.apply(result);
+    long_texts_.shorten(result);
   }
 
   /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.

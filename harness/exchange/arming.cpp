@@ -94,8 +94,7 @@ bool Arming::share_memory(const std::string& a, const std::string& b) const {
   if (a == b) return true;
   const auto one = protocol_.named(a, 4), other = protocol_.named(b, 4);
   const bool bits = a.size() > 2 && b.size() > 2 && a[2] == 'X' && b[2] == 'X';
-  return one && other && !bits && one->area == other->area && one->first_word <= other->last_word &&
-         other->first_word <= one->last_word;
+  return one && other && !bits && one->overlaps(*other);
 }
 
 std::string Arming::undeclared(const vectors::Case& source, const json& declared) const {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/exchange/sanity.hpp"
+#include "harness/exchange/timing.hpp"
 #include "harness/notation/notation.hpp"
 
 namespace fieldproof::exchange {
@@ -28,8 +28,12 @@ void MemoryAccess::leave() {
   if (aux_visit_) aux_visit_->leave();
 }
 
+Visit& MemoryAccess::visit_of(const Channel& server) {
+  return aux_ && server.endpoint == aux_.endpoint ? *aux_visit_ : visit_;
+}
+
 Result<Bytes> MemoryAccess::ask(const Channel& server, ByteView request) {
-  Visit& visit = aux_ && server.endpoint == aux_.endpoint ? *aux_visit_ : visit_;
+  Visit& visit = visit_of(server);
   const endpoints::Endpoint& endpoint = *server.endpoint;
   if (const Duration gap = server.protocol->frame_gap(endpoint.character_time());
       gap > 0ns && endpoint.capabilities().wire)
@@ -47,17 +51,26 @@ Result<Bytes> MemoryAccess::ask(const Channel& server, ByteView request) {
   silent_ = reply.empty();
   // An answer that is only late must not be taken for one to what is asked next.
   if (silent_)
-    if (const Status over = let_pass(visit, endpoint.now() + ExchangeTiming().late_watch); !over)
+    if (const Status over = let_pass(server, ExchangeTiming().late_watch); !over)
       return over.error();
-  said_ = fmt::format("sent {}, {}", notation::print_bytes(request),
-                      silent_ ? "nothing came" : "received " + notation::print_bytes(reply));
+  asked_.assign(request.begin(), request.end());
+  answered_ = reply;
   return reply;
 }
 
-/// Takes what comes until then, and what follows it.
-Status MemoryAccess::let_pass(Visit& visit, Time until) {
-  for (std::size_t heard = 0; heard <= flood_limit;) {
-    const Result<Burst> burst = visit.receive(until);
+std::string MemoryAccess::said() const {
+  return fmt::format("sent {}, {}", notation::print_bytes(asked_),
+                     silent_ ? "nothing came" : "received " + notation::print_bytes(answered_));
+}
+
+/// Takes what comes in so long, and what follows it without a pause; no longer than a frame lasts.
+Status MemoryAccess::let_pass(const Channel& server, Duration silence) {
+  const endpoints::Endpoint& endpoint = *server.endpoint;
+  const Time give_up = endpoint.now() + silence +
+                       longest_reply(server.protocol->longest_frame(), endpoint.character_time());
+  Time until = endpoint.now() + silence;
+  for (std::size_t heard = 0; heard <= flood_limit && endpoint.now() < give_up;) {
+    const Result<Burst> burst = visit_of(server).receive(until);
     if (!burst) return burst.error();
     if (burst->bytes.empty()) return ok();
     heard += burst->bytes.size();
@@ -66,14 +79,12 @@ Status MemoryAccess::let_pass(Visit& visit, Time until) {
   return ok();
 }
 
-/// Once more where the line has damaged the answer; in a mode without checks where a device that
-/// forgets all with its process takes no other.
+/// Once more where the line has damaged the answer.
 Result<Bytes> MemoryAccess::ask_again(const Channel& server, ByteView request) {
   Result<Bytes> reply = ask(server, request);
   for (int i = 0; i < repeats && reply && !reply->empty() && !unsound_; ++i) {
     if (server.protocol->sound_reply(request, *reply)) break;
-    if (const Status quiet = settle(*server.endpoint, ExchangeTiming().quiet); !quiet)
-      return quiet.error();
+    if (const Status over = let_pass(server, ExchangeTiming().quiet); !over) return over.error();
     reply = ask(server, request);
   }
   unserved_ = !reply || !server.protocol->sound_reply(request, *reply);
@@ -82,22 +93,31 @@ Result<Bytes> MemoryAccess::ask_again(const Channel& server, ByteView request) {
   return reply;
 }
 
+/// Where what comes is not `taken`, the same once more in a mode without checks.
+Result<Bytes> MemoryAccess::ask_in_any_mode(const Channel& server, ByteView request,
+                                            const std::function<bool(ByteView)>& taken) {
+  Result<Bytes> reply = ask_again(server, request);
+  if (!reply || silent_ || taken(*reply)) return reply;
+  const Bytes plain = server.protocol->memory()->without_check(request);
+  if (plain.empty()) return reply;
+  Result<Bytes> other = ask(server, plain);
+  return other && !taken(*other) ? reply : other;
+}
+
 Status MemoryAccess::write(const Channel& server, const std::string& address,
                            const std::string& hex) {
   const Result<std::vector<Bytes>> requests =
       server.protocol->write_requests(server.station, address, hex);
   if (!requests) return requests.error();
+  // What is written without a check may go elsewhere: only to a device that forgets all with its
+  // process.
+  const bool in_any_mode = server.endpoint->capabilities().can_power_cycle;
+  const auto taken = [&](ByteView reply) { return bool(server.protocol->write_reply(reply)); };
   for (const Bytes& request : *requests) {
-    Result<Bytes> reply = ask_again(server, request);
+    const Result<Bytes> reply =
+        in_any_mode ? ask_in_any_mode(server, request, taken) : ask_again(server, request);
     if (!reply) return reply.error();
-    Status accepted = server.protocol->write_reply(*reply);
-    const Bytes plain = server.protocol->memory()->without_check(request);
-    if (!accepted && !silent_ && !plain.empty() &&
-        server.endpoint->capabilities().can_power_cycle) {
-      reply = ask(server, plain);
-      if (!reply) return reply.error();
-      if (server.protocol->write_reply(*reply)) accepted = ok();
-    }
+    const Status accepted = server.protocol->write_reply(*reply);
     refused_ = !accepted;
     if (!accepted) return fail("cannot set " + address + ": " + accepted.error().message);
   }
@@ -109,32 +129,17 @@ Result<std::string> MemoryAccess::read(const Channel& server, const std::string&
   const Result<std::vector<Bytes>> requests =
       server.protocol->read_requests(server.station, address, digits);
   if (!requests) return requests.error();
+  const auto taken = [&](ByteView reply) { return bool(server.protocol->read_reply(reply)); };
   std::string value;
   for (const Bytes& request : *requests) {
-    Result<Bytes> reply = ask_again(server, request);
+    const Result<Bytes> reply = ask_in_any_mode(server, request, taken);
     if (!reply) return reply.error();
-    Result<std::string> part = server.protocol->read_reply(*reply);
-    const Bytes plain = server.protocol->memory()->without_check(request);
-    if (!part && !silent_ && !plain.empty()) {
-      reply = ask(server, plain);
-      if (!reply) return reply.error();
-      if (Result<std::string> other = server.protocol->read_reply(*reply)) part = std::move(other);
-    }
+    const Result<std::string> part = server.protocol->read_reply(*reply);
     refused_ = !part;
     if (!part) return fail("cannot read " + address + ": " + part.error().message);
     value += *part;
   }
   return value.substr(0, digits);
-}
-
-Status MemoryAccess::set(int station, const std::string& address, const std::string& hex) {
-  refused_ = false;
-  return write({device_.endpoint, device_.protocol, station}, address, hex);
-}
-
-Result<std::string> MemoryAccess::get(int station, const std::string& address, std::size_t digits) {
-  refused_ = false;
-  return read({device_.endpoint, device_.protocol, station}, address, digits);
 }
 
 Status MemoryAccess::set(const PreparedCase& prepared, const std::string& address,

@@ -2,6 +2,7 @@
 // protocol itself (a device that asks answers nothing), a second channel of the same PLC.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "harness/exchange/arming.hpp"
@@ -37,11 +38,8 @@ class MemoryAccess {
   bool silent() const { return silent_; }
 
   /// The last request over the wire, and what came to it, for reports.
-  const std::string& said() const { return said_; }
+  std::string said() const;
 
-  /// Over the wire, of a server, whatever the case.
-  Status set(int station, const std::string& address, const std::string& hex);
-  Result<std::string> get(int station, const std::string& address, std::size_t digits);
   /// What comes back to a request over the wire, as far as it came in time; empty: nothing.
   Result<Bytes> ask(ByteView request) { return ask(device_, request); }
 
@@ -58,7 +56,10 @@ class MemoryAccess {
   Result<std::string> read(const Channel& server, const std::string& address, std::size_t digits);
   Result<Bytes> ask(const Channel& server, ByteView request);
   Result<Bytes> ask_again(const Channel& server, ByteView request);
-  static Status let_pass(Visit& visit, Time until);
+  Result<Bytes> ask_in_any_mode(const Channel& server, ByteView request,
+                                const std::function<bool(ByteView)>& taken);
+  Visit& visit_of(const Channel& server);
+  Status let_pass(const Channel& server, Duration silence);
 
   Channel device_;
   Duration patience_;
@@ -68,7 +69,7 @@ class MemoryAccess {
   std::optional<Visit> aux_visit_;
   bool refused_ = false, unserved_ = false, silent_ = false;
   bool unsound_ = false;  // what the device answers does not become sound by asking again
-  std::string said_;
+  Bytes asked_, answered_;
 };
 
 /// Leaves at the end of a scope.

@@ -4,6 +4,16 @@ namespace fieldproof::judging {
 
 using results::Verdict;
 
+namespace {
+
+/// What follows from the manuals only together with a decision of ours does not bind without it; a
+/// printed vector names decisions for its alternatives alone.
+bool rests_on_decision(const vectors::Case& source) {
+  return source.basis == "decision" || (source.basis == "derived" && !source.decisions.empty());
+}
+
+}  // namespace
+
 void Findings::miss(std::string message) {
   if (missed_) return;
   missed_ = true;
@@ -35,12 +45,6 @@ void Findings::miss_in_any_case(std::string message) {
     message += "; " + result.message;
   }
   miss(std::move(message));
-}
-
-/// What follows from the manuals only together with a decision of ours does not bind without it; a
-/// printed vector names decisions for its alternatives alone.
-static bool rests_on_decision(const vectors::Case& source) {
-  return source.basis == "decision" || (source.basis == "derived" && !source.decisions.empty());
 }
 
 void Findings::settle(const vectors::Case& source, bool binding_decisions) {

@@ -25,13 +25,12 @@ class JudgeTest : public testing::Test {
   /// Loads a case with these steps and attributes, runs it against `endpoint`, judges it by
   /// `rules`.
   Judgement judged(const std::string& steps, const std::string& level = "must",
-                   const std::string& basis = "printed") {
+                   const std::string& basis = "printed", const std::string& more = "") {
     set_ = {};
     vectors::load_vector_text(
         R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": ")j" + level +
-            R"j(", "basis": ")j" + basis +
-            R"j(", "why": "because we say so",
-      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "steps": [)j" +
+            R"j(", "basis": ")j" + basis + R"j(", "why": "because we say so", )j" + more +
+            R"j("source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "steps": [)j" +
             steps + "]}]",
         "f.json", set_);
     EXPECT_THAT(set_.problems, testing::IsEmpty());
@@ -85,6 +84,22 @@ TEST_F(JudgeTest, TheExpectedReplyPasses) {
   EXPECT_EQ(result.verdict, Verdict::pass) << result.message;
   ASSERT_EQ(result.response_ms.size(), 1u);
   EXPECT_DOUBLE_EQ(result.response_ms[0], 10.0);
+}
+
+/// A client asks again before the answer to its first request is complete, and the floor of the
+/// link is what can be told apart.
+TEST_F(JudgeTest, ARequestBeforeTheAnswerIsCompleteIsPipelining) {
+  const std::string client = R"("given": {"config": {"role": "client"}}, )",
+                    steps = R"({"send": "'<go>'"}, {"expect": "'<q1>'"}, {"send": "'<answer1>'"},
+                               {"expect": "'<q2>'"})";
+  endpoint.answers["<go>"] = Pieces{{1ms, "<q1>"}, {6ms, "<q2>"}};
+  const Judgement early = judged(steps, "must", "printed", client);
+  EXPECT_EQ(early.verdict, Verdict::fail);
+  EXPECT_EQ(early.message,
+            "pipelining: the request came too early: 8.0 ms before the answer to the one before it "
+            "was complete");
+  rules.timing_floor = 9ms;
+  EXPECT_EQ(judged(steps, "must", "printed", client).verdict, Verdict::pass);
 }
 
 /// Both ends of a turnaround, its guard band and the floor below which it cannot be judged.

@@ -8,11 +8,6 @@ using Memory = std::vector<std::pair<std::string, std::string>>;
 
 using Written = harness::Protocol::Written;
 
-bool overlap(const Written& one, const Written& other) {
-  return one.area == other.area && one.contacts == other.contacts &&
-         one.first_word <= other.last_word && other.first_word <= one.last_word;
-}
-
 class Placing {
  public:
   Placing(const std::vector<Bytes>& requests, const harness::Protocol& declared)
@@ -43,7 +38,7 @@ class Placing {
     const auto to = declared_.named(placed.address, placed.hex.size());
     if (!from || !to) return ok();
     for (const auto& [other_from, other_to] : places_)
-      if (overlap(*to, other_to) && !overlap(*from, other_from))
+      if (to->overlaps(other_to) && !from->overlaps(other_from))
         return fail("needs " + address + " and " + other_from.address +
                     " apart; the declared device has both at " + placed.address);
     places_.emplace_back(*from, *to);

@@ -80,29 +80,34 @@ Reading SureAccess::ask(const Requests& requests, std::size_t digits, bool twice
   return {Kind::unsure, "", fail(fmt::format("{} ({} attempts)", why.message, most))};
 }
 
+/// In a mode without checks: a device that the bench has started may have no other. One that has
+/// answered with checks, and is silent now, is not asked again.
+void SureAccess::ask_without_checks(const Requests& checked, std::size_t digits, Reading& reading) {
+  const bool lost =
+      reading.kind == Kind::port || (reading.kind == Kind::unanswered && answers_ && !unchecked_);
+  if (!may_go_unchecked_ || reading.kind == Kind::digits || lost) return;
+  Requests plain;
+  for (const Bytes& request : checked)
+    plain.push_back(device_.protocol->memory()->without_check(request));
+  if (plain.front().empty()) return;
+  Reading other = ask(plain, digits, true);
+  unchecked_ = unchecked_ || other.kind == Kind::digits;
+  if (unchecked_ || is_sound(other)) reading = std::move(other);
+}
+
 Reading SureAccess::until_sure(const std::string& address, std::size_t digits, bool twice) {
-  const harness::MemoryRequests* protocol = device_.protocol->memory();
   const Result<Requests> checked =
       device_.protocol->read_requests(device_.station, address, digits);
   if (!checked)
     return {Kind::no_request, "",
             fail(fmt::format("cannot read {}: {}", address, checked.error().message))};
-  Requests plain;
-  for (const Bytes& request : *checked)
-    if (Bytes other = protocol->without_check(request); !other.empty())
-      plain.push_back(std::move(other));
-  twice = twice || !protocol->is_checked(checked->front());
   Reading reading;
-  if (!unchecked_) reading = ask(*checked, digits, twice);
-  answers_ = answers_ || (!unchecked_ && is_sound(reading));
-  const bool lost =
-      reading.kind == Kind::port || (reading.kind == Kind::unanswered && answers_ && !unchecked_);
-  const bool sure = !unchecked_ && reading.kind == Kind::digits;
-  if (!sure && !lost && may_go_unchecked_ && plain.size() == checked->size()) {
-    Reading other = ask(plain, digits, true);
-    unchecked_ = unchecked_ || other.kind == Kind::digits;
-    if (unchecked_ || is_sound(other)) reading = std::move(other);
+  if (!unchecked_) {
+    const bool has_check = device_.protocol->memory()->is_checked(checked->front());
+    reading = ask(*checked, digits, twice || !has_check);
+    answers_ = answers_ || is_sound(reading);
   }
+  ask_without_checks(*checked, digits, reading);
   if (reading.kind != Kind::digits)
     reading.why.message = fmt::format("cannot read {}: {}", address, reading.why.message);
   return reading;

@@ -53,6 +53,7 @@ class SureAccess {
  private:
   using Requests = std::vector<Bytes>;
   Reading once(const Requests& requests, std::size_t digits);
+  void ask_without_checks(const Requests& checked, std::size_t digits, Reading& reading);
   Reading until_sure(const std::string& address, std::size_t digits, bool twice);
   Reading ask(const Requests& requests, std::size_t digits, bool twice);
   Status write_one(const std::string& address, ByteView request);

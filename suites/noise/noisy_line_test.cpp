@@ -41,8 +41,8 @@ class NoisyLine : public testing::TestWithParam<Setup> {
   static constexpr int words = 128;
 
   NoisyLine() : protocol_(*suites::protocols().find(GetParam().protocol)) {
-    vectors::VectorSet all = vectors::load_vectors(
-        FIELDPROOF_SOURCE_DIR "/vectors", {suites::protocols(), GetParam().filter});
+    vectors::VectorSet all = vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors",
+                                                   {suites::protocols(), GetParam().filter});
     for (vectors::Case& one : all.cases)
       if (writes(one)) cases_.push_back(std::move(one));
     endpoints::EndpointName name;
@@ -55,11 +55,15 @@ class NoisyLine : public testing::TestWithParam<Setup> {
 
   const harness::Protocol& protocol() const { return configured_ ? *configured_ : protocol_; }
 
+  Result<exchange::PreparedCase> prepare(const vectors::Case& one) const {
+    return exchange::prepare(one, 1, protocol_, {suites::protocols(), {}});
+  }
+
   /// By a frame of its own, not by what it is given: it may do so without a check (upper case).
   bool writes(const vectors::Case& one) const {
-    const Result<exchange::PreparedCase> prepared =
-        exchange::prepare(one, 1, protocol_, {suites::protocols(), {}});
-    return prepared && !prepared->is_client() && one.config.size() == one.config.count("station") + one.config.count("write_order") &&
+    const Result<exchange::PreparedCase> prepared = prepare(one);
+    return prepared && !prepared->is_client() &&
+           one.config.size() == one.config.count("station") + one.config.count("write_order") &&
            std::ranges::any_of(prepared->steps, [&](const exchange::PreparedStep& step) {
              return step.step->kind == vectors::Step::Kind::send &&
                     !protocol_.written_by(step.frames.front().frame.bytes).empty();
@@ -115,8 +119,7 @@ class NoisyLine : public testing::TestWithParam<Setup> {
   /// What is written without a check can go anywhere when its request is damaged: the tool sees
   /// that the line is bad by the first answer that it reads again, and not before.
   bool is_checked(const vectors::Case& one) const {
-    const Result<exchange::PreparedCase> prepared =
-        exchange::prepare(one, 1, protocol_, {suites::protocols(), {}});
+    const Result<exchange::PreparedCase> prepared = prepare(one);
     return std::ranges::all_of(prepared->steps, [&](const exchange::PreparedStep& step) {
       return step.step->kind != vectors::Step::Kind::send || protocol_.default_port() != 0 ||
              protocol_.memory()->is_checked(step.frames.front().frame.bytes);
@@ -176,19 +179,24 @@ TEST_P(NoisyLine, LeavesTheMemoryAsItWasOrSaysWhatItIsNot) {
     }
     ASSERT_EQ(changed, "") << chosen[0]->id << " " << chosen[1]->id;
   }
-  fmt::print("{}: {} runs, {} with something to restore, {} in which it was said that it could not "
-             "be; {} PASS, {} FAIL, {} BLOCKED, {} ERROR\n",
-             GetParam().protocol, runs(), left_open, said, verdicts[results::Verdict::pass],
-             verdicts[results::Verdict::fail], verdicts[results::Verdict::blocked],
-             verdicts[results::Verdict::error]);
+  fmt::print(
+      "{}: {} runs, {} with something to restore, {} in which it was said that it could not "
+      "be; {} PASS, {} FAIL, {} BLOCKED, {} ERROR\n",
+      GetParam().protocol, runs(), left_open, said, verdicts[results::Verdict::pass],
+      verdicts[results::Verdict::fail], verdicts[results::Verdict::blocked],
+      verdicts[results::Verdict::error]);
   EXPECT_GT(verdicts[results::Verdict::pass], runs() / 4) << "most lines let the cases through";
   EXPECT_GT(left_open, runs() / 100) << "links were cut in the midst of writing";
   EXPECT_LT(said, runs() / 20);
 }
 
 const Setup setups[] = {
-    {"xgt-cnet", "xbc-h", "xgt_cnet/w*:xgt_cnet/errors/*:xgt_cnet/data_types/*",
-     {"M", "D", "P"}, "all,P,Q,U", true},
+    {"xgt-cnet",
+     "xbc-h",
+     "xgt_cnet/w*:xgt_cnet/errors/*:xgt_cnet/data_types/*",
+     {"M", "D", "P"},
+     "all,P,Q,U",
+     true},
     {"modbus-rtu", "xbc-h", "modbus_rtu/*", {"M", "P"}, "all,P", true},
     {"modbus-ascii", "xbc-h", "modbus_ascii/*", {"M", "P"}, "all,P", true},
     {"modbus-tcp", "xbc-h", "modbus_tcp/*", {"M", "P"}, "all,P", false},

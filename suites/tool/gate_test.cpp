@@ -39,6 +39,12 @@ class Gate : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_tool(arguments);
   }
+  /// One that is to be ended from outside.
+  Process long_run() {
+    return Process(
+        tool_arguments({"run", "--duration", "60s", "--vectors",
+                        write_vectors(folder_, {small_vector("g/a")}), "--out", folder_ / "out"}));
+  }
   Results results() const { return read_results(folder_ / "out/results.ndjson"); }
 
   /// The message of the test case that JUnit has for a reason; empty: there is none.
@@ -112,9 +118,7 @@ TEST_F(Gate, AProgramMayBeWrittenUnlessThatIsForbidden) {
 }
 
 TEST_F(Gate, JunitOfAKilledRunIsRed) {
-  Process process(
-      tool_arguments({"run", "--duration", "60s", "--vectors",
-                      write_vectors(folder_, {small_vector("g/a")}), "--out", folder_ / "out"}));
+  Process process(long_run());
   ASSERT_TRUE(process.wait_for("fieldproof "));
   process.signal(SIGKILL);
   process.wait();
@@ -125,9 +129,7 @@ TEST_F(Gate, JunitOfAKilledRunIsRed) {
 }
 
 TEST_F(Gate, JunitOfAnInterruptedRunIsRed) {
-  Process process(
-      tool_arguments({"run", "--duration", "60s", "--vectors",
-                      write_vectors(folder_, {small_vector("g/a")}), "--out", folder_ / "out"}));
+  Process process(long_run());
   ASSERT_TRUE(process.wait_for("fieldproof "));
   process.signal(SIGINT);
   EXPECT_EQ(process.wait().code, 130);

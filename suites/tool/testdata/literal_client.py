@@ -4,7 +4,6 @@
   KIND  well       a PLC as the lines describe it: memory, clocks, RUN and STOP, link, channel, time-out
         minimum    asks what a line names, once, and declares that it follows nothing else
         undeclared the same, and answers nothing to the first line
-        pipelines  as minimum, but sends the requests of a batch without waiting for answers
         small      as minimum, in small letters wherever Cnet EN 7.1.3 leaves them free
         gives_up   as minimum, and ends with its fifth request
   LOG   every line that came, for the test of the schema
@@ -224,8 +223,6 @@ class Asker:
             sys.exit(1)
         frame = request(line["block"], line["values"])
         os.write(self.port, in_small_letters(frame) if self.kind == "small" else frame)
-        if self.kind == "pipelines":
-            return
         heard, until = b"", time.monotonic() + 0.2
         while not reply_in(heard) and time.monotonic() < until:
             if select.select([self.port], [], [], max(0.0, until - time.monotonic()))[0]:
