@@ -29,18 +29,26 @@ ModbusBase table_of(const FunctionCode& function) {
   return static_cast<ModbusBase>(found - modbus::modbus_base_names.begin());
 }
 
-/// The tables that requests name.
-std::set<ModbusBase> tables_of(const Framing& framing, const std::vector<Bytes>& requests) {
-  std::set<ModbusBase> tables;
+Bases defaults_of(const Bases& declared) {
+  return *declared_bases(declared.model->name, nlohmann::json::object());
+}
+
+/// A table, and the memory that a request asks of it where the default bases put it.
+struct Asked {
+  ModbusBase table{};
+  Protocol::Written memory;
+};
+
+std::vector<Asked> asked_by(const std::vector<Bytes>& requests, const Framing& framing,
+                            const Bases& defaults) {
+  std::vector<Asked> asked;
   for (const Bytes& request : requests)
     for (const Bytes& message : framing.messages(request))
       if (const FunctionCode* function = message.size() > 1 ? find_function(message[1]) : nullptr)
-        tables.insert(table_of(*function));
-  return tables;
-}
-
-Bases defaults_of(const Bases& declared) {
-  return *declared_bases(declared.model->name, nlohmann::json::object());
+        for (Protocol::AddressField& field :
+             address_fields(framing, defaults, framing.wrap(message), false))
+          asked.push_back({table_of(*function), std::move(field.names)});
+  return asked;
 }
 
 /// In words; a base of bits may begin inside one.
@@ -53,13 +61,27 @@ struct Origin {
 Origin origin_of(const Bases& bases, ModbusBase base) {
   const plc::DeviceAddress& first = bases.tables[base].first;
   const bool bits = is_bit_table(base) && !first.contact;
-  return {bases.model->areas[first.area].letter, first.contact, bits ? first.index / 16 : first.index,
-          bits ? first.index % 16 : 0};
+  return {bases.model->areas[first.area].letter, first.contact,
+          bits ? first.index / 16 : first.index, bits ? first.index % 16 : 0};
 }
 
 bool holds(const Origin& table, const Protocol::Written& memory) {
   return memory.area == std::string(1, table.area) && memory.contacts == table.contact &&
          table.word <= memory.first_word;
+}
+
+/// The tables to which a place belongs: those of which it is asked, else, of all that the case
+/// asks, those that it could lie in, of its own kind before the others.
+std::set<ModbusBase> tables_of(const Protocol::Written& memory, bool named_by_bits,
+                               const std::vector<Asked>& asked, const Bases& defaults) {
+  std::set<ModbusBase> of_it, of_its_kind, others;
+  for (const Asked& one : asked) {
+    if (one.memory.overlaps(memory)) of_it.insert(one.table);
+    if (!holds(origin_of(defaults, one.table), memory)) continue;
+    (is_bit_table(one.table) == named_by_bits ? of_its_kind : others).insert(one.table);
+  }
+  if (!of_it.empty()) return of_it;
+  return of_its_kind.empty() ? others : of_its_kind;
 }
 
 /// The same name in another area, so many words further on.
@@ -72,7 +94,12 @@ std::optional<std::string> renamed(const plc::PlcModel& model, std::string_view 
   return harness::moved_name(model, name, static_cast<int>(words));
 }
 
-/// Words of tables that lie apart from those of words, as the bytes that requests for bits reach.
+bool is_named_by_bits(const Bases& bases, std::string_view address) {
+  const plc::ParsedAddress parsed = plc::parse_address(*bases.model, address);
+  return parsed && (parsed.address.type == 'X' || parsed.address.type == 'B');
+}
+
+/// Words that only requests for bits reach, as bytes.
 Protocol::Placed in_bytes(const Protocol::Written& memory, std::string_view hex) {
   Protocol::Placed placed{fmt::format("%{}B{}", memory.area, memory.first_word * 2), ""};
   for (std::size_t i = 0; i + digits_of_a_word <= hex.size(); i += digits_of_a_word)
@@ -80,14 +107,13 @@ Protocol::Placed in_bytes(const Protocol::Written& memory, std::string_view hex)
   return placed;
 }
 
-/// Coils and registers of a device that has them apart.
-Result<Protocol::Placed> apart(const Bases& declared, const Protocol::Placed& placed, bool bits) {
+/// As the tables that are asked reach it: by bits, or by words.
+Result<Protocol::Placed> as_asked(const Bases& declared, const Protocol::Placed& placed,
+                                  bool bits) {
+  if (is_named_by_bits(declared, placed.address) == bits) return placed;
   const plc::ParsedAddress parsed = plc::parse_address(*declared.model, placed.address);
-  const char type = parsed ? parsed.address.type : 'W';
-  const bool named_by_bits = type == 'X' || type == 'B';
-  if (named_by_bits == bits) return placed;
   const auto memory = harness::named_memory(*declared.model, placed.address, placed.hex.size());
-  if (bits && type == 'W' && memory) return in_bytes(*memory, placed.hex);
+  if (bits && memory && parsed && parsed.address.type == 'W') return in_bytes(*memory, placed.hex);
   return fail(
       fmt::format("needs {} to be read and written by both bits and words; the profile "
                   "declares separate tables",
@@ -105,9 +131,10 @@ Result<Protocol::Placed> placed(const Framing& framing, const Bases& declared,
   const Bases defaults = defaults_of(declared);
   std::optional<std::string> place;
   bool bits = false, words = false;
-  for (const ModbusBase table : tables_of(framing, requests)) {
+  const std::vector<Asked> asked = asked_by(requests, framing, defaults);
+  for (const ModbusBase table :
+       tables_of(*memory, is_named_by_bits(defaults, address), asked, defaults)) {
     const Origin from = origin_of(defaults, table), to = origin_of(declared, table);
-    if (!holds(from, *memory)) continue;
     (is_bit_table(table) ? bits : words) = true;
     const bool whole = from.bit == to.bit && from.contact == to.contact;
     const std::optional<std::string> name =
@@ -117,18 +144,23 @@ Result<Protocol::Placed> placed(const Framing& framing, const Bases& declared,
                               address, modbus::modbus_base_names[static_cast<std::size_t>(table)]));
     if (place && *place != *name)
       return fail(
-          fmt::format("reaches {} by two tables, which the declared bases put apart ({} and "
-                      "{})",
+          fmt::format("reaches {} by two tables, which the declared bases put apart ({} and {})",
                       address, *place, *name));
     place = name;
   }
   if (!place) return unmoved;
   const Protocol::Placed moved{*place, std::string(hex)};
-  if (!declared.separate) return moved;
-  if (bits && words)
+  if (declared.separate && bits && words)
     return fail(fmt::format("reaches {} by bits and by words; the profile declares separate tables",
                             address));
-  return apart(declared, moved, bits);
+  if (declared.separate) return as_asked(declared, moved, bits);
+  // Where words are for reading alone, or no table of words is, those of bits may lead there.
+  const auto settable = [&](const Protocol::Placed& one) {
+    return bool(write_requests(framing, declared, 1, one.address, one.hex));
+  };
+  if (!bits || settable(moved)) return moved;
+  const Result<Protocol::Placed> by_bits = as_asked(declared, moved, true);
+  return by_bits && settable(*by_bits) ? *by_bits : moved;
 }
 
 std::string tied_to_default(const Framing& framing, const Bases& declared,

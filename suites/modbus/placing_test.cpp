@@ -20,7 +20,8 @@ std::string where(const json& config, std::string_view address, std::string_view
 }
 
 const Bytes write_coil = request("01 05 00 13 FF 00"), read_coils = request("01 01 00 13 00 01"),
-            write_register = request("01 06 00 64 12 34");
+            write_register = request("01 06 00 64 12 34"),
+            write_same_word = request("01 06 00 01 12 34");
 
 TEST(Placing, ByDefaultEverythingIsWhereTheVectorHasIt) {
   EXPECT_EQ(where(json::object(), "%MW1", "0008", {write_coil}), "%MW1 = 0008");
@@ -28,7 +29,8 @@ TEST(Placing, ByDefaultEverythingIsWhereTheVectorHasIt) {
 
 TEST(Placing, MemoryMovesWithTheBaseOfTheTableThatIsAsked) {
   const json bits_in_p{{"bit_write_base", "P0"}};
-  EXPECT_EQ(where(bits_in_p, "%MW1", "0008", {write_coil}), "%PW1 = 0008");
+  EXPECT_EQ(where(bits_in_p, "%MW1", "0008", {write_coil}), "%PB2 = 0800")
+      << "words of P are for reading alone";
   EXPECT_EQ(where(bits_in_p, "%MX00013", "01", {write_coil, read_coils}), "%PX00013 = 01");
   EXPECT_EQ(where(bits_in_p, "%MW100", "1234", {write_register}), "%MW100 = 1234");
   EXPECT_EQ(where(bits_in_p, "%DW100", "1234", {write_register}), "%DW100 = 1234")
@@ -44,11 +46,14 @@ TEST(Placing, WordsMayBeginElsewhere) {
 }
 
 TEST(Placing, WhatTwoTablesHoldMustStayTogether) {
-  EXPECT_THAT(where({{"bit_write_base", "P0"}}, "%MW1", "0008", {write_coil, write_register}),
+  EXPECT_THAT(where({{"bit_write_base", "P0"}}, "%MW1", "0008", {write_coil, write_same_word}),
               HasSubstr("reaches %MW1 by two tables, which the declared bases put apart"));
   EXPECT_EQ(where({{"bit_write_base", "P0"}, {"word_write_base", "P0"}}, "%MW1", "0008",
-                  {write_coil, write_register}),
+                  {write_coil, write_same_word}),
             "%PW1 = 0008");
+  EXPECT_EQ(where({{"bit_write_base", "P0"}}, "%MW100", "1234", {write_coil, write_register}),
+            "%MW100 = 1234")
+      << "only the register is there";
   EXPECT_THAT(where({{"bit_write_base", "P3"}}, "%MW1", "0008", {write_coil}),
               HasSubstr("no such place behind the declared bit_write_base"));
 }
@@ -57,7 +62,7 @@ TEST(Placing, WhereTablesAreSeparateBitsAreReachedByBits) {
   const json separate{{"tables", "separate"}};
   EXPECT_EQ(where(separate, "%MW1", "1234", {write_coil}), "%MB2 = 3412");
   EXPECT_EQ(where(separate, "%MW100", "1234", {write_register}), "%MW100 = 1234");
-  EXPECT_THAT(where(separate, "%MW1", "1234", {write_coil, write_register}),
+  EXPECT_THAT(where(separate, "%MW1", "1234", {write_coil, write_same_word}),
               HasSubstr("by bits and by words; the profile declares separate tables"));
   EXPECT_THAT(where(separate, "%MX00013", "01", {write_register}),
               HasSubstr("needs %MX00013 to be read and written by both"));
