@@ -127,14 +127,14 @@ std::optional<std::string> refusal(ByteView message, ByteView reply) {
 /// read and write.
 bool writes_elsewhere(Byte function) { return function >= 0x15 && function <= 0x17; }
 
+const modbus::ModbusTable& table_for(const Bases& bases, const FunctionCode& function) {
+  return bases.tables[base_of(function)];
+}
+
 /// `count` data addresses of a table.
 Protocol::Written memory_at(const Bases& bases, const FunctionCode& function,
                             std::uint32_t data_address, std::uint32_t count) {
-  const bool inputs = function.base == "bit_read" || function.base == "word_read";
-  using enum ModbusBase;
-  const modbus::ModbusTable& table = bases.tables[function.bits ? (inputs ? bit_read : bit_write)
-                                                  : inputs      ? word_read
-                                                                : word_write];
+  const modbus::ModbusTable& table = table_for(bases, function);
   Protocol::Written memory =
       harness::memory_of(*bases.model, table.first + data_address, count, "");
   memory.address = memory.contacts ? fmt::format("%{}X{}", memory.area, memory.first_word)
@@ -145,6 +145,11 @@ Protocol::Written memory_at(const Bases& bases, const FunctionCode& function,
 constexpr std::size_t address_at = 2, address_size = 2;  // in a message
 
 }  // namespace
+
+ModbusBase base_of(const FunctionCode& function) {
+  const auto found = std::ranges::find(modbus::modbus_base_names, function.base);
+  return static_cast<ModbusBase>(found - modbus::modbus_base_names.begin());
+}
 
 const Bases& default_bases() {
   static const Bases bases = *declared_bases("", nlohmann::json::object());
@@ -284,23 +289,35 @@ std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written&
   return result;
 }
 
+namespace {
+
+/// How many data addresses a message asks for.
+std::uint32_t count_in(ByteView message, const FunctionCode& function) {
+  const bool counted = function.many || !function.write;
+  return counted && message.size() >= 6 ? word_at(message, 4) : 1;
+}
+
+}  // namespace
+
 std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases,
                                                    ByteView frame, bool reply) {
   const Bytes message = framing.unwrap(frame);
   const FunctionCode* known =
       message.size() >= address_at + address_size ? find_function(message[1]) : nullptr;
   if (!known || (reply && !known->write)) return {};
-  const bool counted = known->many || !known->write;
-  const std::uint32_t count = counted && message.size() >= 6 ? word_at(message, 4) : 1;
+  const std::uint32_t count = count_in(message, *known);
   const Framing::Spelling spelling = framing.spelling();
   return {{spelling.before + address_at * spelling.each, address_size * spelling.each,
            memory_at(bases, *known, word_at(message, address_at), count)}};
 }
 
-std::optional<Bytes> moved_field(const Framing& framing, ByteView frame,
+std::optional<Bytes> moved_field(const Framing& framing, const Bases& bases, ByteView frame,
                                  const Protocol::AddressField& field, int words) {
   const Bytes message = framing.unwrap(frame);
   const FunctionCode* known = find_function(message[1]);
+  // Elsewhere it would no longer be about the end of its table.
+  if (word_at(message, address_at) + count_in(message, *known) >= table_for(bases, *known).size)
+    return std::nullopt;
   const int units = known->bits && !field.names.contacts ? words * 16 : words;
   const std::int64_t moved = std::int64_t{word_at(message, address_at)} + units;
   if (moved < 0 || moved > last_data_address) return std::nullopt;

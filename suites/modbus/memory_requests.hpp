@@ -9,6 +9,7 @@
 #include "harness/protocol.hpp"
 #include "src/modbus/bases.hpp"
 #include "suites/modbus/framing.hpp"
+#include "suites/modbus/functions.hpp"
 
 namespace fieldproof::modbus_suite {
 
@@ -18,6 +19,8 @@ struct Bases {
   modbus::ModbusTables tables;
   bool separate = false;  // coils and registers are no memory in common
 };
+/// The table that a function code names.
+modbus::ModbusBase base_of(const FunctionCode& function);
 /// Of xbc-h: P0, M0, P0, M0.
 const Bases& default_bases();
 /// `config`: bit_read_base and its like, tables (vectors/README.md). Errors name the model or the
@@ -50,7 +53,8 @@ std::vector<harness::Protocol::Place> places(const Bases& bases,
 std::vector<harness::Protocol::AddressField> address_fields(const Framing& framing,
                                                             const Bases& bases, ByteView frame,
                                                             bool reply);
-std::optional<Bytes> moved_field(const Framing& framing, ByteView frame,
+/// Nothing as well where the request reaches the end of its table.
+std::optional<Bytes> moved_field(const Framing& framing, const Bases& bases, ByteView frame,
                                  const harness::Protocol::AddressField& field, int words);
 
 }  // namespace fieldproof::modbus_suite

@@ -170,19 +170,31 @@ TEST(AddressFields, OfRequestsAndOfRepliesThatRepeatThem) {
     EXPECT_EQ(fields[0].names.first_word, 100u);
     EXPECT_EQ(fields[0].names.last_word, 101u);
     Bytes moved = frame;
-    std::ranges::copy(*moved_field(*framing, frame, fields[0], 20),
+    std::ranges::copy(*moved_field(*framing, default_bases(), frame, fields[0], 20),
                       moved.begin() + static_cast<std::ptrdiff_t>(fields[0].offset));
     EXPECT_EQ(written_by(*framing, default_bases(), moved).at(0).first_word, 120u);
     EXPECT_THAT(
         address_fields(*framing, default_bases(), framing->wrap(*from_hex("01 03 02 12 34")), true),
         SizeIs(0));
-    EXPECT_FALSE(moved_field(*framing, frame, fields[0], -101))
+    EXPECT_FALSE(moved_field(*framing, default_bases(), frame, fields[0], -101))
         << "there is no data address below 0";
   }
   const Bytes bit = rtu_framing().wrap(*from_hex("01 05 06 40 FF 00"));
-  EXPECT_EQ(*moved_field(rtu_framing(), bit,
+  EXPECT_EQ(*moved_field(rtu_framing(), default_bases(), bit,
                          address_fields(rtu_framing(), default_bases(), bit, true).at(0), 4),
             *from_hex("06 80"));
+}
+
+TEST(AddressFields, AtTheEndOfATableCannotBeMoved) {
+  const auto moved = [](std::string_view message) {
+    const Bytes frame = rtu_framing().wrap(*from_hex(message));
+    return moved_field(rtu_framing(), default_bases(), frame,
+                       address_fields(rtu_framing(), default_bases(), frame, false).at(0), -600);
+  };
+  EXPECT_TRUE(moved("01 01 27 00 00 08"));
+  EXPECT_FALSE(moved("01 01 27 0E 00 01")) << "9998, the last coil";
+  EXPECT_FALSE(moved("01 01 27 08 00 08")) << "with it";
+  EXPECT_FALSE(moved("01 05 27 10 FF 00")) << "past it";
 }
 
 TEST(WrittenBy, DamagedRequestsNameNoPlace) {

@@ -24,11 +24,6 @@ bool is_bit_table(ModbusBase base) {
   return base == ModbusBase::bit_read || base == ModbusBase::bit_write;
 }
 
-ModbusBase table_of(const FunctionCode& function) {
-  const auto found = std::ranges::find(modbus::modbus_base_names, function.base);
-  return static_cast<ModbusBase>(found - modbus::modbus_base_names.begin());
-}
-
 Bases defaults_of(const Bases& declared) {
   return *declared_bases(declared.model->name, nlohmann::json::object());
 }
@@ -47,7 +42,7 @@ std::vector<Asked> asked_by(const std::vector<Bytes>& requests, const Framing& f
       if (const FunctionCode* function = message.size() > 1 ? find_function(message[1]) : nullptr)
         for (Protocol::AddressField& field :
              address_fields(framing, defaults, framing.wrap(message), false))
-          asked.push_back({table_of(*function), std::move(field.names)});
+          asked.push_back({base_of(*function), std::move(field.names)});
   return asked;
 }
 
@@ -170,7 +165,7 @@ std::string tied_to_default(const Framing& framing, const Bases& declared,
     for (const Bytes& message : framing.messages(request)) {
       const FunctionCode* function = message.size() >= 4 ? find_function(message[1]) : nullptr;
       if (!function) continue;
-      const ModbusBase base = table_of(*function);
+      const ModbusBase base = base_of(*function);
       const std::uint32_t before = defaults.tables[base].size, now = declared.tables[base].size;
       const bool counted = (function->many || !function->write) && message.size() >= 6;
       const std::uint32_t end = word_at(message, 2) + (counted ? word_at(message, 4) : 1);

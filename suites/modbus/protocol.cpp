@@ -168,7 +168,7 @@ class Modbus : public Protocol,
   }
   std::optional<Bytes> moved_field(ByteView frame, const AddressField& field,
                                    int words) const override {
-    return modbus_suite::moved_field(framing_, frame, field, words);
+    return modbus_suite::moved_field(framing_, bases_, frame, field, words);
   }
   std::uint32_t words_of(std::string_view area) const override {
     const plc::DeviceArea* found = area.size() == 1 ? bases_.model->area(area[0]) : nullptr;
