@@ -1,5 +1,5 @@
 // Runs one case after another against one endpoint: eligibility, starting state, exchange,
-// judgement, recovery.
+// judgement, recovery. (Also in bench_eligibility.cpp and bench_recovery.cpp.)
 #pragma once
 
 #include <map>
@@ -22,6 +22,10 @@
 #include "harness/vectors/case.hpp"
 
 namespace fieldproof::bench {
+
+/// Behind a pty or a socket writes can arrive milliseconds apart, and the emulator's
+/// inter-character time has a floor of 20 ms: shorter times than this prove nothing there.
+inline constexpr Duration shortest_judged = 100ms;
 
 struct BenchOptions {
   Profile profile;

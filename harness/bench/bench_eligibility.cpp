@@ -1,0 +1,255 @@
+// What can be settled before a byte is sent: may a case run, where, and what does it write?
+#include "harness/bench/bench.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "harness/exchange/p2p_blocks.hpp"
+#include "harness/safety/placement.hpp"
+#include "harness/safety/transposition.hpp"
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof::bench {
+
+using exchange::PreparedCase;
+using harness::Protocol;
+using nlohmann::json;
+using results::Verdict;
+using vectors::Case;
+
+namespace {
+
+/// What a device has that declares nothing.
+const json& default_config() {
+  static const json config{{"role", "server"},
+                           {"mode", "run"},
+                           {"inter_character_ms", 0},
+                           {"delay_ms", 0},
+                           {"rs485", false}};
+  return config;
+}
+
+std::string plain(const json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
+Result<PreparedCase> Bench::prepare(const Case& source) const {
+  return exchange::prepare(source, station_for(source), protocol_, {options_.known, options_.aux});
+}
+
+int Bench::station_for(const Case& source) const {
+  if (endpoint_.capabilities().real_device) return options_.station;
+  return vectors::config_station(source.config, options_.station).value_or(options_.station);
+}
+
+json Bench::device_config(const Case& source) const {
+  json config = source.config;
+  config["station"] = station_for(source);
+  if (!options_.profile.model.empty())
+    config["model"] = options_.profile.model;
+  else
+    config["model"] = source.models.empty() ? protocol_.models().front() : source.models.front();
+  return config;
+}
+
+Bench::Eligibility Bench::outside_profile(const Case& source) const {
+  const Profile& profile = options_.profile;
+  if (std::ranges::find(profile.protocols, source.protocol) == profile.protocols.end())
+    return {Verdict::skip,
+            fmt::format("{} is no protocol of the profile {}", source.protocol, profile.name)};
+  if (source.protocol != protocol_.name())
+    return {Verdict::skip, fmt::format("{} is not what this endpoint speaks ({})", source.protocol,
+                                       protocol_.name())};
+  if (!profile.model.empty() && !source.models.empty() &&
+      std::ranges::find(source.models, profile.model) == source.models.end())
+    return {Verdict::skip, fmt::format("for {}; the profile declares {}",
+                                       fmt::join(source.models, ", "), profile.model)};
+  for (const auto& [pattern, reason] : profile.exclude)
+    if (vectors::matches_filter(source.id, pattern))
+      return {Verdict::skip, "excluded by the profile: " + reason};
+  return {};
+}
+
+/// On hardware the configuration of a case must be what is declared.
+std::string Bench::undeclared(const json& config) const {
+  const bool asks = config.value("role", "server") == "client";
+  for (const auto& [key, value] : config.items()) {
+    if (key == "station" || key == "p2p" || (key == "role" && asks)) continue;  // Arming tells
+    if (asks && arming_.tells(key)) continue;
+    const json& declared = options_.profile.config;
+    const json fallback = default_config().value(key, json());
+    const json has = declared.value(key, fallback);
+    if (!has.is_null() && plain(has) == plain(value)) continue;
+    return fmt::format("needs {} = {}; the profile declares {}{}", key, plain(value),
+                       has.is_null() ? "nothing" : plain(has), asks ? arming_.not_told(key) : "");
+  }
+  return {};
+}
+
+/// What the bench sends to a client are answers; what it sets goes over the second channel. An
+/// error: it cannot be set.
+Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCase& prepared) const {
+  std::vector<Protocol::Written> written;
+  const exchange::Channel& aux = options_.aux;
+  if (!aux.endpoint) return written;
+  std::vector<std::pair<std::string, std::string>> memory = prepared.source->memory;
+  for (const nlohmann::json& block : exchange::p2p_blocks(prepared.source->config))
+    if (!exchange::flag_of(block).empty() && !exchange::runs_by_clock(block))
+      memory.emplace_back(exchange::flag_of(block), "00");
+  for (const exchange::PreparedStep& step : prepared.steps)
+    if (step.step->kind == vectors::Step::Kind::set)
+      memory.insert(memory.end(), step.step->memory.begin(), step.step->memory.end());
+  for (const auto& [address, hex] : memory) {
+    const Result<std::vector<Bytes>> requests =
+        aux.protocol->write_requests(aux.station, address, hex);
+    if (!requests)
+      return fail(fmt::format("cannot set {} over --aux: {}", address, requests.error().message));
+    for (const Bytes& request : *requests)
+      std::ranges::move(aux.protocol->written_by(request), std::back_inserter(written));
+  }
+  return written;
+}
+
+std::string Bench::fence_objection(const PreparedCase& prepared) const {
+  if (prepared.is_client()) {
+    const Result<std::vector<Protocol::Written>> written = written_over_aux(prepared);
+    if (!written) return written.error().message;
+    return written->empty() ? "" : options_.fence.objection(*written, *options_.aux.protocol);
+  }
+  const auto unsettable =
+      [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
+    for (const auto& [address, hex] : memory)
+      if (const Result<std::vector<Bytes>> requests =
+              protocol_.write_requests(prepared.station, address, hex);
+          !requests)
+        return fmt::format("cannot set {}: {}", address, requests.error().message);
+    return {};
+  };
+  if (std::string why = unsettable(prepared.source->memory); !why.empty()) return why;
+  for (const exchange::PreparedStep& step : prepared.steps)
+    if (step.step->kind == vectors::Step::Kind::set)
+      if (std::string why = unsettable(step.step->memory); !why.empty()) return why;
+  return options_.fence.objection(written_by(prepared), protocol_);
+}
+
+/// In the order of the case.
+std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) const {
+  if (prepared.is_client()) return *written_over_aux(prepared);  // the fence has let it pass
+  std::vector<Protocol::Written> written;
+  const auto add = [&](ByteView request, const Protocol& protocol) {
+    std::ranges::move(protocol.written_by(request), std::back_inserter(written));
+  };
+  const auto add_memory = [&](const std::vector<std::pair<std::string, std::string>>& memory) {
+    for (const auto& [address, hex] : memory)
+      if (const Result<std::vector<Bytes>> requests =
+              protocol_.write_requests(prepared.station, address, hex);
+          requests)
+        for (const Bytes& request : *requests) add(request, protocol_);
+  };
+  add_memory(prepared.source->memory);
+  for (const exchange::PreparedStep& step : prepared.steps) {
+    if (step.step->kind == vectors::Step::Kind::set) add_memory(step.step->memory);
+    if (step.step->kind == vectors::Step::Kind::send)
+      add(step.frames.front().frame.bytes, *step.protocol);
+  }
+  return written;
+}
+
+Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepared) const {
+  const endpoints::Capabilities& can = endpoint_.capabilities();
+  if (!can.real_device) return {};
+  if (prepared.is_client()) {
+    if (std::string why = arming_.undeclared(source, options_.profile.config); !why.empty())
+      return {Verdict::skip, why};
+    if (std::string why = arming_.objection(source, device_config(source)); !why.empty())
+      return {arming_.declares() ? Verdict::skip : Verdict::blocked, why};
+  } else if (!source.transpose &&
+             vectors::config_station(source.config, options_.station) != options_.station)
+    return {Verdict::blocked,
+            fmt::format("is about station {}; the device is station {}",
+                        *vectors::config_station(source.config, 1), options_.station)};
+  if (std::string why = undeclared(source.config); !why.empty())
+    return {prepared.is_client() && arming_.declares() ? Verdict::skip : Verdict::blocked, why};
+  if (prepared.looks_at_counters() && !prepared.is_client())
+    return {Verdict::blocked,
+            "looks at the status counters, which no command reads; see XG5000, status by service"};
+  if (source.fresh && !can.can_power_cycle && options_.power_cycle_command.empty())
+    return {Verdict::blocked, "needs a device fresh from power-on; give --power-cycle COMMAND"};
+  return {};
+}
+
+Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
+  const endpoints::Capabilities& can = endpoint_.capabilities();
+  if (can.wire) return {};
+  const json& config = prepared.source->config;
+  if (config.contains("line") || config.contains("bench_line"))
+    return {Verdict::inconclusive,
+            "is about speed and character format, which a pty or socket does not carry"};
+  // On a network a pause may be longer than it is written: it only sees that a segment has come.
+  if (protocol_.default_port() != 0) return {};
+  const Duration pause = prepared.shortest_pause(endpoint_.character_time());
+  if (pause > 0ns && pause < shortest_judged)
+    return {
+        Verdict::inconclusive,
+        fmt::format(
+            "needs a time of {:.1f} ms; below {:.0f} ms nothing is certain behind a pty or socket",
+            to_ms(pause), to_ms(shortest_judged))};
+  return {};
+}
+
+/// Whatever can be settled before a byte is sent.
+Bench::Ready Bench::make_ready(const Case& source) const {
+  Ready ready;
+  const auto declined = [&](Eligibility why) {
+    ready.why = std::move(why);
+    return std::move(ready);
+  };
+  if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass)
+    return declined(outside);
+  Result<PreparedCase> prepared = prepare(source);
+  if (!prepared) return declined({Verdict::error, prepared.error().message});
+  if (const Eligibility why = blocked(source, *prepared); why.verdict != Verdict::pass)
+    return declined(why);
+  // Memory is asked for where a real device declares it to lie, and written only where it is
+  // allowed.
+  const bool real = endpoint_.capabilities().real_device;
+  if (real && !prepared->is_client()) {
+    Result<std::optional<Case>> placed = safety::placed_case(*prepared, protocol_);
+    if (!placed) return declined({Verdict::blocked, placed.error().message});
+    if (*placed) ready.elsewhere = std::make_unique<Case>(std::move(**placed));
+    const Case& here = ready.elsewhere ? *ready.elsewhere : source;
+    const Result<std::vector<results::Move>> planned =
+        safety::plan_moves(here, station_for(source), options_.fence, protocol_);
+    if (!planned) return declined({Verdict::blocked, planned.error().message});
+    ready.moves = *planned;
+    if (!ready.moves.empty()) {
+      Result<Case> moved = safety::moved_case(here, station_for(source), ready.moves, protocol_);
+      if (!moved) return declined({Verdict::blocked, moved.error().message});
+      ready.elsewhere = std::make_unique<Case>(std::move(*moved));
+    }
+  }
+  if (ready.elsewhere) {
+    prepared = prepare(*ready.elsewhere);
+    if (!prepared) return declined({Verdict::error, prepared.error().message});
+  }
+  if (std::string why = real ? fence_objection(*prepared) : ""; !why.empty())
+    return declined({Verdict::blocked, why});
+  if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass)
+    return declined(why);
+  ready.prepared = std::move(*prepared);
+  return ready;
+}
+
+bool Bench::could_run(const Case& source) const { return make_ready(source).prepared.has_value(); }
+
+std::vector<Protocol::Written> Bench::written_by(const Case& source) const {
+  const Result<PreparedCase> prepared = prepare(source);
+  if (!prepared || prepared->is_client()) return {};
+  return written_by(*prepared);
+}
+
+}  // namespace fieldproof::bench

@@ -1,0 +1,128 @@
+// After a case: is the device still there, can it be brought back, is it worth asking further?
+#include "harness/bench/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/notation/notation.hpp"
+#include "harness/system/hook.hpp"
+
+namespace fieldproof::bench {
+
+using exchange::PreparedCase;
+using results::CaseResult;
+using results::Verdict;
+
+namespace {
+
+constexpr Duration revive_patience = 10s;
+
+}  // namespace
+
+/// The program under test has ended in the middle of a case that waits for its requests. It is
+/// started again, so that the others are judged.
+bool Bench::gave_up(const PreparedCase& prepared, const Error& trouble, CaseResult& result) {
+  if (!prepared.is_client() || !options_.endpoint_is_stimulus || trouble.interrupted) return false;
+  result.verdict = Verdict::fail;
+  result.message = "the client gave up: " + trouble.message;
+  client_gave_up_ = true;
+  if (!arming_.revive()) stop("the client gave up too often, last in " + result.id);
+  return true;
+}
+
+void Bench::after(const PreparedCase& prepared, const exchange::Transcript& transcript,
+                  CaseResult& result) {
+  if (transcript.trouble && gave_up(prepared, *transcript.trouble, result)) return;
+  if (transcript.trouble)
+    return stop("the port failed in " + result.id + ": " + transcript.trouble->message,
+                &*transcript.trouble);
+  bool dead = !transcript.dead.empty();
+  // In simulated time the sanity exchange after a negative case is made here; in real time closing
+  // the case was one.
+  const bool negative = prepared.listens_for_silence() || result.verdict == Verdict::fail;
+  if (endpoint_.capabilities().simulated && negative && prepared.answers_probes()) {
+    const Result<exchange::Sign> alive = exchange_.anything_answers(
+        prepared.station, 3 * options_.profile.response_max, prepared.reply_delay());
+    if (!alive)
+      return stop("the port failed after " + result.id + ": " + alive.error().message,
+                  &alive.error());
+    dead = *alive != exchange::Sign::alive;
+    if (dead) result.recording.dead = "nothing answers any more";
+    if (dead && result.verdict != Verdict::fail) {
+      result.verdict = Verdict::fail;
+      result.message = "link dead after this frame: nothing answers any more";
+    }
+  }
+  // Emulators become a fresh device with the next case.
+  if (dead && endpoint_.capabilities().real_device) revive(result);
+}
+
+/// It did not answer when its memory was read or set for a case: does it still answer anything? If
+/// not, the case says so after `what`.
+bool Bench::look_for_device(CaseResult& result, const std::string& what) {
+  const Result<exchange::Sign> alive =
+      exchange_.anything_answers(options_.station, 3 * options_.profile.response_max);
+  if (!alive) {
+    result.verdict = Verdict::error;
+    result.message = alive.error().message;
+    stop("the port failed in " + result.id + ": " + result.message, &alive.error());
+    return false;
+  }
+  if (*alive == exchange::Sign::alive) return true;
+  result.verdict = Verdict::fail;
+  result.message = what + "; nothing answers any more";
+  revive(result);
+  return false;
+}
+
+/// A device that the bench has started itself, and whose process has ended.
+void Bench::start_again(CaseResult& result) {
+  if (!endpoint_.capabilities().real_device || !endpoint_.capabilities().can_power_cycle ||
+      !options_.power_cycle_command.empty() || options_.endpoint_is_stimulus ||
+      options_.max_restarts == 0)
+    return;
+  const auto last = std::ranges::find(result.exchange.rbegin(), result.exchange.rend(),
+                                      results::Event::Kind::sent, &results::Event::kind);
+  const std::string frame = last == result.exchange.rend()
+                                ? "in the set-up"
+                                : "after " + notation::print_bytes(last->bytes);
+  result.message = fmt::format("the device ended {}: {}", frame, stopped_);
+  result.verdict = Verdict::fail;
+  stopped_.clear();
+  port_failed_ = false;
+  revive(result);
+}
+
+void Bench::revive(CaseResult& result) {
+  if (endpoint_.capabilities().can_power_cycle && options_.power_cycle_command.empty())
+    if (std::string enough = worth_asking_.restart(result); !enough.empty())
+      return stop(std::move(enough));
+  if (!power_cycle(result))
+    stop(fmt::format(
+        "the link is dead since {}; power-cycle the device, or give --power-cycle COMMAND",
+        result.id));
+}
+
+bool Bench::power_cycle(CaseResult& result, bool client) {
+  const bool hook = !options_.power_cycle_command.empty();
+  if (hook && !os::run_hook(options_.power_cycle_command, {}, {})) {
+    result.notes.push_back("the --power-cycle command failed");
+    return false;
+  }
+  if (!hook && (!endpoint_.capabilities().can_power_cycle || !endpoint_.act("power_cycle")))
+    return false;
+  result.notes.push_back("power-cycled the device");
+  if (client) return arming_.started_anew();  // it answers no probe
+  const Result<exchange::Sign> sign =
+      exchange_.anything_answers(options_.station, revive_patience, {}, true);
+  return sign && *sign == exchange::Sign::alive;
+}
+
+void Bench::stop(std::string why, const Error* error) {
+  stopped_ = std::move(why);
+  port_failed_ = error != nullptr;
+  interrupted_ = error && error->interrupted;
+}
+
+}  // namespace fieldproof::bench
