@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/bench.hpp"
-#include "harness/endpoints/emulator.hpp"
-#include "harness/vectors/loader.hpp"
+#include "suites/broken/in_process.hpp"
 #include "suites/broken/suite_runs.hpp"
 #include "suites/ls_bus/broken/broken_inverter.hpp"
 #include "suites/ls_bus/broken/faults.hpp"
-#include "suites/ls_bus/protocol.hpp"
 
 namespace fieldproof::ls_bus_broken {
 
@@ -74,13 +71,11 @@ results::CaseResult run_in_process(const Fault& fault, std::string_view device) 
     ADD_FAILURE() << "there is no case " << case_id(fault);
     return {};
   }
-  endpoints::EmulatorEndpoint endpoint({"emulator", "inverter", {}},
-                                       [device](std::string_view, const nlohmann::json& config) {
-                                         return make_broken_inverter(device, config);
-                                       });
-  bench::BenchOptions options;
-  options.profile = *bench::load_profile("inverter", sources + "/suites/profiles");
-  return bench::Bench(endpoint, ls_bus_suite::protocol(), options).run(*source);
+  const auto make = [device](std::string_view, const nlohmann::json& config) {
+    return make_broken_inverter(device, config);
+  };
+  return broken::run_in_process(*source, "inverter", make,
+                                *bench::load_profile("inverter", sources + "/suites/profiles"));
 }
 
 class BehindTheBackDoor : public testing::TestWithParam<Fault> {};

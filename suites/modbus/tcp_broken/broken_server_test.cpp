@@ -2,21 +2,10 @@
 // that names it, and the healthy server must pass. All in process, in simulated time.
 #include "suites/modbus/tcp_broken/broken_server.hpp"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <map>
-
-#include "harness/bench/bench.hpp"
-#include "harness/endpoints/emulator.hpp"
-#include "harness/vectors/loader.hpp"
-#include "suites/modbus/protocol.hpp"
-#include "suites/protocols.hpp"
+#include "suites/broken/in_process.hpp"
 
 namespace fieldproof::modbus_tcp_broken {
 
-using results::CaseResult;
-using results::Verdict;
 using vectors::Case;
 
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
@@ -31,79 +20,34 @@ bool concerns(const Case& one) {
          std::ranges::find(one.models, model) != one.models.end();
 }
 
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all = [] {
-    const vectors::VectorSet set = vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors",
-                                                         {suites::protocols(), "modbus_tcp/*"});
-    EXPECT_THAT(set.problems, testing::IsEmpty());
-    std::vector<Case> own;
-    std::ranges::copy_if(set.cases, std::back_inserter(own), concerns);
-    return own;
-  }();
+const broken::Cases& cases() {
+  static const broken::Cases all = broken::cases_of("modbus_tcp/*", concerns);
   return all;
 }
 
-CaseResult run(const Case& source, const Behaviour& behaviour) {
-  endpoints::EmulatorEndpoint endpoint(
-      {"emulator", model, {}},
-      [&](std::string_view of, const nlohmann::json& config) {
-        return make_broken_server(behaviour, of, config);
-      },
-      {}, modbus_suite::tcp().default_port());
-  bench::BenchOptions options;
-  options.profile.name = "emulator";
-  options.profile.protocols = {"modbus-tcp"};
-  options.known = suites::protocols();
-  bench::Bench bench(endpoint, modbus_suite::tcp(), options);
-  return bench.run(source);
-}
-
-/// The message, and the fields that differ.
-std::string report(const CaseResult& result) {
-  std::string text = result.id + ": " + result.message;
-  for (const results::Difference& one : result.differences) text += "; " + one.field;
-  return text;
+auto against(const Behaviour& behaviour) {
+  return [behaviour](const Case& source) {
+    const auto make = [&](std::string_view of, const nlohmann::json& config) {
+      return make_broken_server(behaviour, of, config);
+    };
+    return broken::run_in_process(source, model, make, broken::bare_profile(source));
+  };
 }
 
 class TheSuite : public testing::TestWithParam<Fault> {};
 
+/// A fault may count: each case meets a new one.
 TEST_P(TheSuite, Catches) {
-  const Fault& fault = GetParam();
-  const auto one = std::ranges::find(cases(), fault.caught_by, &Case::id);
-  const bool known = one != cases().end();
-  const CaseResult result = known ? run(*one, fault.make()) : CaseResult{};
-  if (known && result.verdict == Verdict::fail &&
-      report(result).find(fault.message) != std::string::npos)
-    return fmt::print("{:<34} {}\n", fault.name, report(result));
-  std::string red;
-  for (const Case& other : cases())
-    if (const CaseResult found = run(other, fault.make()); found.verdict == Verdict::fail)
-      red += "\n  " + report(found);
-  ADD_FAILURE() << fault.caught_by
-                << (known ? " does not catch it: " + report(result) : " is no case")
-                << "\nred are:" << red;
+  broken::expect_caught(GetParam(), cases(),
+                        [](const Case& source) { return against(GetParam().make())(source); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(HealthyServer, PassesTheWholeSuite) {
-  std::size_t passed = 0;
-  for (const Case& one : cases()) {
-    const CaseResult result = run(one, {});
-    EXPECT_TRUE(result.verdict == Verdict::pass || result.verdict == Verdict::info)
-        << report(result);
-    passed += result.verdict == Verdict::pass;
-  }
-  EXPECT_GT(passed, 200u);
-  fmt::print("none: {} of {} cases pass\n", passed, cases().size());
-}
+TEST(HealthyServer, PassesTheWholeSuite) { broken::expect_healthy(cases(), 200, against({})); }
 
-TEST(FaultTable, NamesAreUnique) {
-  std::map<std::string_view, int> names;
-  for (const Fault& fault : faults()) EXPECT_EQ(++names[fault.name], 1) << fault.name;
-  EXPECT_GE(faults().size(), 90u);
-}
+TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 90); }
 
 }  // namespace
 }  // namespace fieldproof::modbus_tcp_broken
