@@ -13,7 +13,7 @@ void sort_errata(std::vector<results::ErratumInfo>& errata);
 
 std::string errata_text(const std::vector<results::ErratumInfo>& errata);
 std::string errata_json(const std::vector<results::ErratumInfo>& errata);
-/// A heading and a table for each manual.
+/// For the makers: a heading and a table for each manual.
 std::string errata_markdown(const std::vector<results::ErratumInfo>& errata);
 
 }  // namespace fieldproof::reports

@@ -9,6 +9,7 @@
 #include "harness/paths.hpp"
 #include "harness/run/tool_vectors.hpp"
 #include "harness/vectors/decisions.hpp"
+#include "harness/vectors/errata.hpp"
 #include "harness/vectors/lint.hpp"
 #include "harness/vectors/loader.hpp"
 #include "reports/results/whole_file.hpp"
@@ -83,6 +84,7 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
   add(problems, vectors::lint_wires(set, protocols));
   add(problems, vectors::lint_links(set, protocols));
   add(problems, vectors::lint_statements(set));
+  add(problems, vectors::lint_errata(set));
   add(problems, vectors::lint_decisions(set));
   add(problems, vectors::lint_readings(set));
   add(problems, vectors::lint_tables(set, protocols));

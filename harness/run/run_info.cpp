@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <cstdint>
+#include <map>
 #include <set>
+#include <string_view>
 
 #include "harness/run/timestamp.hpp"
 #include "harness/run/tool_vectors.hpp"
@@ -43,11 +45,18 @@ std::string selection(const RunPlan& plan) {
 
 /// The mistakes of the manuals that the selected cases met.
 std::vector<results::ErratumInfo> errata(const RunPlan& plan) {
-  std::set<std::string> selected;
-  for (const vectors::Case* one : plan.selected) selected.insert(one->vector_id);
+  std::map<std::string_view, std::set<std::string>> vectors_of;  // by statement
+  for (const vectors::Case* one : plan.selected)
+    for (const std::string& statement : one->source.statements)
+      vectors_of[statement].insert(one->vector_id);
   std::vector<results::ErratumInfo> met;
-  for (const vectors::Erratum& one : plan.vectors.errata)
-    if (selected.contains(one.vector_id)) met.push_back(erratum_info(one));
+  for (const vectors::Erratum& one : plan.vectors.errata) {
+    std::set<std::string> vectors;
+    for (const vectors::Passage& place : one.places)
+      if (const auto here = vectors_of.find(place.statement); here != vectors_of.end())
+        vectors.insert(here->second.begin(), here->second.end());
+    if (!vectors.empty()) met.push_back(erratum_info(one, {vectors.begin(), vectors.end()}));
+  }
   return met;
 }
 

@@ -47,9 +47,22 @@ std::vector<std::string> case_ids(const vectors::VectorSet& set) {
   return ids;
 }
 
-results::ErratumInfo erratum_info(const vectors::Erratum& erratum) {
-  return {erratum.vector_id, erratum.manual,  erratum.section,
-          erratum.printed,   erratum.correct, erratum.why};
+results::ErratumInfo erratum_info(const vectors::Erratum& erratum, std::vector<std::string> met) {
+  const auto passages = [](const std::vector<vectors::Passage>& list) {
+    std::vector<results::Passage> result;
+    for (const vectors::Passage& one : list) result.push_back({one.manual, one.section, one.quote});
+    return result;
+  };
+  return {erratum.id,
+          erratum.kind,
+          erratum.printed,
+          erratum.right,
+          erratum.why,
+          erratum.effect,
+          erratum.doubt,
+          passages(erratum.places),
+          passages(erratum.proof),
+          std::move(met)};
 }
 
 }  // namespace fieldproof::run

@@ -29,6 +29,8 @@ std::string meant_filter(const std::string& option, const harness::Protocols& pr
 
 std::vector<std::string> case_ids(const vectors::VectorSet& set);
 
-results::ErratumInfo erratum_info(const vectors::Erratum& erratum);
+/// `met`: the vectors whose cases were made by what is right.
+results::ErratumInfo erratum_info(const vectors::Erratum& erratum,
+                                  std::vector<std::string> met = {});
 
 }  // namespace fieldproof::run

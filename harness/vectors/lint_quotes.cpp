@@ -27,6 +27,11 @@ std::vector<Quote> quotes(const VectorSet& set) {
   for (const std::vector<Case>* cases : {&set.cases, &set.tables})
     for (const Case& one : *cases)
       by_id["vector " + one.id] = {one.id, one.source.manual, one.source.quote};
+  for (const Erratum& one : set.errata)
+    for (const std::vector<Passage>* list : {&one.places, &one.proof})
+      for (const Passage& passage : *list)
+        by_id[fmt::format("erratum {} {} {}", one.id, passage.manual, passage.quote)] = {
+            one.id, passage.manual, passage.quote};
   std::vector<Quote> result;
   std::set<std::pair<std::string, std::string>> seen;
   for (auto& [key, quote] : by_id)

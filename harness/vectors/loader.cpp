@@ -7,6 +7,7 @@
 
 #include "harness/vectors/broken.hpp"
 #include "harness/vectors/case_reader.hpp"
+#include "harness/vectors/errata.hpp"
 #include "harness/vectors/files.hpp"
 #include "harness/vectors/fingerprint.hpp"
 #include "harness/vectors/framings.hpp"
@@ -94,17 +95,11 @@ class FileLoader {
     if (!framing.empty() && !(protocol && protocol->dressing())) throw no_framing(framing);
     const CaseReader reader(vector, name_, protocol ? protocol->dressing() : nullptr);
     std::vector<Case>& cases = vector.value("kind", "case") == "table" ? set_.tables : set_.cases;
-    bool any = false;
     for (const Combination& one :
          combinations(vector.contains("each") ? vector["each"] : json::object())) {
       if (!matches_filter(id + one.suffix, options_.filter)) continue;
       cases.push_back(reader.read(one));
-      any = true;
     }
-    if (any && vector.contains("errata"))
-      for (const json& erratum : vector["errata"])
-        set_.errata.push_back({id, reader.source().manual, reader.source().section,
-                               erratum["printed"], erratum["correct"], erratum["why"]});
   }
 
   Broken no_framing(const std::string& framing) const {
@@ -131,7 +126,9 @@ class FolderLoader {
     const fs::path base = fs::is_directory(folder) ? folder : folder.parent_path();
     for (const fs::path& path : json_files(folder))
       load_file(path, path.lexically_relative(base).generic_string());
+    drop_errata_not_met();
     for (const auto& [name, text] : statement_files_) guarded(name, [&] { load_statements(text); });
+    resolve_errata(set_);
     set_.hash = fmt::format("{:016x}", hash_);
   }
 
@@ -153,6 +150,8 @@ class FolderLoader {
         load_manuals(text);
       else if (name.starts_with("statements/"))
         statement_files_.emplace_back(name, std::move(text));
+      else if (name.starts_with("errata/"))
+        load_errata(text, name, set_);
       else
         FileLoader(text, name, options_, set_).load();
     });
@@ -169,7 +168,18 @@ class FolderLoader {
     }
   }
 
-  const std::set<std::string_view>& cited() {
+  /// Of selected cases only the errata that they met, with all statements that these name.
+  void drop_errata_not_met() {
+    if (options_.filter.empty()) return;
+    std::erase_if(set_.errata, [&](const Erratum& one) {
+      return std::ranges::none_of(
+          one.places, [&](const Passage& place) { return cited().contains(place.statement); });
+    });
+    for (const Erratum& one : set_.errata)
+      for (const std::string_view id : statements_of(one)) cited_.insert(id);
+  }
+
+  std::set<std::string_view>& cited() {
     if (cited_.empty())
       for (const std::vector<Case>* cases : {&set_.cases, &set_.tables})
         for (const Case& one : *cases)

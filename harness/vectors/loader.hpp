@@ -13,9 +13,20 @@
 
 namespace fieldproof::vectors {
 
+/// Words of a manual. `statement` may be empty: no case rests on them.
+struct Passage {
+  std::string statement, manual, section, quote;
+};
+
+/// A mistake of a manual, once, with all its places (vectors/errata). Cases whose statements stand
+/// in its places were made by what is right.
 struct Erratum {
-  std::string vector_id, manual, section;
-  std::string printed, correct, why;
+  std::string id, kind;
+  std::string printed, right;
+  std::string why, effect;  // how `proof` shows it; what a reader would do wrong
+  std::string doubt;        // empty, or why it may be no mistake of the maker
+  std::vector<Passage> places, proof;
+  std::string at;  // "errata/cnet_7.json:12", for messages
 };
 
 /// A testable statement of a manual (vectors/statements).

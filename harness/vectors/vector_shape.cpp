@@ -78,11 +78,6 @@ constexpr std::array source_keys{Key{"manual", &text, true}, Key{"section", &tex
                                  Key{"quote", &quote, true}};
 constexpr Shape source{.kind = Kind::object, .keys = source_keys};
 
-constexpr std::array erratum_keys{Key{"printed", &text, true}, Key{"correct", &text, true},
-                                  Key{"why", &reason, true}};
-constexpr Shape erratum{.kind = Kind::object, .keys = erratum_keys};
-constexpr Shape errata{.kind = Kind::list, .least = 1, .items = &erratum};
-
 constexpr std::array alternatives_keys{Key{"reading", &text, true}};
 constexpr Shape alternatives{
     .kind = Kind::object, .least = 3, .keys = alternatives_keys, .open = true, .others = &text};
@@ -155,10 +150,9 @@ constexpr std::array partial_source_keys{Key{"manual", &text}, Key{"section", &t
 constexpr Shape partial_source{.kind = Kind::object, .least = 1, .keys = partial_source_keys};
 constexpr Shape decision{.form = &decision_id};
 constexpr Shape decisions{.kind = Kind::list, .least = 1, .items = &decision};
-constexpr Shape any_errata{.kind = Kind::list, .items = &erratum};
-constexpr std::array difference_keys{Key{"title", &title},        Key{"source", &partial_source},
-                                     Key{"basis", &basis},        Key{"why", &reason},
-                                     Key{"decision", &decisions}, Key{"errata", &any_errata}};
+constexpr std::array difference_keys{Key{"title", &title}, Key{"source", &partial_source},
+                                     Key{"basis", &basis}, Key{"why", &reason},
+                                     Key{"decision", &decisions}};
 constexpr Shape difference{
     .kind = Kind::object, .least = 1, .keys = difference_keys, .demands = argued};
 constexpr Shape differs{.kind = Kind::object, .least = 1, .open = true, .others = &difference};
@@ -170,7 +164,7 @@ constexpr std::array vector_keys{
     Key{"source", &source, true}, Key{"level", &level, true},  Key{"basis", &basis, true},
     Key{"why", &reason},          Key{"decision", &decisions}, Key{"models", &texts},
     Key{"each", &each},           Key{"given", &given},        Key{"steps", &steps},
-    Key{"facts", &any_object},    Key{"errata", &errata},      Key{"transpose", &boolean}};
+    Key{"facts", &any_object},    Key{"transpose", &boolean}};
 constexpr std::array vector_demands{Demand{"basis", argued_words, "why", ""},
                                     Demand{"kind", table_word, "facts", "steps"}};
 constexpr Shape vector{.kind = Kind::object, .keys = vector_keys, .demands = vector_demands};

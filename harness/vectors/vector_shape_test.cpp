@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "harness/vectors/errata.hpp"
 #include "reports/results/whole_file.hpp"
 
 namespace fieldproof::vectors {
@@ -108,22 +109,29 @@ json resolved(const json& schema, const json& root) {
   return result;
 }
 
-json schema_file() {
-  return json::parse(*results::read_whole_file(FIELDPROOF_SOURCE_DIR "/vectors/schema.json"));
+json schema_file(const std::string& name = "schema.json") {
+  return json::parse(*results::read_whole_file(FIELDPROOF_SOURCE_DIR "/vectors/" + name));
 }
 
-TEST(VectorShape, IsWhatTheSchemaSaysToEditors) {
-  const json file = schema_file();
+void expect_one(const json& file, const Shape& shape) {
   EXPECT_EQ(file["type"], "array");
-  const json printed = resolved(file["items"], file), table = schema_of(vector_shape());
+  const json printed = resolved(file["items"], file), table = schema_of(shape);
   EXPECT_TRUE(printed == table) << "the schema becomes the table by\n"
                                 << json::diff(printed, table).dump(1);
 }
 
+TEST(VectorShape, IsWhatTheSchemaSaysToEditors) { expect_one(schema_file(), vector_shape()); }
+
+TEST(ErratumShape, IsWhatTheSchemaSaysToEditors) {
+  expect_one(schema_file("errata.schema.json"), erratum_shape());
+}
+
 TEST(VectorShape, EveryDefinitionOfTheSchemaIsUsed) {
-  const json file = schema_file();
-  for (const auto& [name, definition] : file["definitions"].items())
-    EXPECT_THAT(file.dump(), testing::HasSubstr("\"#/definitions/" + name + "\""));
+  for (const char* schema : {"schema.json", "errata.schema.json"}) {
+    const json file = schema_file(schema);
+    for (const auto& [name, definition] : file["definitions"].items())
+      EXPECT_THAT(file.dump(), testing::HasSubstr("\"#/definitions/" + name + "\""));
+  }
 }
 
 TEST(VectorShape, PatternsAndTheirCodeAgree) {

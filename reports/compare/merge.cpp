@@ -124,9 +124,17 @@ std::vector<DutInfo> devices_of(const std::vector<ResultFile>& files) {
   return duts.size() > 1 ? duts : std::vector<DutInfo>{};
 }
 
+/// Vectors of both files that met it.
+void add_erratum(std::vector<results::ErratumInfo>& errata, const results::ErratumInfo& one) {
+  const auto known = std::ranges::find(errata, one.id, &results::ErratumInfo::id);
+  if (known == errata.end()) return errata.push_back(one);
+  for (const std::string& vector : one.vectors)
+    if (std::ranges::find(known->vectors, vector) == known->vectors.end())
+      known->vectors.push_back(vector);
+}
+
 RunInfo merge_heads(const std::vector<ResultFile>& files) {
   RunInfo run = files.front().run;
-  std::set<std::pair<std::string, std::string>> errata;
   std::vector<std::string> paths;
   run.errata.clear();
   for (const ResultFile& file : files) {
@@ -135,8 +143,7 @@ RunInfo merge_heads(const std::vector<ResultFile>& files) {
     join(run.endpoint, file.run.endpoint);
     run.identity = results::in_common(run.identity, file.run.identity);
     for (const auto& [name, value] : file.run.properties) join(run.properties[name], value);
-    for (const results::ErratumInfo& one : file.run.errata)
-      if (errata.emplace(one.vector_id, one.printed).second) run.errata.push_back(one);
+    for (const results::ErratumInfo& one : file.run.errata) add_erratum(run.errata, one);
   }
   run.duts = devices_of(files);
   if (const auto shards = run.properties.extract("shard"))

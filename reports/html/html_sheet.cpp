@@ -101,18 +101,23 @@ void write_errata(HtmlWriter& out, const HtmlSurvey& survey) {
   out.element("h2", {{"id", "errata"}}, "Errata of the manuals met");
   out.element("p", {}, "Cases judged by what is right, where the manual prints what cannot be.");
   out.element("table", {{"class", "list errata"}}, [&] {
-    write_head_row(out, {"manual", "printed", "correct, and why", "cases"});
+    write_head_row(out, {"manual", "printed", "right, and why", "cases"});
     out.element("tbody", {}, [&] {
       for (const auto& [erratum, tally] : survey.errata) {
         out.element("tr", {}, [&] {
           out.element("th", {}, [&] {
-            out.text(erratum.manual + ", " + erratum.section);
-            out.element("small", {}, erratum.vector_id);
+            std::string places;
+            for (const results::Passage& one : erratum.places)
+              places +=
+                  fmt::format("{}{}, {}", places.empty() ? "" : "; ", one.manual, one.section);
+            out.text(places);
+            out.element("small", {}, fmt::format("{}: {}", erratum.id, erratum.kind));
           });
           out.element("td", {}, [&] { out.element("code", {}, erratum.printed); });
           out.element("td", {}, [&] {
-            out.element("code", {}, erratum.correct);
+            out.element("code", {}, erratum.right);
             out.element("small", {}, erratum.why);
+            if (!erratum.doubt.empty()) out.element("small", {}, erratum.doubt);
           });
           out.element("td", {}, text::to_string(tally));
         });

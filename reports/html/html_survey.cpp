@@ -63,6 +63,11 @@ bool operator<(const SectionName& a, const SectionName& b) {
   return manuals != 0 ? manuals < 0 : compare_naturally(a.section, b.section) < 0;
 }
 
+SectionName first_place(const ErratumInfo& erratum) {
+  if (erratum.places.empty()) return {};
+  return {erratum.places.front().manual, erratum.places.front().section};
+}
+
 void HtmlSurveyor::add(const CaseResult& result) {
   survey_.tally.add(result.verdict);
   by_id_[result.id].add(result.verdict);
@@ -81,9 +86,12 @@ void HtmlSurveyor::add(const CaseResult& result) {
 
 HtmlSurvey HtmlSurveyor::finish(const RunLog& log) {
   for (const ErratumInfo& erratum : log.run.errata) {
-    if (Tally met = executed(erratum.vector_id); met.total() > 0)
-      survey_.errata.emplace_back(erratum, met);
+    Tally met;
+    for (const std::string& vector : erratum.vectors) met.add(executed(vector));
+    if (met.total() > 0) survey_.errata.emplace_back(erratum, met);
   }
+  std::ranges::stable_sort(survey_.errata, std::less<>{},
+                           [](const auto& one) { return first_place(one.first); });
   survey_.log = log;
   return std::move(survey_);
 }

@@ -21,6 +21,9 @@ struct SectionName {
 };
 bool operator<(const SectionName& a, const SectionName& b);
 
+/// Where an erratum is listed.
+SectionName first_place(const results::ErratumInfo& erratum);
+
 struct SectionReport {
   text::Tally tally;
   HtmlWriter red;         // lines that lead to the blocks at the top

@@ -83,17 +83,32 @@ TEST_F(Survey, ReadingsAreCountedByWhatWasTaken) {
   EXPECT_EQ(1u, made.readings.at("type_echo").at("as_sent").cases);
 }
 
-TEST_F(Survey, ErrataAreMetByExecutedCasesOfTheirVector) {
+TEST_F(Survey, ErrataAreMetByExecutedCasesOfTheirVectors) {
   results::RunInfo run = samples::run_info();
-  for (const char* vector : {"a/v", "a/w", "a/blocked"})
-    run.errata.push_back({vector, "m", "1", "printed", "correct", "why"});
+  const auto add = [&](const char* id, const char* section, std::vector<std::string> vectors) {
+    run.errata.push_back({id,
+                          "wording",
+                          "printed",
+                          "right",
+                          "why",
+                          "effect",
+                          "",
+                          {{"m", section, "q"}},
+                          {},
+                          std::move(vectors)});
+  };
+  add("e/both", "7.10", {"a/v", "a/blocked"});
+  add("e/early", "7.9", {"a/v"});
+  add("e/none", "1", {"a/w"});
+  add("e/blocked", "1", {"a/blocked"});
   const HtmlSurvey made =
       survey({samples::with(Verdict::pass, "a/v/first"), samples::with(Verdict::fail, "a/v/second"),
               samples::with(Verdict::pass, "a/vx"), samples::with(Verdict::blocked, "a/blocked")},
              {}, run);
-  ASSERT_EQ(1u, made.errata.size());
-  EXPECT_EQ("a/v", made.errata[0].first.vector_id);
-  EXPECT_EQ("1 PASS, 1 FAIL", text::to_string(made.errata[0].second));
+  ASSERT_EQ(2u, made.errata.size());
+  EXPECT_EQ("e/early", made.errata[0].first.id);
+  EXPECT_EQ("e/both", made.errata[1].first.id);
+  EXPECT_EQ("1 PASS, 1 FAIL", text::to_string(made.errata[1].second));
 }
 
 TEST_F(Survey, MovedCasesAreCounted) {

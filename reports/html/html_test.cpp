@@ -241,7 +241,16 @@ TEST_F(Html, HostileBytesSurvive) {
   run.identity = {
       hostile, hostile, hostile, hostile, hostile, hostile, hostile, {{hostile, hostile}}, {}};
   run.hashes = {{hostile, hostile}};
-  run.errata = {{"bad", hostile, hostile, hostile, hostile, hostile}};
+  run.errata = {{hostile,
+                 hostile,
+                 hostile,
+                 hostile,
+                 hostile,
+                 hostile,
+                 hostile,
+                 {{hostile, hostile, hostile}},
+                 {},
+                 {"bad"}}};
   std::vector<CaseResult> results;
   for (Verdict verdict : text::Tally::verdicts) {
     CaseResult result = samples::failure();

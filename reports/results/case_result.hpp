@@ -131,10 +131,18 @@ struct DutInfo {
   Identity identity = {};
 };
 
-/// A mistake of a manual that the vectors of this run know of.
+/// Words of a manual.
+struct Passage {
+  std::string manual, section, quote;
+};
+
+/// A mistake of a manual, once, with all its places.
 struct ErratumInfo {
-  std::string vector_id, manual, section;
-  std::string printed, correct, why;
+  std::string id, kind;
+  std::string printed, right;
+  std::string why, effect, doubt;  // `doubt` may be empty
+  std::vector<Passage> places, proof;
+  std::vector<std::string> vectors = {};  // of this run that were made by what is right
 };
 
 /// What a run is about: the first line of the NDJSON file and the head of each report.

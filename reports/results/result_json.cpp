@@ -133,12 +133,22 @@ void fields(auto& json, Of<DutInfo> auto& dut) {
   json.may("properties", dut.properties);
 }
 
+void fields(auto& json, Of<Passage> auto& passage) {
+  json.must("manual", passage.manual);
+  json.always("quote", passage.quote);
+  json.must("section", passage.section);
+}
+
 void fields(auto& json, Of<ErratumInfo> auto& erratum) {
-  json.always("correct", erratum.correct);
-  json.always("manual", erratum.manual);
+  json.may("doubt", erratum.doubt);
+  json.always("effect", erratum.effect);
+  json.must("id", erratum.id);
+  json.always("kind", erratum.kind);
+  json.always("places", erratum.places);
   json.always("printed", erratum.printed);
-  json.always("section", erratum.section);
-  json.must("vector", erratum.vector_id);
+  json.always("proof", erratum.proof);
+  json.always("right", erratum.right);
+  json.may("vectors", erratum.vectors);
   json.always("why", erratum.why);
 }
 

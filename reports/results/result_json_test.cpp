@@ -138,8 +138,16 @@ TEST(RunJson, IdentityHashesAndErrataComeBack) {
   info.identity = {"bench-1", "LS",     "XBC-DN32H",         "S/N 7",           "V1.8",
                    "Kim",     "port 2", {{"areas", "PMLK"}}, {{"areas", "PML"}}};
   info.hashes = {{"tool", "00ff"}};
-  info.errata = {
-      {"xgt_cnet/rss/two_words", "xgb-cnet-en-1.6", "7.1.5", "H2550", "H255057", "six characters"}};
+  info.errata = {{"cnet_7/name",
+                  "wrong bytes",
+                  "H2550",
+                  "H255057",
+                  "six characters",
+                  "sends seven",
+                  "check it",
+                  {{"xgb-cnet-en-1.6", "7.1.5", "H2550 printed"}},
+                  {{"xgb-cnet-en-1.6", "7.1.2", "the length"}},
+                  {"xgt_cnet/rss/two_words"}}};
   const auto again = as_json(info).get<RunInfo>();
   // As in NoFieldIsForgotten.
   const auto& [name, maker, model, serial, firmware, operator_name, notes, fingerprint,
@@ -151,7 +159,14 @@ TEST(RunJson, IdentityHashesAndErrataComeBack) {
   EXPECT_EQ(info.identity.fingerprint_found, fingerprint_found);
   EXPECT_EQ(info.hashes, again.hashes);
   ASSERT_EQ(1u, again.errata.size());
-  EXPECT_EQ("six characters", again.errata[0].why);
+  const auto& [id, kind, printed, right, why, effect, doubt, places, proof, vectors] =
+      again.errata[0];
+  EXPECT_EQ(10u, as_json(again)["errata"][0].size());
+  EXPECT_EQ("cnet_7/name wrong bytes H2550 H255057", id + " " + kind + " " + printed + " " + right);
+  EXPECT_EQ("six characters, sends seven, check it", why + ", " + effect + ", " + doubt);
+  EXPECT_EQ("H2550 printed", places.at(0).quote);
+  EXPECT_EQ("7.1.2", proof.at(0).section);
+  EXPECT_EQ("xgt_cnet/rss/two_words", vectors.at(0));
   EXPECT_EQ(as_json(info), as_json(again));
 }
 

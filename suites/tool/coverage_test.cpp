@@ -38,11 +38,15 @@ class Traceability : public testing::Test {
     table["facts"] = {{"a", "b"}};
     table.erase("steps");
     ordered_json pass = citing(small_vector("v/pass"), {"m/1", "m/2"});
-    pass["errata"] = {
-        {{"printed", "a|b"}, {"correct", "c"}, {"why", "the sentence above says so"}}};
+    folder_.write("vectors/errata/m_7.json", erratum);
     vectors_ = write_vectors(
         folder_, {pass, citing(small_vector("v/fail", wrong_word), {"m/2"}), other, table});
   }
+
+  static constexpr const char* erratum = R"([{"id": "m_7/bar", "kind": "wrong bytes",
+    "places": ["m/1", {"manual": "m", "section": "9", "quote": "b|a too"}], "printed": "a|b",
+    "right": "c", "proof": ["m/2"], "why": "the sentence above says so",
+    "effect": "sends a|b", "doubt": "check the page"}])";
 
   Finished list(std::vector<std::string> more) {
     std::vector<std::string> arguments{"list", "--coverage", "--vectors", vectors_};
@@ -168,12 +172,20 @@ TEST_F(Traceability, bad_options_are_named) {
 
 TEST_F(Traceability, errata_have_three_forms) {
   EXPECT_EQ(run_tool({"errata", "--vectors", vectors_}).out,
-            "m 1\n  printed: a|b\n  correct: c\n  why:     the sentence above says so\n  vector:  "
-            "xgt_cnet/v/pass\n\n1 errata\n");
-  EXPECT_EQ(run_tool({"errata", "--vectors", vectors_, "--markdown"}).out,
-            "# Errata of the manuals\n\n1 errata\n\n## m\n\n| section | printed | correct | why | "
-            "vector |\n| --- | --- | --- | --- | --- |\n"
-            "| 1 | a\\|b | c | the sentence above says so | xgt\\_cnet/v/pass |\n");
+            "m_7/bar: wrong bytes\n"
+            "  place:   m 7.1: \"says <b>five</b> | words of it\"\n"
+            "  place:   m 9: \"b|a too\"\n"
+            "  printed: a|b\n  right:   c\n"
+            "  proof:   m 7.2: \"says <b>five</b> | words of it\"\n"
+            "  why:     the sentence above says so\n  effect:  sends a|b\n"
+            "  doubt:   check the page\n\n1 errata: 1 wrong bytes\n");
+  const std::string markdown = run_tool({"errata", "--vectors", vectors_, "--markdown"}).out;
+  EXPECT_THAT(markdown, HasSubstr("# Errata of the manuals\n\n1 errata: 1 wrong bytes\n\n## m\n\n"
+                                  "| section | kind | printed | right | proof | what a reader "
+                                  "would do wrong | id |\n"));
+  EXPECT_THAT(markdown, HasSubstr("\n| 7.1; 9 | wrong bytes | a\\|b | c | the sentence above says "
+                                  "so. m 7.2: "));
+  EXPECT_THAT(markdown, HasSubstr(" | sends a\\|b (check the page) | m\\_7/bar |\n"));
   const nlohmann::json printed =
       nlohmann::json::parse(run_tool({"errata", "--vectors", vectors_, "--json"}).out);
   EXPECT_EQ(printed.size(), 1u);

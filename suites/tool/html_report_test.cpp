@@ -79,12 +79,19 @@ TEST_F(HtmlReport, sheet_has_the_hashes_of_what_was_run) {
 
 TEST_F(HtmlReport, errata_of_the_cases_that_ran_are_listed) {
   nlohmann::ordered_json vector = small_vector("v/erratum");
-  vector["errata"] = {
-      {{"printed", "H2550"}, {"correct", "H255057"}, {"why", "the name is six characters"}}};
+  vector["source"]["statement"] = "m/2";
+  folder_.write("vectors/manuals.json",
+                R"([{"id": "m", "file": "m.txt", "title": "T", "edition": ""}])");
+  folder_.write("vectors/statements/m.json",
+                R"([{"id": "m/1", "section": "1", "quote": "as it is printed here"},
+                    {"id": "m/2", "section": "2", "quote": "the name is six characters"}])");
+  folder_.write("vectors/errata/m.json", R"([{"id": "m/name", "kind": "wrong bytes",
+    "places": ["m/2"], "printed": "H2550", "right": "H255057", "proof": ["m/1"],
+    "why": "the name is six characters", "effect": "sends a name of five"}])");
   const std::string vectors = write_vectors(folder_, {small_vector("v/pass"), vector});
   run_tool({"run", "--vectors", vectors, "--out", folder_ / "out"});
   EXPECT_EQ(ParsedHtml(page()).text("//table[@class='list errata']/tbody//small"),
-            "xgt_cnet/v/erratum");
+            "m/name: wrong bytes");
   run_tool({"run", "--vectors", vectors, "--out", folder_ / "out", "--filter", "*/pass"});
   EXPECT_EQ(ParsedHtml(page()).count("//h2[@id='errata']"), 0u);
 }
