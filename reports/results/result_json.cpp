@@ -142,7 +142,7 @@ void fields(auto& json, Of<Passage> auto& passage) {
 void fields(auto& json, Of<ErratumInfo> auto& erratum) {
   json.may("doubt", erratum.doubt);
   json.always("effect", erratum.effect);
-  json.must("id", erratum.id);
+  json.always("id", erratum.id);  // not in older files
   json.always("kind", erratum.kind);
   json.always("places", erratum.places);
   json.always("printed", erratum.printed);

@@ -46,7 +46,7 @@ class Traceability : public testing::Test {
   static constexpr const char* erratum = R"([{"id": "m_7/bar", "kind": "wrong bytes",
     "places": ["m/1", {"manual": "m", "section": "9", "quote": "b|a too"}], "printed": "a|b",
     "right": "c", "proof": ["m/2"], "why": "the sentence above says so",
-    "effect": "sends a|b", "doubt": "check the page"}])";
+    "effect": "sends a|b to it", "doubt": "check the page"}])";
 
   Finished list(std::vector<std::string> more) {
     std::vector<std::string> arguments{"list", "--coverage", "--vectors", vectors_};
@@ -177,7 +177,7 @@ TEST_F(Traceability, errata_have_three_forms) {
             "  place:   m 9: \"b|a too\"\n"
             "  printed: a|b\n  right:   c\n"
             "  proof:   m 7.2: \"says <b>five</b> | words of it\"\n"
-            "  why:     the sentence above says so\n  effect:  sends a|b\n"
+            "  why:     the sentence above says so\n  effect:  sends a|b to it\n"
             "  doubt:   check the page\n\n1 errata: 1 wrong bytes\n");
   const std::string markdown = run_tool({"errata", "--vectors", vectors_, "--markdown"}).out;
   EXPECT_THAT(markdown, HasSubstr("# Errata of the manuals\n\n1 errata: 1 wrong bytes\n\n## m\n\n"
@@ -185,7 +185,7 @@ TEST_F(Traceability, errata_have_three_forms) {
                                   "would do wrong | id |\n"));
   EXPECT_THAT(markdown, HasSubstr("\n| 7.1; 9 | wrong bytes | a\\|b | c | the sentence above says "
                                   "so. m 7.2: "));
-  EXPECT_THAT(markdown, HasSubstr(" | sends a\\|b (check the page) | m\\_7/bar |\n"));
+  EXPECT_THAT(markdown, HasSubstr(" | sends a\\|b to it \\(check the page\\) | m\\_7/bar |\n"));
   const nlohmann::json printed =
       nlohmann::json::parse(run_tool({"errata", "--vectors", vectors_, "--json"}).out);
   EXPECT_EQ(printed.size(), 1u);
