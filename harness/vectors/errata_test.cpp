@@ -83,7 +83,8 @@ TEST(Errata, TheirQuotesAreLocked) {
   const VectorSet set = load(two);
   EXPECT_THAT(lint_lock(set, quotes_lock(set)), IsEmpty());
   EXPECT_THAT(lint_lock(load(changed("see chapter 9", "see chapter 8")), quotes_lock(set)),
-              ElementsAre(HasSubstr("m_7/chapter: the quote is not the one last verified")));
+              ElementsAre(HasSubstr(
+                  "errata/m_7.json:5: m_7/chapter: the quote is not the one last verified")));
 }
 
 TEST(ErratumShape, PatternAndCodeAgree) {

@@ -19,6 +19,9 @@ namespace {
 /// for each of its cases.
 struct Quote {
   std::string id, manual, text;
+  std::string at{};  // "errata/cnet_7.json:12: ", of an erratum
+
+  std::string name() const { return at + id; }
 };
 std::vector<Quote> quotes(const VectorSet& set) {
   std::map<std::string, Quote> by_id;
@@ -31,7 +34,7 @@ std::vector<Quote> quotes(const VectorSet& set) {
     for (const std::vector<Passage>* list : {&one.places, &one.proof})
       for (const Passage& passage : *list)
         by_id[fmt::format("erratum {} {} {}", one.id, passage.manual, passage.quote)] = {
-            one.id, passage.manual, passage.quote};
+            one.id, passage.manual, passage.quote, one.at + ": "};
   std::vector<Quote> result;
   std::set<std::pair<std::string, std::string>> seen;
   for (auto& [key, quote] : by_id)
@@ -76,14 +79,14 @@ std::vector<std::string> lint_quotes(const VectorSet& set, const fs::path& folde
   for (const Quote& quote : quotes(set)) {
     const auto text = texts.find(quote.manual);
     if (text == texts.end())
-      problems.push_back(
-          fmt::format("{}: the text of {} is not in {}", quote.id, quote.manual, folder.string()));
+      problems.push_back(fmt::format("{}: the text of {} is not in {}", quote.name(), quote.manual,
+                                     folder.string()));
     else if (text->second.find(fold_space(quote.text)) == std::string::npos)
-      problems.push_back(fmt::format("{}: the quote does not stand in {}: \"{}\"", quote.id,
+      problems.push_back(fmt::format("{}: the quote does not stand in {}: \"{}\"", quote.name(),
                                      quote.manual, quote.text));
     if (!long_enough(quote.text))
-      problems.push_back(
-          fmt::format("{}: the quote is shorter than five words: \"{}\"", quote.id, quote.text));
+      problems.push_back(fmt::format("{}: the quote is shorter than five words: \"{}\"",
+                                     quote.name(), quote.text));
   }
   return problems;
 }
@@ -105,7 +108,7 @@ std::vector<std::string> lint_lock(const VectorSet& set, const std::string& lock
       problems.push_back(
           fmt::format("{}: the quote is not the one last verified against the manual; run "
                       "`fieldproof lint --manuals DIR --lock`",
-                      quote.id));
+                      quote.name()));
   return problems;
 }
 
