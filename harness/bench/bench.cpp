@@ -77,6 +77,7 @@ Status Bench::start() {
   if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
   const bool listens = endpoint_.capabilities().real_device && !options_.client_cases.empty();
   if (listens) config["role"] = "client";
+  silent_ = false;
   if (Status begun = endpoint_.begin(config); !begun) return begun;
   if (listens) {
     const Result<bool> asked = wait_for_request();
@@ -84,11 +85,18 @@ Status Bench::start() {
     if (!asked) return asked.error();
     return *asked ? ok() : Status(fail(why_nothing_is_asked({&endpoint_, &protocol_, station})));
   }
-  const Result<exchange::Sign> sign = exchange_.anything_answers(station, start_patience);
+  const Result<exchange::Sign> sign = exchange_.first_sign(station, start_patience);
   port_failed_ = !sign;
   if (!sign) return sign.error();
   answers_ = *sign == exchange::Sign::alive;
+  silent_ = *sign == exchange::Sign::silent;
   return answers_ ? ok() : Status(fail(why_silent({&endpoint_, &protocol_, station}, *sign)));
+}
+
+std::optional<exchange::Channel> Bench::silent_line() const {
+  const exchange::Channel asked{&endpoint_, &protocol_, options_.station};
+  if (!silent_ || exchange::implicit_transport(asked)) return std::nullopt;
+  return asked;
 }
 
 /// A program is told that the case is over. What it asked last is given up before the next one

@@ -53,6 +53,9 @@ class Bench {
   /// check.
   Status start();
 
+  /// Nothing answered in start(), on a line: who is asked there.
+  std::optional<exchange::Channel> silent_line() const;
+
   /// How fast this device answers; none on simulated time, which has no floor, and where start()
   /// found no answer.
   Result<std::optional<AdapterFloor>> measure_floor();
@@ -153,6 +156,7 @@ class Bench {
   bool set_up_answered_ = true;  // in the present case: saving and setting memory
   bool port_failed_ = false;
   bool answers_ = false;  // the device answers probes
+  bool silent_ = false;   // nothing came in start()
   bool interrupted_ = false;
   bool client_gave_up_ = false;  // the program under test, in some case
 };

@@ -40,6 +40,12 @@ Status Benches::start() {
   return ok();
 }
 
+std::optional<exchange::Channel> Benches::silent_line() const {
+  for (const Member& member : members_)
+    if (std::optional<exchange::Channel> asked = member.bench->silent_line()) return asked;
+  return std::nullopt;
+}
+
 const Benches::Member& Benches::member_for(const vectors::Case& source) const {
   const auto own = std::ranges::find_if(
       members_, [&](const Member& member) { return member.protocol->name() == source.protocol; });

@@ -21,6 +21,9 @@ class Benches {
   /// The sanity exchange of each; of those that have not stopped.
   Status start();
 
+  /// Bench::silent_line of the first that has one.
+  std::optional<exchange::Channel> silent_line() const;
+
   /// Measures what the link of each can show, before its first case; what it comes to, empty on
   /// simulated time.
   Result<std::string> measure_floor();

@@ -27,6 +27,19 @@ std::string why_silent(const exchange::Channel& device, exchange::Sign sign) {
         "table of hosts lets this computer in and that other clients leave it a "
         "connection (a device takes few)",
         where);
+  if (sign == exchange::Sign::echo && on_network(device))
+    return fmt::format(
+        "the bench hears its own requests: echo on {}: whatever listens there sends back what it "
+        "receives; check that address and port are those of the device",
+        where);
+  if (sign == exchange::Sign::echo)
+    return fmt::format(
+        "the bench hears its own requests: echo on {}: what it sends comes back. Switch the "
+        "adapter to two wires without echo (rs485=1, or rs485=rts), the module to RS-485, not "
+        "RS-422 (Cnet EN 11.2.4), and see that TX and RX are not joined; where the adapter cannot, "
+        "write echo=on behind the '?' of the endpoint: then the bench takes its own bytes out of "
+        "what it receives",
+        where);
   if (on_network(device))
     return fmt::format(
         "nothing answers on {}: check that the device has power, that address and "

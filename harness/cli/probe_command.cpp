@@ -240,11 +240,13 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
   std::fflush(stdout);
 
   const ProgressLine progress(longest / static_cast<Duration::rep>(plan.size()), space->settable);
-  probe::Prober prober(open, protocols, timing,
-                       [&](std::size_t done, std::size_t total, const probe::Observation& last) {
-                         progress.show(done, total, last);
-                       });
-  const Result<probe::Search> search = prober.run(plan, options.all);
+  // The prober goes with its port, which the fingerprint opens anew.
+  const Result<probe::Search> search =
+      probe::Prober(open, protocols, timing,
+                    [&](std::size_t done, std::size_t total, const probe::Observation& last) {
+                      progress.show(done, total, last);
+                    })
+          .run(plan, options.all);
   progress.erase();
   if (!search) return run::complain(search.error().message, run::exit_code::trouble);
   for (const std::string& refused : search->not_offered)

@@ -44,7 +44,7 @@ Result<Connection> connect(const safety::JournalDevice& device, const std::strin
       !begun)
     return begun.error();
   exchange::Exchange exchange(*connection.endpoint, declared, {});
-  const Result<exchange::Sign> alive = exchange.anything_answers(device.station, start_patience);
+  const Result<exchange::Sign> alive = exchange.first_sign(device.station, start_patience);
   if (!alive) return alive.error();
   if (*alive != exchange::Sign::alive)
     return fail(bench::why_silent({connection.endpoint.get(), &declared, device.station}, *alive));

@@ -16,6 +16,7 @@
 #include "harness/run/coverage_hint.hpp"
 #include "harness/run/line_steps.hpp"
 #include "harness/run/long_texts.hpp"
+#include "harness/run/look_on.hpp"
 #include "harness/run/ports.hpp"
 #include "harness/run/run_info.hpp"
 #include "harness/run/run_plan.hpp"
@@ -58,9 +59,11 @@ class Run {
   Status start() {
     if (const Status measured = measure_over_loop(); !measured) return measured;
     if (!plan_.matrix.empty()) return ok();  // at each step
-    for (Benches& port : ports_) {
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+      Benches& port = ports_[i];
       const Status alive = port.start();
-      Result<std::string> floor = alive ? take_floor(port) : alive.error();
+      Result<std::string> floor =
+          alive ? take_floor(port) : run::looked_on(alive.error(), port, plan_.dut(i));
       if (!floor && (plan_.others.empty() || floor.error().interrupted)) return floor.error();
       floors_.push_back(floor ? *floor : "");
       unable_.push_back(floor ? "" : floor.error().message);  // the other devices go on without it

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "harness/endpoints/echo.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "src/base/spelling.hpp"
 
@@ -128,7 +129,9 @@ Result<std::unique_ptr<Endpoint>> open_endpoint(const EndpointName& name,
   const KindOf& kind = kind_of(name);
   if (kind.name.empty()) return fail("cannot open an endpoint: " + unknown_kind(name.kind));
   if (const Status fits = check_endpoint(name, protocol); !fits) return fits.error();
-  return kind.open(name, protocol);
+  Result<std::unique_ptr<Endpoint>> opened = kind.open(name, protocol);
+  if (opened && removes_echo(name)) return without_echo(std::move(*opened));
+  return opened;
 }
 
 }  // namespace fieldproof::endpoints

@@ -86,7 +86,7 @@ TEST(EndpointName, AnUnknownKindGetsASuggestion) {
 TEST(EndpointName, AnUnknownOptionGetsASuggestion) {
   EXPECT_THAT(refusal("serial:/dev/ttyUSB0?buad=9600"),
               HasSubstr("unknown option 'buad'; the options of serial are protocol, station, "
-                        "floor_ms, baud, frame, rs485; did you mean 'baud'?"));
+                        "floor_ms, baud, frame, rs485, echo; did you mean 'baud'?"));
   EXPECT_THAT(refusal("tcp:plc:2004?baud=9600"),
               HasSubstr("unknown option 'baud'; the options of tcp are"));
 }

@@ -9,8 +9,8 @@ namespace fieldproof::endpoints {
 /// Runs COMMAND by /bin/sh. `{tty}` in it becomes the path of the pty; without any mark, stdin and
 /// stdout are the pty. With `{port}` it is a device on a network instead, see open_exec_network.
 /// `act("power_cycle")` ends it with all its children and starts it anew. Options: floor_ms,
-/// station, protocol. When it ends, send and receive fail and say its exit status and the last
-/// lines of its stderr.
+/// station, protocol, echo. When it ends, send and receive fail and say its exit status and the
+/// last lines of its stderr.
 Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name,
                                             const harness::Protocol& protocol);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/endpoints/echo.hpp"
 #include "harness/endpoints/emulator.hpp"
 #include "harness/endpoints/exec.hpp"
 #include "harness/endpoints/listen.hpp"
@@ -19,13 +20,13 @@ namespace fieldproof::endpoints {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> link_keys{"protocol", "station", "floor_ms"};
-constexpr std::array<std::string_view, 5> tcp_keys{"protocol", "station", "floor_ms", "udp",
-                                                   "line"};
+constexpr std::array<std::string_view, 4> exec_keys{"protocol", "station", "floor_ms", "echo"};
+constexpr std::array<std::string_view, 6> tcp_keys{"protocol", "station", "floor_ms",
+                                                   "udp",      "line",    "echo"};
 constexpr std::array<std::string_view, 4> udp_keys{"protocol", "station", "floor_ms", "line"};
 constexpr std::array<std::string_view, 4> listen_keys{"protocol", "station", "floor_ms", "udp"};
-constexpr std::array<std::string_view, 6> serial_keys{"protocol", "station", "floor_ms",
-                                                      "baud",     "frame",   "rs485"};
+constexpr std::array<std::string_view, 7> serial_keys{"protocol", "station", "floor_ms", "baud",
+                                                      "frame",    "rs485",   "echo"};
 
 /// Ways that carry bytes, whatever protocol they are of.
 template <Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&)>
@@ -60,7 +61,7 @@ constexpr std::array kinds{
            .open = plain<open_serial>},
     KindOf{.name = "exec",
            .target = "COMMAND",
-           .options = link_keys,
+           .options = exec_keys,
            .free_target = true,
            .can_restart = true,
            .lines = true,
@@ -134,6 +135,7 @@ Status check_endpoint(const EndpointName& name, const harness::Protocol& protoco
   if (is_network(protocol) && !kind.connections && !kind.datagrams)
     return wrong(fmt::format("it runs on a network; write {}",
                              kind.emulated ? "emulator:" + name.target : "tcp:HOST"));
+  if (const Status echo = check_echo(name, protocol); !echo) return wrong(echo.error().message);
   if (!kind.check_protocol) return ok();
   const Status checked = kind.check_protocol(name, protocol);
   return checked ? ok() : Status(wrong(checked.error().message));

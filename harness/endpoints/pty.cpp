@@ -33,7 +33,7 @@ std::string device_name(const EndpointName& name) {
   std::string text = name.target;
   char mark = '?';
   for (const auto& [key, value] : name.options) {
-    if (key == "floor_ms") continue;
+    if (key == "floor_ms" || key == "echo") continue;
     text += mark + key + '=' + value;
     mark = '&';
   }

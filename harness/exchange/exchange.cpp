@@ -22,6 +22,10 @@ Result<Sign> Exchange::anything_answers(int station, Duration patience, Duration
   return Sanity(at(station), timing_).anything_answers(patience, reply_delay, starting);
 }
 
+Result<Sign> Exchange::first_sign(int station, Duration patience) {
+  return Sanity(at(station), timing_).first_sign(patience);
+}
+
 Result<bool> Exchange::anything_is_asked(const PreparedCase& prepared, Duration patience) {
   return CaseRun({device_, timing_, aux_, arming_}, prepared).is_asked(patience);
 }

@@ -24,6 +24,8 @@ class Exchange {
   /// Sanity::anything_answers at this station.
   Result<Sign> anything_answers(int station, Duration patience, Duration reply_delay = {},
                                 bool starting = false);
+  /// Sanity::first_sign at this station.
+  Result<Sign> first_sign(int station, Duration patience);
   /// Client role: does the device ask? Does what the case does before it expects the first request,
   /// and listens until `patience` is over; then until the device has given up, so that the next
   /// case begins in silence.

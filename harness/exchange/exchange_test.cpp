@@ -86,6 +86,26 @@ TEST_F(ExchangeTest, TimingProbesIsBounded) {
   EXPECT_EQ(Exchange(endpoint, mute, {}).time_probes(1, 20, 2s)->count(), 0u);
 }
 
+TEST_F(ExchangeTest, ALineThatEchoesIsToldFromADeviceThatAnswers) {
+  const TestProtocol protocol;
+  std::size_t asked = 0;
+  const auto sign = [&](Pieces pieces, const std::string& forgets = "") {
+    ScriptedEndpoint line;
+    line.answers["<probe>"] = std::move(pieces);
+    line.forgets = forgets;
+    const Result<Sign> first = Exchange(line, protocol, {}).first_sign(1, 2s);
+    asked = line.sent.size();
+    return *first;
+  };
+  EXPECT_EQ(sign({{1ms, "<alive>"}}), Sign::alive);
+  EXPECT_EQ(asked, 1u) << "nothing is asked twice where nothing comes back";
+  EXPECT_EQ(sign({{0ms, "<pro"}, {0ms, "be>"}}), Sign::echo);
+  EXPECT_EQ(sign({{0ms, "<probe>"}, {1ms, "<alive>"}}), Sign::echo);
+  EXPECT_EQ(sign({{0ms, "x"}, {0ms, "<probe><alive>"}}), Sign::echo) << "behind what was there";
+  EXPECT_EQ(sign({}), Sign::silent);
+  EXPECT_EQ(sign({{0ms, "<probe>"}}, "<probe>"), Sign::alive) << "once is no echo";
+}
+
 TEST_F(ExchangeTest, NothingIsWaitedForWhereFramesHaveAnEnd) {
   EXPECT_THAT(exchange(TestProtocol(), two_requests), ElementsAre("<ask>", "<ask>"));
 }

@@ -8,6 +8,8 @@ namespace {
 
 constexpr Duration settle_patience = 10s;
 
+bool has(ByteView bytes, ByteView part) { return !std::ranges::search(bytes, part).empty(); }
+
 }  // namespace
 
 Result<Sign> Sanity::anything_answers(Duration patience, Duration reply_delay, bool starting) {
@@ -17,6 +19,7 @@ Result<Sign> Sanity::anything_answers(Duration patience, Duration reply_delay, b
   const Time begun = endpoint.now(), give_up = begun + patience + reply_delay;
   Sign sign = Sign::silent;
   heard_.clear();
+  all_.clear();
   probes_ = answers_ = 0;
   for (bool first = true; endpoint.now() < give_up; first = false) {
     const Result<Sent> sent = visit_.send(request);
@@ -41,20 +44,22 @@ Result<Sign> Sanity::anything_answers(Duration patience, Duration reply_delay, b
 
 /// Until as many answers have come as were asked for, and never ends in mid-frame.
 Status Sanity::hear_answers(Time until, Time begun) {
-  const Time cut_off = until + longest_reply(device_.protocol->longest_frame(),
-                                             device_.endpoint->character_time());
+  const Time cut_off =
+      until + longest_reply(device_.protocol->longest_frame(), device_.endpoint->character_time());
   while (answers_ < probes_) {
     const Result<Burst> burst = visit_.receive(until);
     if (!burst) return burst.error();
     if (burst->bytes.empty()) return ok();
     heard_.insert(heard_.end(), burst->bytes.begin(), burst->bytes.end());
+    if (all_.size() < flood_limit)
+      all_.insert(all_.end(), burst->bytes.begin(), burst->bytes.end());
     if (heard_.size() > flood_limit) return ok();
     answers_ += take_frames(heard_);
     // Answers to earlier probes may still be on their way: as long as the first one took.
     const Time now = device_.endpoint->now();
-    until = std::min(
-        now + std::max<Duration>(heard_.empty() ? timing_.quiet : timing_.response_max, now - begun),
-        cut_off);
+    until = std::min(now + std::max<Duration>(heard_.empty() ? timing_.quiet : timing_.response_max,
+                                              now - begun),
+                     cut_off);
     if (now >= cut_off) return ok();
   }
   return ok();
@@ -99,6 +104,39 @@ Result<std::optional<Duration>> Sanity::time_probe(ByteView request, Time& last)
     heard.insert(heard.end(), burst->bytes.begin(), burst->bytes.end());
   }
   return took;
+}
+
+/// Of one more probe.
+Result<bool> Sanity::comes_back(ByteView request, Time& last) {
+  if (const Status silent = before_probe(last); !silent) return silent.error();
+  const Result<Sent> sent = visit_.send(request);
+  if (!sent) return sent.error();
+  Bytes heard;
+  while (heard.size() <= flood_limit && !has(heard, request)) {
+    const Result<Burst> burst = visit_.receive(sent->end + timing_.response_max);
+    if (!burst) return burst.error();
+    if (burst->bytes.empty()) break;
+    last = burst->end();
+    heard.insert(heard.end(), burst->bytes.begin(), burst->bytes.end());
+  }
+  return has(heard, request);
+}
+
+Result<Sign> Sanity::first_sign(Duration patience) {
+  const Result<Sign> sign = anything_answers(patience);
+  const Bytes request = device_.protocol->probe(device_.station, {});
+  if (!sign || *sign != Sign::alive || request.empty() || !has(all_, request) ||
+      device_.protocol->reply_repeats(request))
+    return sign;
+  Time last{};
+  for (int again = 0; again < 2; ++again) {
+    const Result<bool> back = comes_back(request, last);
+    if (!back) return back.error();
+    if (*back) continue;
+    const Status quiet = settle(*device_.endpoint, timing_.quiet);
+    return quiet ? sign : quiet.error();
+  }
+  return Sign::echo;
 }
 
 Result<results::ResponseTimes> Sanity::time_probes(int count, Duration budget) {

@@ -15,7 +15,8 @@ enum class Sign {
   alive,
   silent,
   refused,  // the connection: nothing listens there
-  ended     // the device took the connection and closed it without a word
+  ended,    // the device took the connection and closed it without a word
+  echo      // what was sent comes back, whatever comes behind it
 };
 
 class Sanity {
@@ -29,6 +30,10 @@ class Sanity {
   Result<Sign> anything_answers(Duration patience, Duration reply_delay = {},
                                 bool starting = false);
 
+  /// The same at the start of a run, where a line that echoes is told from a device that answers:
+  /// three probes have come back.
+  Result<Sign> first_sign(Duration patience);
+
   /// How long answers to the probe take: so many, or fewer when `budget` is over first.
   Result<results::ResponseTimes> time_probes(int count, Duration budget);
 
@@ -36,12 +41,14 @@ class Sanity {
   Status hear_answers(Time until, Time begun);
   Status before_probe(Time last);
   Result<std::optional<Duration>> time_probe(ByteView request, Time& last);
+  Result<bool> comes_back(ByteView request, Time& last);
   std::size_t take_frames(Bytes& bytes) const;
 
   Channel device_;
   ExchangeTiming timing_;
   Visit visit_;
-  Bytes heard_;
+  Bytes heard_;                           // of frames that are not complete yet
+  Bytes all_;                             // since the first probe, at most flood_limit and a burst
   std::size_t probes_ = 0, answers_ = 0;  // over the present connection
 };
 

@@ -32,7 +32,9 @@ constexpr const char* echo_text = "our own question comes back";
 constexpr const char* echo_advice =
     "a two-wire RS-485 line hears itself: set the adapter to two-wire mode without echo (rs485=1, "
     "or rs485=rts), "
-    "and the module to RS-485, not RS-422 (Cnet EN 11.2.4); see also that TX and RX are not joined";
+    "and the module to RS-485, not RS-422 (Cnet EN 11.2.4); see also that TX and RX are not "
+    "joined; "
+    "echo=on behind the '?' of the endpoint takes the echo out";
 constexpr const char* two_devices_advice =
     "two devices have this station number: disconnect one, or give it another number (Cnet EN "
     "11.2.5)";

@@ -10,6 +10,9 @@ namespace {
 /// More than any reply and a second one; a line that goes on talks without end.
 constexpr std::size_t flood = 2048;
 
+/// For the last question of a search that may take only so long, and its confirmation.
+constexpr Duration last_answers = 900ms;
+
 bool is_sure(Symptom symptom) {
   return symptom == Symptom::reply || symptom == Symptom::second_reply;
 }
@@ -38,7 +41,7 @@ Result<Search> Prober::run(std::vector<Trial> rest, bool all) {
     if (!known_line(one.line)) lines_.push_back(one.line);
   rest.insert(rest.begin(), Trial{rest.front().line});
   total_ = rest.size();
-  while (!rest.empty()) {
+  while (!rest.empty() && !out_of_time()) {
     const Trial trial = rest.front();
     rest.erase(rest.begin());
     const Result<bool> sure = try_next(trial, rest);
@@ -66,6 +69,7 @@ Result<bool> Prober::try_next(const Trial& trial, std::vector<Trial>& rest) {
                !is_sure(seen->diagnosis.symptom);
   const bool again = contains(done_, trial);
   done_.push_back(trial);
+  if (trial.protocol && !again) search_.asked.push_back(trial);
   keep(*seen);
   const Symptom symptom = seen->diagnosis.symptom;
   if (!trial.protocol) {
@@ -103,6 +107,12 @@ void Prober::insert_next(std::vector<Trial>& rest, const std::vector<Trial>& tri
     std::erase(rest, one);
     rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(at++), one);
   }
+}
+
+bool Prober::out_of_time(Duration grace) {
+  if (timing_.budget == 0ns || !endpoint_) return false;
+  if (!begun_) begun_ = endpoint_->now();
+  return endpoint_->now() > *begun_ + timing_.budget + grace;
 }
 
 /// Opens the line with other settings; false when the port does not offer them.
@@ -151,7 +161,7 @@ Result<Observation> Prober::observe(const Trial& trial) {
 /// slower than the first.
 Status Prober::listen(Time until, std::vector<Burst>& heard) {
   std::size_t size = 0;
-  while (size < flood) {
+  while (size < flood && !out_of_time(last_answers)) {
     Result<Burst> burst = endpoint_->receive(until);
     if (!burst) return burst.error();
     if (burst->bytes.empty()) return ok();

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct ProbeTiming {
                            // (Cnet EN table 4.3.1)
   Duration quiet = 100ms;  // no further byte for so long: the answer is over
   Duration listen = 1s;    // before the first question of all
+  Duration budget{};       // no question begins later; 0: all are asked
 };
 
 /// One question and what came of it.
@@ -34,6 +36,7 @@ struct Observation {
 struct Search {
   std::vector<Observation> observations;  // all but the silent ones, in order
   std::size_t trials = 0;                 // done, the silent ones too
+  std::vector<Trial> asked;               // the same without listening, each once, in order
   std::vector<line::LineSettings> lines;  // that were tried
   std::vector<std::string> not_offered;   // settings that the port refused, and why
   bool interrupted = false;               // Ctrl-C: not all was tried
@@ -63,6 +66,7 @@ class Prober {
   Result<Observation> observe(const Trial& trial);
   Result<bool> confirm(const Trial& trial);
   Result<bool> settle(const line::LineSettings& line);
+  bool out_of_time(Duration grace = {});
   Status listen(Time until, std::vector<Burst>& heard);
   void keep(const Observation& observation);
 
@@ -75,6 +79,7 @@ class Prober {
   std::vector<line::LineSettings> lines_;  // of the plan
   std::vector<line::LineSettings> refused_;
   std::vector<Trial> done_;
+  std::optional<Time> begun_;
   std::string first_refusal_;
   std::size_t total_ = 0;
   bool late_ = false;  // a reply came after its wait

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "harness/bench/what_to_check.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/run/exit_code.hpp"
+#include "harness/run/look_on.hpp"
 
 namespace fieldproof::run {
 
@@ -77,8 +79,10 @@ Status Fixtures::open_aux(const endpoints::EndpointName& name, const safety::Jou
   aux_protocol_ = aux_configured_ ? aux_configured_.get() : *protocol;
   aux_station_ = device.station;
   const Result<exchange::Sign> alive =
-      exchange::Exchange(*aux_, *aux_protocol_, {}).anything_answers(aux_station_, 10s);
+      exchange::Exchange(*aux_, *aux_protocol_, {}).first_sign(aux_station_, 10s);
   if (!alive) return alive.error();
+  if (*alive == exchange::Sign::echo)
+    return fail("--aux: " + bench::why_silent({aux_.get(), aux_protocol_, aux_station_}, *alive));
   return *alive == exchange::Sign::alive
              ? ok()
              : Status(fail(fmt::format("nothing answers on --aux {} at station {}",
@@ -124,7 +128,7 @@ Status take_fingerprint(DutPlan& dut, Benches& port, bool wanted) {
   if (declared.empty() && !wanted) return ok();
   Result<bench::Fingerprint> found = port.fingerprint();
   if (!found && declared.empty()) return ok();
-  if (!found) return found.error();
+  if (!found) return looked_on(found.error(), port, dut);
   dut.identity.fingerprint_found = std::move(*found);
   const std::string difference =
       bench::fingerprint_difference(declared, dut.identity.fingerprint_found);

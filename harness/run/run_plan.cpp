@@ -110,6 +110,17 @@ std::string replay_command(const RunOptions& options) {
   return command + " --filter ";
 }
 
+/// What the endpoint says, else what the profile declares, else 1.
+Result<int> station_of(const EndpointName& endpoint, const bench::Profile& profile) {
+  nlohmann::json config = profile.config;
+  const bool named = endpoint.options.contains("station");
+  if (named) config["station"] = endpoint.option("station", "");
+  if (const std::optional<int> number = vectors::config_station(config, 1)) return *number;
+  return fail(fmt::format("{}station {} is not a number from 0 to 255",
+                          named ? "" : fmt::format("cannot use profile {}: config.", profile.name),
+                          config["station"].dump()));
+}
+
 Result<bench::BenchOptions> bench_options(const RunOptions& options, const EndpointName& endpoint,
                                           const std::string& profile_name, const DataPaths& data,
                                           const harness::Protocols& known) {
@@ -125,12 +136,9 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
       return allowed.error();
   if (ends_with_run(endpoint) && options.allow_write.empty() && !options.read_only)
     bench.fence.allow_everything();
-  nlohmann::json station{{"station", endpoint.option("station", "1")}};
-  const std::optional<int> number = vectors::config_station(station, 1);
-  if (!number)
-    return fail(
-        fmt::format("station '{}' is not a number from 0 to 255", endpoint.option("station", "1")));
-  bench.station = *number;
+  const Result<int> station = station_of(endpoint, bench.profile);
+  if (!station) return station.error();
+  bench.station = *station;
   bench.power_cycle_command = options.power_cycle;
   bench.max_restarts = options.max_restarts;
   bench.replay = replay_command(options);

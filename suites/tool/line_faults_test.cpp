@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 struct LineFault {
   const char* name;
-  std::string device;  // testdata/device.py, or a command
+  std::string device;  // of testdata/device.py
   std::string run, probe;
 };
 
@@ -19,11 +19,8 @@ void PrintTo(const LineFault& one, std::ostream* out) { *out << one.name; }
 class LineFaults : public testing::TestWithParam<LineFault> {
  protected:
   static std::string endpoint() {
-    const std::string& device = GetParam().device;
-    return "exec:" + (device.find(' ') == device.npos ? "/usr/bin/python3 " FIELDPROOF_SOURCE_DIR
-                                                        "/suites/tool/testdata/device.py " +
-                                                            device + " {tty}"
-                                                      : device);
+    return "exec:/usr/bin/python3 " FIELDPROOF_SOURCE_DIR "/suites/tool/testdata/device.py " +
+           GetParam().device + " {tty}";
   }
   TestFolder folder_;
 };
@@ -48,10 +45,7 @@ TEST_P(LineFaults, AreNamedByTheProbe) {
 
 INSTANTIATE_TEST_SUITE_P(
     Over, LineFaults,
-    testing::Values(LineFault{"echo", "sh -c 'exec cat <{tty} >{tty}'",
-                              "our own request came back (echo) instead of a reply",
-                              "echo          our own question comes back"},
-                    LineFault{"two_devices", "twice",
+    testing::Values(LineFault{"two_devices", "twice",
                               "(a whole frame: do two devices have this station number?)",
                               "two devices   "},
                     LineFault{"wrong_parity", "parity", "station: expected 01, got 0<B1> (not hex)",

@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <memory>
 
-#include "suites/tool/tool.hpp"
+#include "suites/tool/joined_ptys.hpp"
 
 namespace fieldproof::tool_tests {
 namespace {
@@ -31,26 +30,6 @@ Finished go_on(const std::string& printed, const std::string& filter, const Test
                           " --out " + quoted(folder / "out")});
 }
 
-/// Two ptys that socat joins: the bench on one end, the emulator on the other.
-class Joined {
- public:
-  explicit Joined(const std::string& device)
-      : socat_({"socat", "-d", "-d", "pty,raw,echo=0,link=" + bench(),
-                "pty,raw,echo=0,link=" + (folder_ / "device")}) {
-    EXPECT_TRUE(socat_.wait_for("starting data transfer loop"));
-    if (device.empty()) return;
-    device_ = std::make_unique<Process>(
-        std::vector<std::string>{FIELDPROOF_TOOL, "emulate", device, "--pty", folder_ / "device"});
-    EXPECT_TRUE(device_->wait_for(folder_ / "device"));
-  }
-  std::string bench() const { return folder_ / "bench"; }
-
- private:
-  TestFolder folder_;
-  Process socat_;
-  std::unique_ptr<Process> device_;
-};
-
 TEST(Probe, FindsTheDeviceAndSaysHowToGoOn) {
   const TestFolder folder;
   const Finished found = probe({"emulator:xbc-h?line=38400-8E1&station=4&protocol=modbus-rtu"});
@@ -66,7 +45,7 @@ TEST(Probe, FindsTheDeviceAndSaysHowToGoOn) {
 
 TEST(Probe, FindsADeviceOnAPort) {
   const TestFolder folder;
-  const Joined line("xbc-h?station=3&protocol=modbus-rtu");
+  const JoinedPtys line("xbc-h?station=3&protocol=modbus-rtu");
   const Finished found = probe({"serial:" + line.bench(), "--station", "1-3", "--wait", "200"});
   EXPECT_EQ(found.code, 0) << found.out << found.err;
   EXPECT_THAT(found.out, HasSubstr("no speed and no frame of its own")) << "a pty has none";
@@ -118,7 +97,7 @@ TEST(Probe, TroubleOfThePort) {
 }
 
 TEST(Probe, AnInterruptEndsIt) {
-  const Joined line("");
+  const JoinedPtys line;
   Process running(tool_arguments({"probe", "serial:" + line.bench()}));
   ASSERT_TRUE(running.wait_for("[2/"));
   running.signal(SIGINT);

@@ -137,8 +137,11 @@ std::vector<Fault> line_faults() {
        "errors/format_of_the_nak_r", "late answer"},
       {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves),
        "errors/format_of_the_nak_r", "split answer"},
-      {"echo", "the request comes back before the reply",
-       send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }),
+      {"echo", "the request comes back before a refusal",
+       send_with([](const Bytes& request, Bytes reply) {
+         const bool refused = !reply.empty() && reply[0] == ls_bus::ls_nak;
+         return Sendings{{refused ? request + reply : std::move(reply)}};
+       }),
        "errors/format_of_the_nak_r", "echo"},
       {"reply_twice", "each reply is sent twice",
        send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),

@@ -177,9 +177,11 @@ std::vector<Fault> line_faults() {
        "modbus_rtu/modes/ten_in_a_row", ""},
       {"split_answer", "replies pause for 200 ms in the middle", send_with(in_halves),
        "modbus_rtu/modes/serves", "split answer"},
-      {"echo", "the request comes back before the reply",
-       send_with([](const Bytes& frame, Bytes reply) { return Sendings{{frame + reply}}; }),
-       "modbus_rtu/modes/serves", "echo"},
+      {"echo", "the request comes back before an exception",
+       send_with([](const Bytes& frame, Bytes reply) {
+         return Sendings{{exception_of(reply) ? frame + reply : std::move(reply)}};
+       }),
+       "modbus_rtu/modes/normal_and_abnormal", "echo"},
       {"reply_twice", "each reply is sent twice",
        send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),
        "modbus_ascii/modes/serves", "after the complete"},

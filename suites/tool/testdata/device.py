@@ -12,6 +12,9 @@ They answer each request that ends with EOT and its check with one word of zero 
   twice              answers again 50 ms later, as a second device of the same station number does
   parity             sends the eighth bit as even parity, as a device set to 7E1 does
   tell FIFO N        is silent for ever after the N-th request, and says so to the FIFO
+  echo               sends back each byte as it comes, as an adapter does that hears itself, and then answers
+  echo_bad N         the same, with one bit wrong in the echo of each request from the N-th on
+  echo_lost N        the same, without the last byte of the echo
   close LINK N       makes a pty of its own, linked from LINK, says 'ready', and closes it at the request after the N-th
 """
 import os
@@ -31,8 +34,8 @@ def answer(request):
 class Requests:
     """One request after another from a terminal."""
 
-    def __init__(self, port):
-        self.port, self.bytes = port, b""
+    def __init__(self, port, heard=lambda data: None):
+        self.port, self.bytes, self.heard = port, b"", heard
 
     def next(self):
         while True:
@@ -44,6 +47,7 @@ class Requests:
             more = os.read(self.port, 4096)
             if not more:
                 sys.exit(0)
+            self.heard(more)
             self.bytes += more
 
 
@@ -82,10 +86,19 @@ def main():
     else:
         port = os.open(path, os.O_RDWR | os.O_NOCTTY)
         tty.setraw(port, 0)  # TCSANOW: what waits already is kept
-    requests = Requests(port)
+    echoes = behaviour.startswith("echo")
+    damages = behaviour in ("echo_bad", "echo_lost")
+    asked = 0
+
+    def echo(data):
+        if damages and asked >= int(arguments[0]) and EOT in data:
+            data = data[:-1] if behaviour == "echo_lost" else bytes([data[0] ^ 1]) + data[1:]
+        for byte in data:  # in pieces
+            os.write(port, bytes([byte]))
+
+    requests = Requests(port, echo if echoes else lambda data: None)
     ends = behaviour in ("die", "mute", "tell", "close", "trickle", "half", "garbage")
     last = int(arguments[-1]) if ends else None
-    asked = 0
     while True:
         request = requests.next()
         asked += 1

@@ -171,11 +171,15 @@ std::vector<Fault> line_faults() {
        "frame_structure/nak/lower", "split answer"},
       {"one_byte_a_second", "replies come at one byte a second", send_with(one_byte_a_second),
        "errors/code_0190/lower", ""},
-      {"echo", "the request comes back before the reply",
-       send_with([](const Bytes& request, Bytes reply) { return Sendings{{request + reply}}; }),
+      {"echo", "the request comes back before a refusal",
+       send_with([](const Bytes& request, Bytes reply) {
+         return Sendings{{refusal(reply) ? request + reply : std::move(reply)}};
+       }),
        "errors/code_0190/lower", "echo"},
-      {"echo_alone", "requests come back, and no reply",
-       send_with([](const Bytes& request, const Bytes&) { return Sendings{{request}}; }),
+      {"echo_alone", "what is to be refused comes back, and no reply",
+       send_with([](const Bytes& request, Bytes reply) {
+         return Sendings{{refusal(reply) ? request : std::move(reply)}};
+       }),
        "errors/code_0190/lower", "echo"},
       {"reply_twice", "each reply is sent twice",
        send_with([](const Bytes&, Bytes reply) { return Sendings{{reply + reply}}; }),

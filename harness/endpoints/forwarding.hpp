@@ -1,0 +1,45 @@
+// An endpoint that hands everything on to another: the base of those that change one thing.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "harness/endpoints/endpoint.hpp"
+
+namespace fieldproof::endpoints {
+
+class Forwarding : public Endpoint {
+ public:
+  /// `to` outlives it.
+  explicit Forwarding(Endpoint& to) : to_(to) {}
+
+  const Capabilities& capabilities() const override { return to_.capabilities(); }
+  std::string describe() const override { return to_.describe(); }
+  Time now() const override { return to_.now(); }
+  Duration character_time() const override { return to_.character_time(); }
+  Status begin(const nlohmann::json& config) override { return to_.begin(config); }
+
+  Result<LinkId> open(Transport transport, std::uint16_t port) override {
+    return to_.open(transport, port);
+  }
+  Result<LinkId> open_line(unsigned channel) override { return to_.open_line(channel); }
+  Status close(LinkId link, Closing how) override { return to_.close(link, how); }
+  using Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId link) override { return to_.send(bytes, link); }
+  Result<Burst> receive(Time deadline) override { return to_.receive(deadline); }
+
+  Status set(std::string_view address, std::string_view hex) override {
+    return to_.set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) override {
+    return to_.get(address, digits);
+  }
+  Status act(std::string_view action) override { return to_.act(action); }
+  Status tell(std::string_view line) override { return to_.tell(line); }
+  std::string answer(Duration patience) override { return to_.answer(patience); }
+  std::string line_errors() override { return to_.line_errors(); }
+
+ protected:
+  Endpoint& to_;
+};
+
+}  // namespace fieldproof::endpoints
