@@ -63,6 +63,13 @@ struct FrameReading {
     return std::ranges::count_if(
         fields, [](const harness::Field& field) { return !field.problem.empty(); });
   }
+  /// How little it is a frame of this protocol: what is foreign to it weighs more than what is
+  /// wrong in it, or still missing.
+  auto strangeness() const {
+    constexpr int foreign = 10;
+    return problems() +
+           foreign * std::ranges::count(fields, "foreign bytes", &harness::Field::name);
+  }
 };
 
 Result<FrameReading> read_as(const harness::Protocol& protocol, const FrameOptions& options) {
@@ -73,7 +80,7 @@ Result<FrameReading> read_as(const harness::Protocol& protocol, const FrameOptio
   return FrameReading{&protocol, std::move(*bytes), std::move(fields)};
 }
 
-/// As the protocol that was named, else as the one with the fewest problems. One part alone
+/// As the protocol that was named, else as the one to which it is least strange. One part alone
 /// explains nothing.
 Result<FrameReading> best_reading(const FrameOptions& options,
                                   const harness::Protocols& protocols) {
@@ -85,7 +92,7 @@ Result<FrameReading> best_reading(const FrameOptions& options,
   Result<FrameReading> best = read_as(protocols.front(), options);
   for (const harness::Protocol* protocol : protocols) {
     Result<FrameReading> other = read_as(*protocol, options);
-    if (best && other && other->fields.size() > 1 && other->problems() < best->problems())
+    if (best && other && other->fields.size() > 1 && other->strangeness() < best->strangeness())
       best = std::move(other);
   }
   return best;

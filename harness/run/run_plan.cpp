@@ -5,7 +5,6 @@
 #include <unistd.h>
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 
 #include "harness/bench/bench_file.hpp"
 #include "harness/endpoints/kinds.hpp"
@@ -59,6 +58,23 @@ Status check_definition(const EndpointName& endpoint, const DataPaths& data,
   if (!protocol) return protocol.error();
   const auto device = (*protocol)->make_device(endpoint.target, nlohmann::json::object());
   return device ? ok() : Status(device.error());
+}
+
+/// The tool's own cases are for the definitions that come with it; others name theirs, or none.
+Status check_cases_of_definition(const EndpointName& endpoint, const RunOptions& options,
+                                 const std::string& model, const std::vector<const Case*>& selected,
+                                 const harness::Protocols& known) {
+  const auto is_for_it = [&](const Case* one) {
+    const Protocol* protocol = known.find(one->protocol);
+    const bool open = one->models.empty() && !options.vectors.empty();
+    return protocol && protocol->has_model(endpoint.target) &&
+           (open || std::ranges::find(one->models, model) != one->models.end());
+  };
+  if (selected.empty() || std::ranges::any_of(selected, is_for_it)) return ok();
+  return fail(
+      fmt::format("cannot run on {}:{}: no selected case is for '{}'; write cases for it, with "
+                  "\"models\": [\"{}\"], and give --vectors FILE (vectors/README.md)",
+                  endpoint.kind, endpoint.target, model, model));
 }
 
 /// A model that no case is for selects nothing of what it should.
@@ -249,7 +265,11 @@ Result<std::vector<const Protocol*>> protocols_of(const DutPlan& plan,
         std::ranges::find(names, only) != names.end())
       first = only;
   if (is_emulated(plan.endpoint) && !plan.endpoint.options.contains("protocol"))
-    std::erase_if(names, std::not_fn(is_selected));
+    std::erase_if(names, [&](const std::string& name) {
+      const Protocol* protocol = plan.known.find(name);
+      return !is_selected(name) || (protocol && !plan.endpoint.target.empty() &&
+                                    !protocol->has_model(plan.endpoint.target));
+    });
   else
     names = {first};
   if (names.empty()) names = {first};
@@ -312,6 +332,11 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   if (!bench) return bench.error();
   plan.bench = std::move(*bench);
   if (const Status made = check_definition(plan.endpoint, data, known); !made) return made.error();
+  if (is_emulated(plan.endpoint) && is_bare_model(plan.endpoint, data, known))
+    if (const Status any = check_cases_of_definition(plan.endpoint, *options,
+                                                     plan.bench.profile.model, selected, known);
+        !any)
+      return any.error();
   plan.bench.known = known;
   plan.ends_with_run = ends_with_run(plan.endpoint);
   plan.writes_all = plan.ends_with_run && options->allow_write.empty() && !options->read_only;

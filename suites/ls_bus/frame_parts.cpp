@@ -74,7 +74,10 @@ class Reader {
       fields_.back().problem = "nothing stands here";
     }
     sum();
-    if (end_ < frame_.size()) add("tail", 1, "EOT");
+    if (end_ < frame_.size())
+      add("tail", 1, "EOT");
+    else if (fields_.back().problem.empty())
+      fields_.back().problem = "no EOT follows, with the sum before it";
     if (pos_ < frame_.size())
       add("surplus", frame_.size() - pos_, shown(frame_.subspan(pos_)), "nothing follows EOT");
     return std::move(fields_);
@@ -181,6 +184,30 @@ class Reader {
 };
 
 }  // namespace
+
+Bytes in_plain_letters(ByteView request) {
+  constexpr std::size_t command = 3, behind = sum_size + 1;  // sum and EOT
+  Bytes plain(request.begin(), request.end());
+  if (plain.size() < head_size + behind || plain[0] != enq || plain.back() != eot) return plain;
+  const auto sum_at = static_cast<std::ptrdiff_t>(plain.size() - behind);
+  const auto sum = [&] {
+    return to_bytes(
+        hex_number(std::accumulate(plain.begin() + 1, plain.begin() + sum_at, 0u) & 0xFF, 2));
+  };
+  const auto raise = [&](std::ptrdiff_t from, std::ptrdiff_t to) {
+    for (std::ptrdiff_t i = from; i < to; ++i) {
+      Byte& b = plain[static_cast<std::size_t>(i)];
+      b = static_cast<Byte>(upper(static_cast<char>(b)));
+    }
+  };
+  raise(sum_at, sum_at + static_cast<std::ptrdiff_t>(sum_size));
+  if (!std::ranges::equal(ByteView(plain).subspan(plain.size() - behind, sum_size), sum()))
+    return {request.begin(), request.end()};
+  raise(1, command);
+  raise(command + 1, sum_at);
+  std::ranges::copy(sum(), plain.begin() + sum_at);
+  return plain;
+}
 
 std::string_view error_meaning(std::string_view code) {
   const auto found =

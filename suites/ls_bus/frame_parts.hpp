@@ -21,6 +21,11 @@ std::optional<std::size_t> frame_length(ByteView bytes);
 /// with the address first, unless it adds up with the count first alone; its count then says so.
 std::vector<harness::Field> explain(ByteView frame);
 
+/// A request with all its digits as capitals and the sum that belongs to them, where its own sum is
+/// right: of the digits of a request no manual says the case (DECISIONS.md ls-bus/letter-case).
+/// Commands stay as they are.
+Bytes in_plain_letters(ByteView request);
+
 /// A write request in one of its two orders.
 struct WriteReading {
   std::string address;       // four digits, as they stand in the request

@@ -141,5 +141,31 @@ TEST(LsFrameLength, EndsAtEotOrAtTheNextHeader) {
   EXPECT_EQ(frame_length({}), std::nullopt);
 }
 
+/// AA is printed in Cnet EN 8.2.2; each small letter adds 20 (hex).
+TEST(FrameParts, DigitsOfARequestAreFree) {
+  const auto plain = [](const std::string& body) {
+    const Bytes bytes = in_plain_letters(to_bytes('\x05' + body + '\x04'));
+    return std::string(bytes.begin() + 1, bytes.end() - 1);
+  };
+  EXPECT_EQ(plain("01R12301aa"), "01R12301AA");
+  EXPECT_EQ(plain("01W0100100ff"
+                  "d6"),
+            "01W0100100FF96");
+  EXPECT_EQ(plain("01W0100100ff"
+                  "81"),
+            "01W0100100ff81")
+      << "a sum that is wrong stays so";
+  EXPECT_EQ(plain("01r12301CA"), "01r12301CA") << "commands are capitals";
+}
+
+TEST(FrameParts, WhatIsMissingIsSaid) {
+  EXPECT_EQ(explain(to_bytes("\x05"
+                             "01R1230"
+                             "1"))
+                .back()
+                .problem,
+            "no EOT follows, with the sum before it");
+}
+
 }  // namespace
 }  // namespace fieldproof::ls_bus_suite

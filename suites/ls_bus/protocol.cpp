@@ -90,6 +90,9 @@ class LsBus : public Protocol,
   std::vector<harness::Field> explain(ByteView frame) const override {
     return ls_bus_suite::explain(frame);
   }
+  Bytes in_plain_letters(ByteView request) const override {
+    return ls_bus_suite::in_plain_letters(request);
+  }
   /// The manual's list knows no LS Bus: 7 is this project's.
   plc::FrameResult monitor_result(ByteView frame, bool client, bool sent) const override {
     const bool request = !frame.empty() && frame[0] == enq;

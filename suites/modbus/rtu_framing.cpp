@@ -70,11 +70,13 @@ class Rtu : public Framing {
     const ByteView rest = frame.subspan(size);
     if (rest.empty() && !fields.empty() && fields.back().problem.empty())
       fields.back().problem = "no CRC follows";
+    if (rest.empty() && way == Way::unknown) say_how_many_are_missing(frame, fields);
     if (rest.empty()) return fields;
     const ByteView crc = rest.first(std::min(checks::crc.size, rest.size()));
     fields.push_back({"CRC", size, crc.size(),
                       hex_number(crc[0], 2) + (crc.size() > 1 ? hex_number(crc[1], 2) : ""),
                       check_problem(frame.first(size), crc)});
+    if (way == Way::unknown) say_how_many_are_missing(frame, fields);
     if (rest.size() > checks::crc.size)
       fields.push_back({"surplus", size + checks::crc.size, rest.size() - checks::crc.size,
                         to_hex(rest.subspan(checks::crc.size)), "follows a complete frame"});
@@ -107,6 +109,16 @@ class Rtu : public Framing {
   }
 
  private:
+  /// The function code tells how long the frame becomes.
+  static void say_how_many_are_missing(ByteView frame, std::vector<harness::Field>& fields) {
+    const std::vector<std::size_t> lengths = message_lengths(frame);
+    const std::size_t due = lengths.empty() ? 0 : lengths.front() + checks::crc.size;
+    if (fields.empty() || due <= frame.size() || right_length_of_any(frame)) return;
+    std::string& problem = fields.back().problem;
+    problem += fmt::format("{}{} of {} bytes are missing", problem.empty() ? "" : "; ",
+                           due - frame.size(), due);
+  }
+
   /// What stands before the CRC: where a CRC is right, else all but two bytes.
   static std::size_t message_size(ByteView frame) {
     if (frame.size() < shortest_frame) return frame.size();

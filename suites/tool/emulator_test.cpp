@@ -215,6 +215,17 @@ TEST(FrameCommand, SaysThatAFrameIsIncompleteOrFollowed) {
   const Finished cut = run_tool({"frame", "--protocol", "xgt-cnet", "05 30 31 72 53 53"});
   EXPECT_EQ(cut.code, 1);
   EXPECT_THAT(cut.out, HasSubstr("the frame is incomplete"));
+  for (const auto& [frame, missing] :
+       {std::pair{"05 30 31 72 53 53 30 31 30 36 25 4D 57 31 30 30", "no EOT and no BCC follow"},
+        {"05 30 31 72 53 53 30 31 30 36 25 4D 57 31", "cut short: 4 of 6 characters"},
+        {"01 03 00", "5 of 8 bytes are missing"},
+        {"3A 30 31 30 33", "no CR LF follows"}}) {
+    const Finished finished = run_tool({"frame", frame});
+    EXPECT_EQ(finished.code, 1) << frame;
+    EXPECT_THAT(finished.out,
+                testing::AllOf(HasSubstr("the frame is incomplete"), HasSubstr(missing)))
+        << frame;
+  }
   const Finished more = run_tool(
       {"frame", "--protocol", "xgt-cnet", "05 30 31 52 53 53 30 31 30 36 25 4D 57 31 30 30 04 41"});
   EXPECT_EQ(more.code, 1);

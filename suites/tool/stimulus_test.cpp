@@ -26,7 +26,7 @@ class LiteralClient : public testing::Test {
         "--out",
         folder / "out",
         "--profile",
-        "xbc-h",
+        profile,
         "--stimulus",
         "-",
         "--endpoint",
@@ -46,6 +46,7 @@ class LiteralClient : public testing::Test {
   }
 
   TestFolder folder;
+  std::string profile = "xbc-h";
   Results results;
 };
 
@@ -111,6 +112,21 @@ TEST_F(LiteralClient, WhoSaysNothingIsToldNoMoreThanWhatToAsk) {
 TEST_F(LiteralClient, SmallLettersAreAnAllowedAlternative) {
   EXPECT_EQ(run("small", "xgt_cnet/client/schedule/block_order").code, 0);
   EXPECT_EQ(results.verdict("xgt_cnet/client/schedule/block_order"), "NON-STRICT");
+}
+
+/// Of the digits of an LS Bus request no manual says the case.
+TEST_F(LiteralClient, SmallDigitsOfTheLsBusAreAnAllowedAlternative) {
+  profile = folder.write("ls.json", R"({"extends": "xbc-h", "name": "ls", "protocols": ["ls-bus"],
+                                       "config": {"write_order": "address_first"}})");
+  const char* const cases =
+      "ls_bus/client/example/read:ls_bus/client/example/write_address_first:"
+      "ls_bus/client/schedule/block_order";
+  for (const auto& [kind, verdict] : {std::pair{"ls_bus", "PASS"}, {"ls_small", "NON-STRICT"}}) {
+    const Finished finished = run(kind, cases);
+    EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+    for (const json& one : results.cases) EXPECT_EQ(one.at("verdict"), verdict) << one.at("id");
+    EXPECT_EQ(results.cases.size(), 3u);
+  }
 }
 
 TEST_F(LiteralClient, WhoGivesUpFailsAndIsStartedAgain) {

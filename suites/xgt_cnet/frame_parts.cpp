@@ -83,6 +83,8 @@ class Reader {
     body(main);
     if (pos_ < tail_) take("surplus", tail_ - pos_);
     tail_and_check(is_lower(static_cast<Byte>(command)));
+    if (fields_.back().problem.empty())
+      fields_.back().problem = missing(is_lower(static_cast<Byte>(command)));
     return std::move(fields_);
   }
 
@@ -171,7 +173,10 @@ class Reader {
   std::string device_name(const std::string& number) {
     const std::optional<unsigned> length = hex("name length" + number, 2);
     if (!length || left() == 0) return {};
-    return shown(take("name" + number, std::min<std::size_t>(*length, left())));
+    const ByteView name = take("name" + number, std::min<std::size_t>(*length, left()));
+    if (name.size() < *length)
+      fields_.back().problem = fmt::format("cut short: {} of {} characters", name.size(), *length);
+    return shown(name);
   }
 
   static std::size_t data_digits(const std::string& name) {
@@ -219,6 +224,15 @@ class Reader {
     const std::string bcc = shown(take("BCC", std::min<std::size_t>(2, rest)));
     fields_.back().problem = bcc_problem(bcc, end);
     if (pos_ < frame_.size()) take("surplus", frame_.size() - pos_);
+  }
+
+  /// What must follow the last byte.
+  std::string missing(bool with_bcc) const {
+    const char* tail = frame_[0] == enq ? "EOT" : "ETX";
+    if (tail_ >= frame_.size())
+      return fmt::format("no {}{} follow{}", tail, with_bcc ? " and no BCC" : "",
+                         with_bcc ? "" : "s");
+    return with_bcc && tail_ + 1 == frame_.size() ? "no BCC follows" : "";
   }
 
   std::string bcc_problem(const std::string& bcc, std::size_t end) const {

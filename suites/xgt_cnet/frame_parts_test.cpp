@@ -165,5 +165,24 @@ TEST(FrameParts, LettersThatAreFreeArePlain) {
       << "a wrong BCC";
 }
 
+TEST(FrameParts, WhatIsMissingIsSaid) {
+  const auto last = [](const std::string& text) { return explain(to_bytes(text)).back().problem; };
+  EXPECT_EQ(last("\x05"
+                 "01rSS0106%MW100"),
+            "no EOT and no BCC follow");
+  EXPECT_EQ(last("\x05"
+                 "01RSS0106%MW100"),
+            "no EOT follows");
+  EXPECT_EQ(last("\x05"
+                 "01rSS0106%MW100\x04"),
+            "no BCC follows");
+  EXPECT_EQ(last("\x05"
+                 "01rSS0106%MW1"),
+            "cut short: 4 of 6 characters");
+  EXPECT_EQ(last("\x05"
+                 "01RSS0106%MW100\x04"),
+            "");
+}
+
 }  // namespace
 }  // namespace fieldproof::xgt_cnet_suite

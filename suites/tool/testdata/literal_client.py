@@ -5,6 +5,8 @@
         minimum    asks what a line names, once, and declares that it follows nothing else
         undeclared the same, and answers nothing to the first line
         small      as minimum, in small letters wherever Cnet EN 7.1.3 leaves them free
+        ls_bus     as minimum, LS Bus
+        ls_small   the same, its digits in small letters
         gives_up   as minimum, and ends with its fifth request
   LOG   every line that came, for the test of the schema
 """
@@ -40,6 +42,16 @@ def request(block, values):
         return checked(head + b"rSS%02X" % len(reads) + b"".join(map(name, reads)) + EOT)
     return checked(head + b"wSS%02X" % len(saves) +
                    b"".join(name(to) + values[own].encode() for own, to in zip(reads, saves)) + EOT)
+
+
+def ls_bus_request(block, values, small):
+    read = block["function"] == "read"
+    body = b"%02X" % block["station"] + (b"R" if read else b"W") + block["read" if read else "save"][0].encode()
+    body += b"%X" % (block["size"] if block["command"] == "continuous" else 1)
+    body += b"" if read else values[block["read"][0]].encode()
+    body = body[:3] + body[3:].lower() if small else body
+    checksum = b"%02X" % (sum(body) % 256)
+    return ENQ + body + (checksum.lower() if small else checksum) + EOT
 
 
 def with_plain_names(block):
@@ -221,10 +233,14 @@ class Asker:
         if self.kind == "gives_up" and self.asked == 5:
             print("too much", file=sys.stderr)
             sys.exit(1)
-        frame = request(line["block"], line["values"])
+        ls_bus = self.kind.startswith("ls_")
+        if ls_bus:
+            frame = ls_bus_request(line["block"], line["values"], self.kind == "ls_small")
+        else:
+            frame = request(line["block"], line["values"])
         os.write(self.port, in_small_letters(frame) if self.kind == "small" else frame)
         heard, until = b"", time.monotonic() + 0.2
-        while not reply_in(heard) and time.monotonic() < until:
+        while not (EOT in heard if ls_bus else reply_in(heard)) and time.monotonic() < until:
             if select.select([self.port], [], [], max(0.0, until - time.monotonic()))[0]:
                 heard += os.read(self.port, 256)
 
