@@ -118,8 +118,8 @@ class Vectors {
     fs::copy(FIELDPROOF_SOURCE_DIR "/vectors", folder_ / "vectors", fs::copy_options::recursive);
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path())) {
       const std::string name = fs::relative(entry.path(), path()).string();
-      if (entry.path().extension() != ".json" || name.ends_with("schema.json") || name == "manuals.json" ||
-          name.starts_with("statements/") || name.starts_with("errata/"))
+      if (entry.path().extension() != ".json" || name.ends_with("schema.json") ||
+          name == "manuals.json" || name.starts_with("statements/") || name.starts_with("errata/"))
         continue;
       files_[name] = ordered_json::parse(read_text(entry.path()));
     }
