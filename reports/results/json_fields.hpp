@@ -81,7 +81,7 @@ class FieldWriter {
     else if constexpr (std::same_as<T, double>)
       number(one);
     else if constexpr (std::same_as<T, Duration>)
-      number(to_ms(one));
+      time(one);
     else if constexpr (requires { typename T::mapped_type; })
       object(one);
     else if constexpr (requires { one.begin(); })
@@ -148,6 +148,24 @@ class FieldWriter {
     const std::size_t start = out_.size();
     fmt::format_to(std::back_inserter(out_), "{}", one);
     if (out_.find_first_of(".e", start) == std::string::npos) out_ += ".0";
+  }
+
+  /// Milliseconds to the nanosecond: exact, and a tenth of the work of a double.
+  void time(Duration one) {
+    constexpr std::int64_t ns_per_ms = 1'000'000;
+    const std::uint64_t ns = one.count() < 0 ? -static_cast<std::uint64_t>(one.count())
+                                             : static_cast<std::uint64_t>(one.count());
+    if (one.count() < 0) out_ += '-';
+    const fmt::format_int whole(ns / ns_per_ms);
+    out_.append(whole.data(), whole.size());
+    std::array<char, 7> rest{'.', '0', '0', '0', '0', '0', '0'};
+    std::size_t length = 2;  // ".0" at least
+    std::uint64_t left = ns % ns_per_ms;
+    for (std::size_t i = rest.size() - 1; left > 0; --i, left /= 10) {
+      rest[i] = static_cast<char>('0' + left % 10);
+      if (rest[i] != '0') length = std::max(length, i + 1);
+    }
+    out_.append(rest.data(), length);
   }
 
   std::string& out_;

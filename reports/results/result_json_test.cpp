@@ -71,6 +71,27 @@ TEST(CaseResultJson, EveryFieldComesBack) {
   EXPECT_EQ(result.replay, again.replay);
 }
 
+/// The start of an event of this time, as it stands in the file.
+std::string written(Duration time) {
+  CaseResult result;
+  result.exchange = {{Event::Kind::note, time, 0ns, {}, ""}};
+  std::string text;
+  append_json(text, result);
+  const std::string key = "\"start_ms\":";
+  const std::size_t from = text.find(key) + key.size();
+  return text.substr(from, text.find_first_of(",}", from) - from);
+}
+
+TEST(CaseResultJson, TimesAreMillisecondsToTheNanosecond) {
+  EXPECT_EQ(written(0ns), "0.0");
+  EXPECT_EQ(written(1ns), "0.000001");
+  EXPECT_EQ(written(12ms), "12.0");
+  EXPECT_EQ(written(1234567ns), "1.234567");
+  EXPECT_EQ(written(100'200us), "100.2");
+  EXPECT_EQ(written(-1'500us), "-1.5");
+  EXPECT_EQ(written(Duration::min()), "-9223372036854.775808");
+}
+
 TEST(CaseResultJson, NoFieldIsForgotten) {
   // As many keys as fields, when none is empty. The binding does not compile once a field is added:
   // then extend it, full_result() and `fields`.

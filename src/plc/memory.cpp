@@ -16,7 +16,7 @@ PlcMemory::PlcMemory(const PlcModel& model) : model_(&model) {
     words += model.areas[i].words;
     contacts += model.areas[i].contacts;
   }
-  words_.resize(words);
+  words_ = std::make_unique<std::uint16_t[]>(words);
   contacts_.resize(contacts);
 }
 
@@ -27,7 +27,7 @@ void PlcMemory::check(const DeviceAddress& address) const {
 std::uint64_t PlcMemory::read(const DeviceAddress& address) const {
   check(address);
   const std::uint32_t index = address.index;
-  const std::uint16_t* words = words_.data() + first_word_[address.area];
+  const std::uint16_t* words = words_.get() + first_word_[address.area];
   switch (address.type) {
     case 'X':
       if (address.contact) return contacts_[first_contact_[address.area] + index];
@@ -45,7 +45,7 @@ std::uint64_t PlcMemory::read(const DeviceAddress& address) const {
 void PlcMemory::write(const DeviceAddress& address, std::uint64_t value) {
   check(address);
   const std::uint32_t index = address.index;
-  std::uint16_t* words = words_.data() + first_word_[address.area];
+  std::uint16_t* words = words_.get() + first_word_[address.area];
   const auto put = [](std::uint16_t& word, unsigned shift, unsigned mask, std::uint64_t bits) {
     word = static_cast<std::uint16_t>((word & ~(mask << shift)) |
                                       (static_cast<unsigned>(bits) & mask) << shift);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,7 +40,7 @@ class PlcMemory {
   const PlcModel* model_;
   std::array<std::uint32_t, 16> first_word_{};     // of each area in words_
   std::array<std::uint32_t, 16> first_contact_{};  // of each area in contacts_
-  std::vector<std::uint16_t> words_;
+  std::unique_ptr<std::uint16_t[]> words_;  // made for each case: cleared faster than a vector
   std::vector<std::uint8_t> contacts_;
   std::function<void()> watcher_;
 };

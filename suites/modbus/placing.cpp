@@ -24,6 +24,11 @@ bool is_bit_table(ModbusBase base) {
   return base == ModbusBase::bit_read || base == ModbusBase::bit_write;
 }
 
+/// Of inputs and input registers: no function code writes it.
+bool is_read_table(ModbusBase base) {
+  return base == ModbusBase::bit_read || base == ModbusBase::word_read;
+}
+
 Bases defaults_of(const Bases& declared) {
   return *declared_bases(declared.model->name, nlohmann::json::object());
 }
@@ -130,6 +135,11 @@ Result<Protocol::Placed> placed(const Framing& framing, const Bases& declared,
   for (const ModbusBase table :
        tables_of(*memory, is_named_by_bits(defaults, address), asked, defaults)) {
     const Origin from = origin_of(defaults, table), to = origin_of(declared, table);
+    if (declared.separate && is_read_table(table))
+      return fail(
+          fmt::format("sets {}, which is read as {}, and no function code writes them; the "
+                      "profile declares separate tables",
+                      address, is_bit_table(table) ? "inputs" : "input registers"));
     (is_bit_table(table) ? bits : words) = true;
     const bool whole = from.bit == to.bit && from.contact == to.contact;
     const std::optional<std::string> name =

@@ -68,6 +68,16 @@ TEST(Placing, WhereTablesAreSeparateBitsAreReachedByBits) {
               HasSubstr("needs %MX00013 to be read and written by both"));
 }
 
+TEST(Placing, WhereTablesAreSeparateNothingSetsInputs) {
+  const json separate{{"tables", "separate"}, {"bit_read_base", "M0"}, {"word_read_base", "M0"}};
+  const Bytes read_inputs = request("01 02 00 13 00 01"),
+              read_input_register = request("01 04 00 64 00 01");
+  EXPECT_THAT(where(separate, "%PX00013", "01", {read_inputs}),
+              HasSubstr("read as inputs, and no function code writes them"));
+  EXPECT_THAT(where(separate, "%PW100", "1234", {read_input_register}),
+              HasSubstr("read as input registers, and no function code writes them"));
+}
+
 TEST(Placing, TheEndOfATableStaysWhereItIs) {
   const Bases declared = bases({{"word_write_base", "D0"}});
   const auto tied = [&](std::string_view message) {

@@ -1,7 +1,7 @@
-"""pymodbus_server.py rtu|ascii TTY, or tcp PORT: a server made of pymodbus, as a device under test that nobody here has written.
+"""pymodbus_server.py rtu|ascii TTY, or tcp PORT [separate]: a server made of pymodbus, as a device under test that nobody here has written.
 
 Station 1; by TCP whatever the unit. Its memory is laid out as that of an XBC-DxxxH with all four bases at M0: coils and inputs are the bits of
-the words, input registers are the holding registers.
+the words, input registers are the holding registers. `separate`: four tables that have nothing in common, as most Modbus devices have them.
 """
 import sys
 
@@ -32,11 +32,21 @@ class BitsOfWords(BaseModbusDataBlock):
             self.words.values[i // 16] = self.words.values[i // 16] & ~mask | (mask if value else 0)
 
 
-def main():
-    mode, where = sys.argv[1:]
+def overlapping_tables():
     words = ModbusSequentialDataBlock(0, [0] * WORDS)
     bits = BitsOfWords(words)
-    memory = ModbusSlaveContext(di=bits, co=bits, hr=words, ir=words, zero_mode=True)
+    return ModbusSlaveContext(di=bits, co=bits, hr=words, ir=words, zero_mode=True)
+
+
+def separate_tables():
+    def table():
+        return ModbusSequentialDataBlock(0, [0] * BITS)
+    return ModbusSlaveContext(di=table(), co=table(), hr=table(), ir=table(), zero_mode=True)
+
+
+def main():
+    mode, where = sys.argv[1:3]
+    memory = separate_tables() if "separate" in sys.argv[3:] else overlapping_tables()
     if mode == "tcp":
         StartTcpServer(context=ModbusServerContext(slaves=memory, single=True), address=("127.0.0.1", int(where)))
         return

@@ -1,0 +1,76 @@
+// Devices whose Modbus bases are not those of the manual's default, by the built tool: cases move
+// with what the profile declares, and a profile that does not declare it is told of by failures.
+#include <gmock/gmock.h>
+
+#include <memory>
+
+#include "suites/tool/tool_files.hpp"
+
+namespace fieldproof::tool_tests {
+namespace {
+
+/// A device of its own process, and the profile that is given to the bench.
+struct Device {
+  std::string name;
+  std::string options;      // of the emulated PLC
+  nlohmann::json declared;  // "config" of the profile
+  std::size_t judged;       // cases that pass, at least
+};
+
+const nlohmann::json bits_at_p0{{"bit_write_base", "P0"}};
+/// Cnet EN 6.1.3: the dialog of the settings as it is printed.
+const nlohmann::json printed_dialog{{"bit_read_base", "M0"},
+                                    {"bit_write_base", "M0"},
+                                    {"word_read_base", "D0"},
+                                    {"word_write_base", "D0"}};
+
+/// "&bit_write_base=P0"
+std::string as_options(const nlohmann::json& bases) {
+  std::string text;
+  for (const auto& [key, base] : bases.items()) text += "&" + key + "=" + base.get<std::string>();
+  return text;
+}
+
+std::vector<Device> devices() {
+  return {{"bits_at_p0", as_options(bits_at_p0), bits_at_p0, 250},
+          {"printed_dialog", as_options(printed_dialog), printed_dialog, 250},
+          {"not_declared", as_options(bits_at_p0), nlohmann::json::object(), 100}};
+}
+
+std::unique_ptr<Process> run_against(const Device& device, const TestFolder& folder) {
+  const nlohmann::json profile{{"name", device.name},         {"extends", "xbc-h"},
+                               {"title", "of a test"},        {"model", "xbc-h"},
+                               {"protocols", {"modbus-tcp"}}, {"config", device.declared}};
+  folder.write(device.name + ".json", profile.dump());
+  const std::string command = quoted(FIELDPROOF_TOOL) + " emulate " +
+                              quoted("xbc-h?protocol=modbus-tcp" + device.options) +
+                              " --tcp {port}";
+  return std::make_unique<Process>(
+      tool_arguments({"run", "--endpoint", "exec:" + command + "?protocol=modbus-tcp", "--profile",
+                      folder / (device.name + ".json"), "--filter", "modbus_tcp/*", "--allow-write",
+                      "all,P,Q,U", "--out", folder / device.name}));
+}
+
+/// Most of a run is waiting for silence: all at once.
+TEST(ModbusTcpBases, CasesMoveWithWhatTheProfileDeclares) {
+  const TestFolder folder;
+  std::vector<std::unique_ptr<Process>> runs;
+  for (const Device& device : devices()) runs.push_back(run_against(device, folder));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Device device = devices()[i];
+    const Finished finished = runs[i]->wait(Process::Limit(280));
+    const std::map<std::string, std::size_t> counts =
+        read_results(folder / device.name + "/results.ndjson").counts();
+    const auto count = [&](const char* verdict) {
+      const auto found = counts.find(verdict);
+      return found == counts.end() ? 0 : found->second;
+    };
+    const bool wrong = device.name == "not_declared";
+    EXPECT_EQ(finished.code, wrong ? 1 : 0) << device.name << finished.out << finished.err;
+    EXPECT_GE(count("PASS"), device.judged) << device.name;
+    EXPECT_EQ(count("FAIL") > 0, wrong) << device.name << finished.out;
+  }
+}
+
+}  // namespace
+}  // namespace fieldproof::tool_tests
