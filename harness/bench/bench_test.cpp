@@ -39,7 +39,7 @@ class BenchTest : public testing::Test {
   static std::string vector(const std::string& steps, const std::string& more = "") {
     return R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed", )j" +
            more +
-           R"j("source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "steps": [)j" +
+           R"j("statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "steps": [)j" +
            steps + "]}";
   }
   static std::string ask() { return R"({"send": "'<ask>'"}, {"expect": "'<answer>'"})"; }

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "harness/vectors/citations.hpp"
 #include "reports/html/html_survey.hpp"
 
 namespace fieldproof::cli {
@@ -45,8 +46,8 @@ reports::Coverage trace(const vectors::VectorSet& set,
               .first->second;
       ++vector.cases;
       vector_of[one.id] = &vector;
-      for (const std::string& statement : one.source.statements)
-        citing[statement].insert(one.vector_id);
+      for (const std::string_view statement : vectors::cited_by(one))
+        citing[std::string(statement)].insert(one.vector_id);
     }
   if (results) add_results(*results, vector_of);
 

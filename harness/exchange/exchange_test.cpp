@@ -35,7 +35,7 @@ class ExchangeTest : public testing::Test {
                                     const std::string& config = "{}") {
     const std::string text =
         R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed",
-      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "given": {"config": )j" +
+      "statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "given": {"config": )j" +
         config + R"j(}, "steps": [)j" + steps + "]}";
     vectors::load_vector_text(text, "f.json", set_);
     const Result<PreparedCase> prepared = prepare(set_.cases.at(0), 1, protocol);

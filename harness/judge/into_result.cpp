@@ -6,6 +6,16 @@
 
 namespace fieldproof::judging {
 
+namespace {
+
+void cite(const vectors::Source& source, results::CaseResult& result) {
+  result.manual = source.manual;
+  result.section = source.section;
+  result.quote = source.quote;
+}
+
+}  // namespace
+
 results::CaseResult result_of(const vectors::Case& source) {
   results::CaseResult result;
   result.id = source.id;
@@ -14,9 +24,7 @@ results::CaseResult result_of(const vectors::Case& source) {
   result.title = source.title;
   result.level = source.level;
   result.basis = source.basis;
-  result.manual = source.source.manual;
-  result.section = source.source.section;
-  result.quote = source.source.quote;
+  cite(source.source, result);
   return result;
 }
 
@@ -29,6 +37,9 @@ void note_transposition(const exchange::PreparedCase& prepared, results::CaseRes
 }
 
 void take_judgement(Judgement judgement, results::CaseResult& result) {
+  // The reader wants the clause that was broken, not that of the whole case.
+  if (judgement.failed && !judgement.failed->source.quote.empty())
+    cite(judgement.failed->source, result);
   result.verdict = judgement.verdict;
   result.message = std::move(judgement.message);
   std::ranges::move(judgement.notes, std::back_inserter(result.notes));

@@ -73,6 +73,7 @@ class Judge {
       if (step.step->every) judge_pace(step, came, periods);
     }
     if (step.step->every) periods.note(*step.step->every, findings_);
+    if (findings_.missed() && !findings_.result.failed) findings_.result.failed = step.step;
   }
 
   /// The period from the last time that a step with `every` took the same frame.

@@ -29,6 +29,7 @@ struct Judgement {
   results::Verdict verdict = results::Verdict::error;
   std::string message;
   std::vector<std::string> notes;
+  const vectors::Step* failed = nullptr;  // the first step that was not as it should be
   const exchange::PreparedFrame* expected =
       nullptr;                  // of the failing step, the alternative that comes nearest
   exchange::Received received;  // what came instead

@@ -30,7 +30,7 @@ class JudgeTest : public testing::Test {
     vectors::load_vector_text(
         R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": ")j" + level +
             R"j(", "basis": ")j" + basis + R"j(", "why": "because we say so", )j" + more +
-            R"j("source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "steps": [)j" +
+            R"j("statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "steps": [)j" +
             steps + "]}]",
         "f.json", set_);
     EXPECT_THAT(set_.problems, testing::IsEmpty());

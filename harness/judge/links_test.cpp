@@ -37,7 +37,7 @@ class LinksTest : public testing::Test {
     set_ = {};
     vectors::load_vector_text(
         R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed",
-      "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "given": {"config": )j" +
+      "statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "given": {"config": )j" +
             config + R"j(}, "steps": [)j" + steps + "]}]",
         "f.json", set_);
     EXPECT_THAT(set_.problems, testing::IsEmpty());

@@ -25,7 +25,7 @@ class Transposed {
         R"j({"id": ")j" + folder +
             R"j(/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed", )j" +
             more + (memory.empty() ? "" : R"j("given": {"memory": {)j" + memory + "}}, ") +
-            R"j("source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "as printed"}, "steps": [)j" +
+            R"j("statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "steps": [)j" +
             steps + "]}",
         "f.json", set_);
     EXPECT_THAT(set_.problems, IsEmpty());

@@ -20,9 +20,11 @@ struct Decision {
   std::string sentence;  // the first of the entry; empty until load_decisions has found it
 };
 
+/// The sentence that a case, or one step of it, rests on. The words are those of the first
+/// statement; a vector of its own document gives them itself.
 struct Source {
   std::string manual, section, quote;
-  std::vector<std::string> statements;
+  std::vector<std::string> statements;  // ids, the one that carries the assertion first
 };
 
 /// A frame of a step as the vector gives it: notation, and the literal bytes where they are
@@ -71,6 +73,7 @@ struct Step {
     expect_open
   };
   Kind kind = Kind::send;
+  Source source{};            // where the step rests on another sentence than its case, else empty
   std::vector<Frame> frames;  // send: one; expect: the preferred first
   std::string reading;        // what the alternatives of `expect` are about: type_echo
   std::vector<std::pair<std::string, std::string>> memory;  // set, check: address and hex digits

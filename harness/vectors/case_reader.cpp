@@ -70,13 +70,27 @@ PartnerSpec read_partner(const json& value, const Row& row) {
   return partner;
 }
 
-Source read_source(const json& value) {
-  Source source{value.at("manual"), value.at("section"), value.at("quote"), {}};
-  const json& statement = value.at("statement");
-  if (statement.is_string())
-    source.statements.push_back(statement);
-  else
-    source.statements = statement.get<std::vector<std::string>>();
+/// One id, or several.
+std::vector<std::string> read_ids(const json& value, const Row& row) {
+  if (value.is_string()) return {text_of(value, row)};
+  std::vector<std::string> ids;
+  for (const json& id : value) ids.push_back(text_of(id, row));
+  return ids;
+}
+
+Source read_source(const json& vector, const Row& row) {
+  Source source;
+  if (vector.contains("statement")) source.statements = read_ids(vector["statement"], row);
+  if (vector.contains("source")) {
+    const json& own = vector["source"];
+    source.manual = own.at("manual");
+    source.section = own.at("section");
+    source.quote = own.at("quote");
+  } else if (source.statements.empty()) {
+    throw Broken(
+        "rests on nothing: name a \"statement\" of a manual, or give the \"source\" of your own "
+        "document (manual, section, quote)");
+  }
   return source;
 }
 
@@ -154,6 +168,7 @@ class StepReader {
     if (value.contains("every")) step.every = duration(value["every"]);
     if (value.contains("max_gap")) step.max_gap = duration(value["max_gap"]);
     step.times = value.value("times", 1);
+    if (value.contains("statement")) step.source.statements = read_ids(value["statement"], row_);
     return step;
   }
 
@@ -247,20 +262,17 @@ class StepReader {
 }  // namespace
 
 CaseReader::CaseReader(const json& vector, std::string file, const notation::Dressing* dressing)
-    : vector_(vector),
-      file_(std::move(file)),
-      dressing_(dressing),
-      source_(read_source(vector.at("source"))) {}
+    : vector_(vector), file_(std::move(file)), dressing_(dressing) {}
 
 Case CaseReader::read(const Combination& combination) const {
   const Row& row = combination.row;
   Case result;
   result.vector_id = vector_.at("id");
   result.id = result.vector_id + combination.suffix;
-  result.rev = vector_.at("rev");
+  result.rev = vector_.value("rev", 1);
   result.title = text_of(vector_.at("title"), row);
   result.protocol = protocol_of(result.id);
-  result.source = source_;
+  result.source = read_source(vector_, row);
   result.level = text_of(vector_.at("level"), row);
   result.basis = text_of(vector_.at("basis"), row);
   result.why = text_of(vector_, "why", row);

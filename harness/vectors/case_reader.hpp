@@ -21,13 +21,10 @@ class CaseReader {
   /// The case of one combination of rows; throws Broken.
   Case read(const Combination& combination) const;
 
-  const Source& source() const { return source_; }
-
  private:
   const nlohmann::ordered_json& vector_;
   std::string file_;
   const notation::Dressing* dressing_;
-  Source source_;
 };
 
 }  // namespace fieldproof::vectors

@@ -31,7 +31,7 @@ VectorSet with(const std::string& basis, const std::string& keys = "") {
   load_vector_text(
       R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "the title of it", "level": "must", "basis": ")j" +
           basis + R"j(", "why": "because it is so", )j" + keys + R"j(
-    "source": {"manual": "m", "section": "1", "statement": "m/1", "quote": "one two three four five"},
+    "statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "one two three four five"},
     "each": {"n": [{"case": "one"}, {"case": "two"}]},
     "steps": [{"send": "[ENQ EOT]"}]}])j",
       "f.json", set);

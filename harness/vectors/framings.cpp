@@ -22,14 +22,6 @@ void check_names(const json& by_framing, const std::vector<std::string>& framing
                                fmt::join(framings, ", ")));
 }
 
-void take_differences(const json& differences, json& vector) {
-  for (const auto& [key, value] : differences.items())
-    if (key == "source")
-      vector["source"].update(value);
-    else
-      vector[key] = value;
-}
-
 /// A printed wire is that of one framing.
 void take_wire(const std::string& framing, const std::vector<std::string>& framings,
                std::size_t index, json& step) {
@@ -63,7 +55,7 @@ json framed(const json& vector, const std::string& framing) {
     const json& differs = vector["differs"];
     check_names(differs, framings, "differs");
     result.erase("differs");
-    if (differs.contains(framing)) take_differences(differs[framing], result);
+    if (differs.contains(framing)) result.update(differs[framing]);
   }
   if (result.contains("steps"))
     for (std::size_t i = 0; i < result["steps"].size(); ++i)

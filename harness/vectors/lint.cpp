@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "harness/notation/frame_template.hpp"
+#include "harness/vectors/citations.hpp"
 #include "harness/vectors/link_names.hpp"
 
 namespace fieldproof::vectors {
@@ -112,7 +113,7 @@ void lint_citations(const VectorSet& set, std::vector<std::string>& problems) {
       if (!manuals.contains(one.source.manual))
         problems.push_back(fmt::format("{}: {}: no manual '{}' in manuals.json", one.file, one.id,
                                        one.source.manual));
-      for (const std::string& statement : one.source.statements)
+      for (const std::string_view statement : cited_by(one))
         if (!statements.contains(statement))
           problems.push_back(
               fmt::format("{}: {}: no statement '{}' in statements/", one.file, one.id, statement));
@@ -257,10 +258,10 @@ std::vector<std::string> lint_tables(const VectorSet& set, const harness::Protoc
 }
 
 std::vector<SectionCoverage> coverage(const VectorSet& set) {
-  std::set<std::string> cited;
+  std::set<std::string_view> cited;
   for (const std::vector<Case>* cases : {&set.cases, &set.tables})
     for (const Case& one : *cases)
-      cited.insert(one.source.statements.begin(), one.source.statements.end());
+      for (const std::string_view id : cited_by(one)) cited.insert(id);
   std::vector<SectionCoverage> sections;
   for (const Statement& statement : set.statements) {
     auto section = std::ranges::find_if(sections, [&](const SectionCoverage& s) {

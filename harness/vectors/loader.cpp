@@ -7,6 +7,7 @@
 
 #include "harness/vectors/broken.hpp"
 #include "harness/vectors/case_reader.hpp"
+#include "harness/vectors/citations.hpp"
 #include "harness/vectors/errata.hpp"
 #include "harness/vectors/files.hpp"
 #include "harness/vectors/fingerprint.hpp"
@@ -127,8 +128,12 @@ class FolderLoader {
     for (const fs::path& path : json_files(folder))
       load_file(path, path.lexically_relative(base).generic_string());
     drop_errata_not_met();
-    for (const auto& [name, text] : statement_files_) guarded(name, [&] { load_statements(text); });
+    const bool all = options_.filter.empty() && !statement_files_.empty();
+    if (statement_files_.empty()) look_around(base);
+    for (const auto& [name, text] : statement_files_)
+      guarded(name, [&] { load_statements(text, all); });
     resolve_errata(set_);
+    resolve_citations(set_);
     set_.hash = fmt::format("{:016x}", hash_);
   }
 
@@ -157,10 +162,20 @@ class FolderLoader {
     });
   }
 
-  /// All, or those that the selected cases cite.
-  void load_statements(std::string_view text) {
+  /// The statements of a part of a set stand beside it, or one folder up.
+  void look_around(const fs::path& base) {
+    for (const fs::path& place : {base, fs::absolute(base).lexically_normal().parent_path()})
+      if (const fs::path folder = place / "statements"; fs::is_directory(folder)) {
+        for (const fs::path& path : json_files(folder))
+          statement_files_.emplace_back(path.string(), text_of_file(path));
+        return;
+      }
+  }
+
+  /// `all`, or those that the cases cite.
+  void load_statements(std::string_view text, bool all) {
     for (const Piece& piece : pieces_of(text)) {
-      if (!options_.filter.empty() && !cited().contains(piece.id)) continue;
+      if (!all && !cited().contains(piece.id)) continue;
       const json value = parse_piece(piece, text);
       const std::string id = value.at("id");
       set_.statements.push_back({id, id.substr(0, id.find('/')), value.at("section"),
@@ -183,7 +198,7 @@ class FolderLoader {
     if (cited_.empty())
       for (const std::vector<Case>* cases : {&set_.cases, &set_.tables})
         for (const Case& one : *cases)
-          cited_.insert(one.source.statements.begin(), one.source.statements.end());
+          for (const std::string_view id : cited_by(one)) cited_.insert(id);
     return cited_;
   }
 

@@ -74,7 +74,6 @@ constexpr Shape duration{.form = &duration_form};
 
 constexpr Shape quote{.least = 5};
 constexpr std::array source_keys{Key{"manual", &text, true}, Key{"section", &text, true},
-                                 Key{"statement", &text_or_texts, true},
                                  Key{"quote", &quote, true}};
 constexpr Shape source{.kind = Kind::object, .keys = source_keys};
 
@@ -112,13 +111,25 @@ constexpr Shape close{.words = close_words};
 constexpr Shape ending{.words = ending_words};
 
 constexpr Shape times{.kind = Kind::number, .least = 1, .most = 10'000};
-constexpr std::array step_keys{
-    Key{"send", &text},        Key{"expect", &frame},     Key{"wire", &wires},
-    Key{"silence", &yes},      Key{"wait", &duration},    Key{"partner", &partner},
-    Key{"set", &memory},       Key{"check", &memory},     Key{"do", &text},
-    Key{"open", &open},        Key{"close", &close},      Key{"expect_close", &ending},
-    Key{"expect_open", &text}, Key{"on", &text},          Key{"within", &duration},
-    Key{"every", &duration},   Key{"max_gap", &duration}, Key{"times", &times}};
+constexpr std::array step_keys{Key{"send", &text},
+                               Key{"expect", &frame},
+                               Key{"wire", &wires},
+                               Key{"silence", &yes},
+                               Key{"wait", &duration},
+                               Key{"partner", &partner},
+                               Key{"set", &memory},
+                               Key{"check", &memory},
+                               Key{"do", &text},
+                               Key{"open", &open},
+                               Key{"close", &close},
+                               Key{"expect_close", &ending},
+                               Key{"expect_open", &text},
+                               Key{"on", &text},
+                               Key{"within", &duration},
+                               Key{"every", &duration},
+                               Key{"max_gap", &duration},
+                               Key{"times", &times},
+                               Key{"statement", &text_or_texts}};
 constexpr Shape step{.kind = Kind::object, .keys = step_keys};
 constexpr Shape steps{.kind = Kind::list, .least = 1, .items = &step};
 
@@ -145,12 +156,9 @@ constexpr Shape level{.words = level_words};
 constexpr Shape basis{.words = basis_words};
 
 constexpr std::array argued{Demand{"basis", argued_words, "why", ""}};
-constexpr std::array partial_source_keys{Key{"manual", &text}, Key{"section", &text},
-                                         Key{"statement", &text_or_texts}, Key{"quote", &quote}};
-constexpr Shape partial_source{.kind = Kind::object, .least = 1, .keys = partial_source_keys};
 constexpr Shape decision{.form = &decision_id};
 constexpr Shape decisions{.kind = Kind::list, .least = 1, .items = &decision};
-constexpr std::array difference_keys{Key{"title", &title}, Key{"source", &partial_source},
+constexpr std::array difference_keys{Key{"title", &title}, Key{"statement", &text_or_texts},
                                      Key{"basis", &basis}, Key{"why", &reason},
                                      Key{"decision", &decisions}};
 constexpr Shape difference{
@@ -158,13 +166,24 @@ constexpr Shape difference{
 constexpr Shape differs{.kind = Kind::object, .least = 1, .open = true, .others = &difference};
 constexpr Shape framings{.kind = Kind::list, .least = 1, .items = &case_name};
 
-constexpr std::array vector_keys{
-    Key{"id", &id, true},         Key{"rev", &rev, true},      Key{"title", &title, true},
-    Key{"framings", &framings},   Key{"differs", &differs},    Key{"kind", &kind},
-    Key{"source", &source, true}, Key{"level", &level, true},  Key{"basis", &basis, true},
-    Key{"why", &reason},          Key{"decision", &decisions}, Key{"models", &texts},
-    Key{"each", &each},           Key{"given", &given},        Key{"steps", &steps},
-    Key{"facts", &any_object},    Key{"transpose", &boolean}};
+constexpr std::array vector_keys{Key{"id", &id, true},
+                                 Key{"rev", &rev},
+                                 Key{"title", &title, true},
+                                 Key{"framings", &framings},
+                                 Key{"differs", &differs},
+                                 Key{"kind", &kind},
+                                 Key{"statement", &text_or_texts},
+                                 Key{"source", &source},
+                                 Key{"level", &level, true},
+                                 Key{"basis", &basis, true},
+                                 Key{"why", &reason},
+                                 Key{"decision", &decisions},
+                                 Key{"models", &texts},
+                                 Key{"each", &each},
+                                 Key{"given", &given},
+                                 Key{"steps", &steps},
+                                 Key{"facts", &any_object},
+                                 Key{"transpose", &boolean}};
 constexpr std::array vector_demands{Demand{"basis", argued_words, "why", ""},
                                     Demand{"kind", table_word, "facts", "steps"}};
 constexpr Shape vector{.kind = Kind::object, .keys = vector_keys, .demands = vector_demands};

@@ -278,7 +278,7 @@ TEST_F(Lint, takes_literal_bytes_from_the_second_entry) {
 TEST_F(Lint, names_what_is_cited_and_not_there) {
   ordered_json bad = good_;
   bad["source"]["manual"] = "n";
-  bad["source"]["statement"] = "m/2";
+  bad["statement"] = "m/2";
   const Finished finished = lint(bad);
   EXPECT_EQ(finished.code, 2);
   EXPECT_THAT(finished.out, AllOf(HasSubstr("xgt_cnet/lint/one: no manual 'n'"),

@@ -12,7 +12,7 @@ using samples::ParsedHtml;
 using testing::HasSubstr;
 
 ordered_json citing(ordered_json vector, const std::vector<std::string>& statements) {
-  vector["source"]["statement"] = statements;
+  vector["statement"] = statements;
   return vector;
 }
 

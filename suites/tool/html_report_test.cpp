@@ -79,7 +79,7 @@ TEST_F(HtmlReport, sheet_has_the_hashes_of_what_was_run) {
 
 TEST_F(HtmlReport, errata_of_the_cases_that_ran_are_listed) {
   nlohmann::ordered_json vector = small_vector("v/erratum");
-  vector["source"]["statement"] = "m/2";
+  vector["statement"] = "m/2";
   folder_.write("vectors/manuals.json",
                 R"([{"id": "m", "file": "m.txt", "title": "T", "edition": ""}])");
   folder_.write("vectors/statements/m.json",

@@ -22,17 +22,15 @@ inline constexpr const char* wrong_word = "[ACK st 'rSS' '01' '02' '0001' ETX BC
 /// A vector of level must that asks and expects; tests replace what they are about.
 inline nlohmann::ordered_json small_vector(const std::string& id,
                                            const nlohmann::ordered_json& expect = zero_word) {
-  return {{"id", "xgt_cnet/" + id},
-          {"rev", 1},
-          {"title", "a vector of the tests of the tool"},
-          {"source",
-           {{"manual", "m"},
-            {"section", "1"},
-            {"statement", "m/1"},
-            {"quote", "reads one word from the device"}}},
-          {"level", "must"},
-          {"basis", "printed"},
-          {"steps", {{{"send", ask_word}}, {{"expect", expect}}}}};
+  return {
+      {"id", "xgt_cnet/" + id},
+      {"rev", 1},
+      {"title", "a vector of the tests of the tool"},
+      {"statement", "m/1"},
+      {"source", {{"manual", "m"}, {"section", "1"}, {"quote", "reads one word from the device"}}},
+      {"level", "must"},
+      {"basis", "printed"},
+      {"steps", {{{"send", ask_word}}, {{"expect", expect}}}}};
 }
 
 /// `object` with another key.

@@ -1,0 +1,18 @@
+// What cases rest on: from the ids of statements to their words.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "harness/vectors/loader.hpp"
+
+namespace fieldproof::vectors {
+
+/// The ids of all statements that a case or one of its steps names, in order, each once.
+std::vector<std::string_view> cited_by(const Case& one);
+
+/// Gives each case and each step that has no words of its own those of the first statement that it
+/// names. Where that is not there, it is a problem of the set, with the nearest one that is.
+void resolve_citations(VectorSet& set);
+
+}  // namespace fieldproof::vectors
