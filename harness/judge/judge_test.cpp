@@ -71,10 +71,10 @@ class JudgeTest : public testing::Test {
   exchange::ScriptedEndpoint endpoint;
   JudgeRules rules;
   exchange::Transcript transcript;
+  vectors::VectorSet set_;
 
  private:
   harness::TestProtocol protocol_;
-  vectors::VectorSet set_;
   exchange::PreparedCase prepared_;
 };
 
@@ -334,6 +334,22 @@ TEST_F(JudgeTest, WhatIsDerivedFromADecisionBindsAsThatDoes) {
   EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::non_strict);
   rules.binding_decisions = true;
   EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::fail);
+}
+
+/// The clause that is told is that of the step.
+TEST_F(JudgeTest, AStepThatFailsIsToldUnderItsOwnClause) {
+  const auto clause = [&](const std::string& steps, std::size_t own) {
+    Judgement judgement = judged(steps);
+    set_.cases.at(0).steps.at(own).source = {"m", "7.1.5 (1)(c)", "ACK carries the data", {}};
+    results::CaseResult result = result_of(set_.cases.at(0));
+    take_judgement(std::move(judgement), result);
+    return result.section + ": " + result.quote;
+  };
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<no>"}};
+  EXPECT_EQ(clause(ask(), 1), "7.1.5 (1)(c): ACK carries the data");
+  EXPECT_EQ(clause(ask(), 0), "1: as printed") << "another step failed";
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<yes>"}};
+  EXPECT_EQ(clause(R"({"send": "'<ask>'"}, {"expect": "'<yes>'"})", 1), "1: as printed");
 }
 
 /// A refusal is due, and the device does what was asked: no wiring is to blame.

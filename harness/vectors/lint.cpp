@@ -113,6 +113,11 @@ void lint_citations(const VectorSet& set, std::vector<std::string>& problems) {
       if (!manuals.contains(one.source.manual))
         problems.push_back(fmt::format("{}: {}: no manual '{}' in manuals.json", one.file, one.id,
                                        one.source.manual));
+      if (one.source.statements.empty())
+        problems.push_back(
+            fmt::format("{}: {}: names no statement; list the sentence in statements/ and name its "
+                        "id, so that coverage knows it",
+                        one.file, one.id));
       for (const std::string_view statement : cited_by(one))
         if (!statements.contains(statement))
           problems.push_back(
