@@ -23,7 +23,7 @@ bool is_erratum_id(std::string_view id) {
          id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_/") == id.npos;
 }
 
-constexpr Form erratum_id{"an id such as cnet_7/ack_tail",
+constexpr Form erratum_id{"an id such as chapter_7/ack_tail",
                           "^[a-z0-9_][a-z0-9_/]*/[a-z0-9_/]*[a-z0-9_]$", is_erratum_id};
 constexpr std::array<std::string_view, 5> kind_words{"wrong bytes", "contradiction", "wrong number",
                                                      "wrong reference", "wording"};
