@@ -62,7 +62,7 @@ TEST(Errata, WrongShapesAreNamedByFileAndLine) {
   EXPECT_THAT(load(changed("\"section\": \"2\", ", "")).problems,
               ElementsAre(HasSubstr("proof[0]: lacks 'section'")));
   EXPECT_THAT(load(changed("m_7/tail", "tail")).problems,
-              ElementsAre(HasSubstr("id: 'tail' is not an id such as cnet_7/ack_tail")));
+              ElementsAre(HasSubstr("id: 'tail' is not an id such as chapter_7/ack_tail")));
 }
 
 TEST(Errata, WhatTheyCiteIsThere) {

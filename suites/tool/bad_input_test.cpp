@@ -22,6 +22,11 @@ ordered_json first_step(ordered_json vector, const char* key, const ordered_json
   return vector;
 }
 
+ordered_json without(ordered_json vector, const char* key) {
+  vector.erase(key);
+  return vector;
+}
+
 std::string text_of(const ordered_json& vector) { return ordered_json::array({vector}).dump(1); }
 
 // ---- start-up files and options
@@ -76,6 +81,12 @@ std::vector<BadInput> bad_inputs() {
                   {"xgt_cnet/bad/one", "rev"}),
       bad_vectors("bad_notation", text_of(first_step(good, "send", "[ENQ st 'rSS' FOO EOT BCC]")),
                   {"xgt_cnet/bad/one", "steps[0]", "FOO"}),
+      bad_vectors("wire_that_contradicts_its_notation", text_of(first_step(good, "wire", "05 30")),
+                  {"xgt_cnet/bad/one", "steps[0]", "wire and notation differ at byte 2"}),
+      bad_vectors("rests_on_nothing", text_of(without(without(good, "statement"), "source")),
+                  {"xgt_cnet/bad/one", "name a \"statement\" of a manual"}),
+      bad_vectors("statement_that_is_not_there", text_of(without(good, "source")),
+                  {"xgt_cnet/bad/one", "no statement 'm/1'"}),
       bad_vectors("open_bracket", text_of(first_step(good, "send", "[ENQ st 'rSS' EOT BCC")),
                   {"xgt_cnet/bad/one", "steps[0]"}),
       bad_vectors("two_kinds_in_a_step", text_of(first_step(good, "silence", true)),
