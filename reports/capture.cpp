@@ -32,7 +32,7 @@ namespace {
 /// or its answer.
 bool continues(const Event& event, const Event& before) {
   return event.kind == before.kind && event.step == before.step &&
-         event.surplus == before.surplus &&
+         event.surplus == before.surplus && event.extract.empty() && before.extract.empty() &&
          (event.step >= 0 || event.kind == Event::Kind::received);
 }
 
@@ -46,6 +46,8 @@ std::string comment_of(const CaseResult& result, const Event& event) {
     part = fmt::format(", step {}", event.step + 1);
   else if (!result.recording.stimulus.empty())
     part = ", probe";  // without a recording the steps are not known
+  if (!event.extract.empty())
+    part += fmt::format(", {} bytes in all, sha256 {}", event.extract.count, event.extract.sha256);
   return text::xml_line(text::case_label(result).substr(0, 1000)) + part + ": " +
          std::string(results::to_string(result.verdict));
 }
@@ -139,7 +141,7 @@ class CaptureReport final : public Sink {
     std::string blocks;
     const std::uint32_t interface = interface_of(result.protocol, linktype_rtac_serial, blocks);
     return blocks + pcapng_serial_packet({interface, calendar_.pass(frame.end), frame.sent,
-                                          frame.bytes, frame.comment});
+                                          frame.bytes, frame.comment, frame.left_out});
   }
   std::string block_of(const CaseResult& result, const CapturedPacket& packet) {
     std::string blocks;
@@ -175,6 +177,7 @@ std::vector<CapturedFrame> captured_frames(const CaseResult& result) {
       join(frames.back(), event);
     else
       frames.push_back({event.kind == Event::Kind::sent, event.start, event.end, event.bytes,
+                        event.extract.empty() ? 0 : event.extract.count - event.bytes.size(),
                         comment_of(result, event)});
     before = &event;
   }

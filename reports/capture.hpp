@@ -16,6 +16,10 @@ namespace fieldproof::reports {
 ///   tshark -r FILE -d rtacser.data,mbrtu -o mbrtu.crc_verification:TRUE   decodes Modbus RTU
 ///   the display filter frame.comment contains "FAIL"   shows the cases that failed
 ///
+/// Of an extract the bytes that are kept stand in it: on a line the first, with the length of all;
+/// of a connection both ends, with a gap of the sequence between them. The comment says how many
+/// there were.
+///
 /// Times are those of the bench, counted from the start of the run as the clock of the computer
 /// gave it (in seconds). Simulated clocks of several protocols run one after the other, as their
 /// cases did.
@@ -27,6 +31,7 @@ struct CapturedFrame {
   Time start{};
   Time end{};
   Bytes bytes;
+  std::size_t left_out = 0;  // that came and were not kept, behind them
   std::string comment;  // "xgt_cnet/rss/one_word, step 2: FAIL; pause of 20.000 ms after 5 bytes"
 };
 std::vector<CapturedFrame> captured_frames(const results::CaseResult& result);

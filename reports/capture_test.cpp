@@ -62,6 +62,24 @@ TEST(CapturedFrames, StepsProbesAndSurplusStayApart) {
                                    "a/b, surplus: PASS", "a/b, probe: PASS", "a/b, probe: PASS"));
 }
 
+TEST(CapturedFrames, OfAnExtractSayHowMuchTheyLack) {
+  Event flood = piece(Event::Kind::received, "05 06", 0ms, 1);
+  flood.extract = {2000, {0x07}, "5ha"};
+  const auto frames =
+      captured_frames(with_exchange({flood, piece(Event::Kind::received, "08", 1ms, 1)}));
+  ASSERT_EQ(2u, frames.size()) << "nothing is glued to it";
+  EXPECT_EQ("05 06", to_hex(frames[0].bytes));
+  EXPECT_EQ(1998u, frames[0].left_out);
+  EXPECT_EQ("a/b, step 2, 2000 bytes in all, sha256 5ha: PASS", frames[0].comment);
+  const std::string packet = pcapng_serial_packet({0, 0, false, frames[0].bytes, "", 1998});
+  const auto length = [&](std::size_t at) {
+    return static_cast<unsigned char>(packet[at]) +
+           256u * static_cast<unsigned char>(packet[at + 1]);
+  };
+  EXPECT_EQ(12u + 2, length(20)) << "captured";
+  EXPECT_EQ(12u + 2000, length(24)) << "on the line";
+}
+
 TEST(CapturedFrames, OfAnOldRecordingHaveNoStep) {
   EXPECT_EQ("xgt_cnet/rss/one_word: FAIL", captured_frames(samples::failure()).front().comment);
 }

@@ -74,11 +74,17 @@ void CapturedNetwork::add_tcp(const Event& event, const std::string& comment) {
   }
   stand(link);
   const Side from = event.kind == Event::Kind::sent ? bench : device;
-  for (ByteView left = event.bytes; !left.empty();) {
-    const ByteView part = left.first(std::min(left.size(), most_ip_payload));
-    segment(link, from, tcp_psh | tcp_ack, part, event.end, comment);
-    left = left.subspan(part.size());
-  }
+  const auto say = [&](ByteView left) {
+    while (!left.empty()) {
+      const ByteView part = left.first(std::min(left.size(), most_ip_payload));
+      segment(link, from, tcp_psh | tcp_ack, part, event.end, comment);
+      left = left.subspan(part.size());
+    }
+  };
+  say(event.bytes);
+  if (event.extract.empty()) return;
+  link.sequence[from] += static_cast<std::uint32_t>(event.extract.left_out(event.bytes.size()));
+  say(event.extract.tail);
 }
 
 void CapturedNetwork::ask(Link& link, Time time, const std::string& comment) {

@@ -114,6 +114,16 @@ TEST(CapturedNetwork, TheDeviceOpensWhatItAsksOn) {
                           "> 502 49152 A 2 3"));
 }
 
+/// What was not kept is a gap in the sequence: Wireshark says that the capture lacks it.
+TEST(CapturedNetwork, OfAnExtractBothEndsAreThere) {
+  Event flood = event(received, "", 1ms, false, "01 02");
+  flood.extract = {1000, {0x08, 0x09, 0x0A}, ""};
+  EXPECT_THAT(all({event(opened, "", 0ms), flood, event(received, "", 2ms, false, "0B")}),
+              ElementsAre("> 49152 502 S 0 -", "< 502 49152 SA 0 1", "> 49152 502 A 1 1",
+                          "< 502 49152 PA 1 1 01 02", "< 502 49152 PA 998 1 08 09 0A",
+                          "< 502 49152 PA 1001 1 0B"));
+}
+
 TEST(CapturedNetwork, WhatNobodyHasOpenedTheBenchHas) {
   EXPECT_THAT(all({event(sent, "", 0ms, false, "01")}),
               ElementsAre("> 49152 502 S 0 -", "< 502 49152 SA 0 1", "> 49152 502 A 1 1",

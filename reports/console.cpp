@@ -23,7 +23,6 @@ namespace {
 constexpr std::size_t verdict_width = 14;   // INCONCLUSIVE and two spaces
 constexpr std::size_t console_limit = 256;  // bytes of a frame; the reports have them all
 constexpr std::size_t red_limit = 20;       // red cases named again in the summary
-constexpr std::size_t most_red = 1000;      // that are kept for it
 constexpr int widest_head = 100;
 constexpr Duration shortest_display = 20ms;
 const std::string erase_line = "\r\x1b[K";
@@ -61,8 +60,14 @@ std::string counts(const text::Tally& tally, const ConsoleOptions& options) {
   return text;
 }
 
-std::string red_cases(const std::vector<std::string>& red) {
+std::string red_cases(const text::Failures& failures) {
   std::string text;
+  const std::vector<const text::Finding*> repeated = failures.repeated();
+  for (std::size_t i = 0; i < std::min(repeated.size(), red_limit); ++i)
+    text += fmt::format("  {}\n", text::xml_line(text::to_string(*repeated[i])));
+  if (repeated.size() > red_limit)
+    text += fmt::format("  ... and {} more findings\n", repeated.size() - red_limit);
+  const std::vector<std::string> red = failures.single();
   for (std::size_t i = 0; i < std::min(red.size(), red_limit); ++i)
     text += fmt::format("  {}\n", red[i]);
   if (red.size() > red_limit) text += fmt::format("  ... and {} more\n", red.size() - red_limit);
@@ -131,16 +136,18 @@ std::string run_head(const RunInfo& run, const ConsoleOptions& options) {
   return lines.take();
 }
 
-std::string case_report(const results::CaseResult& result, const ConsoleOptions& options) {
+std::string case_report(const results::CaseResult& result, const ConsoleOptions& options,
+                        const text::Finding* again) {
   const bool red = results::gates(result.verdict, options.gate);
   if (!red && !options.verbose) return "";
   std::string text =
       verdict_word(result.verdict, verdict_width, options) + text::case_label(result);
   if (!result.message.empty()) text += "  " + text::xml_line(result.message);
-  text += '\n';
+  const bool told = again && again->is_again() && !options.verbose;
+  text += told ? fmt::format("  (as {})\n", again->first.front()) : "\n";
   // A case that never started has nothing but its message.
   const bool executed = red || !result.exchange.empty();
-  if (executed)
+  if (executed && !told)
     text +=
         text::indent(
             text::case_block(result, {.limit = console_limit, .exchange = options.verbose}), 2) +
@@ -191,16 +198,15 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
 
 Status ConsoleReport::begin(const RunInfo& run) { return print_(run_head(run, options_)), ok(); }
 
-void ConsoleReport::count(const CaseResult& result) {
+const text::Finding* ConsoleReport::count(const CaseResult& result) {
   summary_.tally.add(result.verdict);
   timing_.add(result);
-  if (gates(result.verdict, options_.gate) && summary_.red.size() < most_red)
-    summary_.red.push_back(text::case_label(result));
+  return gates(result.verdict, options_.gate) ? &summary_.red.add(result) : nullptr;
 }
 
 Status ConsoleReport::add(const Delivery& one) {
-  count(*one);
-  if (const std::string text = case_report(*one, options_); !text.empty())
+  const text::Finding* finding = count(*one);
+  if (const std::string text = case_report(*one, options_, finding); !text.empty())
     print_(progress_.erase() + text);
   return ok();
 }

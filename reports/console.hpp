@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reports/results/sink.hpp"
+#include "reports/text/failures.hpp"
 #include "reports/text/tally.hpp"
 #include "reports/text/timing_table.hpp"
 
@@ -26,8 +27,9 @@ struct ConsoleOptions {
 std::string run_head(const results::RunInfo& run, const ConsoleOptions& options = {});
 
 /// A case as it happens: one line, and the block of case_text.hpp, when it turns the gate red or
-/// with -v; else nothing.
-std::string case_report(const results::CaseResult& result, const ConsoleOptions& options);
+/// with -v; else nothing. Without the block where `again` is the finding that tells it in full.
+std::string case_report(const results::CaseResult& result, const ConsoleOptions& options,
+                        const text::Finding* again = nullptr);
 
 /// The one line that moves. Only on a terminal: a log gets the cases that turn the gate red, and
 /// the summary.
@@ -54,15 +56,15 @@ class Progress {
 struct Summary {
   text::Tally tally;
   results::RunEnd end;
-  std::vector<std::string> red;  // labels of the cases that turned the gate red, in order
+  text::Failures red;  // the cases that turned the gate red
   std::vector<std::pair<std::string, std::string>>
       reports;  // kind and path: {"junit", "fieldproof-out/junit.xml"}
   text::TimingTable::Rows timing = {};
   std::optional<results::SoakSummary> soak = {};
 };
 
-/// Counts of the verdicts that occur with their meaning, the red cases, exit code and its meaning,
-/// paths of the reports.
+/// Counts of the verdicts that occur with their meaning, what failed again and again as one
+/// finding, the other red cases, exit code and its meaning, paths of the reports.
 std::string run_summary(const Summary& summary, const ConsoleOptions& options);
 
 /// All of it as the run goes.
@@ -80,8 +82,8 @@ class ConsoleReport final : public results::Sink {
   void erase_progress() { print_(progress_.erase()); }
 
   Status begin(const results::RunInfo& run) override;
-  /// One that a soak only counts.
-  void count(const results::CaseResult& result);
+  /// One that a soak only counts. The finding that it belongs to; nullptr: it is not red.
+  const text::Finding* count(const results::CaseResult& result);
   Status add(const results::Delivery& one) override;
   Status end(const results::RunLog& log) override;
 

@@ -184,7 +184,10 @@ TEST(RunSummary, CountsWhatOccurs) {
   summary.tally.add(Verdict::blocked, 12);
   summary.end = samples::run_end(1);
   summary.end.reasons = text::reasons_of(summary.tally, {});
-  summary.red = {"a/b", "a/c #2"};
+  summary.red.add(samples::with(Verdict::fail, "a/b", "late"));
+  results::CaseResult second = samples::with(Verdict::fail, "a/c", "wrong");
+  second.repeat = 1;
+  summary.red.add(second);
   summary.reports = {{"results", "out/results.ndjson"}, {"junit", "out/junit.xml"}};
   EXPECT_EQ(R"(
 1417 cases in 2.2 s
@@ -228,10 +231,44 @@ TEST(RunSummary, SaysWhyARunStoppedEarly) {
 
 TEST(RunSummary, NamesTheFirstOfManyRedCases) {
   Summary summary;
-  for (int i = 1; i <= 25; ++i) summary.red.push_back("a/" + std::to_string(i));
+  for (int i = 0; i < 25; ++i)
+    summary.red.add(samples::with(Verdict::fail, "a/" + std::to_string(i + 1),
+                                  std::string(1, static_cast<char>('k' + i % 10)) + " is wrong"));
   const std::string text = run_summary(summary, {});
   EXPECT_THAT(text, HasSubstr("  a/20\n  ... and 5 more\n"));
   EXPECT_THAT(text, Not(HasSubstr("a/21")));
+}
+
+TEST(RunSummary, TellsTheSameFailureOnce) {
+  Summary summary;
+  for (int i = 1; i <= 40; ++i)
+    summary.red.add(
+        samples::with(Verdict::fail, "a/" + std::to_string(i), "no answer within 500 ms"));
+  summary.red.add(samples::with(Verdict::fail, "b/other", "wrong"));
+  EXPECT_THAT(run_summary(summary, {}),
+              HasSubstr("red:\n  40 cases: no answer within 500 ms (first: a/1, a/2, a/3)\n"
+                        "  b/other\n"));
+}
+
+std::string printed;
+
+TEST(ConsoleReport, TellsTheFirstOfAKindInFull) {
+  const auto run = [](bool verbose) {
+    printed.clear();
+    ConsoleReport report({.verbose = verbose}, [](const std::string& text) { printed += text; });
+    for (int i = 1; i <= 5; ++i) {
+      results::CaseResult result = samples::failure();
+      result.id = "a/" + std::to_string(i);
+      [[maybe_unused]] const Status done = report.add(results::Delivery(result));
+    }
+    std::size_t blocks = 0;
+    for (std::size_t at = 0; (at = printed.find("  clause  ", at)) != printed.npos; ++at) ++blocks;
+    return blocks;
+  };
+  EXPECT_EQ(run(false), 3u);
+  EXPECT_THAT(printed,
+              HasSubstr("FAIL          a/5  " + samples::failure().message + "  (as a/1)\n"));
+  EXPECT_EQ(run(true), 5u) << "-v shows every exchange";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/text/case_text.hpp"
+#include "reports/text/failures.hpp"
 #include "reports/text/report_file.hpp"
 #include "reports/text/run_text.hpp"
 #include "reports/text/spill.hpp"
@@ -28,6 +29,8 @@ using results::Sink;
 using results::Verdict;
 using text::case_block;
 using text::case_message;
+using text::Failures;
+using text::Finding;
 using text::JunitOutcome;
 using text::ReportFile;
 using text::Spill;
@@ -45,6 +48,7 @@ struct Suite {
   Tally tally = {};
   double seconds = 0;
   text::TimingTable timing = {};
+  text::Failures failures = {};
 };
 
 struct Counts {
@@ -88,13 +92,26 @@ std::string remarks(const CaseResult& result) {
   return text;
 }
 
-void write_outcome(XmlWriter& xml, const CaseResult& result, const char* element) {
-  // GitLab shows the body and not the message.
-  xml.leaf(element, {{"type", to_string(result.verdict)}, {"message", case_message(result)}},
-           headline(result) + case_block(result, {.exchange = true}));
+/// The body of what has failed alike before: where that stands in full.
+std::string reference(const CaseResult& result, const Finding& finding) {
+  std::string text = fmt::format(
+      "finding {}, as {}, where it stands in full; results.ndjson has the "
+      "frames of this case\n",
+      finding.number, finding.first.front());
+  if (!result.title.empty()) text += xml_line(result.title) + '\n';
+  if (!result.replay.empty()) text += fmt::format("replay    {}\n", xml_line(result.replay));
+  return text;
 }
 
-void write_case(XmlWriter& xml, const CaseResult& result, const Gate& gate) {
+void write_outcome(XmlWriter& xml, const CaseResult& result, const char* element,
+                   const Finding& finding) {
+  // GitLab shows the body and not the message.
+  xml.leaf(element, {{"type", to_string(result.verdict)}, {"message", case_message(result)}},
+           headline(result) + (finding.is_again() ? reference(result, finding)
+                                                  : case_block(result, {.exchange = true})));
+}
+
+void write_case(XmlWriter& xml, const CaseResult& result, const Gate& gate, Failures& failures) {
   const auto [classname, name] = junit_name(result);
   const std::string time = seconds_text(result.seconds);
   const XmlWriter::Attributes attributes{{"classname", classname}, {"name", name}, {"time", time}};
@@ -103,7 +120,9 @@ void write_case(XmlWriter& xml, const CaseResult& result, const Gate& gate) {
   const std::string said = red ? "" : remarks(result);
   if (outcome == JunitOutcome::plain && said.empty()) return xml.leaf("testcase", attributes);
   xml.open("testcase", attributes);
-  if (red) write_outcome(xml, result, outcome == JunitOutcome::error ? "error" : "failure");
+  if (red)
+    write_outcome(xml, result, outcome == JunitOutcome::error ? "error" : "failure",
+                  failures.add(result));
   if (outcome == JunitOutcome::skipped)
     xml.leaf("skipped",
              {{"type", to_string(result.verdict)},
@@ -129,7 +148,7 @@ class JunitReport final : public Sink {
     text_.clear();
     XmlWriter xml(text_);
     xml.depth = 2;
-    write_case(xml, *one, gate_);
+    write_case(xml, *one, gate_, suite.failures);
     return suite.cases.append(text_);
   }
 
@@ -258,6 +277,8 @@ class JunitReport final : public Sink {
     if (log.end) add("exit_code", std::to_string(log.end->exit_code));
     if (const std::string why = text::early_end(log); !why.empty()) add("ended_early", why);
     if (log.soak) add("soak", soak_text(*log.soak));
+    for (const Finding* finding : suite.failures.repeated())
+      add(fmt::format("finding {}", finding->number), to_string(*finding));
     for (const auto& [name, figures] : suite.timing.rows())
       add("reply times " + name, to_string(figures));
     xml.close("properties");

@@ -216,6 +216,7 @@ TEST_F(Junit, NothingThatADeviceSendsBreaksTheFile) {
     result.id += std::to_string(b);
     result.received_bytes = {static_cast<Byte>(b)};
     result.message = result.received = std::string("got ") + static_cast<char>(b);
+    result.verdict = b == 5 ? Verdict::xpass : Verdict::fail;  // not alike: told in full
     results.push_back(result);
   }
   auto hostile = samples::failure();
@@ -254,6 +255,34 @@ TEST_F(Junit, OfAFrameOfAMebibyteItHasAnExtract) {
   if (have_xmllint()) {
     EXPECT_EQ("", xmllint());
   }
+}
+
+/// Each case has its verdict and its message; what the first of a kind says at length the others
+/// refer to.
+TEST_F(Junit, TheSameFailureIsToldOnce) {
+  std::vector<CaseResult> results;
+  for (int i = 1; i <= 200; ++i) {
+    results.push_back(samples::failure());
+    results.back().id = "xgt_cnet/rss/n" + std::to_string(i);
+  }
+  report(results);
+  const pugi::xml_node suite = document_.child("testsuites").child("testsuite");
+  EXPECT_EQ(200u, suite.attribute("failures").as_uint());
+  std::size_t in_full = 0;
+  for (const pugi::xml_node one : suite.children("testcase")) {
+    EXPECT_EQ(samples::failure().message, one.child("failure").attribute("message").value());
+    const std::string body = one.child("failure").child_value();
+    EXPECT_THAT(body, HasSubstr("replay    "));
+    in_full += body.find("clause ") != body.npos;
+    EXPECT_NE(body.find("clause ") != body.npos,
+              body.find("finding 1, as xgt_cnet/rss/n1,") != body.npos);
+  }
+  EXPECT_EQ(3u, in_full);
+  const pugi::xml_node property =
+      suite.child("properties").find_child_by_attribute("name", "finding 1");
+  EXPECT_EQ("200 cases: " + samples::failure().message +
+                " (first: xgt_cnet/rss/n1, xgt_cnet/rss/n2, xgt_cnet/rss/n3)",
+            std::string(property.attribute("value").value()));
 }
 
 TEST_F(Junit, LongIdsStayWhole) {

@@ -68,7 +68,7 @@ std::string enhanced(const PcapngPacket& packet, const std::string& header) {
   put(body, static_cast<std::uint32_t>(packet.time >> 32));
   put(body, static_cast<std::uint32_t>(packet.time));
   put(body, static_cast<std::uint32_t>(header.size() + kept));
-  put(body, static_cast<std::uint32_t>(header.size() + packet.bytes.size()));
+  put(body, static_cast<std::uint32_t>(header.size() + packet.bytes.size() + packet.left_out));
   body += header;
   body.append(packet.bytes.begin(), packet.bytes.begin() + static_cast<std::ptrdiff_t>(kept));
   pad(body);

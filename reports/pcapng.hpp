@@ -28,6 +28,7 @@ struct PcapngPacket {
   bool sent = false;       // by the bench, to the device
   ByteView bytes;
   std::string_view comment;
+  std::size_t left_out = 0;  // bytes behind these that are not kept
 };
 /// Bytes as they are on the interface. Readers refuse packets of more than 256 KiB: what is longer
 /// is cut there, as its two lengths then say.

@@ -6,7 +6,6 @@
 #include "harness/bench/what_to_check.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/judge/recording.hpp"
-#include "harness/notation/notation.hpp"
 #include "harness/safety/transposition.hpp"
 
 namespace fieldproof::bench {
@@ -330,11 +329,7 @@ void Bench::judge_exchange(const PreparedCase& prepared, const exchange::Transcr
                            CaseResult& result) {
   judging::take_judgement(judging::judge(prepared, transcript, rules(), protocol_), result);
   result.recording = judging::make_recording(prepared, transcript, rules());
-  for (results::Event event : transcript.events) {
-    if (event.kind == results::Event::Kind::sent || event.kind == results::Event::Kind::received)
-      event.text = notation::print_bytes(event.bytes);
-    result.exchange.push_back(std::move(event));
-  }
+  judging::take_exchange(transcript, protocol_.longest_frame(), result);
   if (const std::string errors = endpoint_.line_errors(); !errors.empty())
     result.notes.push_back("the driver counted " + errors);
 }

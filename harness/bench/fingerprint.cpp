@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "harness/notation/notation.hpp"
+#include "harness/notation/beginning.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof::bench {
@@ -69,7 +69,7 @@ class Reader {
     }
     return fail(fmt::format(
         "cannot take the fingerprint: a read of {} gets {}", address_of(area, word),
-        reply.empty() ? "no answer" : "what is no reply: " + notation::print_bytes(reply)));
+        reply.empty() ? "no answer" : "what is no reply: " + notation::print_beginning(reply)));
   }
 
   const Protocol& protocol_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "harness/exchange/timing.hpp"
+#include "harness/notation/beginning.hpp"
 #include "harness/notation/notation.hpp"
 
 namespace fieldproof::exchange {
@@ -60,7 +61,7 @@ Result<Bytes> MemoryAccess::ask(const Channel& server, ByteView request) {
 
 std::string MemoryAccess::said() const {
   return fmt::format("sent {}, {}", notation::print_bytes(asked_),
-                     silent_ ? "nothing came" : "received " + notation::print_bytes(answered_));
+                     silent_ ? "nothing came" : "received " + notation::print_beginning(answered_));
 }
 
 /// Takes what comes in so long, and what follows it without a pause; no longer than a frame lasts.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/judge/judge.hpp"
+#include "reports/results/extract.hpp"
 
 namespace fieldproof::judging {
 
@@ -12,6 +13,13 @@ void cite(const vectors::Source& source, results::CaseResult& result) {
   result.manual = source.manual;
   result.section = source.section;
   result.quote = source.quote;
+}
+
+std::string in_notation(ByteView bytes, const results::Extract& extract) {
+  const std::string text = notation::print_bytes(bytes);
+  if (extract.empty()) return text;
+  return fmt::format("{} ... ({} bytes left out) ... {}", text, extract.left_out(bytes.size()),
+                     notation::print_bytes(extract.tail));
 }
 
 }  // namespace
@@ -53,6 +61,21 @@ void take_judgement(Judgement judgement, results::CaseResult& result) {
   }
   result.received = notation::print_bytes(judgement.received.bytes);
   result.received_bytes = std::move(judgement.received.bytes);
+}
+
+void take_exchange(const exchange::Transcript& transcript, std::size_t longest_frame,
+                   results::CaseResult& result) {
+  const std::size_t most = 2 * longest_frame;  // a frame, and one that nobody waits for
+  result.received_extract = results::cut(result.received_bytes, most);
+  if (!result.received_extract.empty())
+    result.received = in_notation(result.received_bytes, result.received_extract);
+  std::vector<results::Event> events(transcript.events.begin(), transcript.events.end());
+  results::cut_runs(events, most);
+  for (results::Event& event : events) {
+    if (event.kind == results::Event::Kind::sent || event.kind == results::Event::Kind::received)
+      event.text = in_notation(event.bytes, event.extract);
+    result.exchange.push_back(std::move(event));
+  }
 }
 
 }  // namespace fieldproof::judging

@@ -10,6 +10,7 @@
 #include "harness/judge/endings.hpp"
 #include "harness/judge/findings.hpp"
 #include "harness/judge/timing.hpp"
+#include "harness/notation/beginning.hpp"
 
 namespace fieldproof::judging {
 
@@ -22,11 +23,6 @@ using results::Verdict;
 using vectors::Step;
 
 namespace {
-
-/// The beginning of what came, for a message of one line.
-std::string shortened(ByteView bytes) {
-  return notation::print_bytes(bytes.first(std::min<std::size_t>(bytes.size(), 64)));
-}
 
 std::string on_link(const std::string& name) { return name.empty() ? "" : " on " + name; }
 
@@ -328,7 +324,7 @@ class Judge {
     if (received.arrivals.empty() || findings_.missed()) return;
     findings_.result.received = received;
     findings_.miss(fmt::format("{} bytes came where silence is due{}: {}", received.bytes.size(),
-                               on_link(received.link), shortened(received.bytes)));
+                               on_link(received.link), notation::print_beginning(received.bytes)));
   }
 
   void judge_memory(const Step& step, const StepRecord& record) {
@@ -359,7 +355,7 @@ class Judge {
                              : "";
       return findings_.miss(fmt::format("{} bytes after the complete exchange{}{}: {}",
                                         received.bytes.size(), on_link(received.link), hint,
-                                        shortened(received.bytes)));
+                                        notation::print_beginning(received.bytes)));
     }
     if (const exchange::Ending& ending = shares_.surplus.ending)
       findings_.miss(in_words(ending) + ", which nothing in the case asks for");

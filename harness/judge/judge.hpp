@@ -47,6 +47,10 @@ results::CaseResult result_of(const vectors::Case& source);
 void note_transposition(const exchange::PreparedCase& prepared, results::CaseResult& result);
 /// Writes a judgement into the result of its case.
 void take_judgement(Judgement judgement, results::CaseResult& result);
+/// Writes what happened into it, in notation too. What came is bounded, there and in the judgement
+/// that it has: of a run of more than twice the protocol's longest frame there is an extract.
+void take_exchange(const exchange::Transcript& transcript, std::size_t longest_frame,
+                   results::CaseResult& result);
 
 /// The fields in which two frames differ, named by the protocol. `requests`: both are those of a
 /// client, else replies.

@@ -92,6 +92,12 @@ results::Recording make_recording(const PreparedCase& prepared, const Transcript
 Result<Transcript> replay(const results::CaseResult& recorded, const PreparedCase& prepared,
                           Duration response_max) {
   const results::Recording& recording = recorded.recording;
+  for (const Event& event : recorded.exchange)
+    if (!event.extract.empty())
+      return fail(
+          fmt::format("not all bytes were kept: {} came in a row, and the record has both "
+                      "ends of them; run the case again",
+                      event.extract.count));
   if (recording.stimulus.empty()) {
     return fail(recorded.exchange.empty() ? "nothing was exchanged"
                                           : "the exchange was recorded without its steps, by an "

@@ -20,6 +20,8 @@ std::string bounded(std::string_view text) {
 
 void LongTexts::shorten(results::CaseResult& result) {
   result.message = bounded(result.message);
+  for (results::Difference& one : result.differences)
+    for (std::string* text : {&one.expected, &one.received, &one.hint}) *text = bounded(*text);
   for (std::string& note : result.notes) {
     if (note.size() < worth_a_reference) continue;
     note = bounded(note);

@@ -15,8 +15,8 @@ std::string bounded(std::string_view text);
 
 class LongTexts {
  public:
-  /// Message and notes are bounded. A long note that an earlier case had is told by its beginning,
-  /// and where it stands.
+  /// Message, differences and notes are bounded. A long note that an earlier case had is told by
+  /// its beginning, and where it stands.
   void shorten(results::CaseResult& result);
 
  private:

@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -43,10 +45,19 @@ OpenEntry entry_from(const json& value) {
           value.at("value")};
 }
 
+std::string saved_line(const OpenEntry& entry) {
+  return json{{"saved", to_json(entry)}}.dump() + '\n';
+}
+
+/// Closed entries are taken out of the file when it has so many lines of them, and as many as open
+/// ones: writing it anew costs little for each.
+constexpr std::size_t most_closed_lines = 2000;
+
 struct Contents {
   std::vector<OpenEntry> open;
   std::uint64_t last_number = 0;
   std::uintmax_t size = 0;  // of the complete lines
+  std::size_t lines = 0;
 };
 
 /// One line into `contents`; throws json::exception on a foreign shape.
@@ -78,8 +89,47 @@ Result<Contents> read(const std::string& path) {
                       path, number, error.what()));
     }
     contents.size += text.size() + 1;
+    contents.lines = number;
   }
   return contents;
+}
+
+Status write_all(int fd, const std::string& path, std::string_view lines) {
+  while (!lines.empty()) {
+    const ssize_t count = ::write(fd, lines.data(), lines.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return results::file_error("write", path, errno);
+    lines.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (::fdatasync(fd) != 0 && errno != EINVAL && errno != EROFS)
+    return results::file_error("write", path, errno);
+  return ok();
+}
+
+/// The name of a new file must be on the disk, too.
+void keep_name(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  const os::UniqueFd directory(
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (directory) ::fsync(directory.get());
+}
+
+/// Is it still the file of that name? Another run may have put a compacted one in its place.
+bool is_named(int fd, const std::string& path) {
+  struct stat own {
+  }, named{};
+  return ::fstat(fd, &own) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         own.st_ino == named.st_ino && own.st_dev == named.st_dev;
+}
+
+/// Opened to be appended to, and locked.
+Result<os::UniqueFd> open_locked(const std::string& path, int flags) {
+  for (;;) {
+    os::UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | flags, 0666));
+    if (!fd || ::flock(fd.get(), LOCK_EX | LOCK_NB) != 0)
+      return results::file_error("write", path, errno);
+    if (is_named(fd.get(), path)) return fd;
+  }
 }
 
 }  // namespace
@@ -98,33 +148,39 @@ Result<Journal> Journal::open(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   std::error_code failed;
   if (!folder.empty()) fs::create_directories(folder, failed);
-  os::UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-  if (!fd) return results::file_error("write", path, errno);
-  if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) return results::file_error("write", path, errno);
+  Result<os::UniqueFd> fd = open_locked(path, 0);
+  if (!fd) return fd.error();
   Result<Contents> contents = read(path);
   if (!contents) return contents.error();
   const auto keep = static_cast<off_t>(contents->open.empty() ? 0 : contents->size);
-  if (::ftruncate(fd.get(), keep) != 0) return results::file_error("write", path, errno);
-  // The name of a new file must be on the disk, too.
-  const os::UniqueFd directory(
-      ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (directory) ::fsync(directory.get());
-  Journal journal(path, std::move(fd));
+  if (::ftruncate(fd->get(), keep) != 0) return results::file_error("write", path, errno);
+  keep_name(path);
+  Journal journal(path, std::move(*fd));
   journal.open_ = std::move(contents->open);
   journal.last_number_ = contents->last_number;
+  if (keep > 0) journal.close_lines(contents->lines - journal.open_.size());
   return journal;
 }
 
-Status Journal::append(const std::string& lines) {
-  for (std::size_t done = 0; done < lines.size();) {
-    const ssize_t count = ::write(fd_.get(), lines.data() + done, lines.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return results::file_error("write", path_, errno);
-    done += static_cast<std::size_t>(count);
+Status Journal::append(const std::string& lines) { return write_all(fd_.get(), path_, lines); }
+
+/// What cannot be compacted stays as it is, and is tried again when as much more is closed. The new
+/// file is whole, on the disk and locked before it has the name.
+void Journal::compact() {
+  closed_lines_ = 0;
+  std::error_code failed;
+  const std::string real = fs::canonical(path_, failed).string();
+  const std::string beside = real + ".new";
+  Result<os::UniqueFd> fd = open_locked(beside, O_TRUNC);
+  if (failed || !fd) return;
+  std::string lines;
+  for (const OpenEntry& one : open_) lines += saved_line(one);
+  if (!write_all(fd->get(), beside, lines) || ::rename(beside.c_str(), real.c_str()) != 0) {
+    ::unlink(beside.c_str());
+    return;
   }
-  if (::fdatasync(fd_.get()) != 0 && errno != EINVAL && errno != EROFS)
-    return results::file_error("write", path_, errno);
-  return ok();
+  keep_name(real);
+  fd_ = std::move(*fd);
 }
 
 Status Journal::save(std::span<OpenEntry> entries) {
@@ -132,7 +188,7 @@ Status Journal::save(std::span<OpenEntry> entries) {
   std::string lines;
   for (OpenEntry& entry : entries) {
     entry.number = ++last_number_;
-    lines += json{{"saved", to_json(entry)}}.dump() + '\n';
+    lines += saved_line(entry);
   }
   if (Status written = append(lines); !written) return written;
   open_.insert(open_.end(), entries.begin(), entries.end());
@@ -141,8 +197,15 @@ Status Journal::save(std::span<OpenEntry> entries) {
 
 Status Journal::restored(const OpenEntry& entry) {
   std::erase_if(open_, [&entry](const OpenEntry& one) { return one.number == entry.number; });
-  return append(json{{"restored", {{"number", entry.number}, {"address", entry.address}}}}.dump() +
-                '\n');
+  const json line{{"restored", {{"number", entry.number}, {"address", entry.address}}}};
+  if (Status written = append(line.dump() + '\n'); !written) return written;
+  close_lines(2);
+  return ok();
+}
+
+void Journal::close_lines(std::size_t count) {
+  closed_lines_ += count;
+  if (closed_lines_ >= most_closed_lines && closed_lines_ >= open_.size()) compact();
 }
 
 Status Journal::discard(const JournalDevice& device) {

@@ -5,6 +5,8 @@
 //             "config":{},"address":"%MW100","value":"00E2"}}
 //   {"restored":{"number":7,"address":"%MW100"}}    it holds that value again, as was read back
 // A last line that is cut short is none: what it announced has not been written to the device.
+// Where many entries are closed, the open ones alone are written to a file beside it (path +
+// ".new"), which then takes its place: a program that is killed there leaves the one or the other.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +46,8 @@ Result<std::vector<OpenEntry>> read_journal(const std::string& path);
 class Journal {
  public:
   /// Makes the file, or goes on with it; it is locked as long as this object lives. A file with
-  /// nothing open begins anew.
+  /// nothing open begins anew. It stays within a megabyte and what is open, however much is saved
+  /// and restored.
   static Result<Journal> open(const std::string& path);
 
   /// On the disk when this returns. The entries get their numbers.
@@ -59,11 +62,14 @@ class Journal {
  private:
   Journal(std::string path, os::UniqueFd fd) : path_(std::move(path)), fd_(std::move(fd)) {}
   Status append(const std::string& lines);
+  void close_lines(std::size_t count);
+  void compact();
 
   std::string path_;
   os::UniqueFd fd_;
   std::vector<OpenEntry> open_;
   std::uint64_t last_number_ = 0;
+  std::size_t closed_lines_ = 0;  // that a file of the open entries would not have
 };
 
 }  // namespace fieldproof::safety

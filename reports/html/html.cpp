@@ -1,6 +1,7 @@
 #include "reports/html/html.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -51,12 +52,38 @@ void write_contents(HtmlWriter& out, const HtmlSurvey& survey, const results::Ga
   });
 }
 
+/// What failed again and again, each once; its first cases stand below in full.
+void write_findings(HtmlWriter& out, const HtmlSurvey& survey) {
+  const std::vector<const text::Finding*> repeated = survey.failures.repeated();
+  if (repeated.empty()) return;
+  out.element("table", {{"class", "list findings"}}, [&] {
+    out.element("tbody", {}, [&] {
+      for (const text::Finding* finding : repeated) {
+        out.element("tr", {}, [&] {
+          out.element("td", {{"class", "num"}}, text::grouped(finding->cases) + " cases");
+          out.element("td", {}, [&] {
+            out.text((finding->alike ? "" : "alike, as ") + finding->message);
+            out.element("small", {{"class", "ids"}}, [&] {
+              out.text(" first: ");
+              const auto anchor = survey.anchors.find(finding->number);
+              const std::string names = fmt::format("{}", fmt::join(finding->first, ", "));
+              if (anchor == survey.anchors.end()) return out.text(names);
+              out.element("a", {{"href", "#" + anchor->second}}, names);
+            });
+          });
+        });
+      }
+    });
+  });
+}
+
 void write_red(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate& gate) {
   const std::size_t count = survey.tally.gating(gate);
   if (count == 0) return;
   out.element("h2", {{"id", "red"}},
               fmt::format("{} case{} turn{} the gate red", count, count == 1 ? "" : "s",
                           count == 1 ? "s" : ""));
+  write_findings(out, survey);
   out.markup(survey.broken.str());
   out.markup(survey.red.str());
   if (const std::size_t unjudged =

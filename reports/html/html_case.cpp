@@ -8,6 +8,7 @@
 #include "reports/html/html_page.hpp"
 #include "reports/text/case_text.hpp"
 #include "reports/text/frame_cells.hpp"
+#include "reports/text/tally.hpp"
 
 namespace fieldproof::html {
 
@@ -21,8 +22,18 @@ constexpr text::CaseTextOptions limits{.limit = block_frame_limit};
 
 std::string more_bytes(std::size_t count) { return fmt::format("... {} more bytes", count); }
 
-/// Hex, the bytes that differ marked. `cells` are the first of `total`.
-void write_cells(HtmlWriter& out, const FrameCells& cells, std::size_t total) {
+/// Bytes of a frame: how many there are, of which cells show the first.
+struct Whole {
+  std::size_t total = 0;
+  const results::Extract* extract = nullptr;  // nullptr: all are kept
+};
+
+Whole whole(std::size_t total, const results::Extract& extract) {
+  return extract.empty() ? Whole{total} : Whole{total, &extract};
+}
+
+/// Hex, the bytes that differ marked. `cells` are the first.
+void write_cells(HtmlWriter& out, const FrameCells& cells, const Whole& of) {
   const std::size_t shown = std::min(cells.size(), block_frame_limit);
   std::string plain;
   for (std::size_t i = 0; i < shown; ++i) {
@@ -36,16 +47,25 @@ void write_cells(HtmlWriter& out, const FrameCells& cells, std::size_t total) {
     out.element("mark", {}, cells[i].text);
   }
   out.text(plain);
-  if (shown < total) out.element("em", {}, " " + more_bytes(total - shown));
+  if (shown < of.total) out.element("em", {}, " " + more_bytes(of.total - shown));
+  if (!of.extract) return;
+  const results::Extract& extract = *of.extract;
+  out.element(
+      "em", {},
+      fmt::format(" ... {} bytes left out ... ", text::grouped(extract.left_out(of.total))));
+  out.text(to_hex(extract.tail));
+  out.element(
+      "em", {},
+      fmt::format(" {} bytes in all, sha256 {}", text::grouped(extract.count), extract.sha256));
 }
 
 void write_frame(HtmlWriter& out, const std::string& notation, const FrameCells& cells,
-                 std::size_t total) {
+                 const Whole& of) {
   out.element("td", {}, [&] {
     if (!notation.empty())
       out.element("code", {{"class", "notation"}}, text::shorten(notation, limits));
     if (!cells.empty())
-      out.element("code", {{"class", "hex"}}, [&] { write_cells(out, cells, total); });
+      out.element("code", {{"class", "hex"}}, [&] { write_cells(out, cells, of); });
   });
 }
 
@@ -89,7 +109,7 @@ class Monitor {
     const Event* answer = nullptr;  // the last that is the judged one
     for (const Event& event : result_.exchange) {
       if (event.kind == Event::Kind::received && !event.bytes.empty() &&
-          event.bytes == result_.received_bytes)
+          event.bytes == result_.received_bytes && event.extract == result_.received_extract)
         answer = &event;
     }
     for (const Event& event : result_.exchange) {
@@ -100,13 +120,13 @@ class Monitor {
     write_expected();
     row("judged", {}, "", {"\u2190", "received"},
         result_.received.empty() ? "nothing" : result_.received, judged_->received,
-        judged_->received.size());
+        whole(judged_->received.size(), result_.received_extract));
   }
 
   void write_expected() {
     if (!judged_) return;
     const FrameCells cells = judged_->expected.value_or(FrameCells{});
-    row("expected", {}, "", {"", "expected"}, result_.expected, cells, cells.size());
+    row("expected", {}, "", {"", "expected"}, result_.expected, cells, {cells.size()});
   }
 
   void write_event(const Event& event, bool judged) {
@@ -118,18 +138,19 @@ class Monitor {
         ByteView(event.bytes).first(std::min(event.bytes.size(), block_frame_limit));
     row(judged ? "judged" : direction(event.kind).word,
         event.start - result_.exchange.front().start, gap, direction(event.kind), event.text,
-        judged && judged_ ? judged_->received : text::cells_of(shown), event.bytes.size());
+        judged && judged_ ? judged_->received : text::cells_of(shown),
+        whole(event.bytes.size(), event.extract));
     if (is_frame) last_end_ = event.end;
   }
 
   void row(std::string_view css, std::optional<Time> time, const std::string& gap, Direction way,
-           const std::string& notation, const FrameCells& cells, std::size_t total) {
+           const std::string& notation, const FrameCells& cells, const Whole& of) {
     out_.element("tr", {{"class", css}}, [&] {
       out_.element("td", {{"class", "num"}}, time ? fmt::format("{:.3f}", to_ms(*time)) : "");
       out_.element("td", {{"class", "num"}}, gap);
       out_.element("td", {{"class", "way"}, {"title", way.word}},
                    *way.arrow != '\0' ? way.arrow : way.word);
-      write_frame(out_, notation, cells, total);
+      write_frame(out_, notation, cells, of);
     });
   }
 
@@ -206,7 +227,8 @@ void write_pass_line(HtmlWriter& out, const CaseResult& result) {
           line += fmt::format("{}{} {}", line.empty() ? "" : " ", direction(event.kind).arrow,
                               to_hex(shown));
         left -= shown.size();
-        hidden += event.bytes.size() - shown.size();
+        const std::size_t all = event.extract.empty() ? event.bytes.size() : event.extract.count;
+        hidden += all - shown.size();
       }
       out.text(line);
       if (hidden > 0) out.element("em", {}, " " + more_bytes(hidden));

@@ -106,9 +106,13 @@ void HtmlSurveyor::add_line(SectionReport& section, HtmlWriter& out, const auto&
 }
 
 void HtmlSurveyor::add_red(SectionReport& section, const CaseResult& result) {
+  const text::Finding& finding = survey_.failures.add(result);
   std::string anchor;
-  if (fits(red_blocks_, html_block_limit)) {
+  if (finding.is_again()) {
+    anchor = survey_.anchors[finding.number];
+  } else if (fits(red_blocks_, html_block_limit)) {
     anchor = fmt::format("red-{}", red_blocks_);
+    survey_.anchors.emplace(finding.number, anchor);
     write_case_block(gates(result.verdict, Gate{}) ? survey_.broken : survey_.red, result,
                      red_blocks_ <= open_blocks, anchor);
   } else {

@@ -11,6 +11,7 @@
 #include "reports/html/html_writer.hpp"
 #include "reports/results/response_times.hpp"
 #include "reports/results/sink.hpp"
+#include "reports/text/failures.hpp"
 #include "reports/text/tally.hpp"
 
 namespace fieldproof::html {
@@ -50,6 +51,8 @@ struct HtmlSurvey {
   text::Tally tally;
   HtmlWriter broken;  // blocks of what turns every gate red: FAIL, XPASS, ERROR
   HtmlWriter red;     // blocks of what turns this gate red: NON-STRICT, MARGINAL
+  text::Failures failures;
+  std::map<std::size_t, std::string> anchors;  // of the first of a finding, by its number
   std::size_t red_unlisted = 0;
   std::map<SectionName, SectionReport> sections;
   std::map<std::string, results::ResponseTimes> response_ms;       // by group: "xgt_cnet/rss"

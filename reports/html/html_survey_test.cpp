@@ -120,7 +120,8 @@ TEST_F(Survey, MovedCasesAreCounted) {
 TEST_F(Survey, WhatOneReportCannotHoldIsCounted) {
   std::vector<results::CaseResult> many;
   for (std::size_t i = 0; i < html_block_limit + 7; ++i)
-    many.push_back(samples::with(Verdict::fail, fmt::format("a/n{}", i)));
+    many.push_back(samples::with(Verdict::fail, fmt::format("a/n{}", i),
+                                 std::string(1 + i / 2, 'k')));  // none alike, but for two
   const HtmlSurvey made = survey(many);
   EXPECT_EQ(7u, made.red_unlisted);
   EXPECT_EQ(html_block_limit + 7, made.tally.of(Verdict::fail));

@@ -166,6 +166,38 @@ TEST_F(Html, AFailureTellsItsWholeStory) {
       << "its section leads here";
 }
 
+TEST_F(Html, TheSameFailureIsToldOnce) {
+  std::vector<CaseResult> results;
+  for (int i = 1; i <= 20; ++i) {
+    results.push_back(samples::failure());
+    results.back().id = "xgt_cnet/rss/n" + std::to_string(i);
+  }
+  const ParsedHtml page(report(results));
+  EXPECT_THAT(page.texts("//table[@class='list findings']//td[@class='num']"),
+              ElementsAre("20 cases"));
+  EXPECT_THAT(page.text("//table[@class='list findings']//td[2]"),
+              HasSubstr(samples::failure().message));
+  EXPECT_EQ("xgt_cnet/rss/n1, xgt_cnet/rss/n2, xgt_cnet/rss/n3",
+            page.text("//table[@class='list findings']//a[@href='#red-1']"));
+  EXPECT_EQ(3u, page.count("//details[starts-with(@id, 'red-')]"));
+  EXPECT_EQ(20u, page.count("//table[@class='lines']//tr")) << "each stands in its section";
+  EXPECT_EQ(18u, page.count("//table[@class='lines']//a[@href='#red-1']"));
+}
+
+TEST_F(Html, OfAFloodThereIsAnExtract) {
+  CaseResult flooded = samples::failure();
+  flooded.received_bytes.assign(64, 0x41);
+  flooded.received_extract = {16'500, Bytes(64, 0x42), std::string(64, 'a')};
+  flooded.exchange[1].bytes = flooded.received_bytes;
+  flooded.exchange[1].extract = flooded.received_extract;
+  const ParsedHtml page(report({flooded}));
+  const std::string hex = "//tr[@class='judged']//code[@class='hex']";
+  EXPECT_THAT(page.text(hex),
+              AllOf(HasSubstr("... 16,372 bytes left out ..."), HasSubstr("42 42 42"),
+                    HasSubstr("16,500 bytes in all, sha256 " + std::string(64, 'a'))));
+  EXPECT_LT(std::filesystem::file_size(report_), 40'000u);
+}
+
 TEST_F(Html, NoAnswerIsShownWhereItWasExpected) {
   CaseResult silent = samples::failure();
   silent.received = "";

@@ -15,6 +15,18 @@
 
 namespace fieldproof::results {
 
+/// Of bytes that are too many to keep: what stands beside the first of them. Empty: all are kept.
+struct Extract {
+  std::uint64_t count = 0;  // of all
+  Bytes tail{};             // the last of them
+  std::string sha256{};     // of all: 64 digits
+
+  bool empty() const { return count == 0; }
+  /// `head`: how many are kept of the beginning.
+  std::uint64_t left_out(std::size_t head) const { return count - head - tail.size(); }
+  bool operator==(const Extract&) const = default;
+};
+
 /// A line of the exchange, as a frame monitor would show it.
 struct Event {
   /// opened, closed (FIN), reset (RST): of a link; `by_device` tells who did it.
@@ -22,7 +34,7 @@ struct Event {
   Kind kind = Kind::note;
   Time start{};
   Time end{};
-  Bytes bytes;       // sent, received
+  Bytes bytes;       // sent, received; the first of them, where there is an extract
   std::string text;  // frame notation of the bytes, or the note: "set %MW100 = 1234", "silence
                      // until 1000.0 ms"
   int step = -1;  // the executed step whose bytes these are; -1: of none (a probe and its answer)
@@ -31,6 +43,7 @@ struct Event {
   std::uint16_t port = 0;  // the one that listens, of a connection or datagram; 0: a line
   Transport transport = Transport::tcp;
   bool by_device = false;  // opened, closed, reset: the device did it, not the bench
+  Extract extract{};       // received: of a whole run of bytes, which came in many pieces
 };
 
 /// "sent", "received", ...
@@ -99,6 +112,7 @@ struct CaseResult {
   std::string expected_hex;        // with ?? for open bytes
   std::string received;            // notation of what came
   Bytes received_bytes;
+  Extract received_extract;
   std::vector<Difference> differences;
   std::vector<Event> exchange;
   Recording recording;

@@ -34,9 +34,16 @@ void from_word(std::string_view word, Verdict& verdict) {
 
 // ---- fields of a case
 
+void fields(auto& json, Of<Extract> auto& extract) {
+  json.must("count", extract.count);
+  json.must("sha256", extract.sha256);
+  json.must("tail", extract.tail);
+}
+
 void fields(auto& json, Of<Event> auto& event) {
   json.may("by_device", event.by_device);
   json.always("end_ms", event.end);
+  json.may("extract", event.extract);
   json.may("hex", event.bytes);
   json.must("kind", event.kind);
   json.may("link", event.link);
@@ -102,6 +109,7 @@ void fields(auto& json, Of<CaseResult> auto& result) {
   json.may("readings", result.readings);
   json.may("received", result.received);
   json.may("received_bytes", result.received_bytes);
+  json.may("received_extract", result.received_extract);
   json.may("recording", result.recording);
   json.may("repeat", result.repeat);
   json.may("replay", result.replay);

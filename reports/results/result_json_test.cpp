@@ -35,10 +35,12 @@ CaseResult full_result() {
   result.expected_hex = "06 30 ??";
   result.received = "ACK '1'";
   result.received_bytes = {0x06, 0x31};
+  result.received_extract = {2000, {0x07, 0x08}, std::string(64, 'b')};
   result.differences = {{"station", "00", "01", "the request's"}, {"BCC", "4C", "4D", ""}};
   result.exchange = {{Event::Kind::sent, 0ns, 1234567ns, {0x05, 0xFF}, "ENQ FF"},
                      {Event::Kind::received, 2000001ns, 3600s + 1ns, {0x06, 0x31}, "ACK '1'"},
                      {Event::Kind::note, 5ms, 5ms, {}, "silence until 1000.0 ms"}};
+  result.exchange[1].extract = {2000, {0x07, 0x08}, std::string(64, 'b')};
   result.recording.stimulus = "0123456789abcdef";
   result.readings = {{"type_echo", "upper"}};
   result.response_ms = {0.765434, 12};
@@ -65,6 +67,8 @@ TEST(CaseResultJson, EveryFieldComesBack) {
   EXPECT_EQ(2000001ns, again.exchange[1].start) << "times are exact to the nanosecond";
   EXPECT_EQ(3600s + 1ns, again.exchange[1].end);
   EXPECT_EQ(result.exchange[0].bytes, again.exchange[0].bytes);
+  EXPECT_EQ(result.exchange[1].extract, again.exchange[1].extract);
+  EXPECT_EQ(result.received_extract, again.received_extract);
   EXPECT_EQ(result.readings, again.readings);
   EXPECT_EQ(result.response_ms, again.response_ms);
   EXPECT_EQ(0.125, again.seconds);
@@ -97,9 +101,9 @@ TEST(CaseResultJson, NoFieldIsForgotten) {
   // then extend it, full_result() and `fields`.
   const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, manual, section, quote,
                verdict, message, notes, expected, expected_bytes, expected_hex, received,
-               received_bytes, differences, exchange, recording, readings, response_ms, seconds,
-               replay] = full_result();
-  EXPECT_EQ(27u, as_json(full_result()).size());
+               received_bytes, received_extract, differences, exchange, recording, readings,
+               response_ms, seconds, replay] = full_result();
+  EXPECT_EQ(28u, as_json(full_result()).size());
 }
 
 TEST(CaseResultJson, EmptyFieldsAreLeftOut) {

@@ -1,5 +1,5 @@
 #include "reports/text/case_text.hpp"
-#include "reports/results/sha256.hpp"
+#include "reports/results/extract.hpp"
 
 #include <fmt/format.h>
 
@@ -22,10 +22,11 @@ namespace {
 
 constexpr std::size_t bytes_a_line = 16;
 constexpr std::size_t longest_frame = 4096;  // bytes that are shown in full
-constexpr std::size_t extract_end = 64;      // bytes of each end of a longer one
 
-std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t last, bool offsets) {
-  std::string text = offsets ? fmt::format("{:04X}  ", first) : "";
+/// `before`: bytes of the frame that stand before the cells.
+std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t last, bool offsets,
+                      std::size_t before) {
+  std::string text = offsets ? fmt::format("{:04X}  ", before + first) : "";
   std::string marks(text.size(), ' ');
   for (std::size_t i = first; i < last; ++i) {
     const std::string_view gap = i == first ? "" : (i - first) % 8 == 0 ? "  " : " ";
@@ -36,31 +37,35 @@ std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t la
   return text + '\n' + (marks.empty() ? "" : marks + '\n');
 }
 
-std::string dump_lines(const FrameCells& cells, std::size_t first, std::size_t end, bool offsets) {
+std::string dump_lines(const FrameCells& cells, std::size_t end, bool offsets,
+                       std::size_t before = 0) {
   std::string text;
-  for (; first < end; first += bytes_a_line)
-    text += dump_line(cells, first, std::min(first + bytes_a_line, end), offsets);
+  for (std::size_t first = 0; first < end; first += bytes_a_line)
+    text += dump_line(cells, first, std::min(first + bytes_a_line, end), offsets, before);
   return text;
 }
 
 /// Of a flood: both ends, how much it was, and what tells it from another one.
-std::string extract(const FrameCells& cells, ByteView bytes) {
-  results::Sha256 sum;
-  sum.add(to_text(bytes));
-  const std::size_t tail = (cells.size() - extract_end) / bytes_a_line * bytes_a_line;
-  return dump_lines(cells, 0, extract_end, true) +
-         fmt::format("... {} bytes left out\n", grouped(tail - extract_end)) +
-         dump_lines(cells, tail, cells.size(), true) +
-         fmt::format("{} bytes in all, sha256 {}\n", grouped(bytes.size()), sum.digits());
+std::string dump(const FrameCells& head, std::size_t kept, const results::Extract& extract) {
+  return dump_lines(head, kept, true) +
+         fmt::format("... {} bytes left out\n", grouped(extract.left_out(kept))) +
+         dump_lines(cells_of(extract.tail), extract.tail.size(), true,
+                    extract.count - extract.tail.size()) +
+         fmt::format("{} bytes in all, sha256 {}\n", grouped(extract.count), extract.sha256);
 }
 
 /// `bytes`: those of the cells.
-std::string dump(const FrameCells& cells, ByteView bytes, const CaseTextOptions& options,
-                 bool offsets) {
-  if (cells.size() > longest_frame) return extract(cells, bytes);
+std::string dump(const FrameCells& cells, ByteView bytes, const results::Extract& extract,
+                 const CaseTextOptions& options, bool offsets) {
+  if (!extract.empty()) return dump(cells, cells.size(), extract);
+  if (cells.size() > longest_frame) {
+    Bytes head(bytes.begin(), bytes.end());
+    const results::Extract of_it = results::cut(head, longest_frame);
+    return dump(cells, head.size(), of_it);
+  }
   const std::size_t shown =
       options.limit == 0 ? cells.size() : std::min(cells.size(), options.limit);
-  std::string text = dump_lines(cells, 0, shown, offsets);
+  std::string text = dump_lines(cells, shown, offsets);
   if (shown < cells.size()) text += fmt::format("... {} more bytes\n", cells.size() - shown);
   return text;
 }
@@ -102,7 +107,9 @@ const Event* request_of(const CaseResult& result) {
   for (const Event& event : result.exchange) {
     if (event.kind == Event::Kind::sent) request = &event;
     const bool came = event.kind == Event::Kind::received && !event.bytes.empty();
-    if (came && event.bytes == result.received_bytes && request != nullptr) before_answer = request;
+    if (came && event.bytes == result.received_bytes && event.extract == result.received_extract &&
+        request != nullptr)
+      before_answer = request;
   }
   return before_answer != nullptr ? before_answer : request;
 }
@@ -162,12 +169,13 @@ void add_frames(Block& block, const CaseResult& result, const CaseTextOptions& o
   if (const Event* request = request_of(result)) {
     block.add("sent", frame(request->text, hex_dump(request->bytes, options), options));
   }
-  const std::string expected_bytes = expected
-                                         ? dump(*expected, result.expected_bytes, options, offsets)
-                                         : shorten(result.expected_hex, options);
+  const std::string expected_bytes =
+      expected ? dump(*expected, result.expected_bytes, {}, options, offsets)
+               : shorten(result.expected_hex, options);
   block.add("expected", frame(result.expected, expected_bytes, options));
-  const std::string came =
-      frame(result.received, dump(received, result.received_bytes, options, offsets), options);
+  const std::string came = frame(
+      result.received,
+      dump(received, result.received_bytes, result.received_extract, options, offsets), options);
   block.add("received", came.empty() ? "nothing" : came);
 }
 
@@ -187,7 +195,8 @@ const char* arrow(Event::Kind kind) {
 
 std::string shorten(const std::string& text, const CaseTextOptions& options) {
   // A byte in notation takes one to four characters.
-  const std::size_t limit = text.size() > 4 * longest_frame ? 4 * extract_end : 4 * options.limit;
+  const std::size_t limit =
+      text.size() > 4 * longest_frame ? 4 * results::extract_end : 4 * options.limit;
   // Cleaning never shortens: what stands far behind the cut need not be cleaned. A character split
   // here is behind it, too.
   const std::string clean =
@@ -235,8 +244,9 @@ std::string case_message(const CaseResult& result) {
                                 : xml_line(result.message);
 }
 
-std::string hex_dump(ByteView bytes, const CaseTextOptions& options) {
-  return dump(cells_of(bytes), bytes, options, bytes.size() > bytes_a_line);
+std::string hex_dump(ByteView bytes, const CaseTextOptions& options,
+                     const results::Extract& extract) {
+  return dump(cells_of(bytes), bytes, extract, options, bytes.size() > bytes_a_line);
 }
 
 std::string indent(std::string_view lines, std::size_t columns) {
@@ -268,7 +278,7 @@ std::string frame_monitor(const CaseResult& result, const CaseTextOptions& optio
     text += row(fmt::format("{:.3f}", to_ms(event.start - zero)), gap, arrow(event.kind),
                 shorten(event.text, options));
     if (!is_frame) continue;
-    text += indent(hex_dump(event.bytes, options), frame_column);
+    text += indent(hex_dump(event.bytes, options, event.extract), frame_column);
     last_end = event.end;
   }
   return text;
@@ -282,8 +292,8 @@ std::string case_block(const CaseResult& result, const CaseTextOptions& options)
   if (!result.differences.empty()) block.add("differs", differences(result, options));
   block.add("timing", case_timing(result));
   block.add("device", xml_line(result.dut));
-  if (!result.exchange.empty() && (options.exchange || several_sent(result)))
-    block.add("exchange", frame_monitor(result, options));
+  const bool shown = options.exchange || several_sent(result) || result.recording.flooded;
+  if (!result.exchange.empty() && shown) block.add("exchange", frame_monitor(result, options));
   std::string readings;
   for (const auto& [name, taken] : result.readings)
     readings += fmt::format("{} = {}\n", xml_line(name), xml_line(taken));

@@ -55,8 +55,9 @@ std::string case_block(const results::CaseResult& result, const CaseTextOptions&
 std::string frame_monitor(const results::CaseResult& result, const CaseTextOptions& options = {});
 
 /// Hex in lines of 16 bytes, with offsets where there is more than one line: "06 30 31 ...". Of
-/// more than 4096 bytes the first and the last 64, how many they are, and their SHA-256.
-std::string hex_dump(ByteView bytes, const CaseTextOptions& options = {});
+/// an extract, or of more than 4096 bytes, both ends, how many they are, and their SHA-256.
+std::string hex_dump(ByteView bytes, const CaseTextOptions& options = {},
+                     const results::Extract& extract = {});
 
 /// Each line that is not empty moved to the right.
 std::string indent(std::string_view lines, std::size_t columns);

@@ -143,8 +143,26 @@ TEST(CaseBlock, OfAFloodThereIsAnExtract) {
       {results::Event::Kind::received, 0s, 1s, result.received_bytes, "A..."});
   const std::string block = case_block(result, {.exchange = true});
   EXPECT_LT(block.size(), 3000u);
-  EXPECT_THAT(block, HasSubstr("... 1,234,432 bytes left out\n"));
+  EXPECT_THAT(block, HasSubstr("... 1,234,439 bytes left out\n"));
   EXPECT_THAT(block, HasSubstr("1,234,567 bytes in all, sha256 "));
+}
+
+TEST(CaseBlock, AnExtractIsShownAsSuch) {
+  CaseResult result = samples::failure();
+  result.received_bytes.resize(3);
+  result.received_extract = {16'500, {0x42, 0x43}, "5ha"};
+  result.exchange = {{results::Event::Kind::received, 0s, 1s, result.received_bytes, "ACK '01"}};
+  result.exchange[0].extract = result.received_extract;
+  const std::string block = case_block(result, {.limit = 256, .exchange = true});
+  const std::string extract =
+      "0000  06 30 31\nEXTRA... 16,495 bytes left out\nEXTRA4072  42 43\nEXTRA16,500 bytes in all, "
+      "sha256 5ha\n";
+  for (const int column : {10, 38}) {
+    std::string shown = extract;
+    for (std::size_t at; (at = shown.find("EXTRA")) != shown.npos;)
+      shown.replace(at, 5, std::string(static_cast<std::size_t>(column), ' '));
+    EXPECT_THAT(block, HasSubstr(shown)) << "no mark where it only goes on";
+  }
 }
 
 TEST(CaseBlock, NothingInItHarmsATerminalOrXml) {

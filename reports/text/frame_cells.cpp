@@ -49,6 +49,7 @@ JudgedFrames judged_frames(const results::CaseResult& result) {
     frames.expected = cells_of(result.expected_bytes);
   if (frames.expected && !frames.expected->empty())
     mark_differences(*frames.expected, frames.received);
+  if (!result.received_extract.empty()) frames.received.resize(result.received_bytes.size());
   return frames;
 }
 

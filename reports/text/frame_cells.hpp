@@ -22,7 +22,8 @@ FrameCells cells_of(ByteView bytes);
 struct JudgedFrames {
   std::optional<FrameCells>
       expected;         // nothing: the expectation is no list of bytes (alternatives in words, say)
-  FrameCells received;  // marked: each byte that differs; the first alone where the lengths differ
+  FrameCells received;  // marked: each byte that differs; the first alone where the lengths differ;
+                        // of an extract its head
 };
 JudgedFrames judged_frames(const results::CaseResult& result);
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "harness/notation/notation.hpp"
+#include "harness/notation/beginning.hpp"
 #include "src/ls_bus/parameters.hpp"
 #include "suites/ls_bus/frame_parts.hpp"
 
@@ -66,7 +66,8 @@ std::optional<std::string> refusal(ByteView reply) {
       if (field.name == "error code") return "the device answers NAK " + field.text;
     return "the device answers NAK";
   }
-  if (reply[0] != ack) return "the answer is neither ACK nor NAK: " + notation::print_bytes(reply);
+  if (reply[0] != ack)
+    return "the answer is neither ACK nor NAK: " + notation::print_beginning(reply);
   return std::nullopt;
 }
 

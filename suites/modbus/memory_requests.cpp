@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "harness/device_names.hpp"
-#include "harness/notation/notation.hpp"
+#include "harness/notation/beginning.hpp"
 #include "src/plc/config_reader.hpp"
 #include "suites/modbus/functions.hpp"
 #include "suites/modbus/message.hpp"
@@ -117,7 +117,7 @@ Bytes words_in_order(const Bytes& values, std::uint32_t width) {
 
 std::optional<std::string> refusal(ByteView message, ByteView reply) {
   if (reply.empty()) return "no answer";
-  if (message.size() < 2) return "the answer is no frame: " + notation::print_bytes(reply);
+  if (message.size() < 2) return "the answer is no frame: " + notation::print_beginning(reply);
   if (!(message[1] & exception_bit)) return std::nullopt;
   const Byte code = message.size() > 2 ? message[2] : Byte{};
   return fmt::format("the device answers exception {:02X} {}", code, exception_meaning(code));

@@ -521,10 +521,10 @@ class InTheMiddle : public BadDevices {
  protected:
   static constexpr int asked = 41, cases = 200;
 
-  std::unique_ptr<Process> start(int until) {
-    auto tool = std::make_unique<Process>(
-        tool_arguments(arguments(device("tell", quoted(fifo_.path()) + ' ' + std::to_string(until)),
-                                 write_vectors(folder_, many_vectors(cases)))));
+  std::unique_ptr<Process> start(int until, const char* behaviour = "tell") {
+    auto tool = std::make_unique<Process>(tool_arguments(
+        arguments(device(behaviour, quoted(fifo_.path()) + ' ' + std::to_string(until)),
+                  write_vectors(folder_, many_vectors(cases)))));
     EXPECT_TRUE(fifo_.told());
     return tool;
   }
@@ -552,6 +552,17 @@ TEST_P(Interrupted, is_130_with_reports) {
 INSTANTIATE_TEST_SUITE_P(By, Interrupted, testing::Values(SIGINT, SIGTERM), [](const auto& one) {
   return one.param == SIGINT ? "ctrl_c" : "termination";
 });
+
+/// However fast the bytes come.
+TEST_F(InTheMiddle, an_interrupt_in_a_flood_is_130_with_reports) {
+  const std::unique_ptr<Process> tool = start(asked, "tell_flood");
+  tool->signal(SIGTERM);
+  const Finished finished = tool->wait();
+  EXPECT_EQ(finished.code, 130) << finished.out << finished.err;
+  EXPECT_EQ(results().end.at("interrupted"), true);
+  expect_some();
+  expect_reports(folder_ / "out");
+}
 
 /// Before the first case, too: nothing was judged, and that is no success.
 TEST_F(InTheMiddle, interrupt_while_nothing_answers_is_130) {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "harness/device_names.hpp"
-#include "harness/notation/notation.hpp"
+#include "harness/notation/beginning.hpp"
 #include "suites/xgt_cnet/frame_parts.hpp"
 
 namespace fieldproof::xgt_cnet_suite {
@@ -141,7 +141,8 @@ std::optional<std::string> refusal(ByteView reply) {
       if (field.name == "error code") return "the device answers NAK " + field.text;
     return "the device answers NAK";
   }
-  if (reply[0] != 0x06) return "the answer is neither ACK nor NAK: " + notation::print_bytes(reply);
+  if (reply[0] != 0x06)
+    return "the answer is neither ACK nor NAK: " + notation::print_beginning(reply);
   return std::nullopt;
 }
 

@@ -1,17 +1,20 @@
-"""Small devices for the tests of the built tool: device.py BEHAVIOUR TTY [ARGUMENT].
+"""Small devices for the tests of the built tool: device.py BEHAVIOUR TTY|PORT [ARGUMENT].
 
 They answer each request that ends with EOT and its check with one word of zero (upper case: without check).
+With the number of a port they listen there and speak Modbus TCP: reads find zero, writes are taken.
   good               nothing else
   die N              ends with exit status 3 at the request after the N-th
   mute N             is silent for ever after the N-th request
-  flood              sends without end once it was asked
+  flood [N]          sends without end from the request after the N-th on (else the first)
   trickle N          sends one byte every 100 ms without end from the request after the N-th on
   half N             sends the first half of its answers from the request after the N-th on
   garbage N          sends 40 bytes of noise instead of answers from the request after the N-th on
   drip               sends its answers, one byte a second
   twice              answers again 50 ms later, as a second device of the same station number does
   parity             sends the eighth bit as even parity, as a device set to 7E1 does
+  stuck N            reads no more after the N-th request
   tell FIFO N        is silent for ever after the N-th request, and says so to the FIFO
+  tell_flood FIFO N  says so, and sends without end
   echo               sends back each byte as it comes, as an adapter does that hears itself, and then answers
   echo_bad N         the same, with one bit wrong in the echo of each request from the N-th on
   echo_lost N        the same, without the last byte of the echo
@@ -20,6 +23,7 @@ They answer each request that ends with EOT and its check with one word of zero 
 import os
 import random
 import select
+import socket
 import sys
 import tty
 
@@ -51,6 +55,31 @@ class Requests:
             self.bytes += more
 
 
+class ModbusRequests(Requests):
+    """The same from a connection; EOFError at its end."""
+
+    def next(self):
+        while True:
+            size = 6 + int.from_bytes(self.bytes[4:6], "big")
+            if len(self.bytes) >= max(size, 8):
+                request, self.bytes = self.bytes[:size], self.bytes[size:]
+                return request
+            more = os.read(self.port, 4096)
+            if not more:
+                raise EOFError
+            self.bytes += more
+
+
+def modbus_answer(request):
+    function, count = request[7], int.from_bytes(request[10:12], "big")
+    size = {1: (count + 7) // 8, 2: (count + 7) // 8, 3: 2 * count, 4: 2 * count}.get(function)
+    if size is None:
+        body = request[6:12] if function in (5, 6, 15, 16) else bytes([request[6], function | 0x80, 1])
+    else:
+        body = request[6:8] + bytes([size % 256]) + bytes(size % 256)
+    return request[:4] + len(body).to_bytes(2, "big") + body
+
+
 def wait_for_ever():
     select.select([], [], [])
 
@@ -78,6 +107,17 @@ noise = random.Random(1)
 
 def main():
     behaviour, path, arguments = sys.argv[1], sys.argv[2], sys.argv[3:]
+    device = Device(behaviour, arguments)
+    if path.isdigit():
+        listener = socket.create_server(("127.0.0.1", int(path)))
+        while True:
+            connection, _ = listener.accept()
+            try:
+                with connection:
+                    device.serve(connection.fileno(), ModbusRequests(connection.fileno()),
+                                 modbus_answer)
+            except (OSError, EOFError):
+                pass
     if behaviour == "close":
         port, slave = os.openpty()
         tty.setraw(slave)
@@ -86,51 +126,71 @@ def main():
     else:
         port = os.open(path, os.O_RDWR | os.O_NOCTTY)
         tty.setraw(port, 0)  # TCSANOW: what waits already is kept
-    echoes = behaviour.startswith("echo")
-    damages = behaviour in ("echo_bad", "echo_lost")
-    asked = 0
+    device.serve(port, Requests(port, lambda data: device.hear(port, data)), answer)
 
-    def echo(data):
-        if damages and asked >= int(arguments[0]) and EOT in data:
-            data = data[:-1] if behaviour == "echo_lost" else bytes([data[0] ^ 1]) + data[1:]
-        for byte in data:  # in pieces
+
+class Device:
+    good_at_first = ("die", "mute", "tell", "tell_flood", "close", "trickle", "half", "garbage",
+                     "stuck", "flood")
+
+    def __init__(self, behaviour, arguments):
+        self.behaviour, self.arguments = behaviour, arguments
+        self.asked, self.last = 0, None
+        if behaviour in self.good_at_first:
+            self.last = int(arguments[-1]) if arguments else 0
+
+    def serve(self, port, requests, answer_to):
+        while True:
+            request = requests.next()
+            self.asked += 1
+            whole = answer_to(request)
+            if self.last is not None and self.asked > self.last:
+                self.misbehave(port, whole)
+            elif self.behaviour == "drip":
+                drip(port, whole)
+            elif self.behaviour == "twice":
+                os.write(port, whole)
+                select.select([], [], [], 0.05)
+                os.write(port, whole)
+            elif self.behaviour == "parity":
+                os.write(port, bytes(byte | (bin(byte).count("1") % 2) << 7 for byte in whole))
+            else:
+                os.write(port, whole)
+
+    def hear(self, port, data):
+        """An echo comes in pieces."""
+        if not self.behaviour.startswith("echo"):
+            return
+        if self.arguments and self.asked >= int(self.arguments[0]) and EOT in data:
+            data = data[:-1] if self.behaviour == "echo_lost" else bytes([data[0] ^ 1]) + data[1:]
+        for byte in data:
             os.write(port, bytes([byte]))
 
-    requests = Requests(port, echo if echoes else lambda data: None)
-    ends = behaviour in ("die", "mute", "tell", "close", "trickle", "half", "garbage")
-    last = int(arguments[-1]) if ends else None
-    while True:
-        request = requests.next()
-        asked += 1
-        if last is not None and asked > last:
-            if behaviour == "trickle":
-                trickle(port)
-            if behaviour not in ("half", "garbage"):
-                break
-            whole = answer(request)
-            os.write(port, whole[:len(whole) // 2] if behaviour == "half" else noise.randbytes(40))
-            continue
-        if behaviour == "flood":
+    def misbehave(self, port, whole):
+        behaviour = self.behaviour
+        if behaviour == "half":
+            os.write(port, whole[:len(whole) // 2])
+        elif behaviour == "garbage":
+            os.write(port, noise.randbytes(40))
+        elif behaviour == "mute":
+            pass
+        elif behaviour == "trickle":
+            trickle(port)
+        elif behaviour == "flood":
             flood(port)
-        elif behaviour == "drip":
-            drip(port, answer(request))
-        elif behaviour == "twice":
-            os.write(port, answer(request))
-            select.select([], [], [], 0.05)
-            os.write(port, answer(request))
-        elif behaviour == "parity":
-            os.write(port, bytes(byte | (bin(byte).count("1") % 2) << 7 for byte in answer(request)))
+        elif behaviour == "die":
+            sys.stderr.write("the device has burnt out\n")
+            sys.stderr.flush()
+            os._exit(3)
+        elif behaviour == "close":
+            os._exit(0)
         else:
-            os.write(port, answer(request))
-    if behaviour == "die":
-        sys.stderr.write("the device has burnt out\n")
-        sys.exit(3)
-    if behaviour == "close":
-        sys.exit(0)
-    if behaviour == "tell":
-        with open(arguments[0], "w") as fifo:
-            fifo.write("asked")
-    wait_for_ever()
+            if behaviour.startswith("tell"):
+                with open(self.arguments[0], "w") as fifo:
+                    fifo.write("asked")
+            if behaviour == "tell_flood":
+                flood(port)
+            wait_for_ever()
 
 
 main()

@@ -1,0 +1,129 @@
+// Hostile devices and the whole suite of their protocol, over a pty and a socket: bounded reports
+// and memory. The figures in the README are of such runs, and of devices that take minutes.
+#include <gmock/gmock.h>
+
+#include <numeric>
+
+#include "suites/tool/tool_files.hpp"
+
+namespace fieldproof::tool_tests {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct Hostile {
+  const char* behaviour;  // of testdata/device.py, from the 30th request on: the link was measured
+  bool network = false;
+};
+
+void PrintTo(const Hostile& one, std::ostream* out) { *out << one.behaviour; }
+
+std::string device(const std::string& behaviour, bool network) {
+  return "exec:/usr/bin/python3 " FIELDPROOF_SOURCE_DIR "/suites/tool/testdata/device.py " +
+         behaviour + (network ? " {port} 30?protocol=modbus-tcp" : " {tty} 30");
+}
+
+std::uintmax_t size_of(const std::string& folder) {
+  const std::filesystem::recursive_directory_iterator files(folder);
+  return std::accumulate(begin(files), end(files), std::uintmax_t{0},
+                         [](std::uintmax_t sum, const auto& one) { return sum + one.file_size(); });
+}
+
+/// The first of its exchange; null: there is none.
+nlohmann::json extract_of(const nlohmann::json& result) {
+  for (const nlohmann::json& event : result.value("exchange", nlohmann::json::array()))
+    if (event.contains("extract")) return event["extract"];
+  return nullptr;
+}
+
+bool has_extract(const nlohmann::json& result) { return !extract_of(result).is_null(); }
+
+class HostileRuns : public testing::Test {
+ protected:
+  Finished run(const Hostile& one) {
+    return run_tool({"run", "--endpoint", device(one.behaviour, one.network), "--profile", "xbc-h",
+                     "--filter", one.network ? "modbus_tcp/*" : "xgt_cnet/*", "--role", "server",
+                     "--max-restarts", "3", "--out", out_});
+  }
+  TestFolder folder_;
+  std::string out_ = folder_ / "out";
+};
+
+class HostileDevices : public HostileRuns, public testing::WithParamInterface<Hostile> {};
+
+TEST_P(HostileDevices, CostBoundedMemoryAndDisk) {
+  const Finished finished = run(GetParam());
+  EXPECT_EQ(finished.code, 3) << finished.out.substr(0, 4000) << finished.err;
+  // The reports of a good device have 7 MB: each of its exchanges in full.
+  EXPECT_LT(size_of(out_), 8'000'000u);
+  EXPECT_LT(finished.out.size(), 1'000'000u);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_LT(finished.peak_kib, 100 * 1024);
+#endif
+  expect_reports(out_);
+}
+
+INSTANTIATE_TEST_SUITE_P(OnAPty, HostileDevices,
+                         testing::Values(Hostile{"flood"}, Hostile{"half"}, Hostile{"garbage"},
+                                         Hostile{"die"}),
+                         [](const auto& one) { return std::string(one.param.behaviour); });
+INSTANTIATE_TEST_SUITE_P(OnASocket, HostileDevices,
+                         testing::Values(Hostile{"flood", true}, Hostile{"garbage", true}),
+                         [](const auto& one) { return std::string(one.param.behaviour); });
+
+/// What came is in every report by both ends, count and hash; nobody judges it again from them.
+TEST_F(HostileRuns, OfAFloodTheReportsHaveAnExtract) {
+  const std::string vectors = write_vectors(folder_, many_vectors(1));
+  const Finished finished =
+      run_tool({"run", "--endpoint", device("flood", false), "--profile", "xbc-h", "--vectors",
+                vectors, "--repeat", "20", "--out", out_, "--capture", out_ + "/run.pcapng"});
+  EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
+  const Results results = read_results(out_ + "/results.ndjson");
+  const auto flooded = std::ranges::find_if(results.cases, has_extract);
+  ASSERT_NE(flooded, results.cases.end());
+  const nlohmann::json extract = extract_of(*flooded);
+  EXPECT_GT(extract.at("count"), 16'384);
+  const std::string hash = extract.at("sha256");
+  EXPECT_EQ(hash.size(), 64u);
+  EXPECT_LT(flooded->dump().size(), 10'000u);
+  for (const char* report : {"junit.xml", "report.html", "results.json", "run.pcapng"})
+    EXPECT_THAT(read_text(out_ + '/' + report), HasSubstr(hash)) << report;
+  EXPECT_THAT(finished.out, HasSubstr("bytes in all, sha256 " + hash));
+  const Finished decoded =
+      run_program({"tshark", "-r", out_ + "/run.pcapng", "-Y", "frame.cap_len < frame.len"});
+  EXPECT_EQ(decoded.code, 0) << decoded.err;
+  EXPECT_NE(decoded.out, "") << "a packet of which less was captured than there was";
+
+  const std::string file = out_ + "/results.ndjson";
+  const Finished judged =
+      run_tool({"judge", file, "--vectors", vectors, "--out", folder_ / "judged"});
+  EXPECT_THAT(judged.out, HasSubstr("not all bytes were kept"));
+  const Results again = read_results(folder_ / "judged/results.ndjson");
+  for (std::size_t i = 0; i < again.cases.size(); ++i)
+    if (has_extract(results.cases[i])) {
+      EXPECT_EQ(again.cases[i].at("verdict"), "INCONCLUSIVE") << i;
+    }
+  EXPECT_GT(again.counts().at("INCONCLUSIVE"), 0u);
+
+  const Finished compared = run_tool({"compare", file, file});
+  EXPECT_EQ(compared.code, 0) << compared.out << compared.err;
+  const Finished merged = run_tool({"merge", file, "--out", folder_ / "merged"});
+  EXPECT_EQ(read_results(folder_ / "merged/results.ndjson").cases, results.cases)
+      << merged.out << merged.err;
+}
+
+/// A device that only floods is one finding with its count, at the end of the console, in JUnit and
+/// in HTML.
+TEST_F(HostileRuns, TheSameFailureIsToldOnce) {
+  const Finished finished = run({"flood"});
+  EXPECT_THAT(finished.out, HasSubstr("red:\n  "));
+  EXPECT_THAT(finished.out, HasSubstr(" cases: "));
+  EXPECT_THAT(finished.out, HasSubstr(" (first: xgt_cnet/"));
+  EXPECT_THAT(read_text(out_ + "/junit.xml"), AllOf(HasSubstr("<property name=\"finding 2\""),
+                                                    HasSubstr("finding 2, as xgt_cnet/")));
+  EXPECT_THAT(read_text(out_ + "/report.html"), HasSubstr("class=\"list findings\""));
+}
+
+}  // namespace
+}  // namespace fieldproof::tool_tests
