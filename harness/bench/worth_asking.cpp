@@ -12,24 +12,31 @@ using results::Event;
 
 constexpr int most_doubt = 20;  // cases without a whole frame; those that take long count for more
 
-/// Did a whole frame come, or an end of a connection, which is an answer of its own?
-bool anything_whole(const results::CaseResult& result, const harness::Protocol& protocol) {
-  Bytes came;
-  for (const Event& event : result.exchange) {
-    if (event.kind == Event::Kind::received)
-      came.insert(came.end(), event.bytes.begin(), event.bytes.end());
-    if (event.by_device) return true;
-  }
+bool begins_with_frame(ByteView came, const harness::Protocol& protocol) {
   const auto length = protocol.frame_length(came);
   if (!length) return false;
   const std::vector<harness::Field> fields = protocol.explain(ByteView(came).first(*length));
   return !fields.empty() && fields.front().problem.empty();
 }
 
+/// Did a whole frame come, or an end of a connection, which is an answer of its own? Two halves,
+/// answers to two requests, are none.
+bool anything_whole(const results::CaseResult& result, const harness::Protocol& protocol) {
+  Bytes came;  // since the last request
+  for (const Event& event : result.exchange) {
+    if (event.by_device) return true;
+    if (event.kind == Event::Kind::sent && begins_with_frame(came, protocol)) return true;
+    if (event.kind == Event::Kind::sent) came.clear();
+    if (event.kind == Event::Kind::received)
+      came.insert(came.end(), event.bytes.begin(), event.bytes.end());
+  }
+  return begins_with_frame(came, protocol);
+}
+
 }  // namespace
 
-std::string WorthAsking::after(const results::CaseResult& result,
-                               const harness::Protocol& protocol, bool set_up) {
+std::string WorthAsking::after(const results::CaseResult& result, const harness::Protocol& protocol,
+                               bool set_up) {
   const bool asked = std::ranges::any_of(
       result.exchange, [](const Event& event) { return event.kind == Event::Kind::sent; });
   if ((!asked && set_up) || !protocol.has_frame_ends()) return {};

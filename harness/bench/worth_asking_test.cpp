@@ -32,13 +32,40 @@ class WorthAskingTest : public testing::Test {
   harness::TestProtocol protocol_;
 };
 
-TEST_F(WorthAskingTest, ADeviceThatSendsFramesIs) { EXPECT_EQ(cases_until_the_end(with("<x>")), 0); }
+TEST_F(WorthAskingTest, ADeviceThatSendsFramesIs) {
+  EXPECT_EQ(cases_until_the_end(with("<x>")), 0);
+}
 
 TEST_F(WorthAskingTest, OneThatSendsHalvesIsNot) {
   EXPECT_EQ(cases_until_the_end(with("<x")), 20);
   EXPECT_THAT(worth_.after(with("<x"), protocol_, true),
               HasSubstr("no whole frame came from the device in the last cases, up to p/a/b: what "
                         "failed"));
+}
+
+/// As in XGT: the head of the next frame ends one that breaks off.
+struct EndedByHeads : harness::TestProtocol {
+  std::optional<std::size_t> frame_length(ByteView bytes) const override {
+    const std::size_t end = to_text(bytes).find_first_of("<>", 1);
+    if (end == std::string::npos) return std::nullopt;
+    return bytes[end] == '>' ? end + 1 : end;
+  }
+};
+
+/// The case is answered by one half and the closing probe by another.
+TEST_F(WorthAskingTest, TwoHalvesAreNoFrame) {
+  const EndedByHeads protocol;
+  const auto cases_until_the_end = [&](const CaseResult& result) {
+    int count = 1;
+    while (count < 100 && worth_.after(result, protocol, true).empty()) ++count;
+    return count;
+  };
+  CaseResult halves = with("<x");
+  halves.exchange.push_back({Event::Kind::sent, 0ns, 0ns, to_bytes("<probe>"), ""});
+  halves.exchange.push_back({Event::Kind::received, 0ns, 0ns, to_bytes("<y"), ""});
+  EXPECT_EQ(cases_until_the_end(halves), 20);
+  halves.exchange.back().bytes = to_bytes("<y>");
+  EXPECT_EQ(cases_until_the_end(halves), 100);
 }
 
 TEST_F(WorthAskingTest, AFrameWipesTheDoubt) {
