@@ -55,7 +55,7 @@ void rotate_places(P2pBlock& block) {
 
 std::optional<std::uint16_t> count_only(const p2p::P2pDriver& good, const P2pBlock& block,
                                         const Bytes& frame, PlcMemory& memory) {
-  PlcMemory elsewhere = memory;
+  PlcMemory elsewhere(memory.model());
   return good.take(block, frame, elsewhere);
 }
 
