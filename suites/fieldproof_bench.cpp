@@ -293,7 +293,9 @@ void register_tool_runs(const std::vector<std::pair<std::string, Tool>>& tools, 
                                    })
           ->Unit(benchmark::kMillisecond)
           ->UseRealTime()
-          ->Iterations(brief ? 1 : name == "one_case" ? 20 : 5);
+          ->Iterations(brief                ? 1
+                       : name == "one_case" ? 20
+                                            : 5);
 }
 
 void register_all(const std::vector<std::pair<std::string, Tool>>& tools, bool brief) {
