@@ -266,8 +266,8 @@ TEST(ConsoleReport, TellsTheFirstOfAKindInFull) {
     return blocks;
   };
   EXPECT_EQ(run(false), 3u);
-  EXPECT_THAT(printed,
-              HasSubstr("FAIL          a/5  " + samples::failure().message + "  (as a/1)\n"));
+  EXPECT_THAT(printed, HasSubstr("FAIL          a/5  " + samples::failure().message +
+                                 "  (7.1.5 (1)(e), as a/1)\n"));
   EXPECT_EQ(run(true), 5u) << "-v shows every exchange";
 }
 

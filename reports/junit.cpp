@@ -99,6 +99,8 @@ std::string reference(const CaseResult& result, const Finding& finding) {
       "frames of this case\n",
       finding.number, finding.first.front());
   if (!result.title.empty()) text += xml_line(result.title) + '\n';
+  if (!result.section.empty())
+    text += fmt::format("rests on  {}, {}\n", result.manual, xml_line(result.section));
   if (!result.replay.empty()) text += fmt::format("replay    {}\n", xml_line(result.replay));
   return text;
 }
