@@ -144,7 +144,8 @@ std::string case_report(const results::CaseResult& result, const ConsoleOptions&
       verdict_word(result.verdict, verdict_width, options) + text::case_label(result);
   if (!result.message.empty()) text += "  " + text::xml_line(result.message);
   const bool told = again && again->is_again() && !options.verbose;
-  text += told ? fmt::format("  ({}, as {})\n", result.section, again->first.front()) : "\n";
+  const std::string clause = result.section.empty() ? "" : result.section + ", ";
+  text += told ? fmt::format("  ({}as {})\n", clause, again->first.front()) : "\n";
   // A case that never started has nothing but its message.
   const bool executed = red || !result.exchange.empty();
   if (executed && !told)

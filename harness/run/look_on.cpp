@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "harness/endpoints/forwarding.hpp"
+#include "harness/endpoints/options.hpp"
 #include "harness/probe/conclusion.hpp"
 #include "harness/probe/prober.hpp"
 
@@ -85,9 +86,8 @@ std::string said_of(const Finding& finding, const exchange::Channel& asked) {
 }
 
 line::LineSettings line_of(const endpoints::EndpointName& name) {
-  const Result<line::LineSettings> line =
-      line::parse_line_settings(name.option("baud", "9600") + '-' + name.option("frame", "8N1"));
-  return line ? *line : line::LineSettings{};
+  const Result<endpoints::SerialOptions> options = endpoints::serial_options(name);
+  return options ? options->settings : line::LineSettings{};
 }
 
 Result<probe::Search> search(const exchange::Channel& asked, const DutPlan& plan) {

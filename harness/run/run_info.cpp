@@ -8,6 +8,7 @@
 
 #include "harness/run/timestamp.hpp"
 #include "harness/run/tool_vectors.hpp"
+#include "harness/vectors/citations.hpp"
 #include "harness/vectors/fingerprint.hpp"
 #include "reports/results/shard.hpp"
 
@@ -47,7 +48,7 @@ std::string selection(const RunPlan& plan) {
 std::vector<results::ErratumInfo> errata(const RunPlan& plan) {
   std::map<std::string_view, std::set<std::string>> vectors_of;  // by statement
   for (const vectors::Case* one : plan.selected)
-    for (const std::string& statement : one->source.statements)
+    for (const std::string_view statement : vectors::cited_by(*one))
       vectors_of[statement].insert(one->vector_id);
   std::vector<results::ErratumInfo> met;
   for (const vectors::Erratum& one : plan.vectors.errata) {

@@ -17,7 +17,8 @@ std::filesystem::path vectors_path(const std::string& option) {
 Result<vectors::VectorSet> load_sound_vectors(const std::string& option,
                                               const harness::Protocols& protocols,
                                               const std::string& filter) {
-  vectors::VectorSet set = vectors::load_vectors(vectors_path(option), {protocols, filter});
+  vectors::VectorSet set = vectors::load_vectors(vectors_path(option),
+                                                 {protocols, filter, harness::find_data().vectors});
   add_decisions(vectors_path(option), set);
   if (set.problems.empty()) set.problems = vectors::contradictions(set, protocols);
   if (set.problems.empty()) return set;

@@ -86,6 +86,9 @@ Source read_source(const json& vector, const Row& row) {
     source.manual = own.at("manual");
     source.section = own.at("section");
     source.quote = own.at("quote");
+    // As files of earlier editions have it.
+    if (source.statements.empty() && own.contains("statement"))
+      source.statements = read_ids(own["statement"], row);
   } else if (source.statements.empty()) {
     throw Broken(
         "rests on nothing: name a \"statement\" of a manual, or give the \"source\" of your own "
@@ -168,7 +171,7 @@ class StepReader {
     if (value.contains("every")) step.every = duration(value["every"]);
     if (value.contains("max_gap")) step.max_gap = duration(value["max_gap"]);
     step.times = value.value("times", 1);
-    if (value.contains("statement")) step.source.statements = read_ids(value["statement"], row_);
+    if (value.contains("clause")) step.source.statements = read_ids(value["clause"], row_);
     return step;
   }
 

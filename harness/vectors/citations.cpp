@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "src/base/spelling.hpp"
 
@@ -11,22 +10,11 @@ namespace fieldproof::vectors {
 
 namespace {
 
-using Known = std::unordered_map<std::string_view, const Statement*>;
-
-/// The nearest id that there is.
-std::string near(const std::string& id, const VectorSet& set) {
-  std::vector<std::string_view> ids;
-  for (const Statement& statement : set.statements) ids.push_back(statement.id);
-  return suggestion(id, ids);
-}
-
 /// Empty, or what is wrong.
-std::string resolve(Source& source, const Known& known, const VectorSet& set) {
+std::string resolve(Source& source, const StatementsById& known) {
   if (source.statements.empty() || !source.quote.empty()) return {};  // words of its own
-  const std::string& id = source.statements.front();
-  const auto found = known.find(id);
-  if (found == known.end())
-    return fmt::format("no statement '{}' in statements/{}", id, near(id, set));
+  const auto found = known.find(source.statements.front());
+  if (found == known.end()) return no_statement(source.statements.front(), known);
   source.manual = found->second->manual;
   source.section = found->second->section;
   source.quote = found->second->quote;
@@ -34,6 +22,18 @@ std::string resolve(Source& source, const Known& known, const VectorSet& set) {
 }
 
 }  // namespace
+
+StatementsById statements_by_id(const VectorSet& set) {
+  StatementsById known;
+  for (const Statement& one : set.statements) known.emplace(one.id, &one);
+  return known;
+}
+
+std::string no_statement(std::string_view id, const StatementsById& known) {
+  std::vector<std::string_view> ids;
+  for (const auto& [one, statement] : known) ids.push_back(one);
+  return fmt::format("no statement '{}' in statements/{}", id, suggestion(id, ids));
+}
 
 std::vector<std::string_view> cited_by(const Case& one) {
   std::vector<std::string_view> ids;
@@ -47,17 +47,16 @@ std::vector<std::string_view> cited_by(const Case& one) {
 }
 
 void resolve_citations(VectorSet& set) {
-  Known known;
-  for (const Statement& statement : set.statements) known.emplace(statement.id, &statement);
+  const StatementsById known = statements_by_id(set);
   for (std::vector<Case>* cases : {&set.cases, &set.tables})
     for (Case& one : *cases) {
       const auto report = [&](const std::string& problem, const std::string& where) {
         if (!problem.empty())
           set.problems.push_back(fmt::format("{}: {}: {}{}", one.file, one.id, where, problem));
       };
-      report(resolve(one.source, known, set), "");
+      report(resolve(one.source, known), "");
       for (std::size_t i = 0; i < one.steps.size(); ++i)
-        report(resolve(one.steps[i].source, known, set), fmt::format("steps[{}]: ", i));
+        report(resolve(one.steps[i].source, known), fmt::format("steps[{}]: ", i));
     }
 }
 

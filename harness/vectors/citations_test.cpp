@@ -16,7 +16,7 @@ constexpr const char* vector = R"j([{
   "id": "p/read/word", "title": "a vector of the tests", "level": "must", "basis": "printed",
   "statement": ["m/${row}", "m/purpose"],
   "each": {"area": [{"case": "p", "row": "area-p"}, {"case": "t", "row": "area-t"}]},
-  "steps": [{"send": "05"}, {"expect": "06", "statement": "m/ack"}, {"silence": true}]}])j";
+  "steps": [{"send": "05"}, {"expect": "06", "clause": "m/ack"}, {"silence": true}]}])j";
 constexpr const char* statements = R"j([
   {"id": "m/area-p", "section": "1", "quote": "P0 to P127"},
   {"id": "m/area-t", "section": "1", "quote": "T0 to T255"},
@@ -66,6 +66,29 @@ TEST_F(Citations, APartOfASetFindsTheStatementsBesideIt) {
     EXPECT_THAT(set.problems, IsEmpty()) << part;
     EXPECT_EQ(set.cases.at(0).source.quote, "P0 to P127") << part;
   }
+}
+
+/// Vectors of a user, who cites a manual of this project.
+TEST_F(Citations, StatementsOfAnotherSetAreFoundWhereItIsNamed) {
+  write("theirs/p/read.json", vector);
+  write("theirs/statements/own.json",
+        R"([{"id": "own/1", "section": "1", "quote": "of their own"}])");
+  EXPECT_THAT(load_vectors(folder_ / "theirs").problems, testing::SizeIs(4));
+  const VectorSet set = load_vectors(folder_ / "theirs", {.known_set = folder_});
+  ASSERT_THAT(set.problems, IsEmpty());
+  EXPECT_EQ(set.cases.at(0).source.quote, "P0 to P127");
+  EXPECT_EQ(set.statements.size(), 5u) << "their own, and those that they cite";
+}
+
+TEST_F(Citations, AFileOfAnEarlierEditionNamesItsStatementInTheSource) {
+  write("old.json", R"j([{
+    "id": "p/old", "rev": 1, "title": "a vector of the tests", "level": "must", "basis": "printed",
+    "source": {"manual": "m", "section": "9", "quote": "as it is printed", "statement": "m/ack"},
+    "steps": [{"send": "05"}]}])j");
+  const VectorSet set = load_vectors(folder_ / "old.json");
+  ASSERT_THAT(set.problems, IsEmpty());
+  EXPECT_EQ(set.cases.at(0).source.quote, "as it is printed");
+  EXPECT_THAT(cited_by(set.cases.at(0)), ElementsAre("m/ack"));
 }
 
 TEST_F(Citations, WhatIsNotThereIsNamedWithTheNearest) {

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "harness/vectors/broken.hpp"
+#include "harness/vectors/citations.hpp"
 #include "harness/vectors/pieces.hpp"
-#include "src/base/spelling.hpp"
 
 namespace fieldproof::vectors {
 
@@ -66,22 +65,10 @@ Erratum read(const json& value, std::string at) {
           std::move(at)};
 }
 
-using StatementsById = std::map<std::string_view, const Statement*>;
-
-StatementsById by_id(const VectorSet& set) {
-  StatementsById result;
-  for (const Statement& one : set.statements) result[one.id] = &one;
-  return result;
-}
-
 /// What is wrong with a passage; empty: nothing.
 std::string complaint(const Passage& passage, const VectorSet& set, const StatementsById& known) {
-  if (!passage.statement.empty() && !known.contains(passage.statement)) {
-    std::vector<std::string_view> ids;
-    for (const auto& [one, statement] : known) ids.push_back(one);
-    return fmt::format("no statement '{}' in statements/{}", passage.statement,
-                       suggestion(passage.statement, ids));
-  }
+  if (!passage.statement.empty() && !known.contains(passage.statement))
+    return no_statement(passage.statement, known);
   if (!passage.statement.empty() && known.at(passage.statement)->manual != passage.manual)
     return fmt::format("the statement {} is not of the manual {}", passage.statement,
                        passage.manual);
@@ -120,7 +107,7 @@ std::vector<std::string_view> statements_of(const Erratum& one) {
 }
 
 void resolve_errata(VectorSet& set) {
-  const StatementsById known = by_id(set);
+  const StatementsById known = statements_by_id(set);
   for (Erratum& one : set.errata)
     for (std::vector<Passage>* list : {&one.places, &one.proof})
       for (Passage& passage : *list) {
@@ -133,7 +120,7 @@ void resolve_errata(VectorSet& set) {
 
 std::vector<std::string> lint_errata(const VectorSet& set) {
   std::vector<std::string> problems;
-  const StatementsById known = by_id(set);
+  const StatementsById known = statements_by_id(set);
   std::set<std::string_view> ids;
   for (const Erratum& one : set.errata) {
     const auto problem = [&](std::string_view what) {

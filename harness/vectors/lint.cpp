@@ -105,9 +105,9 @@ class FieldsOfSteps {
 
 /// Manuals and statements that cases cite are there.
 void lint_citations(const VectorSet& set, std::vector<std::string>& problems) {
-  std::unordered_set<std::string_view> manuals, statements;
+  std::unordered_set<std::string_view> manuals;
   for (const Manual& manual : set.manuals) manuals.insert(manual.id);
-  for (const Statement& statement : set.statements) statements.insert(statement.id);
+  const StatementsById known = statements_by_id(set);
   for (const std::vector<Case>* cases : {&set.cases, &set.tables})
     for (const Case& one : *cases) {
       if (!manuals.contains(one.source.manual))
@@ -119,9 +119,9 @@ void lint_citations(const VectorSet& set, std::vector<std::string>& problems) {
                         "id, so that coverage knows it",
                         one.file, one.id));
       for (const std::string_view statement : cited_by(one))
-        if (!statements.contains(statement))
+        if (!known.contains(statement))
           problems.push_back(
-              fmt::format("{}: {}: no statement '{}' in statements/", one.file, one.id, statement));
+              fmt::format("{}: {}: {}", one.file, one.id, no_statement(statement, known)));
     }
 }
 

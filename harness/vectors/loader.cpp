@@ -129,9 +129,10 @@ class FolderLoader {
       load_file(path, path.lexically_relative(base).generic_string());
     drop_errata_not_met();
     const bool all = options_.filter.empty() && !statement_files_.empty();
-    if (statement_files_.empty()) look_around(base);
-    for (const auto& [name, text] : statement_files_)
-      guarded(name, [&] { load_statements(text, all); });
+    if (statement_files_.empty()) find_statements(base);
+    load_all_statements(all);
+    if (!options_.known_set.empty() && !all_are_known() && find_statements(options_.known_set))
+      load_all_statements(false);
     resolve_errata(set_);
     resolve_citations(set_);
     set_.hash = fmt::format("{:016x}", hash_);
@@ -162,25 +163,42 @@ class FolderLoader {
     });
   }
 
-  /// The statements of a part of a set stand beside it, or one folder up.
-  void look_around(const fs::path& base) {
-    for (const fs::path& place : {base, fs::absolute(base).lexically_normal().parent_path()})
+  /// Those of a set stand in it; those of a part of a set, one folder up.
+  bool find_statements(const fs::path& base) {
+    const fs::path here = fs::absolute(base.empty() ? "." : base).lexically_normal();
+    for (const fs::path& place : {here, here.parent_path()})
       if (const fs::path folder = place / "statements"; fs::is_directory(folder)) {
+        statement_files_.clear();
         for (const fs::path& path : json_files(folder))
           statement_files_.emplace_back(path.string(), text_of_file(path));
-        return;
+        return true;
       }
+    return false;
   }
 
-  /// `all`, or those that the cases cite.
-  void load_statements(std::string_view text, bool all) {
-    for (const Piece& piece : pieces_of(text)) {
-      if (!all && !cited().contains(piece.id)) continue;
-      const json value = parse_piece(piece, text);
-      const std::string id = value.at("id");
-      set_.statements.push_back({id, id.substr(0, id.find('/')), value.at("section"),
-                                 value.at("quote"), value.value("reason", "")});
-    }
+  std::set<std::string, std::less<>> loaded() const {
+    std::set<std::string, std::less<>> ids;
+    for (const Statement& one : set_.statements) ids.insert(one.id);
+    return ids;
+  }
+
+  bool all_are_known() { return std::ranges::includes(loaded(), cited(), std::less<>{}); }
+
+  /// `all`, or those that the cases cite, each once.
+  void load_all_statements(bool all) {
+    const auto known = loaded();
+    for (const auto& [name, text] : statement_files_)
+      guarded(name, [&] {
+        for (const Piece& piece : pieces_of(text))
+          if ((all || cited().contains(piece.id)) && !known.contains(piece.id))
+            load_statement(parse_piece(piece, text));
+      });
+  }
+
+  void load_statement(const json& value) {
+    const std::string id = value.at("id");
+    set_.statements.push_back({id, id.substr(0, id.find('/')), value.at("section"),
+                               value.at("quote"), value.value("reason", "")});
   }
 
   /// Of selected cases only the errata that they met, with all statements that these name.

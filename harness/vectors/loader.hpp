@@ -58,6 +58,8 @@ struct LoadOptions {
   /// Not empty: only cases that match, and the statements that they cite. Vectors that cannot have
   /// such a case are not parsed, so nobody notices what is wrong in them.
   std::string filter{};
+  /// A set whose statements may be cited by others, too; empty: there is none.
+  std::filesystem::path known_set{};
 };
 
 /// A folder, or one file of vectors.

@@ -74,7 +74,7 @@ constexpr Shape duration{.form = &duration_form};
 
 constexpr Shape quote{.least = 5};
 constexpr std::array source_keys{Key{"manual", &text, true}, Key{"section", &text, true},
-                                 Key{"quote", &quote, true}};
+                                 Key{"quote", &quote, true}, Key{"statement", &text_or_texts}};
 constexpr Shape source{.kind = Kind::object, .keys = source_keys};
 
 constexpr std::array alternatives_keys{Key{"reading", &text, true}};
@@ -111,25 +111,14 @@ constexpr Shape close{.words = close_words};
 constexpr Shape ending{.words = ending_words};
 
 constexpr Shape times{.kind = Kind::number, .least = 1, .most = 10'000};
-constexpr std::array step_keys{Key{"send", &text},
-                               Key{"expect", &frame},
-                               Key{"wire", &wires},
-                               Key{"silence", &yes},
-                               Key{"wait", &duration},
-                               Key{"partner", &partner},
-                               Key{"set", &memory},
-                               Key{"check", &memory},
-                               Key{"do", &text},
-                               Key{"open", &open},
-                               Key{"close", &close},
-                               Key{"expect_close", &ending},
-                               Key{"expect_open", &text},
-                               Key{"on", &text},
-                               Key{"within", &duration},
-                               Key{"every", &duration},
-                               Key{"max_gap", &duration},
-                               Key{"times", &times},
-                               Key{"statement", &text_or_texts}};
+constexpr std::array step_keys{
+    Key{"send", &text},           Key{"expect", &frame},     Key{"wire", &wires},
+    Key{"silence", &yes},         Key{"wait", &duration},    Key{"partner", &partner},
+    Key{"set", &memory},          Key{"check", &memory},     Key{"do", &text},
+    Key{"open", &open},           Key{"close", &close},      Key{"expect_close", &ending},
+    Key{"expect_open", &text},    Key{"on", &text},          Key{"within", &duration},
+    Key{"every", &duration},      Key{"max_gap", &duration}, Key{"times", &times},
+    Key{"clause", &text_or_texts}};
 constexpr Shape step{.kind = Kind::object, .keys = step_keys};
 constexpr Shape steps{.kind = Kind::list, .least = 1, .items = &step};
 

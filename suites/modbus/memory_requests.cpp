@@ -151,6 +151,11 @@ ModbusBase base_of(const FunctionCode& function) {
   return static_cast<ModbusBase>(found - modbus::modbus_base_names.begin());
 }
 
+std::uint32_t count_in(ByteView message, const FunctionCode& function) {
+  const bool counted = function.many || !function.write;
+  return counted && message.size() >= 6 ? word_at(message, 4) : 1;
+}
+
 const Bases& default_bases() {
   static const Bases bases = *declared_bases("", nlohmann::json::object());
   return bases;
@@ -288,16 +293,6 @@ std::vector<Protocol::Place> places(const Bases& bases, const Protocol::Written&
   }
   return result;
 }
-
-namespace {
-
-/// How many data addresses a message asks for.
-std::uint32_t count_in(ByteView message, const FunctionCode& function) {
-  const bool counted = function.many || !function.write;
-  return counted && message.size() >= 6 ? word_at(message, 4) : 1;
-}
-
-}  // namespace
 
 std::vector<Protocol::AddressField> address_fields(const Framing& framing, const Bases& bases,
                                                    ByteView frame, bool reply) {

@@ -21,6 +21,8 @@ struct Bases {
 };
 /// The table that a function code names.
 modbus::ModbusBase base_of(const FunctionCode& function);
+/// How many data addresses a message asks for.
+std::uint32_t count_in(ByteView message, const FunctionCode& function);
 /// Of xbc-h: P0, M0, P0, M0.
 const Bases& default_bases();
 /// `config`: bit_read_base and its like, tables (vectors/README.md). Errors name the model or the

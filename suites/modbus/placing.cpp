@@ -177,8 +177,7 @@ std::string tied_to_default(const Framing& framing, const Bases& declared,
       if (!function) continue;
       const ModbusBase base = base_of(*function);
       const std::uint32_t before = defaults.tables[base].size, now = declared.tables[base].size;
-      const bool counted = (function->many || !function->write) && message.size() >= 6;
-      const std::uint32_t end = word_at(message, 2) + (counted ? word_at(message, 4) : 1);
+      const std::uint32_t end = word_at(message, 2) + count_in(message, *function);
       if (before != now && end > std::min(before, now) && word_at(message, 2) <= last_data_address)
         return fmt::format(
             "is about the end of a table, {} data addresses with the default {}_base and {} with "
