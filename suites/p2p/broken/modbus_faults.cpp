@@ -117,6 +117,15 @@ std::optional<std::uint16_t> exception_is_normal(const p2p::P2pDriver& good, con
   return error == p2p::p2p_error::nak ? p2p::p2p_error::none : error;
 }
 
+/// Of the codes that the manual prints with its examples.
+std::optional<std::uint16_t> knows_no_server_error(const p2p::P2pDriver& good,
+                                                   const P2pBlock& block, const Bytes& frame,
+                                                   plc::PlcMemory& memory) {
+  const bool server_error = frame.size() > 2 && frame[2] == 0x04;
+  const auto error = good.take(block, frame, memory);
+  return server_error && error == p2p::p2p_error::nak ? p2p::p2p_error::none : error;
+}
+
 std::optional<std::uint16_t> echo_not_compared(const p2p::P2pDriver& good, const P2pBlock& block,
                                                const Bytes& frame, plc::PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
@@ -228,6 +237,11 @@ std::vector<Fault> modbus_faults() {
        "modbus_rtu/client/error/wrong_station/s3", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"exception_is_normal", "an exception is a normal end", takes(exception_is_normal),
        "modbus_rtu/client/error/exception/e02", "%LW512 holds 0001"},
+      {"server_error_is_normal", "exception 04 is a normal end", takes(knows_no_server_error),
+       "modbus_rtu/client/error/printed_refusal/f03", "%LW512 holds 0001"},
+      {"server_error_of_a_write_is_normal", "exception 04 to a write is a normal end",
+       takes(knows_no_server_error), "modbus_rtu/client/error/printed_refusal_of_single/f05",
+       "%LW512 holds 0001"},
       {"echo_not_compared", "a write whose echo has another address or value ends normally",
        takes(echo_not_compared), "modbus_rtu/client/error/other_echo_06/other_value",
        "%LW512 holds 0001"},
