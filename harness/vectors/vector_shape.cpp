@@ -134,7 +134,8 @@ constexpr Shape given{.kind = Kind::object, .keys = given_keys};
 
 constexpr std::array<Words, 2> kind_words{"case", "table"};
 constexpr std::array<Words, 3> level_words{"must", "should", "info"};
-constexpr std::array<Words, 3> basis_words{"printed", "derived", "decision"};
+constexpr std::array<Words, 5> basis_words{"printed frame", "printed rule", "printed", "derived",
+                                           "decision"};
 constexpr std::array<Words, 2> argued_words{"derived", "decision"};
 constexpr std::array<Words, 1> table_word{"table"};
 constexpr Shape id{.most = 200, .form = &vector_id};
@@ -147,31 +148,23 @@ constexpr Shape basis{.words = basis_words};
 constexpr std::array argued{Demand{"basis", argued_words, "why", ""}};
 constexpr Shape decision{.form = &decision_id};
 constexpr Shape decisions{.kind = Kind::list, .least = 1, .items = &decision};
-constexpr std::array difference_keys{Key{"title", &title}, Key{"statement", &text_or_texts},
-                                     Key{"basis", &basis}, Key{"why", &reason},
-                                     Key{"decision", &decisions}};
+constexpr std::array difference_keys{
+    Key{"title", &title}, Key{"describes", &reason}, Key{"statement", &text_or_texts},
+    Key{"basis", &basis}, Key{"why", &reason},       Key{"decision", &decisions}};
 constexpr Shape difference{
     .kind = Kind::object, .least = 1, .keys = difference_keys, .demands = argued};
 constexpr Shape differs{.kind = Kind::object, .least = 1, .open = true, .others = &difference};
 constexpr Shape framings{.kind = Kind::list, .least = 1, .items = &case_name};
 
-constexpr std::array vector_keys{Key{"id", &id, true},
-                                 Key{"rev", &rev},
-                                 Key{"title", &title, true},
-                                 Key{"framings", &framings},
-                                 Key{"differs", &differs},
-                                 Key{"kind", &kind},
-                                 Key{"statement", &text_or_texts},
-                                 Key{"source", &source},
-                                 Key{"level", &level, true},
-                                 Key{"basis", &basis, true},
-                                 Key{"why", &reason},
-                                 Key{"decision", &decisions},
-                                 Key{"models", &texts},
-                                 Key{"each", &each},
-                                 Key{"given", &given},
-                                 Key{"steps", &steps},
-                                 Key{"facts", &any_object},
+constexpr std::array vector_keys{Key{"id", &id, true},        Key{"rev", &rev},
+                                 Key{"title", &title, true},  Key{"describes", &reason},
+                                 Key{"framings", &framings},  Key{"differs", &differs},
+                                 Key{"kind", &kind},          Key{"statement", &text_or_texts},
+                                 Key{"source", &source},      Key{"level", &level, true},
+                                 Key{"basis", &basis, true},  Key{"why", &reason},
+                                 Key{"decision", &decisions}, Key{"models", &texts},
+                                 Key{"each", &each},          Key{"given", &given},
+                                 Key{"steps", &steps},        Key{"facts", &any_object},
                                  Key{"transpose", &boolean}};
 constexpr std::array vector_demands{Demand{"basis", argued_words, "why", ""},
                                     Demand{"kind", table_word, "facts", "steps"}};
