@@ -160,7 +160,7 @@ CaseResult Bench::run(const Case& source) {
     return result;
   };
   if (vectors::is_client_case(source) && endpoint_.capabilities().real_device) arming_.greet();
-  const Ready ready = make_ready(source);
+  const Ready& ready = ready_for(source);
   if (!ready.prepared) return decline(ready.why);
   if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
   for (const results::Move& move : ready.moves)

@@ -102,6 +102,7 @@ class Bench {
     std::optional<exchange::PreparedCase> prepared;  // of one of the two; nothing: see `why`
   };
   Ready make_ready(const vectors::Case& source) const;
+  const Ready& ready_for(const vectors::Case& source);
   Eligibility outside_profile(const vectors::Case& source) const;
   Eligibility blocked(const vectors::Case& source, const exchange::PreparedCase& prepared) const;
   Eligibility below_floor(const exchange::PreparedCase& prepared) const;
@@ -151,6 +152,8 @@ class Bench {
   safety::SavedMemory saved_, saved_over_aux_;
   SetUpFindings set_up_findings_;
   WorthAsking worth_asking_;
+  const vectors::Case* last_ = nullptr;  // on an emulator repeats find it again, ready
+  Ready last_ready_;
   std::string stopped_;
   int errors_in_a_row_ = 0;
   bool set_up_answered_ = true;  // in the present case: saving and setting memory

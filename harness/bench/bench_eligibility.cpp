@@ -244,6 +244,13 @@ Bench::Ready Bench::make_ready(const Case& source) const {
   return ready;
 }
 
+/// What is known of a real device may change from case to case.
+const Bench::Ready& Bench::ready_for(const Case& source) {
+  if (last_ != &source || endpoint_.capabilities().real_device) last_ready_ = make_ready(source);
+  last_ = &source;
+  return last_ready_;
+}
+
 bool Bench::could_run(const Case& source) const { return make_ready(source).prepared.has_value(); }
 
 std::vector<Protocol::Written> Bench::written_by(const Case& source) const {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "harness/exchange/p2p_blocks.hpp"
+#include "harness/exchange/stimulus_hash.hpp"
 #include "harness/vectors/link_names.hpp"
 
 namespace fieldproof::exchange {
@@ -139,7 +140,7 @@ Result<PreparedStep> prepare_step(const Step& source, vectors::LinkNames& links,
 
 Result<PreparedCase> prepare(const vectors::Case& source, int station,
                              const harness::Protocol& protocol, const OtherWays& others) {
-  PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), false, {}};
+  PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), false, {}, {}};
   vectors::LinkNames links(source, protocol.default_port() != 0, [&](const std::string& name) {
     const harness::Protocol* const other = others.known.find(name);
     return other && other->default_port() == 0;
@@ -151,6 +152,7 @@ Result<PreparedCase> prepare(const vectors::Case& source, int station,
     if (!step) return fail(fmt::format("{}: steps[{}]: {}", source.id, i, step.error().message));
     prepared.steps.push_back(std::move(*step));
   }
+  prepared.stimulus = stimulus_hash(prepared);
   return prepared;
 }
 

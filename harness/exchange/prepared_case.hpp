@@ -34,6 +34,7 @@ struct PreparedCase {
   bool has_probe = true;       // the protocol has a request that anything healthy answers
   bool implicit_link = false;  // the bench opens one at the beginning
   std::vector<PreparedStep> steps;
+  std::string stimulus;  // a hash of all that is done to the device
 
   bool is_client() const;  // the module asks, the bench answers
   /// A block asks at the pace of a clock: there is always one more request.

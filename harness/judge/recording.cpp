@@ -1,9 +1,6 @@
 #include "harness/judge/recording.hpp"
 
 #include <fmt/format.h>
-#include <algorithm>
-
-#include "harness/vectors/fingerprint.hpp"
 
 namespace fieldproof::judging {
 
@@ -13,54 +10,6 @@ using results::Event;
 using vectors::Step;
 
 namespace {
-
-/// Nothing for a step on a line.
-void add_link(const exchange::PreparedStep& step, std::string& text) {
-  if (!step.link.empty()) text += fmt::format("@{} ", step.link);
-  if (step.step->kind == Step::Kind::open)
-    text += fmt::format("{} {} {} ", step.protocol->name(),
-                        step.step->link.transport == Transport::udp ? "udp" : "tcp", step.port);
-  if (step.step->kind == Step::Kind::close)
-    text += fmt::format("{} ", static_cast<int>(step.step->closing));
-}
-
-/// All that is done to the device, in a text of no other use. What is expected of it is left out:
-/// that may change.
-std::string stimulus_text(const PreparedCase& prepared) {
-  const vectors::Case& source = *prepared.source;
-  std::string text =
-      fmt::format("{} {} {}\n", prepared.station, source.fresh, source.config.dump());
-  const auto add_memory = [&](const std::vector<std::pair<std::string, std::string>>& memory) {
-    for (const auto& [address, hex] : memory) text += fmt::format("{}={} ", address, hex);
-  };
-  add_memory(source.memory);
-  for (const exchange::PreparedStep& step : prepared.steps) {
-    text += fmt::format("\n{} x{} {} {} ", static_cast<int>(step.step->kind), step.step->times,
-                        step.step->action, step.step->duration.count());
-    if (step.step->kind == Step::Kind::set) add_memory(step.step->memory);
-    if (step.step->kind == Step::Kind::check)
-      for (const auto& [address, hex] : step.step->memory)
-        text += fmt::format("{}:{} ", address, hex.size());
-    if (const std::optional<vectors::PartnerSpec>& partner = step.step->partner) {
-      text += fmt::format("{} {} {} ", partner->model, partner->config.dump(), partner->fault);
-      add_memory(partner->memory);
-    }
-    add_link(step, text);
-    if (step.step->kind != Step::Kind::send) continue;
-    const notation::FrameTemplate& frame = step.frames.front().frame;
-    text += notation::to_hex_with_holes(frame);
-    for (const std::string& name : frame.names) text += " {" + name + "}";
-    for (const notation::FrameTemplate::Gap& gap : frame.gaps)
-      text +=
-          fmt::format(" ~{}:{}{}", gap.before, gap.pause.amount, gap.pause.characters ? "c" : "");
-  }
-  return text;
-}
-
-std::string stimulus_of(const PreparedCase& prepared) {
-  return fmt::format(
-      "{:016x}", vectors::extend_fingerprint(vectors::empty_fingerprint, stimulus_text(prepared)));
-}
 
 /// The step of the vector that each executed step was: `times` repeats them.
 std::vector<const Step*> executed_steps(const PreparedCase& prepared, std::size_t count) {
@@ -76,7 +25,7 @@ results::Recording make_recording(const PreparedCase& prepared, const Transcript
                                   const JudgeRules& rules) {
   results::Recording recording;
   if (transcript.trouble) return recording;  // the bench's own: there is nothing to judge
-  recording.stimulus = stimulus_of(prepared);
+  recording.stimulus = prepared.stimulus;
   recording.station = prepared.station;
   for (const exchange::StepRecord& step : transcript.steps)
     recording.steps.push_back({step.cause, step.memory, step.refused, step.refused_by_device});
@@ -103,7 +52,7 @@ Result<Transcript> replay(const results::CaseResult& recorded, const PreparedCas
                                           : "the exchange was recorded without its steps, by an "
                                             "older version; run the case again");
   }
-  if (recording.stimulus != stimulus_of(prepared))
+  if (recording.stimulus != prepared.stimulus)
     return fail(
         "the vector no longer does the same to the device as when this was recorded; run the case "
         "again");
