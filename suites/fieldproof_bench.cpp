@@ -52,7 +52,7 @@ std::unique_ptr<Endpoint> open(const std::string& text) {
 
 /// A one-word RSS and its ACK.
 const char* one_word =
-    R"j([{"id": "xgt_cnet/bench/one_word", "rev": 1, "title": "read one word", "level": "must", "basis": "printed",
+    R"j([{"id": "xgt_cnet/bench/one_word", "rev": 1, "title": "read one word", "level": "must", "basis": "printed rule",
   "statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"},
   "steps": [{"send": "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]"}, {"expect": "[ACK st 'rSS' '01' '02' '0000' ETX BCC]"}]}])j";
 

@@ -68,7 +68,7 @@ class Bench {
   /// The areas of the device, after a sanity exchange; errors of either.
   Result<Fingerprint> fingerprint();
 
-  /// Never throws; whatever goes wrong is in the result.
+  /// Never throws; whatever goes wrong is in the result. The case outlives the bench.
   results::CaseResult run(const vectors::Case& source);
 
   /// Would it be sent, for all that can be known before?

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <deque>
+
 #include "harness/device_names.hpp"
 #include "harness/exchange/scripted_endpoint.hpp"
 #include "harness/test_protocol.hpp"
@@ -37,7 +39,7 @@ class BenchTest : public testing::Test {
   }
 
   static std::string vector(const std::string& steps, const std::string& more = "") {
-    return R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed", )j" +
+    return R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed rule", )j" +
            more +
            R"j("statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "steps": [)j" +
            steps + "]}";
@@ -45,11 +47,11 @@ class BenchTest : public testing::Test {
   static std::string ask() { return R"({"send": "'<ask>'"}, {"expect": "'<answer>'"})"; }
 
   CaseResult run(const std::string& text) {
-    set_ = {};
-    vectors::load_vector_text(text, "f.json", set_);
-    EXPECT_THAT(set_.problems, IsEmpty());
+    vectors::VectorSet& set = sets_.emplace_back();
+    vectors::load_vector_text(text, "f.json", set);
+    EXPECT_THAT(set.problems, IsEmpty());
     if (!bench_) bench_.emplace(endpoint, protocol_, options);
-    return bench_->run(set_.cases.at(0));
+    return bench_->run(set.cases.at(0));
   }
   Bench& bench() {
     if (!bench_) bench_.emplace(endpoint, protocol_, options);
@@ -66,7 +68,7 @@ class BenchTest : public testing::Test {
 
  private:
   harness::TestProtocol protocol_;
-  vectors::VectorSet set_;
+  std::deque<vectors::VectorSet> sets_;  // cases outlive the bench
   std::optional<Bench> bench_;
 };
 

@@ -34,7 +34,7 @@ class ExchangeTest : public testing::Test {
   std::vector<std::string> exchange(const harness::Protocol& protocol, const std::string& steps,
                                     const std::string& config = "{}") {
     const std::string text =
-        R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed",
+        R"j({"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed rule",
       "statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "given": {"config": )j" +
         config + R"j(}, "steps": [)j" + steps + "]}";
     vectors::load_vector_text(text, "f.json", set_);

@@ -25,7 +25,7 @@ class JudgeTest : public testing::Test {
   /// Loads a case with these steps and attributes, runs it against `endpoint`, judges it by
   /// `rules`.
   Judgement judged(const std::string& steps, const std::string& level = "must",
-                   const std::string& basis = "printed", const std::string& more = "") {
+                   const std::string& basis = "printed rule", const std::string& more = "") {
     set_ = {};
     vectors::load_vector_text(
         R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": ")j" + level +
@@ -93,13 +93,13 @@ TEST_F(JudgeTest, ARequestBeforeTheAnswerIsCompleteIsPipelining) {
                     steps = R"({"send": "'<go>'"}, {"expect": "'<q1>'"}, {"send": "'<answer1>'"},
                                {"expect": "'<q2>'"})";
   endpoint.answers["<go>"] = Pieces{{1ms, "<q1>"}, {6ms, "<q2>"}};
-  const Judgement early = judged(steps, "must", "printed", client);
+  const Judgement early = judged(steps, "must", "printed rule", client);
   EXPECT_EQ(early.verdict, Verdict::fail);
   EXPECT_EQ(early.message,
             "pipelining: the request came too early: 8.0 ms before the answer to the one before it "
             "was complete");
   rules.timing_floor = 9ms;
-  EXPECT_EQ(judged(steps, "must", "printed", client).verdict, Verdict::pass);
+  EXPECT_EQ(judged(steps, "must", "printed rule", client).verdict, Verdict::pass);
 }
 
 /// Both ends of a turnaround, its guard band and the floor below which it cannot be judged.

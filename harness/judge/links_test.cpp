@@ -36,7 +36,7 @@ class LinksTest : public testing::Test {
   Judgement judged(const std::string& steps, const std::string& config = "{}") {
     set_ = {};
     vectors::load_vector_text(
-        R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed",
+        R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed rule",
       "statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "given": {"config": )j" +
             config + R"j(}, "steps": [)j" + steps + "]}]",
         "f.json", set_);

@@ -23,7 +23,7 @@ class Transposed {
                                                              : "modbus_rtu";
     vectors::load_vector_text(
         R"j({"id": ")j" + folder +
-            R"j(/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed", )j" +
+            R"j(/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed rule", )j" +
             more + (memory.empty() ? "" : R"j("given": {"memory": {)j" + memory + "}}, ") +
             R"j("statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "as printed"}, "steps": [)j" +
             steps + "]}",

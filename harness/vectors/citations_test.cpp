@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr const char* vector = R"j([{
-  "id": "p/read/word", "title": "a vector of the tests", "level": "must", "basis": "printed",
+  "id": "p/read/word", "title": "a vector of the tests", "level": "must", "basis": "printed rule",
   "statement": ["m/${row}", "m/purpose"],
   "each": {"area": [{"case": "p", "row": "area-p"}, {"case": "t", "row": "area-t"}]},
   "steps": [{"send": "05"}, {"expect": "06", "clause": "m/ack"}, {"silence": true}]}])j";
@@ -82,7 +82,7 @@ TEST_F(Citations, StatementsOfAnotherSetAreFoundWhereItIsNamed) {
 
 TEST_F(Citations, AFileOfAnEarlierEditionNamesItsStatementInTheSource) {
   write("old.json", R"j([{
-    "id": "p/old", "rev": 1, "title": "a vector of the tests", "level": "must", "basis": "printed",
+    "id": "p/old", "rev": 1, "title": "a vector of the tests", "level": "must", "basis": "printed rule",
     "source": {"manual": "m", "section": "9", "quote": "as it is printed", "statement": "m/ack"},
     "steps": [{"send": "05"}]}])j");
   const VectorSet set = load_vectors(folder_ / "old.json");

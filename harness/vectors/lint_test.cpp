@@ -28,7 +28,7 @@ const std::array<const harness::Protocol*, 1> table{&protocol};
 VectorSet with_step(const std::string& step, const std::string& services = "{}") {
   VectorSet set;
   load_vector_text(
-      R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed",
+      R"j([{"id": "xgt_cnet/a/b", "rev": 1, "title": "what is tested", "level": "must", "basis": "printed rule",
     "statement": "m/1", "source": {"manual": "m", "section": "1", "quote": "one two three four five"},
     "given": {"config": {"station": 32, "services": )j" +
           services + R"j(}}, "steps": [)j" + step + "]}]",

@@ -101,7 +101,7 @@ struct CaseResult {
   std::string protocol;  // "xgt-cnet"
   std::string title;
   std::string level;  // must, should, info
-  std::string basis;  // printed, derived, decision
+  std::string basis;  // printed frame, printed rule, derived, decision
   std::string manual, section, quote;
 
   Verdict verdict = Verdict::error;

@@ -23,7 +23,7 @@ CaseResult full_result() {
   result.protocol = "xgt-cnet";
   result.title = "Read two words";
   result.level = "must";
-  result.basis = "printed";
+  result.basis = "printed rule";
   result.manual = "xgb-cnet-en-1.6";
   result.section = "7.1.5 (1)(e)";
   result.quote = "This example supposes when 1 WORD";

@@ -24,7 +24,7 @@ inline results::CaseResult failure() {
   result.protocol = "xgt-cnet";
   result.title = "Read one word from M100 of station 1";
   result.level = "must";
-  result.basis = "printed";
+  result.basis = "printed rule";
   result.manual = "xgb-cnet-en-1.6";
   result.section = "7.1.5 (1)(e)";
   result.quote = "BCC is the low byte of the sum from ENQ to EOT";

@@ -29,7 +29,7 @@ inline nlohmann::ordered_json small_vector(const std::string& id,
       {"statement", "m/1"},
       {"source", {{"manual", "m"}, {"section", "1"}, {"quote", "reads one word from the device"}}},
       {"level", "must"},
-      {"basis", "printed"},
+      {"basis", "printed rule"},
       {"steps", {{{"send", ask_word}}, {{"expect", expect}}}}};
 }
 
