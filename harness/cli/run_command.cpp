@@ -193,6 +193,7 @@ class Run {
                  !(options_.fail_fast && results::gates(result.verdict, report_.gate()));
         });
     shared.execute();
+    if (too_many_failures()) report_not_run(shared.left());
     report_set_up();
     for (const CaseResult& result : waivers_.superfluous(run::case_ids(plan_.vectors)))
       report_.add(result);
@@ -221,6 +222,15 @@ class Run {
     result.verdict = results::Verdict::blocked;
     result.message = fmt::format("not run: --max-failures {} was reached", options_.max_failures);
     return result;
+  }
+
+  void report_not_run(const std::deque<run::SharedRun::Task>& tasks) {
+    for (const run::SharedRun::Task& task : tasks) {
+      CaseResult result = not_run(*task.source);
+      result.repeat = task.repeat;
+      settle(result);
+      report_.add(result);
+    }
   }
 
   bool run_one(const Case& source, int round) {

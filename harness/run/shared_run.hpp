@@ -45,6 +45,8 @@ class SharedRun {
     return troubles_;
   }  // "a: the port failed in ..."
   bool interrupted() const { return interrupted_; }
+  /// What no port has begun, after `on_result` has stopped the run.
+  const std::deque<Task>& left() const { return tasks_; }
 
  private:
   void serve(const Port& port);

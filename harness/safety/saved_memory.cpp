@@ -74,6 +74,7 @@ Status SavedMemory::save(const std::vector<Protocol::Written>& written) {
   std::vector<OpenEntry> entries;
   std::optional<Error> unreadable;
   for (const Protocol::Written& one : joined(written)) {
+    if (unreadable && silent()) break;  // it does not answer for the next either
     for (const Protocol::Place& place : protocol_.places(one)) {
       const Key key{place.address, place.digits};
       if (!known_.contains(key)) {
@@ -81,9 +82,10 @@ Status SavedMemory::save(const std::vector<Protocol::Written>& written) {
         const bool absent = reading.kind == Reading::Kind::refused && !place.declared;
         if (reading.kind != Reading::Kind::digits && !absent) {
           failure_ = reading.kind;
-          unreadable = Error{"cannot save what it writes: " + reading.why.message,
-                             reading.why.interrupted};
+          unreadable =
+              Error{"cannot save what it writes: " + reading.why.message, reading.why.interrupted};
           if (port_failed()) return *unreadable;
+          if (silent()) break;
           continue;
         }
         known_[key] = reading.digits;

@@ -49,6 +49,26 @@ class SharedRuns : public testing::Test {
     return run_tool(arguments, options);
   }
 
+  /// On two good devices, of which every case expects what they do not hold.
+  Finished run_with_wrong_words(int cases, const std::vector<std::string>& more) {
+    std::vector<nlohmann::ordered_json> vectors = slow_vectors(cases);
+    for (auto& vector : vectors) vector["steps"][2]["expect"] = wrong_word;
+    const std::string bench = folder_.write(
+        "bench.json",
+        nlohmann::ordered_json{{"devices", {{"a", device("good")}, {"b", device("good")}}}}.dump());
+    std::vector<std::string> arguments{"run",
+                                       "--bench",
+                                       bench,
+                                       "--dut",
+                                       "a,b",
+                                       "--vectors",
+                                       write_vectors(folder_, vectors),
+                                       "--out",
+                                       folder_ / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(arguments);
+  }
+
   Results results() { return read_results(folder_ / "out/results.ndjson"); }
   static std::vector<std::string> ids(int cases) {
     std::vector<std::string> all;
@@ -140,16 +160,20 @@ TEST_F(SharedRuns, ShardsAndRepetitionsAreSharedToo) {
 }
 
 TEST_F(SharedRuns, FailFastStopsAllPorts) {
-  std::vector<nlohmann::ordered_json> vectors = slow_vectors(200);
-  for (auto& vector : vectors) vector["steps"][2]["expect"] = wrong_word;
-  const std::string bench = folder_.write(
-      "bench.json",
-      nlohmann::ordered_json{{"devices", {{"a", device("good")}, {"b", device("good")}}}}.dump());
-  const Finished finished =
-      run_tool({"run", "--bench", bench, "--dut", "a,b", "--fail-fast", "--vectors",
-                write_vectors(folder_, vectors), "--out", folder_ / "out"});
-  EXPECT_EQ(finished.code, 1);
+  EXPECT_EQ(run_with_wrong_words(200, {"--fail-fast"}).code, 1);
   EXPECT_LE(results().cases.size(), 2u) << "what the other port had begun is still told";
+}
+
+TEST_F(SharedRuns, BehindMaxFailuresTheRestSaysSo) {
+  EXPECT_EQ(run_with_wrong_words(30, {"--max-failures", "3"}).code, 1);
+  const Results shared = results();
+  EXPECT_THAT(shared.ids(), UnorderedElementsAreArray(ids(30))) << "each has a result";
+  std::map<std::string, std::size_t> counts = shared.counts();
+  EXPECT_GE(counts["FAIL"], 3u);
+  EXPECT_LE(counts["FAIL"], 4u) << "what the other port had begun is still told";
+  EXPECT_EQ(counts["FAIL"] + counts["BLOCKED"], 30u);
+  EXPECT_EQ(shared.cases.back().at("message"), "not run: --max-failures 3 was reached");
+  expect_reports(folder_ / "out");
 }
 
 TEST_F(SharedRuns, UnlikeDevicesAreRefused) {
