@@ -5,6 +5,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "src/base/letters.hpp"
+
 namespace fieldproof::harness {
 
 namespace {
@@ -34,7 +36,62 @@ std::optional<std::string> add_to(std::string_view text, std::int64_t step) {
   return sum;
 }
 
+std::optional<std::uint32_t> read_number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// First word that `count` elements from a name could touch, and the last.
+struct Words {
+  std::uint32_t first = 0, last = 0;
+};
+
+std::optional<Words> words_at(const ElementName& name, std::uint32_t count) {
+  if (name.type == 'X') {
+    // Decimal word and one hex bit digit, or flat bit index: either may be meant.
+    const std::optional<std::uint32_t> word =
+        name.number.size() > 1 ? read_number(name.number.substr(0, name.number.size() - 1)) : 0;
+    const std::optional<std::uint32_t> flat = read_number(name.number);
+    if (!word) return std::nullopt;
+    const std::uint32_t other = flat ? *flat / 16 : *word;
+    return Words{std::min(*word, other), std::max(*word, other)};
+  }
+  const std::optional<std::uint32_t> index = read_number(name.number);
+  if (!index || count == 0) return std::nullopt;
+  const auto bytes = static_cast<std::uint32_t>(name.element_bytes());
+  return Words{*index * bytes / 2, ((*index + count) * bytes - 1) / 2};
+}
+
 }  // namespace
+
+std::optional<ElementName> read_element_name(std::string_view text) {
+  if (text.size() < 4 || text[0] != '%') return std::nullopt;
+  const ElementName name{upper(text[1]), upper(text[2]), text.substr(3)};
+  if (plc::type_bytes(name.type) == 0) return std::nullopt;
+  return name;
+}
+
+Result<std::string> element_further_on(const ElementName& name, std::size_t elements) {
+  const std::optional<std::uint32_t> index = read_number(name.number);
+  if (!index)
+    return fail(fmt::format("cannot count on from %{}{}{}", name.area, name.type, name.number));
+  return fmt::format("%{}{}{}", name.area, name.type, *index + elements);
+}
+
+Protocol::Written memory_at(const plc::PlcModel* model, const std::string& address,
+                            std::uint32_t count) {
+  if (model && count > 0)
+    if (const plc::ParsedAddress parsed = plc::parse_address(*model, address))
+      return memory_of(*model, parsed.address, count, address);
+  const std::optional<ElementName> name = read_element_name(address);
+  const std::optional<Words> words = name ? words_at(*name, count) : std::nullopt;
+  if (!words)
+    return {name ? std::string(1, name->area) : "?", 0, ~0u,
+            address};  // dotted or damaged: the whole area
+  return {std::string(1, name->area), words->first, words->last, address};
+}
 
 Protocol::Written memory_of(const plc::PlcModel& model, const plc::DeviceAddress& address,
                             std::uint32_t count, std::string_view name) {

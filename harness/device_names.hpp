@@ -2,6 +2,10 @@
 // one declared model.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "harness/protocol.hpp"
 #include "src/plc/address.hpp"
 
@@ -10,6 +14,23 @@ namespace fieldproof::harness {
 /// The words, or contacts, that `count` elements from `address` on lie in.
 Protocol::Written memory_of(const plc::PlcModel& model, const plc::DeviceAddress& address,
                             std::uint32_t count, std::string_view name);
+
+/// "%MW100" taken apart, whatever the model: area and type as capitals. A view into the name.
+struct ElementName {
+  char area = 0, type = 0;  // type: X B W D L
+  std::string_view number;
+
+  std::size_t element_bytes() const { return plc::type_bytes(type); }
+};
+std::optional<ElementName> read_element_name(std::string_view text);
+/// The name of an element so many further on. Errors: the number is not decimal.
+Result<std::string> element_further_on(const ElementName& name, std::size_t elements);
+
+/// What `count` elements from a name on could touch: read leniently where `model` is nullptr or
+/// does not know the name: what it could touch on any model counts as touched. Of a damaged name
+/// the whole area, or area "?".
+Protocol::Written memory_at(const plc::PlcModel* model, const std::string& name,
+                            std::uint32_t count);
 
 /// "M", "M100", "%MW100": an area of any model.
 std::optional<Protocol::WordName> read_word_name(std::string_view text);

@@ -12,6 +12,7 @@
 #include "harness/notation/dressing.hpp"
 #include "harness/notation/frame_template.hpp"
 #include "harness/protocol_parts.hpp"
+#include "src/base/burst.hpp"
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
@@ -52,6 +53,11 @@ class Protocol {
 
   /// The port of its servers; 0: it runs on a serial line.
   virtual std::uint16_t default_port() const { return 0; }
+  /// Where they take datagrams.
+  virtual std::uint16_t datagram_port() const { return default_port(); }
+  std::uint16_t port_for(Transport transport) const {
+    return transport == Transport::tcp ? default_port() : datagram_port();
+  }
 
   /// The station number as it stands in a frame.
   virtual Bytes station_bytes(int station) const = 0;

@@ -7,6 +7,7 @@
 #include "suites/udata/protocol.hpp"
 #include "suites/user_frames/protocol.hpp"
 #include "suites/xgt_cnet/protocol.hpp"
+#include "suites/xgt_fenet/protocol.hpp"
 
 namespace fieldproof::suites {
 
@@ -15,7 +16,7 @@ harness::Protocols protocols() {
   static const std::array table{&xgt_cnet_suite::protocol(), &modbus_suite::rtu(),
                                 &modbus_suite::ascii(),      &modbus_suite::tcp(),
                                 &ls_bus_suite::protocol(),   &user_frames_suite::protocol(),
-                                &udata_suite::protocol()};
+                                &udata_suite::protocol(),    &xgt_fenet_suite::protocol()};
   return std::span<const harness::Protocol* const>(table);
 }
 

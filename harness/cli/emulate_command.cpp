@@ -63,10 +63,13 @@ Status check_addresses(const EmulateOptions& options, const harness::Protocol& p
   const bool only_asks = !options.p2p.empty() && options.pty.empty() && options.tty.empty();
   if (port != 0 && !socket && !only_asks)
     return wrong(fmt::format("runs on a network; give --tcp 127.0.0.1:{}, or another port", port));
-  const std::optional<std::uint16_t> usual = port != 0 ? std::optional(port) : std::nullopt;
-  for (const std::string& address : {options.tcp, options.udp})
+  for (const Transport transport : {Transport::tcp, Transport::udp}) {
+    const std::string& address = transport == Transport::tcp ? options.tcp : options.udp;
+    const std::optional<std::uint16_t> usual =
+        port != 0 ? std::optional(protocol.port_for(transport)) : std::nullopt;
     if (!address.empty())
       if (const auto read = hosting::read_address(address, usual); !read) return read.error();
+  }
   return ok();
 }
 
@@ -105,6 +108,7 @@ int emulate_command(const EmulateOptions& options, const harness::Protocols& pro
                                    fmt::format("{}, as {} (MODEL?protocol=... for another)",
                                                options.p2p, (*protocol)->name()));
   host.port = (*protocol)->default_port();
+  host.udp_port = (*protocol)->datagram_port();
   if (const Status address = check_addresses(options, **protocol); !address)
     return run::complain(address.error().message, run::exit_code::usage);
   host.tcp = options.tcp;

@@ -8,6 +8,7 @@
 #include "harness/endpoints/exec.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/network.hpp"
+#include "harness/endpoints/network_name.hpp"
 #include "harness/endpoints/options.hpp"
 #include "harness/protocol.hpp"
 #include "harness/system/child_process.hpp"
@@ -29,12 +30,12 @@ constexpr int again_ms = 10;  // after a connection was refused
 class ExecNetworkEndpoint final : public NetworkEndpoint {
  public:
   ExecNetworkEndpoint(const EndpointName& name, const Capabilities& capabilities,
-                      os::RemoteHost host, os::PtyPair pty, std::uint16_t default_port)
+                      os::RemoteHost host, os::PtyPair pty, NetworkPorts defaults)
       : NetworkEndpoint("exec:" + name.target, capabilities),
         command_(name.target),
         host_(std::move(host)),
         pty_(std::move(pty)),
-        default_port_(default_port) {}
+        defaults_(std::move(defaults)) {}
   ~ExecNetworkEndpoint() override { sockets().set_far_end(nullptr); }
 
   /// Only the role counts: a client finds the bench listening.
@@ -51,7 +52,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
     const std::uint16_t own = transport == Transport::tcp ? tcp_ : udp_;
     if (own == 0)
       return cannot_open(transport, "write {udp_port} where the command takes its port");
-    if (port == 0 || port == default_port_) port = own;
+    if (port == 0 || port == defaults_.of(transport)) port = own;
     Result<os::UniqueFd> fd = transport == Transport::udp ? host_.connect(port, SOCK_DGRAM)
                               : ready_                    ? host_.connect(port, SOCK_STREAM)
                                                           : connect_when_ready(port);
@@ -130,7 +131,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   std::string command_;
   os::RemoteHost host_;
   os::PtyPair pty_;
-  std::uint16_t default_port_;
+  NetworkPorts defaults_;
   std::uint16_t tcp_ = 0, udp_ = 0;
   bool client_ = false;
   bool ready_ = false;  // has accepted a connection since its start
@@ -153,7 +154,7 @@ Result<std::unique_ptr<Endpoint>> open_exec_network(const EndpointName& name,
   can.datagrams = name.target.find(udp_mark) != std::string::npos;
   can.timing_floor = *floor;
   return std::unique_ptr<Endpoint>(std::make_unique<ExecNetworkEndpoint>(
-      name, can, std::move(*host), std::move(*pty), protocol.default_port()));
+      name, can, std::move(*host), std::move(*pty), default_ports(protocol)));
 }
 
 }  // namespace fieldproof::endpoints

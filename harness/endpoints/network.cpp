@@ -18,11 +18,11 @@ namespace {
 class SocketEndpoint final : public NetworkEndpoint {
  public:
   SocketEndpoint(std::string name, const Capabilities& capabilities, os::RemoteHost host,
-                 NetworkPorts ports, std::uint16_t default_port)
+                 NetworkPorts ports, NetworkPorts defaults)
       : NetworkEndpoint(std::move(name), capabilities),
         host_(std::move(host)),
         ports_(std::move(ports)),
-        default_port_(default_port) {}
+        defaults_(std::move(defaults)) {}
 
   Result<LinkId> open(Transport transport, std::uint16_t port) override {
     const std::uint16_t own = ports_.of(transport);
@@ -30,7 +30,7 @@ class SocketEndpoint final : public NetworkEndpoint {
       return cannot_open(transport, transport == Transport::udp
                                         ? "the endpoint names no port for datagrams; add ?udp=PORT"
                                         : "the endpoint is for datagrams; write tcp:HOST:PORT");
-    if (port == 0 || port == default_port_) port = own;
+    if (port == 0 || port == defaults_.of(transport)) port = own;
     Result<os::UniqueFd> fd =
         host_.connect(port, transport == Transport::tcp ? SOCK_STREAM : SOCK_DGRAM);
     if (!fd) return fd.error();
@@ -39,8 +39,7 @@ class SocketEndpoint final : public NetworkEndpoint {
 
  private:
   os::RemoteHost host_;
-  NetworkPorts ports_;
-  std::uint16_t default_port_;
+  NetworkPorts ports_, defaults_;
 };
 
 /// "tcp:plc:2004, UDP 2005"
@@ -76,7 +75,7 @@ Result<std::unique_ptr<Endpoint>> open_network(const EndpointName& name,
   can.datagrams = ports.udp != 0;
   can.timing_floor = *floor;
   return std::unique_ptr<Endpoint>(std::make_unique<SocketEndpoint>(
-      description(name, ports), can, std::move(*host), ports, protocol.default_port()));
+      description(name, ports), can, std::move(*host), ports, default_ports(protocol)));
 }
 
 }  // namespace fieldproof::endpoints

@@ -63,11 +63,15 @@ Status check_listen_name(const EndpointName& name) {
   return read ? check_options(name) : read.error();
 }
 
+NetworkPorts default_ports(const harness::Protocol& protocol) {
+  return {{}, protocol.default_port(), protocol.datagram_port()};
+}
+
 NetworkPorts network_ports(const EndpointName& name, const harness::Protocol& protocol) {
   const os::SocketName read = *os::parse_socket_name(name.target);
-  const std::uint16_t port = read.port.value_or(protocol.default_port());
-  if (!kind_of(name).connections) return {read.host, 0, port};
-  return {read.host, port, udp_option(name)};
+  if (!kind_of(name).connections)
+    return {read.host, 0, read.port.value_or(protocol.datagram_port())};
+  return {read.host, read.port.value_or(protocol.default_port()), udp_option(name)};
 }
 
 }  // namespace fieldproof::endpoints

@@ -25,6 +25,8 @@ struct NetworkPorts {
 
   std::uint16_t of(Transport transport) const { return transport == Transport::tcp ? tcp : udp; }
 };
+/// Of the protocol's servers, without a host.
+NetworkPorts default_ports(const harness::Protocol& protocol);
 /// Of a name that has been checked. The target's port, or that of the protocol, is the one of the
 /// kind; option `udp` adds datagrams to connections.
 NetworkPorts network_ports(const EndpointName& name, const harness::Protocol& protocol);

@@ -29,7 +29,7 @@ void CaseRun::begin() {
   } else if (client_) {
     links_.await_device(own);
   } else if (prepared_.implicit_link) {
-    links_.open({}, own, *transport, own.protocol->default_port());
+    links_.open({}, own, *transport, own.protocol->port_for(*transport));
   }
   if (around_.aux) links_.add_line("aux", around_.aux);
 }

@@ -130,7 +130,7 @@ Result<Bytes> unanswerable(ByteView request, const Protocol& protocol) {
 Partner::Answer ask(net::Host& host, std::uint16_t port, Burst request) {
   constexpr LinkId link = 1;
   host.advance(request.end());
-  host.receive({{}, request.end(), {}, link, LinkEvent::opened, port, "192.0.2.1:49152"});
+  host.receive({{}, request.end(), {}, link, LinkEvent::opened, port, "127.0.0.1:49152"});
   host.receive({request.bytes, request.end(), {}, link, LinkEvent::data, port, {}});
   const Time give_up = request.end() + longest_think;
   for (Time now = request.end();;) {

@@ -131,7 +131,8 @@ Result<PreparedStep> prepare_step(const Step& source, vectors::LinkNames& links,
   const Channel& to = spoken.on(*link);
   PreparedStep step{&source, {}, *link, to.protocol, to.station};
   step.network = to.protocol->default_port() != 0 && *link != vectors::aux_link;
-  step.port = source.link.port != 0 ? source.link.port : to.protocol->default_port();
+  step.port =
+      source.link.port != 0 ? source.link.port : to.protocol->port_for(source.link.transport);
   if (const Status added = add_frames(step); !added) return added.error();
   return step;
 }

@@ -93,7 +93,10 @@ Status DeviceHost::begin(const json& config) {
 
 /// Whom would a socket serve that the device does not listen on?
 Status DeviceHost::check_listens(const Party& party, const std::string& model) const {
-  const auto none = [&](Transport transport) { return !party.listens(transport, options_.port); };
+  const auto none = [&](Transport transport) {
+    return !party.listens(transport,
+                          transport == Transport::tcp ? options_.port : options_.udp_port);
+  };
   if (options_.port == 0) return ok();
   if (!options_.tcp.empty() && none(Transport::tcp))
     return fail(fmt::format("cannot emulate {}: it takes no connections; leave --tcp out", model));
@@ -282,7 +285,8 @@ int host_on_tty(const HostOptions& options) {
 
 int host_on_socket(const HostOptions& options) {
   if (options.port == 0) return host(options, open_line_socket(options.tcp));
-  return host(options, open_network_port({options.tcp, options.udp, options.port}));
+  return host(options,
+              open_network_port({options.tcp, options.udp, options.port, options.udp_port}));
 }
 
 int host_device(const HostOptions& options) {

@@ -244,7 +244,7 @@ struct HostedNetwork {
     options.make_device = hosting::test::make_echo_device;
     options.model = "echo";
     options.tcp = options.udp = ":0";
-    options.port = 7;
+    options.port = options.udp_port = 7;
     options.monitor = [this](const Traffic& traffic) {
       shown.push_back(monitor_line(traffic).substr(17));
     };
@@ -297,7 +297,7 @@ TEST(DeviceHost, ASocketThatTheDeviceDoesNotServeIsAUsageError) {
   HostOptions options;
   options.make_device = hosting::test::make_echo_device;
   options.model = "echo";
-  options.port = 9;
+  options.port = options.udp_port = 9;
   options.tcp = ":0";
   EXPECT_EQ(host_on_socket(options), 2);
   options.tcp.clear();
@@ -312,7 +312,7 @@ TEST(DeviceHost, ADeviceWithoutThatWayIsAUsageError) {
   options.make_device = hosting::test::make_tiny_device;
   options.model = "tiny";
   options.tcp = ":0";
-  options.port = 7;
+  options.port = options.udp_port = 7;
   EXPECT_EQ(host_on_socket(options), 2) << "it has no network";
 }
 
@@ -321,7 +321,7 @@ TEST(DeviceHost, APortInUseIsTrouble) {
   HostOptions options;
   options.make_device = hosting::test::make_echo_device;
   options.tcp = ":" + std::to_string(os::test::port_of(taken));
-  options.port = 7;
+  options.port = options.udp_port = 7;
   EXPECT_EQ(host_on_socket(options), 3);
 }
 

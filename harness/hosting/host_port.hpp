@@ -41,6 +41,7 @@ struct NetworkPortOptions {
   std::string tcp, udp;    // HOST:PORT each; empty: not over this transport; without HOST: loopback
   std::uint16_t port = 0;  // of the device: what comes there comes to this one, and it stands for
                            // the PORT that is left out
+  std::uint16_t udp_port = 0;  // the same for datagrams
 };
 /// Each connection and each peer of datagrams is a link.
 Result<std::unique_ptr<HostPort>> open_network_port(const NetworkPortOptions& options);

@@ -15,9 +15,10 @@ class NetworkPort final : public HostPort {
 
   Status listen(const std::string& address, Transport transport) {
     if (address.empty()) return ok();
-    Result<Listening> listening = listen_on(address, transport, options_.port);
+    const std::uint16_t port = transport == Transport::tcp ? options_.port : options_.udp_port;
+    Result<Listening> listening = listen_on(address, transport, port);
     if (!listening) return listening.error();
-    links_.listen(std::move(listening->socket), transport, options_.port);
+    links_.listen(std::move(listening->socket), transport, port);
     description_ +=
         fmt::format("{}{} {}", description_.empty() ? "" : ", ",
                     transport == Transport::tcp ? "tcp" : "udp", to_string(listening->name));

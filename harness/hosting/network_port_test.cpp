@@ -31,7 +31,7 @@ class NetworkPortTest : public testing::Test {
       if (::poll(fds.data(), fds.size(), 5000) <= 0) return Burst{.bytes = {}, .peer = "time-out"};
     }
   }
-  std::unique_ptr<HostPort> port = std::move(*open_network_port({":0", ":0", 502}));
+  std::unique_ptr<HostPort> port = std::move(*open_network_port({":0", ":0", 502, 502}));
   std::uint16_t tcp = port_behind(port->describe(), "tcp");
   std::uint16_t udp = port_behind(port->describe(), "udp");
 };
@@ -147,7 +147,8 @@ TEST(Listening, AddressesAreReadAndLoopbackIsMeantWhereNoneIsGiven) {
 
 TEST(Listening, SaysWhyItCannot) {
   const os::UniqueFd taken = os::test::bound(SOCK_STREAM);
-  const auto port = open_network_port({":" + std::to_string(os::test::port_of(taken)), "", 502});
+  const auto port =
+      open_network_port({":" + std::to_string(os::test::port_of(taken)), "", 502, 502});
   ASSERT_FALSE(port);
   EXPECT_THAT(port.error().message,
               HasSubstr("the port is in use; end the program that has it, or choose another port"));

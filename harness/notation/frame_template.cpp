@@ -68,7 +68,7 @@ class Builder {
   void add_to(FrameTemplate& frame, std::size_t& begin, const Item& item) {
     switch (item.kind) {
       case Item::Kind::open: begin = frame.bytes.size(); break;
-      case Item::Kind::close: settle_behind(frame, begin); break;
+      case Item::Kind::close: settle(frame, begin); break;
       case Item::Kind::literal: literal(frame, item.bytes); break;
       case Item::Kind::station:
         literal(frame, item.number == 0 ? fields_.own : fields_.foreign);
@@ -141,18 +141,24 @@ class Builder {
   }
 
   /// The bracket is complete: checks of what is behind them are known where all of that is literal,
-  /// or only counted.
-  static void settle_behind(FrameTemplate& frame, std::size_t begin) {
+  /// or only counted; then those of what precedes them, which may hold such a check.
+  static void settle(FrameTemplate& frame, std::size_t begin) {
     for (FrameTemplate::Check& check : frame.checks) {
       if (!check.kind->behind || check.begin != begin || check.end != 0) continue;
       check.end = frame.bytes.size();
       const std::size_t from = check.at + check.kind->size;
-      if (!check.kind->counts && !is_literal(frame, from, check.end)) continue;
-      const ByteView covered = ByteView(frame.bytes).subspan(from);
-      std::ranges::copy(check.wrong ? check.kind->wrong_over(covered) : check.kind->over(covered),
-                        frame.bytes.begin() + static_cast<std::ptrdiff_t>(check.at));
-      for (std::size_t i = check.at; i < from; ++i) frame.cells[i] = {};
+      if (check.kind->counts || is_literal(frame, from, check.end))
+        fill(frame, check, ByteView(frame.bytes).subspan(from));
     }
+    for (const FrameTemplate::Check& check : frame.checks)
+      if (!check.kind->behind && check.begin == begin && is_literal(frame, begin, check.at))
+        fill(frame, check, ByteView(frame.bytes).subspan(begin, check.at - begin));
+  }
+
+  static void fill(FrameTemplate& frame, const FrameTemplate::Check& check, ByteView covered) {
+    std::ranges::copy(check.wrong ? check.kind->wrong_over(covered) : check.kind->over(covered),
+                      frame.bytes.begin() + static_cast<std::ptrdiff_t>(check.at));
+    for (std::size_t i = 0; i < check.kind->size; ++i) frame.cells[check.at + i] = {};
   }
 
   const Fields& fields_;

@@ -112,9 +112,11 @@ class Speller {
       case Item::Kind::reuse:
       case Item::Kind::station:
       case Item::Kind::pause: return item;
+      case Item::Kind::name:
+        if (!digits_) return item;
+        break;
       case Item::Kind::open:
       case Item::Kind::close:
-      case Item::Kind::name:
       case Item::Kind::check: break;
     }
     return fail(fmt::format("'{}' cannot stand in pdu(...): brackets and checks are of the frame",

@@ -72,7 +72,8 @@ TEST(Pdu, ErrorsSayWhatToWrite) {
   EXPECT_THAT(dressed("pdu@02", binary), HasSubstr("pdu@02(03 00)"));
   EXPECT_THAT(dressed("pdu(03 0)", binary), HasSubstr("unknown word '0'"));
   EXPECT_THAT(dressed("pdu(03 CRC)", binary), HasSubstr("'[ ]'"));
-  EXPECT_THAT(dressed("pdu(name(M))", binary), HasSubstr("'name(M)' cannot stand in pdu(...)"));
+  EXPECT_THAT(dressed("pdu(name(M))", digits), HasSubstr("'name(M)' cannot stand in pdu(...)"));
+  EXPECT_EQ(dressed("pdu(02 name(M))", binary), "[st 02 name(M) CRC]");
   EXPECT_THAT(dressed("pdu(x:3)", binary), HasSubstr("half a byte"));
   EXPECT_THAT(dressed("pdu!(03)", numbered), HasSubstr("no check that could be wrong"));
 }

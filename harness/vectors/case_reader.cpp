@@ -157,7 +157,10 @@ Step::Kind kind_of(const json& value) {
 class StepReader {
  public:
   StepReader(const Row& row, const notation::Dressing* dressing, bool client)
-      : row_(row), dressing_(dressing), transactions_(client) {}
+      : row_(row),
+        dressing_(dressing),
+        client_(client),
+        transactions_(client, dressing && dressing->low_byte_first) {}
 
   Step read(const json& value) {
     Step step;
@@ -206,22 +209,23 @@ class StepReader {
   /// One frame, or named alternatives.
   void read_frames(const json& value, const json& step_value, Step& step) {
     const json* wire = step_value.contains("wire") ? &step_value["wire"] : nullptr;
+    const bool sends = step.kind == Step::Kind::send;
     transactions_.begin(step.kind, step.on);
     if (value.is_string()) {
-      step.frames.push_back(frame("", value, wire));
+      step.frames.push_back(frame("", value, wire, sends));
     } else {
       step.reading = value.at("reading");
       for (const auto& [name, text] : value.items()) {
         if (name == "reading") continue;
         transactions_.again();
-        step.frames.push_back(frame(name, text, wire));
+        step.frames.push_back(frame(name, text, wire, sends));
       }
     }
     transactions_.end();
   }
 
-  Frame frame(const std::string& reading, const json& text, const json* wire) {
-    Frame frame{reading, dressed(text_of(text, row_)), {}, {}};
+  Frame frame(const std::string& reading, const json& text, const json* wire, bool sends) {
+    Frame frame{reading, dressed(text_of(text, row_), sends), {}, {}};
     Result<notation::Notation> notation = notation::parse_notation(frame.text);
     if (!notation) throw Broken(fmt::format("\"{}\": {}", frame.text, notation.error().message));
     frame.notation = std::move(*notation);
@@ -243,21 +247,22 @@ class StepReader {
     }
   }
 
-  std::string dressed(std::string text) {
+  std::string dressed(std::string text, bool sends) {
     if (text.find("pdu") == text.npos || !notation::has_pdu(text)) return text;
     if (!dressing_)
       throw Broken(
           fmt::format("\"{}\": this protocol frames no pdu(...); write the whole frame, "
                       "or name the `framings` of the vector",
                       text));
-    Result<std::string> result =
-        notation::dress(text, *dressing_, [this] { return transactions_.next(); });
+    Result<std::string> result = notation::dress(text, dressing_->of(!client_, sends),
+                                                 [this] { return transactions_.next(); });
     if (!result) throw Broken(fmt::format("\"{}\": {}", text, result.error().message));
     return std::move(*result);
   }
 
   const Row& row_;
   const notation::Dressing* dressing_;
+  bool client_;  // the device asks
   Transactions transactions_;
   std::map<std::string, int> captured_;  // sizes, by name
 };

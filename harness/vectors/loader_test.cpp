@@ -218,6 +218,29 @@ TEST(Framings, DressTheBody) {
   EXPECT_EQ(set.cases[3].steps[1].frames[0].text, "[':' st '83' x:2 CR]");
 }
 
+constexpr notation::Dressing four_forms{.frame = "[01 ${body}]",
+                                        .reply_of_device = "[02 ${body}]",
+                                        .request_of_device = "[03 ${body}]",
+                                        .reply_of_bench = "[04 ${body}]"};
+
+TEST(Framings, MayDependOnWhoSpeaks) {
+  const Framed four("four-forms", &four_forms);
+  const std::array<const harness::Protocol*, 1> table{&four};
+  const auto frames = [&](const std::string& role) {
+    const std::string vector =
+        R"j({"id": "four_forms/one", "title": "Who speaks is told", "statement": ["m/1"],
+      "source": {"manual": "m", "section": "1", "quote": "as it is printed"}, "level": "must",
+      "basis": "printed rule", "given": {"config": {"role": ")j" +
+        role + R"j("}},
+      "steps": [{"send": "pdu(07)"}, {"expect": "pdu(08)"}]})j";
+    const VectorSet set = load(vector, {harness::Protocols(table)});
+    EXPECT_THAT(set.problems, IsEmpty());
+    return set.cases.at(0).steps[0].frames[0].text + set.cases.at(0).steps[1].frames[0].text;
+  };
+  EXPECT_EQ(frames("server"), "[01 07][02 08]");
+  EXPECT_EQ(frames("client"), "[04 07][03 08]");
+}
+
 TEST(Framings, HaveTheirOwnBytesAndSources) {
   const VectorSet set = load(shared, {protocols});
   EXPECT_EQ(set.cases[0].steps[0].frames[0].wire, "01 03");

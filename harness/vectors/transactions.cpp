@@ -22,8 +22,9 @@ Result<std::string> Transactions::next() {
       return fail("pdu(...) answers no request that is still open; write the whole frame");
     number = open[taken_ - 1];
   }
-  return hex_number(static_cast<unsigned>(number) >> 8 & 0xFF, 2) + ' ' +
-         hex_number(static_cast<unsigned>(number) & 0xFF, 2);
+  const std::string high = hex_number(static_cast<unsigned>(number) >> 8 & 0xFF, 2);
+  const std::string low = hex_number(static_cast<unsigned>(number) & 0xFF, 2);
+  return low_byte_first_ ? low + ' ' + high : high + ' ' + low;
 }
 
 void Transactions::end() {

@@ -18,7 +18,9 @@ namespace fieldproof::vectors {
 /// begin() for each step in order, next() for each frame of it that asks for a number, end().
 class Transactions {
  public:
-  explicit Transactions(bool client) : client_(client) {}
+  /// `client`: the device asks. `low_byte_first`: how a number stands in the frame.
+  explicit Transactions(bool client, bool low_byte_first = false)
+      : client_(client), low_byte_first_(low_byte_first) {}
 
   void begin(Step::Kind kind, std::string_view link);
   /// In notation: "00 01". Errors: nothing is open that the frame could answer.
@@ -28,7 +30,7 @@ class Transactions {
   void end();
 
  private:
-  bool client_;
+  bool client_, low_byte_first_;
   int sent_ = 0;
   std::map<std::string, std::deque<int>, std::less<>> open_;  // by link
   Step::Kind kind_ = Step::Kind::send;

@@ -26,6 +26,12 @@ TEST(Transactions, TheNthRequestHasNAndItsReplyLikewise) {
   EXPECT_EQ(one(transactions, Kind::expect), "00 03");
 }
 
+TEST(Transactions, MayStandLowByteFirst) {
+  Transactions transactions(false, true);
+  EXPECT_EQ(one(transactions, Kind::send), "01 00");
+  EXPECT_EQ(one(transactions, Kind::expect), "01 00");
+}
+
 TEST(Transactions, ASilenceAnswersAll) {
   Transactions transactions(false);
   one(transactions, Kind::send);

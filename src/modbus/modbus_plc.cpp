@@ -12,7 +12,6 @@ namespace fieldproof::modbus {
 
 namespace {
 constexpr std::string_view whose = "the Modbus server's configuration";
-constexpr unsigned most_connections = 4, longest_wait = 255, shortest_wait = 2;
 
 std::vector<std::string_view> known_keys_of(ModbusMode mode) {
   if (mode == ModbusMode::tcp)
@@ -37,19 +36,7 @@ Result<std::unique_ptr<DataSpace>> make_data_space(plc::PlcMemory& memory,
 TcpServerConfig fenet_server() { return {.waiting_time = 100s}; }
 
 Status read_tcp_config(const nlohmann::json& config, TcpServerConfig& to) {
-  unsigned wait = static_cast<unsigned>(to.waiting_time / 1s);
-  plc::ConfigReader reader(config, std::string(whose));
-  reader.whole("connections", most_connections, to.connections);
-  reader.whole("waiting_time", longest_wait, wait);
-  if (reader.error()) return *reader.error();
-  if (to.connections == 0)
-    return fail(
-        fmt::format("cannot read {}: connections is 0; give 1 to {}", whose, most_connections));
-  if (config.contains("waiting_time") && wait < shortest_wait)
-    return fail(fmt::format("cannot read {}: waiting_time is {}; give {} to {} seconds", whose,
-                            wait, shortest_wait, longest_wait));
-  to.waiting_time = std::chrono::seconds(wait);
-  return ok();
+  return plc::read_dedicated_config(config, whose, to);
 }
 
 Status add_modbus_server(plc::Plc& plc, ModbusMode mode, unsigned channel,

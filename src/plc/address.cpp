@@ -88,7 +88,7 @@ std::uint32_t element_count(const DeviceArea& area, char type) {
   return type == 'X' && area.contacts != 0 ? area.contacts : elements_in_words(area.words, type);
 }
 
-ParsedAddress parse_address(const PlcModel& model, std::string_view name) {
+ParsedAddress parse_address(const PlcModel& model, std::string_view name, bool bits_of_d) {
   ParsedAddress parsed;
   const auto failed = [&parsed](AddressFault fault) {
     parsed.fault = fault;
@@ -99,8 +99,8 @@ ParsedAddress parse_address(const PlcModel& model, std::string_view name) {
   if (!area) return failed(AddressFault::area);
   parsed.address.area = static_cast<std::uint8_t>(area - model.areas.data());
   const char type = name.size() < 3 ? '\0' : upper(name[2]);
-  // D has no bits (7.1.4 Note); its dwords and lwords are printed as examples, and accepted.
-  if (type_bytes(type) == 0 || (type == 'X' && area->letter == 'D'))
+  // Dwords and lwords of D are printed as examples, and accepted.
+  if (type_bytes(type) == 0 || (type == 'X' && area->letter == 'D' && !bits_of_d))
     return failed(AddressFault::type);
   parsed.address.type = type;
   parsed.address.contact = type == 'X' && area->contacts != 0;

@@ -45,8 +45,9 @@ struct ParsedAddress {
   explicit operator bool() const { return fault == AddressFault::none; }
 };
 
-/// Never fails: `fault` names the first stage that does not pass.
-ParsedAddress parse_address(const PlcModel& model, std::string_view name);
+/// Never fails: `fault` names the first stage that does not pass. D has no bits (Cnet EN 7.1.4,
+/// Note), but for services that take them there.
+ParsedAddress parse_address(const PlcModel& model, std::string_view name, bool bits_of_d = false);
 
 /// Bytes of one element on the wire: X 1, B 1, W 2, D 4, L 8; 0 for any other letter. Either letter
 /// case.

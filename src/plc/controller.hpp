@@ -25,6 +25,10 @@ class Controller : public EmulatedDevice {
   /// Errors: the channel has a service already, or a port of the network.
   Status add(unsigned channel, std::unique_ptr<LineService> service);
   Status add(std::unique_ptr<NetworkService> service);
+  /// Ethernet::allow_only.
+  void allow_only(std::vector<std::string> addresses) {
+    ethernet_.allow_only(std::move(addresses));
+  }
   /// For services that open links.
   net::OwnLinks& own_links() { return ethernet_.own_links(); }
 

@@ -17,8 +17,19 @@ Status Ethernet::add(NetworkService& service) {
     if (listens(port.transport, port.number))
       return fail(fmt::format("cannot put two services on {} port {}; leave one of them out",
                               port.transport == Transport::tcp ? "TCP" : "UDP", port.number));
+  if (service.is_driver() && std::ranges::any_of(services_, &NetworkService::is_driver))
+    return fail(
+        "cannot put two server drivers on one Ethernet module; leave the XGT or the Modbus TCP "
+        "server out");
   services_.push_back(&service);
   return ok();
+}
+
+/// Does it come from an address that the host table does not have?
+bool Ethernet::is_refused(const Burst& burst) const {
+  if (!allowed_ || owners_.contains(burst.link) || burst.link >= first_own_link) return false;
+  const std::string address = burst.peer.substr(0, burst.peer.rfind(':'));
+  return std::ranges::find(*allowed_, address) == allowed_->end();
 }
 
 NetworkService* Ethernet::owner(const Burst& burst) {
@@ -43,6 +54,12 @@ void Ethernet::note(const Burst& burst, bool Owner::*closed) {
 }
 
 void Ethernet::receive(const Burst& burst) {
+  if (is_refused(burst)) {
+    if (burst.event == LinkEvent::opened)
+      refusals_.push_back(
+          {.bytes = {}, .start = burst.start, .link = burst.link, .event = LinkEvent::reset});
+    return;
+  }
   NetworkService* const service = owner(burst);
   note(burst, &Owner::closed_by_client);
   if (service) service->receive(burst);
@@ -50,6 +67,7 @@ void Ethernet::receive(const Burst& burst) {
 
 std::optional<Time> Ethernet::wake_at() const {
   std::optional<Time> first;
+  if (!refusals_.empty()) first = refusals_.front().start;
   for (const NetworkService* service : services_)
     if (const std::optional<Time> wake = service->wake_at(); wake && (!first || *wake < *first))
       first = wake;
@@ -57,7 +75,7 @@ std::optional<Time> Ethernet::wake_at() const {
 }
 
 std::vector<Burst> Ethernet::advance(Time now) {
-  std::vector<Burst> all;
+  std::vector<Burst> all = std::exchange(refusals_, {});
   for (NetworkService* service : services_) {
     for (Burst& burst : service->advance(now)) {
       const bool ends = burst.event == LinkEvent::closed || burst.event == LinkEvent::reset;

@@ -1,8 +1,11 @@
 // The Ethernet module of a PLC: its services share one network. A connection or datagram goes to
-// the service that listens on its port, and stays with it.
+// the service that listens on its port, and stays with it. Where the host table is on, those of
+// other addresses reach no service: a connection is reset, a datagram dropped (FEnet EN 6.2.2 (3)).
 #pragma once
 
 #include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "src/net/own_links.hpp"
@@ -12,11 +15,14 @@ namespace fieldproof::plc {
 
 class Ethernet : public net::Host {
  public:
-  /// `service` outlives the module. Errors: another one listens on a port of it.
+  /// `service` outlives the module. Errors: another one listens on a port of it, or is a server
+  /// driver as it is.
   Status add(NetworkService& service);
   bool empty() const { return services_.empty(); }
   /// Links that are there; for tests.
   std::size_t links() const { return owners_.size(); }
+  /// Switches the host table on: IPv4 addresses, of which none may be left.
+  void allow_only(std::vector<std::string> addresses) { allowed_ = std::move(addresses); }
   /// For services that open links.
   net::OwnLinks& own_links() { return own_links_; }
 
@@ -31,11 +37,14 @@ class Ethernet : public net::Host {
     NetworkService* service = nullptr;
     bool closed_by_client = false, closed_by_us = false;
   };
+  bool is_refused(const Burst& burst) const;
   NetworkService* owner(const Burst& burst);
   void note(const Burst& burst, bool Owner::*closed);
 
   std::vector<NetworkService*> services_;
   std::map<LinkId, Owner> owners_;  // of the links that are there
+  std::optional<std::vector<std::string>> allowed_;
+  std::vector<Burst> refusals_;
   net::OwnLinks own_links_;
 };
 

@@ -54,6 +54,28 @@ TEST_F(EthernetLinks, GoWithAResetByEitherSide) {
   EXPECT_EQ(service.heard, 150) << "all of it was for the service";
 }
 
+// FEnet EN 6.2.2 (3): 'only the clients who have the registered IP address'.
+TEST_F(EthernetLinks, OfAddressesThatTheHostTableLacksReachNoService) {
+  ethernet.allow_only({"192.0.2.1", "192.0.2.2"});
+  const auto from = [&](LinkId link, LinkEvent event, const char* peer) {
+    Burst burst = on(link, event);
+    burst.peer = peer;
+    ethernet.receive(burst);
+    return ethernet.advance({});
+  };
+  EXPECT_EQ(from(1, LinkEvent::opened, "192.0.2.1:5000").size(), 0u);
+  EXPECT_EQ(service.heard, 1);
+  const std::vector<Burst> refused = from(2, LinkEvent::opened, "192.0.2.11:5000");
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_EQ(refused[0].event, LinkEvent::reset);
+  EXPECT_EQ(refused[0].link, 2u);
+  EXPECT_EQ(from(2, LinkEvent::data, "").size(), 0u);
+  EXPECT_EQ(from(3, LinkEvent::datagram, "192.0.2.11:5000").size(), 0u);
+  EXPECT_EQ(service.heard, 1) << "nothing of them";
+  client(1, LinkEvent::data);
+  EXPECT_EQ(service.heard, 2);
+}
+
 TEST_F(EthernetLinks, GoWhenBothSidesHaveClosed) {
   client(1, LinkEvent::opened);
   client(1, LinkEvent::closed);

@@ -37,7 +37,8 @@ class Plc : public Controller {
   PlcMemory memory_;
 };
 
-/// Without services yet. `config` says its mode ("run", the default, or "stop"). Errors name the
+/// Without services yet. `config` says its mode ("run", the default, or "stop"), and the host table
+/// of its Ethernet module ("host_table": at most 16 IPv4 addresses; absent: off). Errors name the
 /// model or the key.
 Result<std::unique_ptr<Plc>> make_plc(std::string_view model, const nlohmann::json& config);
 

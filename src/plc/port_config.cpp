@@ -42,7 +42,7 @@ std::vector<std::string_view> port_keys(std::initializer_list<std::string_view> 
 
 std::vector<std::string_view> network_keys(std::initializer_list<std::string_view> more) {
   std::vector<std::string_view> keys{
-      "inter_character_floor_ms", "mode", "model", "protocol", "role", "station"};
+      "host_table", "inter_character_floor_ms", "mode", "model", "protocol", "role", "station"};
   keys.insert(keys.end(), more);
   std::ranges::sort(keys);
   return keys;

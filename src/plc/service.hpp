@@ -52,6 +52,8 @@ class NetworkService : public Service, public net::Host {
   };
   /// Where it listens, the same all its life; none: it only opens links of its own.
   virtual std::vector<Port> ports() const = 0;
+  /// Is it the server driver, of which a module has one (FEnet EN 6.2.2 (2))?
+  virtual bool is_driver() const { return false; }
 
   bool listens(Transport transport, std::uint16_t port) const final {
     const std::vector<Port> all = ports();

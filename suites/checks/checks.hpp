@@ -17,5 +17,9 @@ extern const notation::Check crc;
 extern const notation::Check lrc;
 /// "LEN", Modbus TCP (FEnet EN 5.3): how many bytes follow in the frame, two bytes, high first.
 extern const notation::Check length;
+/// "LEN" and "SUM" of the XGT FEnet header (FEnet EN 5.2.3, table 5-3): the bytes of the body, two
+/// bytes, low first, that is all but position and check of what follows in the frame; and the low
+/// byte of the sum of the header's bytes before it.
+extern const notation::Check fenet_length, fenet_sum;
 
 }  // namespace fieldproof::checks

@@ -40,6 +40,15 @@ TEST(Checks, LengthCountsWhatFollows) {
   EXPECT_TRUE(length.behind);
 }
 
+// FEnet EN 5.2.6, table 5-8: 3F, and 16 bytes behind the header.
+TEST(Checks, TheFenetHeaderCountsItsBodyAndSumsWhatPrecedes) {
+  const Bytes header = *from_hex("4C 53 49 53 2D 58 47 54 00 00 00 00 A0 33 00 01 10 00 00");
+  EXPECT_EQ(fenet_sum.over(header), Bytes{0x3F});
+  EXPECT_EQ(fenet_length.over(Bytes(2 + 16)), (Bytes{0x10, 0}));
+  EXPECT_EQ(fenet_length.over(Bytes(2 + 0x104)), (Bytes{4, 1}));
+  EXPECT_EQ(fenet_length.over(Bytes(1)), (Bytes{0, 0}));
+}
+
 TEST(Checks, OnlyFramesOfLowerCaseCommandsHaveABcc) {
   EXPECT_TRUE(
       bcc.absent(to_bytes("\x05"
@@ -57,7 +66,7 @@ TEST(Checks, AWrongCheckDiffersFromTheRightOne) {
       "\x05"
       "01rSS0104%MW0"
       "\x04");
-  for (const notation::Check& check : {bcc, sum, crc, lrc, length})
+  for (const notation::Check& check : {bcc, sum, crc, lrc, length, fenet_length, fenet_sum})
     EXPECT_NE(check.over(frame), check.wrong_over(frame)) << check.name;
 }
 

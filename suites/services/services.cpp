@@ -11,6 +11,7 @@
 #include "src/modbus/modbus_plc.hpp"
 #include "src/xgt_cnet/plc.hpp"
 #include "src/xgt_cnet/plc_config.hpp"
+#include "src/xgt_fenet/plc.hpp"
 
 namespace fieldproof::services {
 
@@ -41,7 +42,8 @@ Status add_modbus(plc::Plc& plc, const json& config) {
 constexpr std::array kinds{Kind{"xgt-cnet", add_xgt_cnet},
                            Kind{"modbus-rtu", add_modbus<modbus::ModbusMode::rtu>},
                            Kind{"modbus-ascii", add_modbus<modbus::ModbusMode::ascii>},
-                           Kind{"modbus-tcp", add_modbus<modbus::ModbusMode::tcp>}};
+                           Kind{"modbus-tcp", add_modbus<modbus::ModbusMode::tcp>},
+                           Kind{"xgt-fenet", xgt_fenet::add_server}};
 
 Status add_service(plc::Plc& plc, const std::string& name, const json& config) {
   const auto kind = std::ranges::find(kinds, name, &Kind::name);

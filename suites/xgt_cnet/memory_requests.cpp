@@ -13,71 +13,13 @@
 
 namespace fieldproof::xgt_cnet_suite {
 
+using harness::ElementName;
 using harness::Field;
 using harness::Protocol;
 
 namespace {
 
 constexpr std::size_t max_bytes = 120;  // 60 words a request (Cnet EN 7.1.5)
-
-/// "%MW100" taken apart.
-struct Name {
-  char area = 0, type = 0;
-  std::string_view number;
-
-  std::size_t element_bytes() const {
-    return type == 'W' ? 2 : type == 'D' ? 4 : type == 'L' ? 8 : 1;
-  }
-};
-
-std::optional<Name> read_name(std::string_view text) {
-  if (text.size() < 4 || text[0] != '%') return std::nullopt;
-  const Name name{static_cast<char>(std::toupper(text[1])),
-                  static_cast<char>(std::toupper(text[2])), text.substr(3)};
-  if (std::string_view("XBWDL").find(name.type) == std::string_view::npos) return std::nullopt;
-  return name;
-}
-
-std::optional<std::uint32_t> read_number(std::string_view text) {
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-/// First word that `count` elements from a name could touch, and the last.
-struct Words {
-  std::uint32_t first = 0, last = 0;
-};
-
-std::optional<Words> words_of(const Name& name, std::uint32_t count) {
-  if (name.type == 'X') {
-    // XBM, XBC: decimal word and one hex bit digit; XEC: flat bit index. Either may be meant.
-    const std::optional<std::uint32_t> word =
-        name.number.size() > 1 ? read_number(name.number.substr(0, name.number.size() - 1)) : 0;
-    const std::optional<std::uint32_t> flat = read_number(name.number);
-    if (!word) return std::nullopt;
-    const std::uint32_t other = flat ? *flat / 16 : *word;
-    return Words{std::min(*word, other), std::max(*word, other)};
-  }
-  const std::optional<std::uint32_t> index = read_number(name.number);
-  if (!index || count == 0) return std::nullopt;
-  const auto bytes = static_cast<std::uint32_t>(name.element_bytes());
-  return Words{*index * bytes / 2, ((*index + count) * bytes - 1) / 2};
-}
-
-Protocol::Written written(const std::string& address, std::uint32_t count,
-                          const plc::PlcModel* model) {
-  if (model && count > 0)
-    if (const plc::ParsedAddress parsed = plc::parse_address(*model, address))
-      return harness::memory_of(*model, parsed.address, count, address);
-  const std::optional<Name> name = read_name(address);
-  const std::optional<Words> words = name ? words_of(*name, count) : std::nullopt;
-  if (!words)
-    return {name ? std::string(1, name->area) : "?", 0, ~0u,
-            address};  // dotted or damaged: the whole area
-  return {std::string(1, name->area), words->first, words->last, address};
-}
 
 constexpr std::size_t command_at = 3, frame_head = 6;  // header, station, command and its type
 
@@ -93,14 +35,6 @@ std::string with_length(std::string_view name) {
   return hex_number(name.size(), 2) + std::string(name);
 }
 
-/// The name of an element `step` further on.
-Result<std::string> advance(const Name& name, std::size_t step) {
-  const std::optional<std::uint32_t> index = read_number(name.number);
-  if (!index)
-    return fail(fmt::format("cannot count on from %{}{}{}", name.area, name.type, name.number));
-  return fmt::format("%{}{}{}", name.area, name.type, *index + step);
-}
-
 struct Part {
   std::string name;
   std::string hex;        // write
@@ -110,7 +44,7 @@ struct Part {
 /// Cuts `digits` of memory from `address` on into requests of at most 60 words.
 Result<std::vector<Part>> parts_of(std::string_view address, std::size_t digits,
                                    std::string_view hex) {
-  const std::optional<Name> name = read_name(address);
+  const std::optional<ElementName> name = harness::read_element_name(address);
   if (!name) return fail(fmt::format("'{}' is no device name such as %MW100", address));
   const std::size_t element = name->element_bytes() * 2;
   if (digits == 0 || digits % element != 0)
@@ -124,7 +58,7 @@ Result<std::vector<Part>> parts_of(std::string_view address, std::size_t digits,
   for (std::size_t done = 0; done < count; done += at_once) {
     Part part{std::string(address), "", std::min(at_once, count - done)};
     if (done > 0) {
-      Result<std::string> next = advance(*name, done);
+      Result<std::string> next = harness::element_further_on(*name, done);
       if (!next) return next.error();
       part.name = *next;
     }
@@ -215,7 +149,7 @@ std::size_t digits_asked_for(ByteView request) {
     if (field.name == "number of data")
       if (const std::optional<Bytes> value = from_hex(field.text)) count = value->front();
     if (field.name == "name")
-      if (const std::optional<Name> name = read_name(field.text))
+      if (const std::optional<ElementName> name = harness::read_element_name(field.text))
         element = name->element_bytes() * 2;
   }
   return request[command_at] == 'r' || request[command_at] == 'R' ? count * element : 0;
@@ -267,7 +201,7 @@ std::vector<Protocol::Written> written_by(ByteView frame, const plc::PlcModel* m
   const std::vector<Field> fields = explain(frame);
   const std::uint32_t count = elements_a_name(fields);
   for (const Field& field : fields)
-    if (is_name(field)) result.push_back(written(field.text, count, model));
+    if (is_name(field)) result.push_back(harness::memory_at(model, field.text, count));
   if (result.empty()) result.push_back({"?", 0, ~0u, "an unknown place"});
   return result;
 }

@@ -1,0 +1,107 @@
+#include "src/xgt_fenet/request.hpp"
+
+#include "src/xgt_fenet/header.hpp"
+
+namespace fieldproof::xgt_fenet {
+
+namespace {
+
+constexpr std::uint16_t most_types = 5, refused = 0xFFFF;
+
+/// What is left of a body.
+class Reader {
+ public:
+  explicit Reader(ByteView body) : rest_(body) {}
+
+  bool word(std::uint16_t& to) {
+    if (rest_.size() < 2) return false;
+    to = word_at(rest_, 0);
+    rest_ = rest_.subspan(2);
+    return true;
+  }
+  bool take(std::size_t size, ByteView& to) {
+    if (rest_.size() < size) return false;
+    to = rest_.first(size);
+    rest_ = rest_.subspan(size);
+    return true;
+  }
+  bool is_empty() const { return rest_.empty(); }
+
+ private:
+  ByteView rest_;
+};
+
+std::uint16_t read_name(Reader& reader, std::string_view& to) {
+  std::uint16_t length = 0;
+  if (!reader.word(length)) return error::length;
+  if (length < shortest_name || length > longest_name) return error::name;
+  ByteView text;
+  if (!reader.take(length, text)) return error::length;
+  to = {reinterpret_cast<const char*>(text.data()), text.size()};
+  return error::none;
+}
+
+std::uint16_t read_blocks(Reader& reader, Request& request) {
+  for (Request::Block& block : request.blocks)
+    if (const std::uint16_t fault = read_name(reader, block.name)) return fault;
+  for (Request::Block& block : request.blocks) {
+    if (!request.writes() && !request.is_continuous()) break;
+    if (!reader.word(block.size)) return error::length;
+    if (request.writes() && !reader.take(block.size, block.data)) return error::length;
+  }
+  return reader.is_empty() ? error::none : error::length;
+}
+
+std::uint16_t read_body(Reader& reader, Request& request) {
+  if (!reader.word(request.command)) return error::length;
+  if (request.command != read_command && request.command != write_command) return error::command;
+  if (!reader.word(request.type)) return error::length;
+  if (request.type >= most_types && !request.is_continuous()) return error::data_type;
+  std::uint16_t reserved = 0, count = 0;
+  if (!reader.word(reserved) || !reader.word(count)) return error::length;
+  if (count == 0 || count > (request.is_continuous() ? 1 : most_blocks)) return error::blocks;
+  request.blocks.resize(count);
+  return read_blocks(reader, request);
+}
+
+/// Up to the status. The number of a reply is that of its request plus one.
+Bytes reply_head(const Request& request) {
+  Bytes body;
+  put_word(body, request.command + 1u);
+  put_word(body, request.type);
+  put_word(body, 0);
+  return body;
+}
+
+}  // namespace
+
+Request parse_request(ByteView body) {
+  Request request;
+  // Also of a body that is cut there, for its refusal.
+  if (body.size() == 1) request.command = body[0];
+  if (body.size() == 3) request.type = body[2];
+  Reader reader(body);
+  request.fault = read_body(reader, request);
+  if (request.fault == error::command && body.size() >= 4) request.type = word_at(body, 2);
+  return request;
+}
+
+Bytes encode_reply(const Request& request, std::span<const Bytes> data) {
+  Bytes body = reply_head(request);
+  put_word(body, error::none);
+  put_word(body, request.blocks.size());
+  for (const Bytes& one : data) {
+    put_word(body, one.size());
+    body.insert(body.end(), one.begin(), one.end());
+  }
+  return body;
+}
+
+Bytes encode_refusal(const Request& request, std::uint16_t code) {
+  Bytes body = reply_head(request);
+  put_word(body, refused);
+  put_word(body, code);
+  return body;
+}
+
+}  // namespace fieldproof::xgt_fenet

@@ -1,0 +1,161 @@
+#include "suites/xgt_fenet/protocol.hpp"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "harness/device_names.hpp"
+#include "src/plc/model.hpp"
+#include "src/xgt_fenet/plc.hpp"
+#include "suites/checks/checks.hpp"
+#include "suites/services/services.hpp"
+#include "suites/xgt_cnet/protocol.hpp"
+#include "suites/xgt_fenet/frame_parts.hpp"
+#include "suites/xgt_fenet/memory_requests.hpp"
+
+namespace fieldproof::xgt_fenet_suite {
+
+using plc::PlcModel;
+
+namespace {
+
+/// The header of each speaker (FEnet EN 5.2.3). What the server fills in is for vectors of their
+/// own, which write it out; and so is what a client puts where the server does not look.
+constexpr notation::Dressing dressing_of_frames{
+    .frame = "['LSIS-XGT' 00 00 00 00 A0 33 ${transaction} LEN 00 SUM${wrong} ${body}]",
+    .reply_of_device = "['LSIS-XGT' 00 00 ?? ?? ?? 11 ${transaction} LEN ?? ?? ${body}]",
+    .request_of_device = "['LSIS-XGT' 00 00 ?? ?? ?? 33 ${transaction} LEN ?? ?? ${body}]",
+    .reply_of_bench = "['LSIS-XGT' 00 00 07 01 B0 11 ${transaction} LEN 01 SUM${wrong} ${body}]",
+    .low_byte_first = true};
+
+class XgtFenet : public harness::Protocol,
+                 public harness::Probing,
+                 public harness::MemoryRequests,
+                 public harness::Tables {
+ public:
+  /// nullptr: of no model in particular.
+  explicit XgtFenet(const PlcModel* model = nullptr) : model_(model) {}
+
+  std::string_view name() const override { return "xgt-fenet"; }
+
+  std::vector<std::string> models() const override {
+    std::vector<std::string> names;
+    for (const PlcModel& one : plc::plc_models()) names.emplace_back(one.name);
+    return names;
+  }
+  std::uint16_t default_port() const override { return xgt_fenet::tcp_port; }
+  std::uint16_t datagram_port() const override { return xgt_fenet::udp_port; }
+
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
+      std::string_view model, const nlohmann::json& config) const override {
+    return services::make_plc(model, config, xgt_fenet::add_server);
+  }
+
+  /// Frames name no station: the address of the module is that of the network.
+  Bytes station_bytes(int) const override { return {}; }
+  bool is_text() const override { return false; }
+  notation::Checks checks() const override {
+    static const std::array all{checks::fenet_length, checks::fenet_sum};
+    return all;
+  }
+  notation::NameHead name_head() const override {
+    return [](std::size_t characters) {
+      Bytes head;
+      put_word(head, characters);
+      return head;
+    };
+  }
+  const notation::Dressing* dressing() const override { return &dressing_of_frames; }
+  /// A continuous write of 512 bytes with a name of 16 characters (FEnet EN 5.1.2, 5.2.5).
+  std::size_t longest_frame() const override { return 600; }
+  std::optional<std::size_t> frame_length(ByteView bytes) const override {
+    return xgt_fenet_suite::frame_length(bytes);
+  }
+  std::vector<harness::Field> explain(ByteView frame) const override {
+    return xgt_fenet_suite::explain(frame);
+  }
+
+  const harness::Probing* probing() const override { return this; }
+  const harness::MemoryRequests* memory() const override { return this; }
+  const harness::Tables* tables() const override { return this; }
+
+  Bytes probing_request(int, ByteView tested) const override {
+    return xgt_fenet_suite::probing_request(tested);
+  }
+  bool answers_probe(ByteView probe, ByteView reply) const override {
+    return reply.size() > header_size && word_at(reply, invoke_at) == word_at(probe, invoke_at);
+  }
+
+  Result<std::vector<Bytes>> requests_to_write(int, std::string_view address,
+                                               std::string_view hex) const override {
+    return xgt_fenet_suite::write_requests(address, hex);
+  }
+  Result<std::vector<Bytes>> requests_to_read(int, std::string_view address,
+                                              std::size_t digits) const override {
+    return xgt_fenet_suite::read_requests(address, digits);
+  }
+  Status acknowledged(ByteView reply) const override { return xgt_fenet_suite::write_reply(reply); }
+  Result<std::string> digits_in(ByteView reply) const override {
+    return xgt_fenet_suite::read_reply(reply);
+  }
+  bool answers(ByteView request, ByteView reply) const override {
+    return xgt_fenet_suite::answers(request, reply);
+  }
+  /// The sum is of the header alone, and no server need look at it.
+  bool is_checked(ByteView) const override { return false; }
+  std::vector<Written> written_by(ByteView request) const override {
+    return xgt_fenet_suite::written_by(request, model_);
+  }
+
+  Result<std::unique_ptr<harness::Protocol>> configured(std::string_view model,
+                                                        const nlohmann::json&) const override {
+    return std::unique_ptr<harness::Protocol>(
+        std::make_unique<XgtFenet>(plc::find_plc_model(model)));
+  }
+  std::vector<Place> places(const Written& written) const override {
+    return harness::places_on(model(), written);
+  }
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
+    return harness::named_memory(model(), address, digits);
+  }
+  std::optional<std::string> moved(std::string_view address, int words) const override {
+    return harness::moved_name(model(), address, words);
+  }
+  std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
+    return reply ? std::vector<AddressField>() : xgt_fenet_suite::address_fields(frame, model());
+  }
+  std::uint32_t words_of(std::string_view area) const override {
+    const plc::DeviceArea* found = area.size() == 1 ? model().area(area[0]) : nullptr;
+    return found ? found->words : 0;
+  }
+  std::string_view output_areas() const override { return "PQU"; }
+  std::optional<WordName> read_word(std::string_view text) const override {
+    return harness::read_word_name(text);
+  }
+
+  std::vector<Area> areas() const override {
+    std::vector<Area> areas;
+    for (char letter = 'A'; letter <= 'Z'; ++letter)
+      if (std::vector<std::uint32_t> ends = plc::last_words_of(letter); !ends.empty())
+        areas.push_back({std::string(1, letter), std::move(ends)});
+    return areas;
+  }
+
+  /// Areas, and flags and registers of P2P, are those of the same PLC on Cnet.
+  Status check_table(const nlohmann::json& facts) const override {
+    return xgt_cnet_suite::protocol().check_fact(facts);
+  }
+
+ private:
+  const PlcModel& model() const { return model_ ? *model_ : plc::plc_models().front(); }
+
+  const PlcModel* model_;
+};
+
+}  // namespace
+
+const harness::Protocol& protocol() {
+  static const XgtFenet xgt_fenet;
+  return xgt_fenet;
+}
+
+}  // namespace fieldproof::xgt_fenet_suite
