@@ -109,7 +109,7 @@ std::vector<Fault> result_faults() {
        ends([](const Outcome&, Outcome& now) {
          if (!ended_well(now)) now.status = p2p::p2p_error::time_out;
        }),
-       "xgt_cnet/client/error/wrong_bcc/absent", "%LW513 holds 000A"},
+       "xgt_cnet/client/error/wrong_bcc_first/absent", "%LW513 holds 000A"},
       {"time_out_not_shown", "a request without an answer leaves no trace",
        ends([](const Outcome& before, Outcome& now) {
          if (now.status == p2p::p2p_error::time_out) now = before;

@@ -77,7 +77,7 @@ std::vector<Fault> variable_faults() {
        "user_frames/conversions/send_a2h_4567", "body 1"},
       {"rest_cut", "the last byte of a variable segment is lost",
        each_received([](UserFrame& frame) { cut(frame, Kind::rest); }),
-       "user_frames/segments/rest/bytes_313233", "%MW259 holds"},
+       "user_frames/segments/rest_of_half_a_word/bytes_313233", "%MW259 holds"},
       {"fixed_cut", "the last byte of a fixed segment is lost",
        each_received([](UserFrame& frame) { cut(frame, Kind::data); }),
        "user_frames/segments/four_fixed", "%MW200 holds"},
