@@ -118,7 +118,7 @@ std::vector<Fault> xgt_reply_faults() {
       {"halves_swapped", "dwords and lwords are saved low half first", saves(halves_swapped),
        "xgt_cnet/client/read/single_types/dword", "%MW119 holds 13571234ABCD86427531FDB9"},
       {"bit_saves_its_word", "a bit or byte clears the rest of its word",
-       after_saving(save_whole_word), "xgt_cnet/client/read/single_types/bit_on",
+       after_saving(save_whole_word), "xgt_cnet/client/read/single_bit/bit_on",
        "%MW119 holds 135700109BDF86427531FDB9"},
       {"saves_first_variable_only", "of several variables only the first is saved",
        takes(
