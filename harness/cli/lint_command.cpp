@@ -83,6 +83,7 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
   std::vector<std::string> problems = set.problems;
   add(problems, vectors::lint_wires(set, protocols));
   add(problems, vectors::lint_links(set, protocols));
+  add(problems, vectors::lint_duplicates(set, protocols));
   add(problems, vectors::lint_statements(set));
   add(problems, vectors::lint_errata(set));
   add(problems, vectors::lint_decisions(set));

@@ -9,7 +9,7 @@
 
 #include "harness/notation/frame_template.hpp"
 #include "harness/vectors/citations.hpp"
-#include "harness/vectors/link_names.hpp"
+#include "harness/vectors/fields_of_steps.hpp"
 
 namespace fieldproof::vectors {
 
@@ -42,10 +42,6 @@ std::string compare_wire(const std::string& wire, const notation::FrameTemplate&
                      notation::to_hex_with_holes(frame));
 }
 
-notation::Fields stations_of(const Case& one, const harness::Protocol& protocol) {
-  return protocol.fields_at(config_station(one.config, 1).value_or(1));
-}
-
 /// `all`: every frame has literal bytes.
 void lint_step(const Case& one, std::size_t index, const notation::Fields& stations, bool all,
                std::vector<std::string>& problems) {
@@ -69,39 +65,6 @@ void lint_step(const Case& one, std::size_t index, const notation::Fields& stati
     }
   }
 }
-
-/// What the notation means on the link of each step.
-class FieldsOfSteps {
- public:
-  FieldsOfSteps(const Case& one, const harness::Protocol& own, const harness::Protocols& known)
-      : one_(one), own_(own), known_(known), links_(one, own.default_port() != 0) {}
-
-  /// For each step in order. Errors: its link is not open, or nobody knows what is spoken there.
-  Result<notation::Fields> next(const Step& step) {
-    const Result<std::string> link = links_.next(step);
-    if (!link) return link.error();
-    const std::string& named = step.link.protocol;
-    if (step.kind == Step::Kind::open && !named.empty() && named != own_.name()) {
-      const harness::Protocol* const other = known_.find(named);
-      if (!other) return fail(fmt::format("there is no protocol '{}'", named));
-      services_[*link] = other;
-    }
-    const auto service = services_.find(*link);
-    if (service == services_.end()) return stations_of(one_, own_);
-    const nlohmann::json& services = one_.config["services"];
-    return service->second->fields_at(
-        config_station(
-            services.value(std::string(service->second->name()), nlohmann::json::object()), 1)
-            .value_or(1));
-  }
-
- private:
-  const Case& one_;
-  const harness::Protocol& own_;
-  const harness::Protocols& known_;
-  LinkNames links_;
-  std::map<std::string, const harness::Protocol*> services_;  // by link
-};
 
 /// Manuals and statements that cases cite are there.
 void lint_citations(const VectorSet& set, std::vector<std::string>& problems) {

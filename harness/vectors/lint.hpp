@@ -20,6 +20,10 @@ std::vector<std::string> lint_wires(const VectorSet& set, const harness::Protoco
 /// A serial line is neither opened nor closed by a step.
 std::vector<std::string> lint_links(const VectorSet& set, const harness::Protocols& protocols);
 
+/// No case repeats the exchange of another: the same bytes in all steps, with the same device,
+/// memory and line. Each problem names both.
+std::vector<std::string> lint_duplicates(const VectorSet& set, const harness::Protocols& protocols);
+
 /// What makes verdicts of these cases worthless, checked before a run: words of a notation that the
 /// protocol does not have, literal bytes that contradict it, a manual or a statement that there is
 /// not (in a set that has manuals), a link that is not open or a serial line that is closed.

@@ -120,6 +120,44 @@ TEST(LintWires, EveryNamedAlternativeHasItsOwn) {
       ElementsAre(HasSubstr("steps[0] b: wire and notation differ at byte 0")));
 }
 
+/// The problems of a set of two cases, the second with these changes.
+std::vector<std::string> duplicates(
+    const std::string& first, const std::string& second, void (*change)(Case&) = [](Case&) {}) {
+  VectorSet set = with_step(first);
+  Case other = with_step(second).cases.front();
+  other.id = "xgt_cnet/a/c";
+  change(other);
+  set.cases.push_back(other);
+  return lint_duplicates(set, harness::Protocols(table));
+}
+
+TEST(LintDuplicates, NamesBothCasesOfOneExchange) {
+  EXPECT_THAT(duplicates(R"j({"send": "[ENQ st EOT]"})j", R"j({"send": "05 '20' EOT"})j"),
+              ElementsAre(HasSubstr(
+                  "f.json: xgt_cnet/a/c: repeats the exchange of xgt_cnet/a/b (f.json)")));
+  EXPECT_THAT(duplicates(R"j({"silence": true})j", R"j({"silence": true})j",
+                         [](Case& other) { other.title = "said in other words"; }),
+              testing::SizeIs(1));
+}
+
+TEST(LintDuplicates, AnotherExchangeOrAnotherDeviceIsNone) {
+  const std::string silence = R"j({"silence": true})j";
+  EXPECT_THAT(duplicates(R"j({"send": "ENQ EOT"})j", R"j({"send": "ENQ ETX"})j"), IsEmpty());
+  EXPECT_THAT(duplicates(R"j({"send": "ENQ EOT"})j", R"j({"send": "ENQ ~2c EOT"})j"), IsEmpty());
+  EXPECT_THAT(duplicates(R"j({"expect": "ACK x:2"})j", R"j({"expect": "ACK ?? ??"})j"), IsEmpty());
+  EXPECT_THAT(duplicates(R"j({"set": {"%MW1": "0001"}})j", R"j({"check": {"%MW1": "0001"}})j"),
+              IsEmpty());
+  EXPECT_THAT(duplicates(silence, silence, [](Case& other) { other.models = {"test"}; }),
+              IsEmpty());
+  EXPECT_THAT(duplicates(silence, silence, [](Case& other) { other.config["station"] = 33; }),
+              IsEmpty());
+  EXPECT_THAT(duplicates(silence, silence,
+                         [](Case& other) {
+                           other.memory = {{"%MW1", "0001"}};
+                         }),
+              IsEmpty());
+}
+
 TEST(LintStatements, EachNeedsAVectorOrAReason) {
   VectorSet set = with_step(R"j({"silence": true})j");
   EXPECT_THAT(lint_statements(set), IsEmpty());

@@ -88,7 +88,7 @@ std::vector<Fault> check_faults() {
       {"bcc_without_header",
        "the BCC of replies leaves ACK or NAK out",
        another_check([](const FrameText& r) { return sum_of(r.body + r.tail); }),
-       "rss/bcc_of_the_refusal",
+       "rss/refused/lower",
        own_sum,
        {},
        32},
@@ -106,10 +106,10 @@ std::vector<Fault> check_faults() {
        "rss/two_words/lower", own_sum},
       {"bcc_on_upper_case", "replies to upper-case commands have a BCC too",
        spoil_frame([](FrameText& r, const FrameText&) { r.check = sum_of(r.without_check()); }),
-       "frame_structure/upper_case_has_no_bcc/ss", "after the complete exchange"},
+       "frame_structure/control_codes_ack/upper", "after the complete exchange"},
       {"no_bcc_on_lower_case", "replies to lower-case commands have no BCC",
        spoil_frame([](FrameText& r, const FrameText&) { r.check.clear(); }),
-       "frame_structure/lower_case_has_bcc/ss", own_sum},
+       "frame_structure/control_codes_ack/lower", own_sum},
       {"nak_without_bcc", "a NAK has no BCC", spoil_frame([](FrameText& r, const FrameText&) {
          if (r.is_nak()) r.check.clear();
        }),

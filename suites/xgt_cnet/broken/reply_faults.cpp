@@ -76,19 +76,19 @@ std::vector<Fault> reply_faults() {
        }),
        "commands/main_command_case_in_reply/r", "command"},
       {"ack_for_nak", "a refusal begins with ACK", edit_nak([](FrameText& r) { r.head = '\x06'; }),
-       "frame_structure/control_codes_nak/lower", "head"},
+       "frame_structure/nak/lower", "head"},
       {"enq_for_ack", "an acknowledgement begins with ENQ",
        edit_ack("", [](FrameText& r) { r.head = '\x05'; }), "areas/read_word_limits/xbc_h_m",
        "header", broken::alone},
       {"eot_for_etx", "replies end with EOT",
-       edit_reply([](FrameText& r, const FrameText&) { r.tail = '\x04'; }), "errors/code_1132",
-       "tail"},
+       edit_reply([](FrameText& r, const FrameText&) { r.tail = '\x04'; }),
+       "errors/code_is_four_characters/lower", "tail"},
       {"no_tail", "replies have no ETX", answer_with([](const Bytes& request, GoodPlc& plc) {
          Bytes reply = plc.answer(request);
          std::erase(reply, xgt_cnet::xgt_etx);
          return reply;
        }),
-       "errors/code_1132", "tail"},
+       "errors/code_is_four_characters/lower", "tail"},
       {"nak_in_three_digits", "the error code has three digits",
        edit_nak([](FrameText& r) { r.body.erase(5, 1); }), "errors/code_is_four_characters/lower",
        "error code"},
@@ -103,9 +103,9 @@ std::vector<Fault> reply_faults() {
        edit_nak([](FrameText& r) {
          r.body = r.front() + r.content().substr(2) + r.content().substr(0, 2);
        }),
-       "errors/code_1132", "error code"},
+       "errors/code_is_four_characters/lower", "error code"},
       {"0011_for_1132", "a wrong area is refused with 0011", other_code("1132", "0011"),
-       "errors/code_1132", "error code"},
+       "errors/code_is_four_characters/lower", "error code"},
       {"0007_for_1332", "mixed types are refused with 0007", other_code("1332", "0007"),
        "errors/printed_1332", "error code"},
       {"0190_for_0090", "a number that is not registered is refused with 0190",
@@ -118,7 +118,7 @@ std::vector<Fault> reply_faults() {
        spoil_frame([](FrameText& r, const FrameText&) {
          if (r.is_nak()) r = {};
        }),
-       "errors/code_1132", "no answer"},
+       "errors/code_is_four_characters/lower", "no answer"},
       {"rsb_without_block_count", "the reply to RSB has no block count",
        edit_ack("RSB", [](FrameText& r) { r.body.erase(5, 2); }),
        "rsb/reply_has_a_block_count/lower/word", "block count"},
