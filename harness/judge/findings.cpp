@@ -1,5 +1,7 @@
 #include "harness/judge/findings.hpp"
 
+#include <fmt/format.h>
+
 namespace fieldproof::judging {
 
 using results::Verdict;
@@ -49,9 +51,14 @@ void Findings::miss_in_any_case(std::string message) {
 
 void Findings::settle(const vectors::Case& source, bool binding_decisions) {
   if (result.verdict == Verdict::blocked) return;
-  if (missed_ && rests_on_decision(source) && !binding_decisions) {
-    result.verdict = Verdict::non_strict;
-    result.notes.push_back("the manuals are silent here; this project decided: " + source.why);
+  if (missed_ && rests_on_decision(source)) {
+    for (const vectors::Decision& one : source.decisions)
+      result.notes.push_back(
+          fmt::format("decision {}{}{}", one.id, one.sentence.empty() ? "" : ": ", one.sentence));
+    if (!binding_decisions) {
+      result.verdict = Verdict::non_strict;
+      result.notes.push_back("the manuals are silent here; this project decided: " + source.why);
+    }
   }
   if (missed_ && source.level == "should") result.verdict = Verdict::non_strict;
   if (source.level == "info" && result.verdict != Verdict::error) {

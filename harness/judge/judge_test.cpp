@@ -332,7 +332,9 @@ TEST_F(JudgeTest, WhatIsDerivedFromADecisionBindsAsThatDoes) {
   EXPECT_EQ(judged(ask(), "must", "derived").verdict, Verdict::fail);
   const std::string resting = R"(derived", "decision": ["cnet/bcc"], "rev": 1, "level": "must)";
   EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::non_strict);
+  EXPECT_THAT(judged(ask(), "must", resting).notes, testing::Contains("decision cnet/bcc"));
   rules.binding_decisions = true;
+  EXPECT_THAT(judged(ask(), "must", resting).notes, testing::Contains("decision cnet/bcc"));
   EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::fail);
 }
 
