@@ -1,0 +1,73 @@
+#include "suites/hs_link/broken/broken_network.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "src/hs_link/network.hpp"
+
+namespace fieldproof::hs_link_broken {
+
+namespace {
+
+class BrokenNetwork : public plc::SerialDevice {
+ public:
+  BrokenNetwork(std::unique_ptr<plc::EmulatedDevice> right, Behaviour behaviour)
+      : right_(std::move(right)), behaviour_(std::move(behaviour)) {}
+
+  void receive(const Burst& burst) override { right_->line()->receive(burst); }
+  std::optional<Time> wake_at() const override { return right_->line()->wake_at(); }
+  Bytes advance(Time now) override { return right_->line()->advance(now); }
+
+  Status set(std::string_view address, std::string_view hex) override {
+    return right_->set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    const plc::ParsedAddress parsed = plc::parse_address(plc::plc_models().front(), address);
+    if (behaviour_.bit && parsed && address.starts_with("%L")) return of_l(parsed.address, digits);
+    return right_->get(address, digits);
+  }
+  Status act(std::string_view action) override {
+    if (!behaviour_.act) return right_->act(action);
+    Status done = ok();
+    for (const std::string& one : behaviour_.act(std::string(action)))
+      if (done) done = right_->act(one);
+    return done;
+  }
+
+ private:
+  std::string look(unsigned bit) const {
+    return *right_->get(fmt::format("%LX{:04}{:X}", bit / 16, bit % 16), 2);
+  }
+  /// Bits and words of L, bit by bit.
+  std::string of_l(const plc::DeviceAddress& address, std::size_t digits) const {
+    const Look right = [this](unsigned bit) { return look(bit); };
+    if (address.type == 'X') return behaviour_.bit(address.index, right);
+    std::string text;
+    for (unsigned word = 0; word < std::max<std::size_t>(1, digits / 4); ++word) {
+      unsigned value = 0;
+      for (unsigned bit = 0; bit < 16; ++bit)
+        if (behaviour_.bit((address.index + word) * 16 + bit, right) == "01") value |= 1u << bit;
+      text += fmt::format("{:04X}", value);
+    }
+    return text;
+  }
+
+  std::unique_ptr<plc::EmulatedDevice> right_;
+  Behaviour behaviour_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_network(const Behaviour& behaviour,
+                                                                 std::string_view model,
+                                                                 const nlohmann::json& config) {
+  nlohmann::json own = config;
+  if (behaviour.config) behaviour.config(own);
+  auto right = hs_link::make_hs_network(model, own);
+  if (!right) return right.error();
+  return std::unique_ptr<plc::EmulatedDevice>(
+      std::make_unique<BrokenNetwork>(std::move(*right), behaviour));
+}
+
+}  // namespace fieldproof::hs_link_broken
