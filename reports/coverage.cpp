@@ -116,6 +116,14 @@ CoverageCounts count_statements(const Coverage& coverage) {
   return counts;
 }
 
+std::size_t count_proved(const Coverage& coverage) {
+  std::size_t count = 0;
+  for (const CoverageManual& manual : coverage.manuals)
+    count += static_cast<std::size_t>(
+        std::ranges::count_if(manual.statements, &CoverageStatement::proved));
+  return count;
+}
+
 std::string coverage_summary(const Coverage& coverage) {
   const CoverageCounts counts = count_statements(coverage);
   std::string text = fmt::format("{}: {} with vectors, {} with a reason, {} open",
@@ -127,6 +135,11 @@ std::string coverage_summary(const Coverage& coverage) {
         "{}",
         text::xml_line(coverage.results), counts.judged(), counts.count(Traced::failed),
         counts.count(Traced::unjudged), counts.count(Traced::table));
+  if (coverage.with_faults)
+    text += fmt::format(
+        "; {} of those with vectors proved by a fault of a device that turns a case red which "
+        "cites them",
+        count_proved(coverage));
   return text + fmt::format("; coverage {:.1f} %", counts.percent(coverage.with_results()));
 }
 
@@ -166,6 +179,8 @@ std::string coverage_json(const Coverage& coverage) {
                    {"vectors_hash", coverage.vectors_hash},
                    {"results", with_results ? ordered_json(coverage.results) : ordered_json()},
                    {"counts", counts_json(count_statements(coverage), with_results)},
+                   {"proved_by_fault",
+                    coverage.with_faults ? ordered_json(count_proved(coverage)) : ordered_json()},
                    {"manuals", ordered_json::array()}};
   for (const CoverageManual& manual : coverage.manuals) {
     ordered_json statements = ordered_json::array();
@@ -174,6 +189,7 @@ std::string coverage_json(const Coverage& coverage) {
                        {"section", statement.section},
                        {"quote", statement.quote},
                        {"state", word(statement.state(with_results))}};
+      if (coverage.with_faults) one["proved_by_fault"] = statement.proved;
       if (!statement.reason.empty()) one["reason"] = statement.reason;
       one["vectors"] = ordered_json::array();
       for (const CoverageVector& vector : statement.vectors)

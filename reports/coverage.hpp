@@ -27,6 +27,7 @@ struct CoverageStatement {
   std::string id, section, quote;
   std::string reason;                   // why no vector can test it
   std::vector<CoverageVector> vectors;  // that cite it
+  bool proved = false;                  // a fault of a device has turned a case red that cites it
 
   Traced state(bool with_results) const;
   text::Tally verdicts() const;
@@ -40,10 +41,14 @@ struct CoverageManual {
 struct Coverage {
   std::string vectors_hash;
   std::string results, endpoint;  // the file of results and what was tested; empty: none
+  bool with_faults = false;       // it is known what faults turn red
   std::vector<CoverageManual> manuals;
 
   bool with_results() const { return !results.empty(); }
 };
+
+/// How many statements a fault has proved.
+std::size_t count_proved(const Coverage& coverage);
 
 /// How many statements are in each state.
 struct CoverageCounts {

@@ -224,6 +224,8 @@ int run_tool(int argc, char** argv) {
   list_app->add_flag(
       "--coverage", list.coverage,
       "Traceability: the statements of the manuals, their vectors, and what is not tested and why");
+  list_app->add_flag("--redundant", list.redundant,
+                     "Cases that no fault of our broken devices tells apart (vectors/faults.json)");
   list_app->add_option("--results", list.results,
                        "With --coverage: the verdicts of this run (NDJSON, JSON or JUnit)");
   list_app->add_option("--html", list.html, "With --coverage: HTML file");

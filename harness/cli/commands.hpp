@@ -17,6 +17,7 @@ struct ListOptions {
   std::string filter, vectors;
   std::string role;           // "client", "server"; empty: both
   bool coverage = false;      // statements instead of cases
+  bool redundant = false;     // cases that no fault tells apart
   std::string results, html;  // with coverage: verdicts of a run; a report
   double min_coverage = 0;    // with coverage: percent of the statements
   bool json = false, markdown = false;

@@ -32,10 +32,13 @@ void add_results(const compare::ResultFile& file, const VectorOf& vector_of) {
 }  // namespace
 
 reports::Coverage trace(const vectors::VectorSet& set,
-                        const std::optional<compare::ResultFile>& results) {
+                        const std::optional<compare::ResultFile>& results,
+                        const vectors::FaultMatrix& faults) {
   Vectors vectors;
   VectorOf vector_of;
   std::map<std::string, std::set<std::string>> citing;  // ids of vectors by statement
+  const auto killed = vectors::killed_by_any(faults);
+  std::set<std::string_view> proved;  // statements
   for (const std::vector<vectors::Case>* cases : {&set.cases, &set.tables})
     for (const vectors::Case& one : *cases) {
       CoverageVector& vector =
@@ -46,13 +49,16 @@ reports::Coverage trace(const vectors::VectorSet& set,
               .first->second;
       ++vector.cases;
       vector_of[one.id] = &vector;
-      for (const std::string_view statement : vectors::cited_by(one))
+      for (const std::string_view statement : vectors::cited_by(one)) {
         citing[std::string(statement)].insert(one.vector_id);
+        if (killed.contains(one.id)) proved.insert(statement);
+      }
     }
   if (results) add_results(*results, vector_of);
 
   reports::Coverage coverage;
   coverage.vectors_hash = set.hash;
+  coverage.with_faults = !faults.empty();
   if (results) coverage.results = results->path;
   if (results) coverage.endpoint = results->run.endpoint;
   for (const vectors::Manual& manual : set.manuals) {
@@ -60,8 +66,9 @@ reports::Coverage trace(const vectors::VectorSet& set,
         coverage.manuals.emplace_back(reports::CoverageManual{manual.id, manual.title, {}});
     for (const vectors::Statement& one : set.statements) {
       if (one.manual != manual.id) continue;
-      reports::CoverageStatement& statement = traced.statements.emplace_back(
-          reports::CoverageStatement{one.id, one.section, one.quote, one.reason, {}});
+      reports::CoverageStatement& statement =
+          traced.statements.emplace_back(reports::CoverageStatement{
+              one.id, one.section, one.quote, one.reason, {}, proved.contains(one.id)});
       for (const std::string& id : citing[one.id]) statement.vectors.push_back(vectors.at(id));
     }
     std::ranges::stable_sort(traced.statements, std::less<>{},

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "harness/vectors/fault_matrix.hpp"
 #include "harness/vectors/loader.hpp"
 #include "reports/compare/result_file.hpp"
 #include "reports/coverage.hpp"
@@ -10,8 +11,9 @@
 namespace fieldproof::cli {
 
 /// Every manual with its statements, and the vectors that cite them. With `results`: what their
-/// cases came to.
+/// cases came to. `faults`: which cases a fault has turned red.
 reports::Coverage trace(const vectors::VectorSet& set,
-                        const std::optional<compare::ResultFile>& results);
+                        const std::optional<compare::ResultFile>& results,
+                        const vectors::FaultMatrix& faults = {});
 
 }  // namespace fieldproof::cli

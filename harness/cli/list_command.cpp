@@ -4,6 +4,7 @@
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/coverage.hpp"
+#include "harness/cli/redundant.hpp"
 #include "harness/exchange/prepared_case.hpp"
 #include "harness/run/run_report.hpp"
 #include "harness/run/tool_vectors.hpp"
@@ -124,7 +125,10 @@ int list_coverage(const ListOptions& options, const vectors::VectorSet& set) {
     if (!read) return run::complain(read.error().message, run::exit_code::usage);
     results = std::move(*read);
   }
-  const reports::Coverage coverage = trace(set, results);
+  const Result<vectors::FaultMatrix> faults =
+      vectors::load_fault_matrix(run::vectors_path(options.vectors));
+  if (!faults) return run::complain(faults.error().message, run::exit_code::usage);
+  const reports::Coverage coverage = trace(set, results, *faults);
   if (!options.html.empty())
     if (const Status written = reports::write_coverage_html(coverage, options.html); !written)
       return run::complain(written.error().message, run::exit_code::trouble);
@@ -140,6 +144,19 @@ int list_coverage(const ListOptions& options, const vectors::VectorSet& set) {
   return counts.count(reports::Traced::open) == 0 ? run::exit_code::ok : run::exit_code::failed;
 }
 
+int list_redundant(const ListOptions& options, const vectors::VectorSet& set) {
+  const std::filesystem::path folder = run::vectors_path(options.vectors);
+  const Result<vectors::FaultMatrix> faults = vectors::load_fault_matrix(folder);
+  if (!faults) return run::complain(faults.error().message, run::exit_code::usage);
+  if (faults->empty())
+    return run::complain(
+        fmt::format("there is no {}, which says what our broken devices show of these cases",
+                    (folder / "faults.json").string()),
+        run::exit_code::usage);
+  run::print(redundant_text(set, *faults));
+  return run::exit_code::ok;
+}
+
 }  // namespace
 
 int list_command(const ListOptions& options, const harness::Protocols& protocols) {
@@ -148,6 +165,9 @@ int list_command(const ListOptions& options, const harness::Protocols& protocols
     return run::complain(
         "--results, --markdown, --html and --min-coverage are about --coverage; add it",
         run::exit_code::usage);
+  if (options.redundant && (options.coverage || options.json || !options.role.empty()))
+    return run::complain("--redundant goes with --filter and --vectors alone",
+                         run::exit_code::usage);
   if (options.coverage && !(options.filter + options.role).empty())
     return run::complain("--filter and --role select cases; --coverage is of all statements",
                          run::exit_code::usage);
@@ -156,6 +176,7 @@ int list_command(const ListOptions& options, const harness::Protocols& protocols
   if (!loaded) return run::complain(loaded.error().message, run::exit_code::usage);
   const vectors::VectorSet& set = *loaded;
   if (options.coverage) return list_coverage(options, set);
+  if (options.redundant) return list_redundant(options, set);
   ordered_json all = ordered_json::array();
   std::size_t count = 0;
   for (const vectors::Case& one : set.cases) {

@@ -12,6 +12,9 @@ namespace fieldproof::broken {
 /// `neighbours` of a fault whose case runs by itself.
 constexpr std::string_view alone = "-";
 
+/// `neighbours` of a fault that is met in process alone (suites/faults), not over a port as well.
+constexpr std::string_view in_process = "=";
+
 /// `Make` makes the behaviour of the faulty device.
 template <typename Make>
 struct FaultOf {
@@ -30,6 +33,13 @@ template <typename Table>
 auto find_by_name(const Table& table, std::string_view name) {
   const auto found = std::ranges::find(table, name, [](const auto& one) { return one.name; });
   return found == table.end() ? nullptr : &*found;
+}
+
+/// Those that are met over a port.
+template <typename Fault>
+std::vector<Fault> on_a_port(std::vector<Fault> table) {
+  std::erase_if(table, [](const Fault& one) { return one.neighbours == in_process; });
+  return table;
 }
 
 /// The faults of all parts of a table.

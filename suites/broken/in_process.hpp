@@ -12,11 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "harness/bench/bench.hpp"
-#include "harness/endpoints/emulator.hpp"
 #include "harness/vectors/loader.hpp"
 #include "suites/broken/fault.hpp"
-#include "suites/protocols.hpp"
+#include "suites/broken/run_in_process.hpp"
 
 namespace fieldproof::broken {
 
@@ -29,26 +27,6 @@ inline Cases cases_of(const std::string& filter, bool (*concerns)(const vectors:
   EXPECT_THAT(set.problems, testing::IsEmpty());
   std::erase_if(set.cases, [&](const vectors::Case& one) { return !concerns(one); });
   return std::move(set.cases);
-}
-
-/// A profile that declares nothing but the protocol of `source`.
-inline bench::Profile bare_profile(const vectors::Case& source) {
-  bench::Profile profile;
-  profile.name = "emulator";
-  profile.protocols = {source.protocol};
-  return profile;
-}
-
-/// `source` against the device that `make` makes of `model`.
-inline results::CaseResult run_in_process(const vectors::Case& source, const std::string& model,
-                                          endpoints::DeviceFactory make, bench::Profile profile) {
-  const harness::Protocol& protocol = *suites::protocols().find(source.protocol);
-  endpoints::EmulatorEndpoint endpoint({"emulator", model, {}}, std::move(make), {},
-                                       protocol.default_port());
-  bench::BenchOptions options;
-  options.profile = std::move(profile);
-  options.known = suites::protocols();
-  return bench::Bench(endpoint, protocol, options).run(source);
 }
 
 /// The message, and the fields that differ.

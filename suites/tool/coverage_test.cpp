@@ -88,6 +88,26 @@ TEST_F(Traceability, tells_what_is_tested_and_what_not) {
       HasSubstr("\n10 statements: 4 with vectors, 1 with a reason, 5 open; coverage 40.0 %\n"));
 }
 
+TEST_F(Traceability, knows_what_a_fault_has_proved) {
+  folder_.write("vectors/faults.json",
+                R"([{"device": "plc", "faults": ["deaf", "mute"],
+                     "cases": {"xgt_cnet/v/pass": "0-1", "xgt_cnet/v/fail": "0-1",
+                               "xgt_cnet/v/other": ""}}])");
+  EXPECT_THAT(list({}).out, HasSubstr("2 of those with vectors proved by a fault of a device"));
+  const Finished redundant = run_tool({"list", "--redundant", "--vectors", vectors_});
+  EXPECT_EQ(redundant.code, 0) << redundant.err;
+  EXPECT_THAT(redundant.out,
+              HasSubstr("plc: the same faults turn these red (0-1)\n  xgt_cnet/v/fail\n"
+                        "  xgt_cnet/v/pass\n"));
+  EXPECT_THAT(redundant.out, HasSubstr("plc: no fault turns these red\n  xgt_cnet/v/other\n"));
+}
+
+TEST_F(Traceability, without_a_file_of_faults_nothing_is_redundant) {
+  const Finished redundant = run_tool({"list", "--redundant", "--vectors", vectors_});
+  EXPECT_EQ(redundant.code, 2);
+  EXPECT_THAT(redundant.err, HasSubstr("faults.json"));
+}
+
 TEST_F(Traceability, has_the_verdicts_of_a_run) {
   const std::string results = run();
   const Finished finished = list({"--results", results});

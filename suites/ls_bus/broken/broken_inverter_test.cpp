@@ -93,7 +93,7 @@ TEST_P(BehindTheBackDoor, IsNotSeenInTheHealthyInverter) {
 }
 
 constexpr auto name_of = [](const auto& test) { return std::string(test.param.name); };
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()), name_of);
+INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(broken::on_a_port(faults())), name_of);
 INSTANTIATE_TEST_SUITE_P(Broken, BehindTheBackDoor, testing::ValuesIn(back_door_faults()), name_of);
 
 TEST(HealthyInverter, PassesTheWholeSuite) {

@@ -15,8 +15,8 @@ MakeBehaviour answering(std::function<Bytes(const Bytes& frame, GoodInverter& in
 }  // namespace
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table =
-      broken::gather<Fault>({check_faults, reply_faults, request_faults, line_faults});
+  static const std::vector<Fault> table = broken::gather<Fault>(
+      {check_faults, reply_faults, request_faults, line_faults, narrow_faults});
   return table;
 }
 

@@ -37,6 +37,7 @@ std::vector<Fault> check_faults();
 std::vector<Fault> reply_faults();
 std::vector<Fault> request_faults();
 std::vector<Fault> line_faults();
+std::vector<Fault> narrow_faults();
 
 /// Spoils the reply of the good inverter. The sum is made right again (`edit_reply`), or left as it
 /// is (`spoil_frame`).

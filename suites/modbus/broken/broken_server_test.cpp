@@ -64,7 +64,7 @@ TEST_P(TheSuite, Catches) {
                             run.seconds, message));
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(broken::on_a_port(faults())),
                          [](const auto& test) { return std::string(test.param.name); });
 
 class HealthyServer : public testing::TestWithParam<std::string> {};

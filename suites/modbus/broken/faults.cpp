@@ -4,7 +4,7 @@ namespace fieldproof::modbus_broken {
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table = broken::gather<Fault>(
-      {frame_faults, exception_faults, limit_faults, data_faults, line_faults});
+      {frame_faults, exception_faults, limit_faults, data_faults, line_faults, narrow_faults});
   return table;
 }
 

@@ -38,6 +38,7 @@ std::vector<Fault> exception_faults();
 std::vector<Fault> limit_faults();
 std::vector<Fault> data_faults();
 std::vector<Fault> line_faults();
+std::vector<Fault> narrow_faults();
 
 /// Answers frames in its own way.
 MakeBehaviour answer_frame(std::function<Bytes(const Bytes& frame, GoodModbus& plc)> answer);

@@ -9,9 +9,9 @@ using p2p::P2pDriver;
 using plc::PlcMemory;
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table =
-      broken::gather<Fault>({trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults,
-                             modbus_faults, ls_bus_faults, user_frame_faults, udata_faults});
+  static const std::vector<Fault> table = broken::gather<Fault>(
+      {trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults, modbus_faults,
+       ls_bus_faults, user_frame_faults, udata_faults, narrow_faults});
   return table;
 }
 

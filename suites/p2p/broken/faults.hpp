@@ -26,6 +26,7 @@ std::vector<Fault> modbus_faults();
 std::vector<Fault> ls_bus_faults();
 std::vector<Fault> user_frame_faults();
 std::vector<Fault> udata_faults();
+std::vector<Fault> narrow_faults();
 
 // How their rows are made.
 MakeBehaviour trigger(Trigger trigger);

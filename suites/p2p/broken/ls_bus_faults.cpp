@@ -25,6 +25,17 @@ void accept_any_sum(Bytes& frame, const P2pBlock&) {
   if (frame.size() >= 7) set_sum(frame);
 }
 
+/// A sum that is right in one of its digits is taken: `from_end` is where it stands.
+auto accept_one_digit(std::size_t from_end) {
+  return [=](Bytes& frame, const P2pBlock& block) {
+    Bytes right = frame;
+    accept_any_sum(right, block);
+    if (right.size() == frame.size() && frame.size() > from_end &&
+        frame[frame.size() - from_end] == right[frame.size() - from_end])
+      frame = right;
+  };
+}
+
 std::optional<std::uint16_t> nak_is_normal(const p2p::P2pDriver& good, const P2pBlock& block,
                                            const Bytes& frame, plc::PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
@@ -84,6 +95,12 @@ std::vector<Fault> ls_bus_faults() {
        takes(ls_echo_not_compared), "ls_bus/client/error/other_echo/other", "%LW512 holds 0001"},
       {"ls_foreign_station", "the reply of another station is accepted", hears(set_station),
        "ls_bus/client/error/wrong_station/s0", "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"ls_sum_first_digit_alone", "of the sum the first digit alone is compared",
+       hears(accept_one_digit(3)), "ls_bus/client/error/wrong_sum/second_digit",
+       "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"ls_sum_second_digit_alone", "of the sum the second digit alone is compared",
+       hears(accept_one_digit(2)), "ls_bus/client/error/wrong_sum/first_digit",
+       "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"ls_sum_ignored", "a wrong sum is accepted", hears(accept_any_sum),
        "ls_bus/client/error/wrong_sum/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
   };

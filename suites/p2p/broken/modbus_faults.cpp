@@ -111,6 +111,17 @@ void accept_any_lrc(Bytes& frame, const P2pBlock&) {
         modbus::encode_modbus_frame(ModbusMode::ascii, bytes->at(0), ByteView(*bytes).subspan(1));
 }
 
+/// A check that is right in one of its two bytes or digits is taken: `from_end` is where it stands.
+auto accept_one(void (*accept_any)(Bytes&, const P2pBlock&), std::size_t from_end) {
+  return [=](Bytes& frame, const P2pBlock& block) {
+    Bytes right = frame;
+    accept_any(right, block);
+    if (right.size() == frame.size() && frame.size() > from_end &&
+        frame[frame.size() - from_end] == right[frame.size() - from_end])
+      frame = right;
+  };
+}
+
 std::optional<std::uint16_t> exception_is_normal(const p2p::P2pDriver& good, const P2pBlock& block,
                                                  const Bytes& frame, plc::PlcMemory& memory) {
   const auto error = good.take(block, frame, memory);
@@ -247,6 +258,18 @@ std::vector<Fault> modbus_faults() {
        "%LW512 holds 0001"},
       {"crc_ignored", "a wrong CRC is accepted", hears(accept_any_crc),
        "modbus_rtu/client/error/wrong_check/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"crc_first_byte_alone", "of the CRC the first byte alone is compared",
+       hears(accept_one(accept_any_crc, 2)), "modbus_rtu/client/error/wrong_check/second_byte",
+       "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"crc_second_byte_alone", "of the CRC the second byte alone is compared",
+       hears(accept_one(accept_any_crc, 1)), "modbus_rtu/client/error/wrong_check/wrong",
+       "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"lrc_first_digit_alone", "of the LRC the first digit alone is compared",
+       hears(accept_one(accept_any_lrc, 4)), "modbus_ascii/client/error/wrong_check/wrong",
+       "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"lrc_second_digit_alone", "of the LRC the second digit alone is compared",
+       hears(accept_one(accept_any_lrc, 3)), "modbus_ascii/client/error/wrong_check/first_digit",
+       "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"lrc_ignored", "a wrong LRC is accepted", hears(accept_any_lrc),
        "modbus_ascii/client/error/wrong_check/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
   };

@@ -31,6 +31,18 @@ void accept_any_check(Bytes& frame, const P2pBlock&) {
   std::ranges::copy(right, frame.end() - 2);
 }
 
+/// A BCC that is right in its first digit is taken.
+void accept_first_digit(Bytes& frame, const P2pBlock& block) {
+  Bytes right = frame;
+  accept_any_check(right, block);
+  if (frame.size() > 4 && frame[frame.size() - 2] == right[frame.size() - 2]) frame = right;
+}
+void accept_second_digit(Bytes& frame, const P2pBlock& block) {
+  Bytes right = frame;
+  accept_any_check(right, block);
+  if (frame.size() > 4 && frame.back() == right.back()) frame = right;
+}
+
 using Value = std::uint64_t;
 
 /// Saves another value of each element.
@@ -164,6 +176,12 @@ std::vector<Fault> xgt_reply_faults() {
        takes(ignore_wrong), "xgt_cnet/client/error/wrong_station/next", "%LW513 holds 000A"},
       {"check_ignored", "a wrong BCC is accepted", hears(accept_any_check),
        "xgt_cnet/client/error/wrong_bcc/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"bcc_first_digit_alone", "of the BCC the first digit alone is compared",
+       hears(accept_first_digit), "xgt_cnet/client/error/wrong_bcc/wrong",
+       "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"bcc_second_digit_alone", "of the BCC the second digit alone is compared",
+       hears(accept_second_digit), "xgt_cnet/client/error/wrong_bcc/first_digit",
+       "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"command_ignored", "a reply that repeats another command is accepted",
        understands_xgt([](XgtReply& reply, const P2pBlock& block) {
          reply.command = reads(block) ? 'r' : 'w';

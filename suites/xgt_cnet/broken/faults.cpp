@@ -5,8 +5,9 @@
 namespace fieldproof::xgt_cnet_broken {
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> table = broken::gather<Fault>(
-      {check_faults, reply_faults, data_faults, limit_faults, monitor_faults, line_faults});
+  static const std::vector<Fault> table =
+      broken::gather<Fault>({check_faults, reply_faults, data_faults, limit_faults, monitor_faults,
+                             line_faults, narrow_faults});
   return table;
 }
 

@@ -47,6 +47,7 @@ std::vector<Fault> data_faults();
 std::vector<Fault> limit_faults();
 std::vector<Fault> monitor_faults();
 std::vector<Fault> line_faults();
+std::vector<Fault> narrow_faults();
 
 /// Spoils the reply of the good PLC. The BCC is made right again (`edit_reply`), or left as it is
 /// (`spoil_frame`).

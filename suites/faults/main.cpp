@@ -1,0 +1,68 @@
+// fieldproof_faults: every fault of our broken devices against every case of their protocol, in
+// process. Writes vectors/faults.json, which `fieldproof list --redundant` reads.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "harness/vectors/fault_matrix.hpp"
+#include "harness/vectors/loader.hpp"
+#include "suites/faults/kits.hpp"
+#include "suites/protocols.hpp"
+
+namespace {
+
+using namespace fieldproof;
+
+vectors::BrokenDevice run_all(const faults::Kit& kit, const std::vector<vectors::Case>& cases) {
+  vectors::BrokenDevice device{kit.name, {}, {}};
+  for (const faults::KnownFault& fault : kit.faults) device.faults.push_back(fault.name);
+  for (const vectors::Case& one : cases) {
+    if (!kit.concerns(one)) continue;
+    if (kit.run(std::nullopt, one).verdict != results::Verdict::pass) continue;
+    std::set<std::size_t>& by = device.killed[one.id];
+    for (std::size_t i = 0; i < kit.faults.size(); ++i)
+      if (kit.run(i, one).verdict == results::Verdict::fail) by.insert(i);
+  }
+  return device;
+}
+
+std::vector<vectors::Case> cases_in(const std::string& folder, const faults::Kit& kit) {
+  return vectors::load_vectors(folder, {suites::protocols(), kit.folder + "/*"}).cases;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const std::vector<std::string> given(arguments + 1, arguments + count);
+  if (given.empty()) {
+    fmt::print(
+        stderr,
+        "usage: fieldproof_faults FOLDER-OF-VECTORS [DEVICE...]\n"
+        "Writes faults.json there, anew or for these devices (\"modbus-rtu client\") alone.\n");
+    return 2;
+  }
+  const std::string& folder = given.front();
+  const Result<vectors::FaultMatrix> known = vectors::load_fault_matrix(folder);
+  if (!known && given.size() > 1) return fmt::print(stderr, "{}\n", known.error().message), 2;
+  vectors::FaultMatrix matrix;
+  for (const faults::Kit& kit : faults::kits()) {
+    const bool wanted = given.size() == 1 || std::ranges::find(given, kit.name, {}) != given.end();
+    if (wanted)
+      matrix.push_back(run_all(kit, cases_in(folder, kit)));
+    else if (const auto old = std::ranges::find(*known, kit.name, &vectors::BrokenDevice::name);
+             old != known->end())
+      matrix.push_back(*old);
+    else
+      continue;
+    fmt::print("{}: {} faults, {} cases\n", kit.name, kit.faults.size(),
+               matrix.back().killed.size());
+    std::fflush(stdout);
+  }
+  std::ofstream file(folder + "/faults.json");
+  file << vectors::to_text(matrix);
+  return file.good() ? 0 : 3;
+}
