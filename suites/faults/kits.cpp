@@ -6,6 +6,7 @@
 
 #include "src/xgt_cnet/plc_config.hpp"
 #include "suites/broken/run_in_process.hpp"
+#include "suites/hs_link/broken/broken_network.hpp"
 #include "suites/ls_bus/broken/broken_inverter.hpp"
 #include "suites/ls_bus/broken/faults.hpp"
 #include "suites/modbus/broken/broken_server.hpp"
@@ -116,6 +117,17 @@ Kit modbus_tcp_server() {
   return {"modbus-tcp", "modbus_tcp", names(modbus_tcp_broken::faults()), is_server_case, run_one};
 }
 
+Kit high_speed_link() {
+  const auto run_one = [](std::optional<std::size_t> fault, const Case& source) {
+    const auto behaviour =
+        fault ? hs_link_broken::faults()[*fault].make() : hs_link_broken::Behaviour{};
+    return run(source, model_of(source, "xbc-h"), [=](std::string_view model, const json& config) {
+      return hs_link_broken::make_broken_network(behaviour, model, config);
+    });
+  };
+  return {"hs-link", "hs_link", names(hs_link_broken::faults()), is_server_case, run_one};
+}
+
 Kit user_frames_port() {
   const auto run_one = [](std::optional<std::size_t> fault, const Case& source) {
     const auto behaviour =
@@ -156,6 +168,7 @@ std::vector<Kit> kits() {
           modbus_server("rtu"),
           modbus_server("ascii"),
           modbus_tcp_server(),
+          high_speed_link(),
           inverter(),
           user_frames_port(),
           client("xgt-cnet client", "xgt_cnet"),

@@ -12,8 +12,9 @@ namespace {
 
 class BrokenNetwork : public plc::SerialDevice {
  public:
-  BrokenNetwork(std::unique_ptr<plc::EmulatedDevice> right, Behaviour behaviour)
-      : right_(std::move(right)), behaviour_(std::move(behaviour)) {}
+  BrokenNetwork(std::unique_ptr<plc::EmulatedDevice> right, const plc::PlcModel& model,
+                Behaviour behaviour)
+      : right_(std::move(right)), model_(model), behaviour_(std::move(behaviour)) {}
 
   void receive(const Burst& burst) override { right_->line()->receive(burst); }
   std::optional<Time> wake_at() const override { return right_->line()->wake_at(); }
@@ -23,7 +24,7 @@ class BrokenNetwork : public plc::SerialDevice {
     return right_->set(address, hex);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
-    const plc::ParsedAddress parsed = plc::parse_address(plc::plc_models().front(), address);
+    const plc::ParsedAddress parsed = plc::parse_address(model_, address);
     if (behaviour_.bit && parsed && address.starts_with("%L")) return of_l(parsed.address, digits);
     return right_->get(address, digits);
   }
@@ -37,7 +38,8 @@ class BrokenNetwork : public plc::SerialDevice {
 
  private:
   std::string look(unsigned bit) const {
-    return *right_->get(fmt::format("%LX{:04}{:X}", bit / 16, bit % 16), 2);
+    const std::string word = *right_->get(fmt::format("%LW{}", bit / 16), 4);
+    return std::stoul(word, nullptr, 16) >> bit % 16 & 1 ? "01" : "00";
   }
   /// Bits and words of L, bit by bit.
   std::string of_l(const plc::DeviceAddress& address, std::size_t digits) const {
@@ -54,6 +56,7 @@ class BrokenNetwork : public plc::SerialDevice {
   }
 
   std::unique_ptr<plc::EmulatedDevice> right_;
+  const plc::PlcModel& model_;
   Behaviour behaviour_;
 };
 
@@ -67,7 +70,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_network(const Behaviour
   auto right = hs_link::make_hs_network(model, own);
   if (!right) return right.error();
   return std::unique_ptr<plc::EmulatedDevice>(
-      std::make_unique<BrokenNetwork>(std::move(*right), behaviour));
+      std::make_unique<BrokenNetwork>(std::move(*right), *plc::find_plc_model(model), behaviour));
 }
 
 }  // namespace fieldproof::hs_link_broken
