@@ -271,7 +271,7 @@ std::vector<Fault> data_faults() {
       {"areas_alias", "K is M under another name", misread([](const Bytes& request, GoodPlc&) {
          return with_names(request, [](std::string name) { return area_for(name, 'K', 'M'); });
        }),
-       "rss/mixed_areas/lower/words", "data"},
+       "rss/mixed_areas_words/lower/words", "data"},
       {"byte_write_clears_its_neighbour", "writing one byte clears the other byte of the word",
        answer_with(clear_other_byte), "wss/type_byte/even_lower", "is due"},
   };
