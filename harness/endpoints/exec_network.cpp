@@ -77,7 +77,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   Status start(bool client) {
     sockets().set_far_end(nullptr);
     child_.reset();
-    sockets().end_all();
+    sockets().lose_all();
     ready_ = false;
     client_ = client;
     if (const Status chosen = choose_port(Transport::tcp, tcp_); !chosen) return chosen;

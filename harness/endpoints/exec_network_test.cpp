@@ -51,6 +51,18 @@ TEST(ExecNetwork, APowerCycleStartsItAnew) {
   EXPECT_NE(first.substr(1), second.substr(1));
 }
 
+TEST(ExecNetwork, WhatIsSentAfterAPowerCycleMeetsAReset) {
+  const auto endpoint = open("exec socat " + listening + ",fork EXEC:cat");
+  ASSERT_TRUE(endpoint->begin(as_server));
+  for (LinkId link : {1u, 2u}) ASSERT_EQ(*endpoint->open(Transport::tcp, 0), link);
+  ASSERT_TRUE(endpoint->act("power_cycle"));
+  EXPECT_EQ(next_event(*endpoint, 0ns), "-") << "it is not heard before";
+  ASSERT_TRUE(endpoint->send(to_bytes("more"), 1));
+  EXPECT_EQ(next_event(*endpoint), "1 reset");
+  EXPECT_TRUE(endpoint->close(2, Closing::fin)) << "of which the device knows nothing";
+  EXPECT_EQ(next_event(*endpoint, 0ns), "-");
+}
+
 TEST(ExecNetwork, AProgramThatEndsSaysWhy) {
   const auto endpoint = open("echo no licence for {port} >&2; exit 7");
   ASSERT_TRUE(endpoint->begin(as_server));

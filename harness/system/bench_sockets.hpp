@@ -35,6 +35,8 @@ class BenchSockets {
 
   /// Ends all links, those that the device has opened too, and goes on listening.
   void end_all() { links_.end_all(); }
+  /// The same where the device has lost its power: what is next sent on a connection meets a reset.
+  void lose_all() { links_.lose_all(); }
   /// Ends those that this side has closed; what still comes on them is not told.
   void end_closed() { links_.end_closed(); }
 

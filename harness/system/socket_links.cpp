@@ -98,6 +98,7 @@ void SocketLinks::accept_waiting() {
 }
 
 Status SocketLinks::send(LinkId link, ByteView bytes) {
+  if (lost_.erase(link) != 0) add(link, Connection(UniqueFd()));
   if (const auto found = connections_.find(link); found != connections_.end()) {
     if (!found->second.connection.is_open()) return fail(closed_here);
     found->second.connection.write(bytes);
@@ -114,6 +115,7 @@ Status SocketLinks::send(LinkId link, ByteView bytes) {
 }
 
 Status SocketLinks::close(LinkId link, Closing how) {
+  if (lost_.erase(link) != 0) return ok();
   if (const auto found = connections_.find(link); found != connections_.end()) {
     if (!found->second.connection.is_open()) return fail(closed_here);
     found->second.connection.close(how);
@@ -140,11 +142,20 @@ void SocketLinks::flush() {
 void SocketLinks::end_all() {
   connections_.clear();
   ports_.clear();
+  lost_.clear();
   accepted_.clear();
   SocketAddress from;
   for (const Listener& listener : listeners_)
     while (accept_socket(listener.fd.get(), from)) {
     }
+}
+
+void SocketLinks::lose_all() {
+  std::set<LinkId> lost;
+  for (const auto& [link, one] : connections_)
+    if (one.connection.is_open()) lost.insert(link);
+  end_all();
+  lost_ = std::move(lost);
 }
 
 void SocketLinks::end_closed() {

@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "harness/system/connection.hpp"
@@ -25,7 +26,9 @@ class SocketLinks {
   void add(LinkId link, Connection connection);
   void add(LinkId link, DatagramPort port);
   /// Is or was it opened here?
-  bool has(LinkId link) const { return connections_.contains(link) || ports_.contains(link); }
+  bool has(LinkId link) const {
+    return connections_.contains(link) || ports_.contains(link) || lost_.contains(link);
+  }
   /// Takes over a socket of `listen_socket`; its connections and datagrams are said to be to
   /// `port`.
   void listen(UniqueFd socket, Transport transport, std::uint16_t port);
@@ -46,6 +49,9 @@ class SocketLinks {
 
   /// Ends all links, those that wait to be accepted too, and goes on listening.
   void end_all();
+  /// The same where the other side has lost its power: of its connections it knows nothing any
+  /// more, so what is next sent on one is answered by a reset.
+  void lose_all();
   /// Ends the connections that this side has closed, whatever the other one has still to say.
   void end_closed();
   /// What to wait for; `hearing` false: that something can be sent again.
@@ -72,6 +78,7 @@ class SocketLinks {
   LinkId last_ = line_link;             // that something was taken of
   std::map<LinkId, Link> connections_;  // the last of those that are over, too
   std::map<LinkId, DatagramPort> ports_;
+  std::set<LinkId> lost_;  // connections whose other side has lost its power
   std::vector<Listener> listeners_;
   std::vector<DatagramServer> servers_;
   std::deque<Burst> accepted_;  // that nobody has been told of
