@@ -145,7 +145,9 @@ class Reader {
     if (!check) return;
     const ByteView covered = frame_.first(check_at);
     const auto right = static_cast<Byte>(std::accumulate(covered.begin(), covered.end(), 0u));
-    if (*check != right)
+    if (*check == 0 && right != 0)  // "h00 : Reserved area", Table 5-3
+      fields_.back().text += " none";
+    else if (*check != right)
       problem(fmt::format("{:02X} is right: the sum of the 19 bytes before it", right));
   }
 

@@ -51,6 +51,7 @@ TEST(FenetExplain, ThePrintedFramesAreFaultless) {
   }
   EXPECT_EQ(problems(with(read_word, 19, 0x4E)),
             "check sum: 3C is right: the sum of the 19 bytes before it\n");
+  EXPECT_EQ(problems(with(word_reply, 19, 0)), "") << "'h00 : Reserved area' (Table 5-3)";
 }
 
 TEST(FenetExplain, NamesEachField) {
