@@ -114,6 +114,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t id() const { return pid_; }
   void signal(int number) { ::kill(pid_, number); }
 
   /// Until it has printed `text`; false where it ended or the limit came first.
