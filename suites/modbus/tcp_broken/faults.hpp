@@ -6,34 +6,15 @@
 #include <map>
 #include <vector>
 
-#include "src/base/burst.hpp"
 #include "src/modbus/tcp_server.hpp"
-#include "src/plc/emulated_device.hpp"
 #include "suites/broken/fault.hpp"
+#include "suites/broken/network_server.hpp"
 
 namespace fieldproof::modbus_tcp_broken {
 
-using Bursts = std::vector<Burst>;
-
-/// What a fault may look at.
-struct Server {
-  plc::EmulatedDevice& plc;     // the good one's memory
-  std::vector<LinkId> links{};  // that the good one has, the oldest first
-};
-
-/// One fault at work. Each function may be empty: then the device does the right thing there.
-struct Behaviour {
-  std::function<void(modbus::TcpServerConfig&)> settings{};
-  /// What has arrived, and what the good server hears of it.
-  std::function<Bursts(Burst heard, Server& server)> hear{};
-  /// The request that the good server understands instead of a whole frame; empty: none.
-  std::function<Bytes(Bytes request)> misread{};
-  /// Spoils the reply to a request: a frame each.
-  std::function<void(Bytes& reply, const Bytes& request)> edit{};
-  /// What goes out at one moment.
-  std::function<void(Bursts& does, Server& server)> act{};
-};
-
+using broken::Bursts;
+using broken::Server;
+using Behaviour = broken::NetworkBehaviour<modbus::TcpServerConfig>;
 using MakeBehaviour = std::function<Behaviour()>;
 using Fault = broken::FaultOf<MakeBehaviour>;
 
