@@ -1,6 +1,7 @@
 // What many protocols have, and some have not: Protocol hands out those that it has.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -10,6 +11,14 @@
 #include "src/base/result.hpp"
 
 namespace fieldproof::harness {
+
+/// How much a read can ask for at once.
+struct ReadLimit {
+  std::string_view what;  // "bytes of a continuous read"
+  unsigned printed = 0;   // in the manual
+  unsigned most = 0;      // more cannot be asked for
+  std::function<Bytes(unsigned count)> request{};
+};
 
 /// A harmless request that any healthy device answers.
 class Probing {
@@ -22,6 +31,8 @@ class Probing {
   /// Has `reply` the form of a reply to it? Its check is not judged, only what tells it from
   /// others.
   virtual bool answers_probe(ByteView probe, ByteView reply) const = 0;
+  /// Reads of memory that every device has; MemoryRequests::answers tells whether one is taken.
+  virtual std::vector<ReadLimit> read_limits() const { return {}; }
 };
 
 /// The requests that set, or read, memory through the protocol itself.

@@ -8,6 +8,8 @@
 #include "harness/bench/benches.hpp"
 #include "harness/bench/profile.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/cli/probe_found.hpp"
+#include "harness/cli/probe_network.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/paths.hpp"
 #include "harness/probe/conclusion.hpp"
@@ -29,9 +31,6 @@ int station_number(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && rest == text.data() + text.size() && value <= 255 ? value : -1;
 }
-
-constexpr const char* network_advice =
-    "runs on a network, where nothing is to be searched; run it on tcp:HOST[:PORT]";
 
 /// Adds "0-31" or "5" to `to`; false when it is neither.
 bool read_stations(const std::string& text, std::vector<int>& to) {
@@ -74,8 +73,8 @@ Result<probe::SearchSpace> space_of(const ProbeOptions& options, const EndpointN
     if (!probe::can_be_searched(**protocol))
       return fail(fmt::format("cannot search by {}: {}", text,
                               (*protocol)->default_port() != 0
-                                  ? fmt::format("it {}", network_advice)
-                                  : std::string("it has no harmless request of its own")));
+                                  ? "it runs on a network; write tcp:HOST[:PORT]"
+                                  : "it has no harmless request of its own"));
     space.protocols.push_back(*protocol);
   }
   space.settable = probe::has_line_settings(endpoint);
@@ -144,48 +143,6 @@ class ProgressLine {
   bool terminal_;
 };
 
-/// A profile that speaks the protocol and binds nothing that the manuals leave open, of the
-/// protocol's first model where there is one; else that model.
-std::string profile_of_a_module(const harness::Protocol& protocol) {
-  const std::string first = protocol.models().front();
-  const std::filesystem::path folder = harness::find_data().profiles;
-  for (const std::string& name : bench::profile_names(folder)) {
-    const Result<bench::Profile> one = bench::load_profile(name, folder);
-    if (one && !one->binding_decisions && one->model == first &&
-        std::ranges::count(one->protocols, protocol.name()) > 0)
-      return name;
-  }
-  return first;
-}
-
-/// Its own module's profile is for the engineer to choose.
-std::string run_line(const EndpointName& endpoint, const Finding& device, bool settable) {
-  std::string line =
-      "fieldproof run --endpoint " +
-      run::shell_word(probe::to_string(probe::name_of_found(endpoint, device.trial, settable)));
-  if (probe::is_emulator(endpoint)) return line;
-  return line + " --profile " + profile_of_a_module(*device.trial.protocol);
-}
-
-/// Of a device that was found; what went wrong is said and makes the exit code.
-int print_fingerprint(const EndpointName& endpoint, const probe::Trial& device, bool settable,
-                      Duration patience) {
-  EndpointName name = probe::name_of_found(endpoint, device, settable);
-  name.options["protocol"] = device.protocol->name();
-  bench::BenchOptions options;
-  options.station = device.station;
-  options.profile.response_max = patience;
-  Result<bench::Benches> port = bench::Benches::open(name, {device.protocol}, options);
-  if (!port) return run::complain(port.error().message, run::exit_code::trouble);
-  const Result<bench::Fingerprint> found = port->fingerprint();
-  if (!found)
-    return run::complain(found.error().message, found.error().interrupted
-                                                    ? run::exit_code::interrupted
-                                                    : run::exit_code::trouble);
-  fmt::print("{:<13} {}\n", "fingerprint", bench::to_string(*found));
-  return run::exit_code::ok;
-}
-
 void report(const std::vector<Finding>& findings, const EndpointName& endpoint, bool settable) {
   for (const Finding& finding : findings) {
     const bool where = finding.trial.protocol && settable;
@@ -195,7 +152,7 @@ void report(const std::vector<Finding>& findings, const EndpointName& endpoint, 
     if (finding.kind != Finding::Kind::device) continue;
     if (settable)
       fmt::print("{:<13} one or two stop bits: they read the same, see the module's setting\n", "");
-    fmt::print("{:<13} {}\n", "go on with", run_line(endpoint, finding, settable));
+    fmt::print("{:<13} {}\n", "go on with", probe_run_line(endpoint, finding.trial, settable));
   }
 }
 
@@ -210,6 +167,10 @@ int exit_code_of(const std::vector<Finding>& findings, bool was_interrupted) {
 int probe_command(const ProbeOptions& options, const harness::Protocols& protocols) {
   const Result<EndpointName> endpoint = endpoints::parse_endpoint(options.endpoint);
   if (!endpoint) return run::complain(endpoint.error().message, run::exit_code::usage);
+  const Result<std::vector<const harness::Protocol*>> servers =
+      servers_to_probe(options, *endpoint, protocols);
+  if (!servers) return run::complain(servers.error().message, run::exit_code::usage);
+  if (!servers->empty()) return probe_servers(options, *endpoint, *servers, protocols);
   Result<probe::SearchSpace> space = space_of(options, *endpoint, protocols);
   if (!space) return run::complain(space.error().message, run::exit_code::usage);
   probe::ProbeTiming timing;
@@ -220,10 +181,6 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
   if (!spoken)
     return run::complain("cannot open " + options.endpoint + ": " + spoken.error().message,
                          run::exit_code::usage);
-  if ((*spoken)->default_port() != 0)
-    return run::complain(
-        fmt::format("cannot probe {}: {} {}", options.endpoint, (*spoken)->name(), network_advice),
-        run::exit_code::usage);
   const probe::LineOpener open = probe::line_opener(*endpoint, **spoken);
 
   os::catch_interrupts();
@@ -258,7 +215,7 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
   for (const Finding& finding : findings)
     if (options.fingerprint && finding.kind == Finding::Kind::device && !search->interrupted)
       if (const int code =
-              print_fingerprint(*endpoint, finding.trial, space->settable, timing.wait);
+              print_probed_fingerprint(*endpoint, finding.trial, space->settable, timing.wait);
           code != run::exit_code::ok)
         return code;
   return exit_code_of(findings, search->interrupted);

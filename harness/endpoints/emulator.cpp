@@ -159,7 +159,9 @@ Result<LinkId> EmulatorEndpoint::open(Transport transport, std::uint16_t port) {
   if (!network)
     return fail(fmt::format("cannot open a link: {} is on no network; it runs on a serial line",
                             describe()));
-  return network->open(transport, port == 0 ? port_ : port);
+  if (port == 0) port = port_;
+  refused_ = !devices_.front()->network()->listens(transport, port);
+  return network->open(transport, port);
 }
 
 Result<LinkId> EmulatorEndpoint::open_line(unsigned channel) {

@@ -45,6 +45,7 @@ class EmulatorEndpoint : public Endpoint {
   /// same line. Errors name the key.
   Status begin(const nlohmann::json& config) override;
   Result<LinkId> open(Transport transport, std::uint16_t port) override;
+  bool was_refused() const override { return refused_; }
   Result<LinkId> open_line(unsigned channel) override;
   Status close(LinkId link, Closing how) override;
   using Endpoint::send;
@@ -69,6 +70,7 @@ class EmulatorEndpoint : public Endpoint {
   Decorator decorate_;
   Capabilities capabilities_;
   std::uint16_t port_;
+  bool refused_ = false;  // the last link that was opened
   SimulatedWays ways_;
   // The device under test, then its neighbours.
   std::vector<std::unique_ptr<plc::EmulatedDevice>> devices_;

@@ -52,6 +52,9 @@ class Endpoint {
   /// protocol. A refused connection is no error: the link is there, and the first burst on it is
   /// `reset`. Errors are trouble of the bench ("no route", "cannot resolve").
   virtual Result<LinkId> open(Transport transport, std::uint16_t port);
+  /// Was the last connection that was opened refused: does nothing listen on its port? One that is
+  /// taken and then reset was not.
+  virtual bool was_refused() const { return false; }
   /// The line of another serial channel of the device, by itself a link. Errors: nobody leads
   /// there.
   virtual Result<LinkId> open_line(unsigned channel);

@@ -34,12 +34,15 @@ class SocketEndpoint final : public NetworkEndpoint {
     Result<os::UniqueFd> fd =
         host_.connect(port, transport == Transport::tcp ? SOCK_STREAM : SOCK_DGRAM);
     if (!fd) return fd.error();
+    refused_ = !*fd;
     return sockets().add(transport, std::move(*fd), port);
   }
+  bool was_refused() const override { return refused_; }
 
  private:
   os::RemoteHost host_;
   NetworkPorts ports_, defaults_;
+  bool refused_ = false;  // the last one
 };
 
 /// "tcp:plc:2004, UDP 2005"

@@ -114,6 +114,17 @@ class Modbus : public Protocol,
         Bytes{static_cast<Byte>(station), free == reads.end() ? reads.front() : *free, 0, 0, 0, 1});
   }
 
+  std::vector<harness::ReadLimit> read_limits() const override {
+    const auto read = [this](Byte function) {
+      return [this, function](unsigned count) {
+        return framing_.wrap(
+            Bytes{1, function, 0, 0, static_cast<Byte>(count >> 8), static_cast<Byte>(count)});
+      };
+    };
+    return {{"words of a read (03)", 125, 127, read(0x03)},
+            {"bits of a read (01)", 2000, 2040, read(0x01)}};
+  }
+
   bool answers_probe(ByteView probe, ByteView reply) const override {
     const Bytes asked = framing_.unwrap(probe), answer = framing_.unwrap(reply);
     return answer.size() > 1 && asked.size() > 1 && (answer[1] & ~exception_bit) == asked[1];

@@ -239,6 +239,19 @@ Bytes probing_request(ByteView tested) {
   return frame_of(body, invoke);
 }
 
+Bytes read_of_bytes(unsigned count) {
+  Bytes body = request_head(read_command, continuous_type, 1);
+  put_name(body, "%MB0");
+  put_word(body, count);
+  return own_frame(body);
+}
+
+Bytes read_of_blocks(unsigned count) {
+  Bytes body = request_head(read_command, 2, count);
+  for (unsigned i = 0; i < count; ++i) put_name(body, "%MW0");
+  return own_frame(body);
+}
+
 namespace {
 
 /// Every place where a device might see a frame begin: behind each other frame, and at each company

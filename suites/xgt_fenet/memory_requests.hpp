@@ -24,6 +24,10 @@ bool answers(ByteView request, ByteView reply);
 /// A read of the first word of M, with an invoke id that `tested` does not have.
 Bytes probing_request(ByteView tested);
 
+/// Of so many bytes from %MB0 on, and of so many times the first word of M.
+Bytes read_of_bytes(unsigned count);
+Bytes read_of_blocks(unsigned count);
+
 /// What the frames in a request would write, also where a header is damaged. Without a model
 /// names are read leniently (harness::memory_at).
 std::vector<harness::Protocol::Written> written_by(ByteView request, const plc::PlcModel* model);

@@ -81,6 +81,10 @@ class XgtFenet : public harness::Protocol,
   Bytes probing_request(int, ByteView tested) const override {
     return xgt_fenet_suite::probing_request(tested);
   }
+  std::vector<harness::ReadLimit> read_limits() const override {
+    return {{"bytes of a continuous read", 512, 2000, read_of_bytes},
+            {"blocks of a read", 16, 64, read_of_blocks}};
+  }
   bool answers_probe(ByteView probe, ByteView reply) const override {
     return reply.size() > header_size && word_at(reply, invoke_at) == word_at(probe, invoke_at);
   }

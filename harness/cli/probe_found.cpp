@@ -1,0 +1,63 @@
+#include "harness/cli/probe_found.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "harness/bench/benches.hpp"
+#include "harness/bench/profile.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/paths.hpp"
+#include "harness/probe/target.hpp"
+
+namespace fieldproof::cli {
+
+using endpoints::EndpointName;
+
+namespace {
+
+/// A profile that speaks the protocol and binds nothing that the manuals leave open, of the
+/// protocol's first model where there is one; else that model.
+std::string profile_of_a_module(const harness::Protocol& protocol) {
+  const std::string first = protocol.models().front();
+  const std::filesystem::path folder = harness::find_data().profiles;
+  for (const std::string& name : bench::profile_names(folder)) {
+    const Result<bench::Profile> one = bench::load_profile(name, folder);
+    if (one && !one->binding_decisions && one->model == first &&
+        std::ranges::count(one->protocols, protocol.name()) > 0)
+      return name;
+  }
+  return first;
+}
+
+}  // namespace
+
+std::string probe_run_line(const EndpointName& endpoint, const probe::Trial& device,
+                           bool settable) {
+  std::string line =
+      "fieldproof run --endpoint " +
+      run::shell_word(probe::to_string(probe::name_of_found(endpoint, device, settable)));
+  if (probe::is_emulator(endpoint)) return line;
+  return line + " --profile " + profile_of_a_module(*device.protocol);
+}
+
+int print_probed_fingerprint(const EndpointName& endpoint, const probe::Trial& device,
+                             bool settable, Duration patience) {
+  EndpointName name = probe::name_of_found(endpoint, device, settable);
+  name.options["protocol"] = device.protocol->name();
+  bench::BenchOptions options;
+  options.station = device.station;
+  options.profile.response_max = patience;
+  Result<bench::Benches> port = bench::Benches::open(name, {device.protocol}, options);
+  if (!port) return run::complain(port.error().message, run::exit_code::trouble);
+  const Result<bench::Fingerprint> found = port->fingerprint();
+  if (!found)
+    return run::complain(found.error().message, found.error().interrupted
+                                                    ? run::exit_code::interrupted
+                                                    : run::exit_code::trouble);
+  fmt::print("{:<13} {}\n", "fingerprint", bench::to_string(*found));
+  return run::exit_code::ok;
+}
+
+}  // namespace fieldproof::cli

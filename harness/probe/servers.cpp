@@ -1,0 +1,258 @@
+#include "harness/probe/servers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "harness/probe/diagnosis.hpp"
+
+namespace fieldproof::probe {
+
+using endpoints::Endpoint;
+using harness::Protocol;
+using Kind = ServerFinding::Kind;
+
+namespace {
+
+constexpr Duration quiet = 100ms;           // no further byte for so long: what is no frame is over
+constexpr int times = 3;                    // that a server is asked
+constexpr std::size_t most_heard = 70'000;  // bytes of one answer
+
+std::string_view name_of(Transport transport) {
+  return transport == Transport::tcp ? "TCP" : "UDP";
+}
+
+/// What one question brought.
+struct Answer {
+  enum class End { none, refused, ended };
+  Bytes bytes{};
+  End end = End::none;
+  Duration took{};  // to the first byte
+};
+
+/// One port of one endpoint.
+class Port {
+ public:
+  Port(Endpoint& endpoint, const Protocol& protocol, Transport transport, Duration wait)
+      : endpoint_(endpoint), protocol_(protocol), transport_(transport), wait_(wait) {}
+
+  /// On a link of its own; `spoken`: whose frames tell that the answer is complete.
+  Result<Answer> ask(const Protocol& spoken, ByteView request) {
+    const Result<LinkId> link = endpoint_.open(transport_, protocol_.port_for(transport_));
+    if (!link) return link.error();
+    const bool refused = transport_ == Transport::tcp && endpoint_.was_refused();
+    Result<Answer> answer = refused ? Result<Answer>(Answer{.end = Answer::End::refused})
+                                    : exchange(*link, spoken, request);
+    (void)endpoint_.close(*link, Closing::rst);  // the place is free again at once
+    return answer;
+  }
+
+ private:
+  Result<Answer> exchange(LinkId link, const Protocol& spoken, ByteView request) {
+    const Result<Sent> sent = endpoint_.send(request, link);
+    if (!sent) return sent.error();
+    Answer answer;
+    for (Time until = sent->end + wait_;;) {
+      Result<Burst> burst = endpoint_.receive(until);
+      if (!burst) return burst.error();
+      if (burst->link != link && !(burst->bytes.empty() && burst->event == LinkEvent::data))
+        continue;  // of a link of before
+      if (burst->event == LinkEvent::closed || burst->event == LinkEvent::reset) {
+        answer.end = Answer::End::ended;
+        return answer;
+      }
+      if (burst->bytes.empty()) return answer;
+      if (answer.bytes.empty()) answer.took = burst->start - sent->end;
+      answer.bytes.insert(answer.bytes.end(), burst->bytes.begin(), burst->bytes.end());
+      if (spoken.frame_length(answer.bytes) || answer.bytes.size() > most_heard) return answer;
+      until = endpoint_.now() + quiet;
+    }
+  }
+
+  Endpoint& endpoint_;
+  const Protocol& protocol_;
+  Transport transport_;
+  Duration wait_;
+};
+
+bool is_reply(const Protocol& protocol, ByteView request, const Answer& answer) {
+  return protocol.frame_length(answer.bytes) && protocol.is_reply_to_probe(request, answer.bytes);
+}
+
+/// The greatest number that a read is answered for, sought by halves; nothing: not even one.
+Result<std::optional<unsigned>> most_of(Port& port, const Protocol& protocol,
+                                        const harness::ReadLimit& limit) {
+  const auto taken = [&](unsigned count) -> Result<bool> {
+    const Bytes request = limit.request(count);
+    const Result<Answer> answer = port.ask(protocol, request);
+    if (!answer) return answer.error();
+    return protocol.memory()->answers(request, answer->bytes) &&
+           static_cast<bool>(protocol.memory()->digits_in(answer->bytes));
+  };
+  unsigned good = 0, bad = limit.most + 1;
+  for (unsigned next = limit.printed; bad - good > 1; next = good + (bad - good) / 2) {
+    const Result<bool> answered = taken(next);
+    if (!answered) return answered.error();
+    (*answered ? good : bad) = next;
+    if (next == limit.printed && *answered) {  // most keep to it: one more tells
+      const Result<bool> more = taken(next + 1);
+      if (!more) return more.error();
+      (*more ? good : bad) = next + 1;
+    }
+  }
+  return good == 0 ? std::optional<unsigned>() : std::optional(good);
+}
+
+Result<std::vector<std::string>> limits_of(Port& port, const Protocol& protocol) {
+  std::vector<std::string> texts;
+  for (const harness::ReadLimit& limit : protocol.probing()->read_limits()) {
+    const Result<std::optional<unsigned>> most = most_of(port, protocol, limit);
+    if (!most) return most.error();
+    if (!*most)
+      texts.push_back(fmt::format("{}: none is answered", limit.what));
+    else
+      texts.push_back(fmt::format("{}: {}{}", limit.what, **most,
+                                  **most == limit.printed
+                                      ? ", as printed"
+                                      : fmt::format("; printed is {}", limit.printed)));
+  }
+  return texts;
+}
+
+/// One port, from its own protocol to the others.
+class Look {
+ public:
+  Look(Endpoint& endpoint, const Protocol& protocol, Transport transport,
+       const harness::Protocols& known, Duration wait)
+      : endpoint_(endpoint),
+        protocol_(protocol),
+        transport_(transport),
+        known_(known),
+        port_(endpoint, protocol, transport, wait) {}
+
+  Result<ServerFinding> look() {
+    const Bytes request = protocol_.probe(1, {});
+    const Result<Answer> answer = port_.ask(protocol_, request);
+    if (!answer) {
+      if (answer.error().interrupted) return answer.error();
+      return finding(Kind::unreachable, answer.error().message,
+                     "see that the device is on, that its address is right and that no firewall "
+                     "stands between");
+    }
+    if (is_reply(protocol_, request, *answer)) return server(answer->took);
+    if (answer->end == Answer::End::refused)
+      return finding(Kind::refused, "nothing listens there",
+                     "set the driver of the module as server of this protocol; a module has one "
+                     "server driver, and the port of the other one refuses");
+    if (answer->end == Answer::End::ended)
+      return finding(Kind::ended, "the connection is taken, and ended at once",
+                     "all channels may be taken: close other clients; or the host table of the "
+                     "module lacks the address of this computer");
+    return by_others(*answer);
+  }
+
+ private:
+  ServerFinding finding(Kind kind, std::string text, std::string advice) const {
+    return {kind,
+            &protocol_,
+            transport_,
+            protocol_.port_for(transport_),
+            fmt::format("{} over {} at {}: {}", protocol_.name(), name_of(transport_),
+                        endpoint_.describe(), text),
+            std::move(advice)};
+  }
+
+  Result<ServerFinding> server(Duration first) {
+    Duration fastest = first, slowest = first;
+    int answered = 1;
+    for (int i = 1; i < times; ++i) {
+      const Bytes request = protocol_.probe(1, {});
+      const Result<Answer> again = port_.ask(protocol_, request);
+      if (!again) return again.error();
+      if (!is_reply(protocol_, request, *again)) continue;
+      ++answered;
+      fastest = std::min(fastest, again->took);
+      slowest = std::max(slowest, again->took);
+    }
+    ServerFinding found = finding(
+        Kind::server, fmt::format("answers in {:.1f} to {:.1f} ms", to_ms(fastest), to_ms(slowest)),
+        answered == times ? ""
+                          : "only some questions are answered: see that others leave it a "
+                            "channel");
+    Result<std::vector<std::string>> limits = limits_of(port_, protocol_);
+    if (!limits) return limits.error();
+    found.limits = std::move(*limits);
+    return found;
+  }
+
+  Result<ServerFinding> by_others(const Answer& own) {
+    for (const Protocol* other : known_) {
+      if (other == &protocol_ || !is_network_server(*other)) continue;
+      const Bytes request = other->probe(1, {});
+      const Result<Answer> answer = port_.ask(*other, request);
+      if (!answer) return answer.error();
+      if (!is_reply(*other, request, *answer)) continue;
+      ServerFinding found =
+          finding(Kind::other, fmt::format("a server of {} answers there", other->name()),
+                  fmt::format("add protocol={} behind the '?' of the endpoint, or correct the port",
+                              other->name()));
+      found.protocol = other;
+      return found;
+    }
+    if (!own.bytes.empty())
+      return finding(Kind::garbage, "the answer is no reply: " + shown(own.bytes),
+                     "another service has this port: correct it");
+    if (transport_ == Transport::udp)
+      return finding(Kind::silent, "no answer",
+                     "nothing listens there, or the host table of the module lacks the address of "
+                     "this computer, or a firewall drops datagrams");
+    return finding(Kind::silent, "the connection is taken, and nothing is answered",
+                   "all channels may be taken, or another service has this port; a slow device "
+                   "wants --wait");
+  }
+
+  Endpoint& endpoint_;
+  const Protocol& protocol_;
+  Transport transport_;
+  harness::Protocols known_;
+  Port port_;
+};
+
+}  // namespace
+
+std::string_view to_string(Kind kind) {
+  switch (kind) {
+    case Kind::server: return "found";
+    case Kind::other: return "other server";
+    case Kind::refused: return "refused";
+    case Kind::unreachable: return "unreachable";
+    case Kind::ended: return "ended";
+    case Kind::silent: return "silence";
+    case Kind::garbage: return "garbage";
+  }
+  return "";
+}
+
+bool is_network_server(const Protocol& protocol) {
+  return protocol.default_port() != 0 && protocol.memory() && !protocol.probe(1, {}).empty();
+}
+
+Result<std::vector<ServerFinding>> find_servers(const NetworkOpener& open,
+                                                const std::vector<const Protocol*>& wanted,
+                                                const harness::Protocols& known, Duration wait) {
+  std::vector<ServerFinding> findings;
+  for (const Protocol* protocol : wanted) {
+    Result<std::unique_ptr<Endpoint>> endpoint = open(*protocol);
+    if (!endpoint) return endpoint.error();
+    for (const Transport transport : {Transport::tcp, Transport::udp}) {
+      const endpoints::Capabilities& can = (*endpoint)->capabilities();
+      if (transport == Transport::tcp ? !can.connections : !can.datagrams) continue;
+      Result<ServerFinding> found = Look(**endpoint, *protocol, transport, known, wait).look();
+      if (!found) return found.error();
+      findings.push_back(std::move(*found));
+    }
+  }
+  return findings;
+}
+
+}  // namespace fieldproof::probe
