@@ -141,13 +141,10 @@ class Look {
     }
     if (is_reply(protocol_, request, *answer)) return server(answer->took);
     if (answer->end == Answer::End::refused)
-      return finding(Kind::refused, "nothing listens there",
-                     "set the driver of the module as server of this protocol; a module has one "
-                     "server driver, and the port of the other one refuses");
-    if (answer->end == Answer::End::ended)
-      return finding(Kind::ended, "the connection is taken, and ended at once",
-                     "all channels may be taken: close other clients; or the host table of the "
-                     "module lacks the address of this computer");
+      return finding(Kind::refused, "nothing listens there, or the connection is ended at once",
+                     "set the driver of the module as server of this protocol: a module has one "
+                     "server driver, and the port of the other one refuses; or all channels are "
+                     "taken, or the host table lacks the address of this computer");
     return by_others(*answer);
   }
 
@@ -199,6 +196,10 @@ class Look {
       found.protocol = other;
       return found;
     }
+    if (own.end == Answer::End::ended)
+      return finding(Kind::ended, "the connection is taken, and ended at once",
+                     "all channels may be taken: close other clients; or the host table of the "
+                     "module lacks the address of this computer");
     if (!own.bytes.empty())
       return finding(Kind::garbage, "the answer is no reply: " + shown(own.bytes),
                      "another service has this port: correct it");

@@ -26,11 +26,17 @@ int bind_to(const addrinfo& address, int type, UniqueFd& fd) {
   return type != SOCK_STREAM || ::listen(fd.get(), waiting_connections) == 0 ? 0 : errno;
 }
 
-std::string listen_advice(int error) {
+/// 502 is 10502.
+std::uint16_t unprivileged(std::uint16_t port) { return static_cast<std::uint16_t>(10'000 + port); }
+
+std::string listen_advice(int error, const SocketName& name) {
   switch (error) {
     case EADDRINUSE:
       return "the port is in use; end the program that has it, or choose another port";
-    case EACCES: return "ports below 1024 are for root; choose one from 1024 up, or run it as root";
+    case EACCES:
+      return "ports below 1024 are for root; choose one from 1024 up, such as " +
+             to_string(SocketName{name.host, unprivileged(name.port.value_or(0))}) +
+             ", or run it as root";
     case EADDRNOTAVAIL:
       return "this is no address of this computer; choose 127.0.0.1 (for programs here alone), "
              "0.0.0.0 (all addresses) or one that `ip address` lists";
@@ -48,7 +54,7 @@ Result<UniqueFd> listen_socket(const SocketName& name, int type) {
   int error = EADDRNOTAVAIL;
   for (const addrinfo* one = list->get(); one && error != 0; one = one->ai_next)
     error = bind_to(*one, type, fd);
-  if (error != 0) return fail(start + listen_advice(error));
+  if (error != 0) return fail(start + listen_advice(error, name));
   return fd;
 }
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "harness/system/test_sockets.hpp"
-#include "suites/tool/tool_files.hpp"
+#include "suites/tool/network_runs.hpp"
 
 namespace fieldproof::tool_tests {
 namespace {
@@ -16,45 +16,14 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr const char* plc = "xbc-h?protocol=modbus-tcp";
+constexpr const char* protocol = "modbus-tcp";
+constexpr const char* all = "modbus_tcp/*";
 
-/// That nobody listens on, a moment ago.
-std::uint16_t free_port() { return os::test::port_of(os::test::bound(SOCK_STREAM)); }
-
-/// `emulate` in a process of its own.
-class Emulated {
+class Emulated : public EmulatedServer {
  public:
-  explicit Emulated(std::vector<std::string> more = {}) : port_(free_port()) {
-    std::vector<std::string> arguments{"emulate", plc, "--tcp", std::to_string(port_)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    process_.emplace(tool_arguments(arguments));
-    EXPECT_TRUE(process_->wait_for("tcp 127.0.0.1:" + std::to_string(port_)));
-  }
-  std::string endpoint() const {
-    return "tcp:127.0.0.1:" + std::to_string(port_) + "?protocol=modbus-tcp";
-  }
-  std::uint16_t port() const { return port_; }
-  Process& process() { return *process_; }
-
- private:
-  std::uint16_t port_;
-  std::optional<Process> process_;
+  explicit Emulated(const std::vector<std::string>& more = {}) : EmulatedServer(protocol, more) {}
 };
 
-Finished run_on(const TestFolder& folder, const std::string& endpoint, const std::string& out,
-                const std::vector<std::string>& more = {},
-                const std::string& filter = "modbus_tcp/*") {
-  std::vector<std::string> arguments{"run",        "--endpoint",    endpoint,   "--profile",
-                                     "xbc-h",      "--filter",      filter,     "--out",
-                                     folder / out, "--allow-write", "all,P,Q,U"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return run_tool(arguments);
-}
-
-/// Why a case cannot be run where there is no back door: ids that begin so, and the reason that the
-/// report gives.
-struct NotThere {
-  std::string ids, reason;
-};
 const std::vector<NotThere> without_back_door{
     {"modbus_tcp/client/", "nothing makes the device ask: give --stimulus COMMAND"},
     {"modbus_tcp/bases/", "the profile declares nothing"},
@@ -76,32 +45,6 @@ const std::vector<NotThere> not_saved{
     {"modbus_tcp/exceptions/last_address/", "it is beyond the area"},
     {"modbus_tcp/limits/write_words_refused/c07d8", "it is beyond the area"},
 };
-
-/// All other cases have the verdict that they have in process, and each reason is given.
-void expect_same_verdicts(const Results& in_process, const Results& over_sockets,
-                          const std::vector<NotThere>& reasons) {
-  ASSERT_EQ(in_process.ids(), over_sockets.ids());
-  std::vector<int> used(reasons.size());
-  std::size_t judged = 0;
-  for (std::size_t i = 0; i < in_process.cases.size(); ++i) {
-    const nlohmann::json& one = over_sockets.cases[i];
-    const std::string id = one.at("id");
-    if (one.at("verdict") != "BLOCKED") {
-      EXPECT_EQ(one.at("verdict"), in_process.cases[i].at("verdict")) << id;
-      judged += one.at("verdict") == "PASS";
-      continue;
-    }
-    const std::string message = one.at("message");
-    const auto why = std::ranges::find_if(reasons, [&](const NotThere& reason) {
-      return id.starts_with(reason.ids) && message.find(reason.reason) != std::string::npos;
-    });
-    EXPECT_NE(why, reasons.end()) << id << ": " << message;
-    if (why != reasons.end()) ++used[static_cast<std::size_t>(why - reasons.begin())];
-  }
-  for (std::size_t i = 0; i < reasons.size(); ++i)
-    EXPECT_GT(used[i], 0) << reasons[i].ids << ": " << reasons[i].reason;
-  EXPECT_GT(judged, 250u);
-}
 
 /// Fields of each packet, by tshark without options; Wireshark's own findings are one of them.
 std::vector<std::vector<std::string>> decoded(const std::string& capture,
@@ -128,7 +71,7 @@ class ModbusTcp : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TestFolder>();
-    const Finished finished = run_on(*folder_, std::string("emulator:") + plc, "in_process");
+    const Finished finished = run_on(*folder_, std::string("emulator:") + plc, "in_process", all);
     EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
     in_process_ = read_results(*folder_ / "in_process/results.ndjson");
   }
@@ -141,11 +84,11 @@ class ModbusTcp : public testing::Test {
 TEST_F(ModbusTcp, in_another_process_as_in_process) {
   Emulated device;
   const Finished finished =
-      run_on(*folder_, device.endpoint(), "tcp", {"--capture", *folder_ / "tcp.pcapng"});
+      run_on(*folder_, device.endpoint(), "tcp", all, {"--capture", *folder_ / "tcp.pcapng"});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   std::vector<NotThere> reasons = without_back_door;
   reasons.insert(reasons.end(), not_saved.begin(), not_saved.end());
-  expect_same_verdicts(in_process_, read_results(*folder_ / "tcp/results.ndjson"), reasons);
+  expect_same_verdicts(in_process_, read_results(*folder_ / "tcp/results.ndjson"), reasons, 250);
 
   // The capture of that run: nothing is lost, doubled or out of order, and what is malformed has a
   // length that the case has made wrong.
@@ -164,17 +107,18 @@ TEST_F(ModbusTcp, started_by_the_bench_as_in_process) {
   const Finished finished = run_on(*folder_,
                                    "exec:exec " + quoted(FIELDPROOF_TOOL) + " emulate " +
                                        quoted(plc) + " --tcp {port}?protocol=modbus-tcp",
-                                   "exec");
+                                   "exec", all);
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   expect_same_verdicts(in_process_, read_results(*folder_ / "exec/results.ndjson"),
-                       without_back_door);
+                       without_back_door, 250);
 }
 
 TEST_F(ModbusTcp, a_printed_example_is_decoded_field_by_field) {
   Emulated device;
   const std::string capture = *folder_ / "example.pcapng";
-  const Finished finished = run_on(*folder_, device.endpoint(), "example", {"--capture", capture},
-                                   "modbus_tcp/examples/read_holding_registers");
+  const Finished finished =
+      run_on(*folder_, device.endpoint(), "example", "modbus_tcp/examples/read_holding_registers",
+             {"--capture", capture});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   // FEnet EN 5.3.5 (3)(d), table 5-23: three words from 006B, which hold 022B, 0000 and 0064.
   const auto rows =
@@ -190,7 +134,7 @@ TEST_F(ModbusTcp, a_printed_example_is_decoded_field_by_field) {
 TEST(ModbusTcpTrouble, a_refused_connection_speaks_of_port_and_host_table) {
   const TestFolder folder;
   const std::string where = "127.0.0.1:" + std::to_string(free_port());
-  const Finished finished = run_on(folder, "tcp:" + where + "?protocol=modbus-tcp", "out");
+  const Finished finished = run_on(folder, "tcp:" + where + "?protocol=modbus-tcp", "out", all);
   EXPECT_EQ(finished.code, 3);
   EXPECT_THAT(finished.err, AllOf(HasSubstr("tcp:" + where), HasSubstr("refused"),
                                   HasSubstr("port"), HasSubstr("table of hosts")));
@@ -201,7 +145,7 @@ TEST(ModbusTcpTrouble, a_silent_device_speaks_of_address_firewall_and_connection
   const TestFolder folder;
   const os::UniqueFd silent = os::test::bound(SOCK_STREAM);  // takes connections, and no more
   const std::string where = "127.0.0.1:" + std::to_string(os::test::port_of(silent));
-  const Finished finished = run_on(folder, "tcp:" + where + "?protocol=modbus-tcp", "out");
+  const Finished finished = run_on(folder, "tcp:" + where + "?protocol=modbus-tcp", "out", all);
   EXPECT_EQ(finished.code, 3);
   EXPECT_THAT(finished.err,
               AllOf(HasSubstr("nothing answers on tcp:" + where), HasSubstr("address"),
@@ -211,7 +155,7 @@ TEST(ModbusTcpTrouble, a_silent_device_speaks_of_address_firewall_and_connection
 
 TEST(ModbusTcpTrouble, a_host_that_is_not_there) {
   const TestFolder folder;
-  const Finished finished = run_on(folder, "tcp:plc.invalid?protocol=modbus-tcp", "out");
+  const Finished finished = run_on(folder, "tcp:plc.invalid?protocol=modbus-tcp", "out", all);
   EXPECT_EQ(finished.code, 3);
   EXPECT_THAT(finished.err,
               AllOf(HasSubstr("cannot find host 'plc.invalid'"), HasSubstr("write its address")));
@@ -228,8 +172,6 @@ TEST(ModbusTcpTrouble, what_it_is_not_carried_by) {
   expect({"emulate", plc, "--tcp", "127.0.0.1:65536"}, "'65536' is no port");
   expect({"run", "--endpoint", "serial:/dev/null?protocol=modbus-tcp", "--profile", "xbc-h"},
          "it runs on a network; write tcp:HOST");
-  expect({"probe", "tcp:127.0.0.1?protocol=modbus-tcp"},
-         "runs on a network, where nothing is to be searched");
 }
 
 TEST(ModbusTcpTrouble, a_port_in_use) {

@@ -76,6 +76,8 @@ const std::map<std::string, Special> specials{
      {.replaced = "192.168.1.10", .by = "127.0.0.1:$PORT"}},
     {"./run.sh emulate 'xbc-h?protocol=modbus-tcp' --tcp 1502 -v",
      {.replaced = "1502", .by = "0", .shows = "tcp 127.0.0.1:"}},
+    {"./run.sh emulate 'xbc-h?protocol=xgt-fenet' --tcp 2004 --udp 2005 -v",
+     {.replaced = "2004 --udp 2005", .by = "0 --udp 0", .shows = "tcp 127.0.0.1:"}},
     {"./run.sh emulate suites/user_frames/examples/balance.json --tcp 127.0.0.1:2000",
      {.replaced = ":2000", .by = ":0", .shows = "127.0.0.1:"}},
     {"fieldproof emulate xbc-h --tcp 127.0.0.1:2000",

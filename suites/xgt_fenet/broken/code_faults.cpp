@@ -32,7 +32,7 @@ std::vector<Fault> code_faults() {
       {"code_of_area", "an unknown area gives 0004", code(0x03, 0x04),
        "xgt_fenet/names/unknown_areas/xbc_h_a", ""},
       {"code_of_range", "past the end gives 0003", code(0x04, 0x03),
-       "xgt_fenet/errors/by_command/read_04", ""},
+       "xgt_fenet/errors/by_command/write_04", ""},
       {"code_of_size", "a wrong size gives 0011", code(0x05, 0x11),
        "xgt_fenet/write/size_of_another_type/word_1", ""},
       {"code_of_device", "a digit for an area gives 0011", code(0x10, 0x11),

@@ -114,7 +114,7 @@ std::vector<Fault> connection_faults() {
        "xgt_fenet/connections/vanished_place_is_free", ""},
       {"waits_a_second_more", "the reception waiting time is a second longer",
        set_up([](Settings& to) { to.dedicated.waiting_time += 1s; }),
-       "xgt_fenet/connections/waiting_time/s2", ""},
+       "xgt_fenet/connections/waiting_time_unused", ""},
       {"waits_a_second_less", "the reception waiting time is a second shorter",
        set_up([](Settings& to) { to.dedicated.waiting_time -= 1s; }),
        "xgt_fenet/connections/waiting_time/s2", ""},
@@ -128,9 +128,8 @@ std::vector<Fault> connection_faults() {
       {"tires_of_refusing", "after eight refused connections nothing is answered",
        [] { return broken::tires_of_refusing<Settings>(8); }, "xgt_fenet/connections/refused_often",
        "no answer"},
-      {"fin_ends_all", "a FIN ends the others",
-       broken::ends_all_with<Settings>(LinkEvent::closed), "xgt_fenet/connections/one_place/fin",
-       ""},
+      {"fin_ends_all", "a FIN ends the others", broken::ends_all_with<Settings>(LinkEvent::closed),
+       "xgt_fenet/connections/one_place/fin", ""},
   };
 }
 

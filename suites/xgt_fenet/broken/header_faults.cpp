@@ -103,7 +103,7 @@ std::vector<Fault> header_faults() {
       {"invoke_zero", "replies have invoke id 0", word_is(invoke_at, zero),
        "xgt_fenet/header/invoke/i1234", "invoke id"},
       {"invoke_swapped", "the bytes of the invoke id change places", word_is(invoke_at, swapped),
-       "xgt_fenet/header/invoke/i0001", "invoke id"},
+       "xgt_fenet/header/invoke/i1234", "invoke id"},
       {"invoke_of_one_byte", "the high byte of the invoke id is lost",
        word_is(invoke_at, [](unsigned id) { return id & 0xFFu; }), "xgt_fenet/header/invoke/i0100",
        "invoke id"},

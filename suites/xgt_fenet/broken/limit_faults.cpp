@@ -81,10 +81,10 @@ std::vector<Fault> limit_faults() {
        "xgt_fenet/read/no_blocks", ""},
       {"run_of_511", "512 bytes are one too many for a read",
        refuses([](const Bytes& r) { return run_of(r) == 512; }, 0x05),
-       "xgt_fenet/continuous/read_counts/n512", ""},
+       "xgt_fenet/continuous/read_long/n512", ""},
       {"run_of_256", "more than 256 bytes are refused, as table 5-4 has it",
        refuses([](const Bytes& r) { return run_of(r) > 256; }, 0x05),
-       "xgt_fenet/continuous/read_counts/n257", ""},
+       "xgt_fenet/continuous/read_long/n257", ""},
       {"run_of_513", "of 513 bytes 512 are read", takes([](Bytes& request) {
          if (run_of(request) == 513) put_word(request, request.size() - 2, 512);
        }),
@@ -93,7 +93,7 @@ std::vector<Fault> limit_faults() {
          if (const unsigned run = run_of(request); run > 0xFF)
            put_word(request, request.size() - 2, run & 0xFF);
        }),
-       "xgt_fenet/continuous/read_counts/n257", ""},
+       "xgt_fenet/continuous/read_long/n257", ""},
       {"run_swapped", "a continuous count is read high byte first", takes([](Bytes& request) {
          if (const unsigned run = run_of(request); run != 0)
            put_word(request, request.size() - 2, (run & 0xFF) << 8 | run >> 8);
@@ -116,7 +116,7 @@ std::vector<Fault> limit_faults() {
       {"written_511", "512 bytes are one too many for a write",
        refuses([](const Bytes& r) { return is_write(r) && is_continuous(r) && r.size() > 512; },
                0x05),
-       "xgt_fenet/continuous/write_counts/n512", ""},
+       "xgt_fenet/continuous/write_long/n512", ""},
       {"two_runs_taken", "of two continuous blocks the first is read", takes([](Bytes& request) {
          if (is_continuous(request) && is_read(request) && word_at(request, count_at) == 2)
            put_word(request, count_at, 1),

@@ -1,0 +1,172 @@
+// The built tool and XGT FEnet: the same device in process and in another process behind sockets,
+// the search for servers, and the client of the README.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "src/base/bytes.hpp"
+#include "suites/tool/network_runs.hpp"
+
+namespace fieldproof::tool_tests {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* plc = "xbc-h?protocol=xgt-fenet";
+
+/// With a port for datagrams.
+class Fenet {
+ public:
+  explicit Fenet(std::vector<std::string> more = {}) : udp_(free_port(SOCK_DGRAM)) {
+    more.insert(more.end(), {"--udp", std::to_string(udp_)});
+    server_.emplace("xgt-fenet", more);
+  }
+  std::string endpoint() const { return server_->endpoint() + "&udp=" + std::to_string(udp_); }
+  std::uint16_t port() const { return server_->port(); }
+  Process& process() { return server_->process(); }
+
+ private:
+  std::uint16_t udp_;
+  std::optional<EmulatedServer> server_;
+};
+
+/// What sockets can change; the rest asks the same often, which takes most of the time.
+constexpr const char* most =
+    "xgt_fenet/examples/*:xgt_fenet/header/*:xgt_fenet/read/*:xgt_fenet/connections/*:"
+    "xgt_fenet/segments/*:xgt_fenet/udp/*:xgt_fenet/driver/*:xgt_fenet/status/*:"
+    "xgt_fenet/host_table/*:xgt_fenet/cnet_and_fenet/*:xgt_fenet/length/d*:"
+    "-*/ten_in_a_row/*:-*_counts/*:-*/split/*:-*/company_id_wrong/*:-*_in_mid_frame/*:-*/idle:-*/"
+    "split_write/*";
+
+const std::vector<NotThere> without_back_door{
+    {"xgt_fenet/cnet_and_fenet/", "needs services = "},
+    {"xgt_fenet/connections/dedicated_", "needs connections = "},
+    {"xgt_fenet/connections/power_cycle", "cannot do power_cycle"},
+    {"xgt_fenet/connections/vanished_place_is_free", "needs waiting_time = 2"},
+    {"xgt_fenet/connections/waiting_time", "needs waiting_time = "},
+    {"xgt_fenet/header/check_", "the profile declares nothing"},
+    {"xgt_fenet/header/plc_info_error/", "needs error = true"},
+    {"xgt_fenet/header/plc_info_follows_the_mode", "cannot do stop"},
+    {"xgt_fenet/header/plc_info_stop/", "needs mode = stop"},
+    {"xgt_fenet/header/position_of_re", "needs base = "},
+    {"xgt_fenet/host_table/", "needs host_table = "},
+    {"xgt_fenet/read/in_stop", "needs mode = stop"},
+    {"xgt_fenet/read/mixed_areas_xbc_h", "is read only over the protocol"},
+    {"xgt_fenet/status/", "looks at the status counters"},
+    {"xgt_fenet/status/slot", "needs slot = "},
+};
+
+TEST(XgtFenet, in_another_process_as_in_process) {
+  const TestFolder folder;
+  const Finished in_process = run_on(folder, std::string("emulator:") + plc, "in_process", most);
+  EXPECT_EQ(in_process.code, 0) << in_process.out << in_process.err;
+  Fenet device;
+  const Finished over_sockets = run_on(folder, device.endpoint(), "tcp", most);
+  EXPECT_EQ(over_sockets.code, 0) << over_sockets.out << over_sockets.err;
+  expect_same_verdicts(read_results(folder / "in_process/results.ndjson"),
+                       read_results(folder / "tcp/results.ndjson"), without_back_door, 150);
+}
+
+TEST(XgtFenetProbe, finds_the_server_and_its_limits) {
+  Fenet device;
+  const Finished finished = run_tool({"probe", device.endpoint(), "--fingerprint"});
+  EXPECT_EQ(finished.code, 0) << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("xgt-fenet over TCP"), HasSubstr("xgt-fenet over UDP"),
+                                  HasSubstr("bytes of a continuous read: 512, as printed"),
+                                  HasSubstr("blocks of a read: 16, as printed"),
+                                  HasSubstr("fieldproof run --endpoint")));
+  EXPECT_THAT(finished.out, HasSubstr("\"areas\""));
+}
+
+TEST(XgtFenetProbe, says_what_is_in_the_way) {
+  const auto probe = [](const std::string& endpoint) {
+    const Finished finished = run_tool({"probe", endpoint, "--wait", "200"});
+    EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
+    return finished.out;
+  };
+  const std::string nobody = "tcp:127.0.0.1:" + std::to_string(free_port());
+  EXPECT_THAT(probe(nobody + "?protocol=xgt-fenet"),
+              AllOf(HasSubstr("refused"), HasSubstr("nothing listens there"),
+                    HasSubstr("one server driver")));
+  const os::UniqueFd silent = os::test::bound(SOCK_STREAM);
+  EXPECT_THAT(
+      probe("tcp:127.0.0.1:" + std::to_string(os::test::port_of(silent)) + "?protocol=xgt-fenet"),
+      AllOf(HasSubstr("silence"), HasSubstr("nothing is answered")));
+  EmulatedServer modbus("modbus-tcp");
+  EXPECT_THAT(probe("tcp:127.0.0.1:" + std::to_string(modbus.port()) + "?protocol=xgt-fenet"),
+              AllOf(HasSubstr("a server of modbus-tcp answers there"),
+                    HasSubstr("add protocol=modbus-tcp"), Not(HasSubstr("go on with"))));
+}
+
+TEST(XgtFenetProbe, a_place_taken_and_a_host_table_end_the_connection) {
+  const std::uint16_t port = free_port();
+  Process device(tool_arguments(
+      {"emulate", "xbc-h?protocol=xgt-fenet&connections=1", "--tcp", std::to_string(port)}));
+  ASSERT_TRUE(device.wait_for("tcp 127.0.0.1:"));
+  const os::UniqueFd first = os::test::connected(SOCK_STREAM, port);
+  const Finished finished =
+      run_tool({"probe", "tcp:127.0.0.1:" + std::to_string(port) + "?protocol=xgt-fenet"});
+  EXPECT_EQ(finished.code, 1) << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("ended at once"), HasSubstr("all channels"),
+                                  HasSubstr("host table")));
+}
+
+TEST(XgtFenetEmulated, prints_each_frame_and_says_which_port_is_wrong) {
+  Fenet device({"-v"});
+  const Finished run = run_tool({"run", "--endpoint", device.endpoint(), "--profile", "xbc-h",
+                                 "--filter", "xgt_fenet/examples/read_word", "--allow-write",
+                                 "all,P,Q,U", "--out", TestFolder() / "out"});
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  EXPECT_TRUE(device.process().wait_for("4C 53 49 53 2D 58 47 54 00 00 00 00 A0 33 00 00 0E 00"));
+  device.process().signal(SIGINT);
+  EXPECT_EQ(device.process().wait().code, 0);
+}
+
+TEST(XgtFenetEmulated, a_port_for_root_names_another) {
+  std::ifstream limit("/proc/sys/net/ipv4/ip_unprivileged_port_start");
+  if (int first = 0; !(limit >> first) || first <= 502)
+    GTEST_SKIP() << "here every port is for everybody";
+  std::vector<std::string> command =
+      tool_arguments({"emulate", "xbc-h?protocol=modbus-tcp", "--tcp", "127.0.0.1:502"});
+  if (::geteuid() == 0)
+    command.insert(command.begin(), {"setpriv", "--bounding-set=-net_bind_service",
+                                     "--inh-caps=-net_bind_service", "--"});
+  const Finished finished = run_program(command);
+  EXPECT_EQ(finished.code, 3) << finished.out;
+  EXPECT_THAT(finished.err,
+              HasSubstr("ports below 1024 are for root; choose one from 1024 up, such "
+                        "as 127.0.0.1:10502, or run it as root"));
+}
+
+/// The Python of README.md, as it stands there but for the port.
+std::string client_of_the_readme(std::uint16_t port) {
+  const std::string text = read_text(FIELDPROOF_SOURCE_DIR "/README.md");
+  constexpr std::string_view begin = "```python\nimport socket, struct\n";
+  const std::size_t at = text.find(begin);
+  EXPECT_NE(at, text.npos);
+  const std::size_t code = text.find('\n', at) + 1;
+  std::string client = text.substr(code, text.find("```", code) - code);
+  EXPECT_EQ(std::ranges::count(client, '\n'), 4);
+  const std::size_t number = client.find("2004");
+  EXPECT_NE(number, client.npos);
+  return client.replace(number, 4, std::to_string(port));
+}
+
+TEST(XgtFenetReadme, a_client_of_four_lines_reads_a_word) {
+  Fenet device;
+  const os::UniqueFd writer = os::test::connected(SOCK_STREAM, device.port());
+  const std::string write =
+      to_text(*from_hex("4C 53 49 53 2D 58 47 54 00 00 00 00 A0 33 01 00 14 00 00 00 58 00 02 00 "
+                        "00 00 01 00 06 00 25 "
+                        "4D 57 31 30 30 02 00 34 12"));
+  os::test::say(writer, write);
+  EXPECT_EQ(os::test::hear(writer).size(), 30u);
+  const Finished client = run_program({"python3", "-c", client_of_the_readme(device.port())});
+  EXPECT_EQ(client.out, "4660\n") << client.err;
+}
+
+}  // namespace
+}  // namespace fieldproof::tool_tests
