@@ -14,10 +14,16 @@ namespace fieldproof::suites {
 
 harness::Protocols protocols() {
   // One line each; the first is the default.
-  static const std::array table{
-      &xgt_cnet_suite::protocol(), &modbus_suite::rtu(),         &modbus_suite::ascii(),
-      &modbus_suite::tcp(),        &ls_bus_suite::protocol(),    &user_frames_suite::protocol(),
-      &udata_suite::protocol(),    &xgt_fenet_suite::protocol(), &hs_link_suite::protocol()};
+  static const std::array table{&xgt_cnet_suite::protocol(),
+                                &modbus_suite::rtu(),
+                                &modbus_suite::ascii(),
+                                &modbus_suite::tcp(),
+                                &ls_bus_suite::protocol(),
+                                &user_frames_suite::protocol(),
+                                &udata_suite::protocol(),
+                                &xgt_fenet_suite::protocol(),
+                                &hs_link_suite::protocol(),
+                                &user_frames_suite::protocol(user_frames_suite::Way::network)};
   return std::span<const harness::Protocol* const>(table);
 }
 

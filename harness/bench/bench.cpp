@@ -105,7 +105,7 @@ Status Bench::end_asking(const PreparedCase& prepared, bool waits) {
   const Result<bool> stopped = arming_.end();
   if (!stopped) return stopped.error();
   if (!*stopped || !(waits || prepared.runs_by_clock())) return ok();
-  return exchange_.settle(std::max(prepared.client_time_out(), arming_.time_out()) + 100ms);
+  return exchange_.settle(std::max(prepared.client_settles(), arming_.time_out()) + 100ms);
 }
 
 /// The first case that can run shows whether the device asks at all. True as well where none can:

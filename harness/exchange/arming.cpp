@@ -211,7 +211,9 @@ Status Arming::ask_for(std::vector<json> blocks) {
 
 Status Arming::tell_of_case() {
   if (declared_.answered)
-    if (const Status told = tell({{"begin", set_up_of(*case_)}}); !told) return told;
+    if (const Status told = tell({{"begin", set_up_of(*case_, protocol_.default_port() == 0)}});
+        !told)
+      return told;
   std::vector<json> clocks;
   std::ranges::copy_if(blocks_, std::back_inserter(clocks), runs_by_clock);
   return ask_for(std::move(clocks));

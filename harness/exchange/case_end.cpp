@@ -140,7 +140,7 @@ Result<bool> CaseRun::is_asked(Duration patience) {
   const bool came = asked();
   if (came && !prepared_.runs_by_clock()) {
     const Status settled =
-        settle(*around_.device.endpoint, prepared_.client_time_out() + around_.timing.quiet);
+        settle(*around_.device.endpoint, prepared_.client_settles() + around_.timing.quiet);
     if (!settled) return settled.error();
   }
   close_links();

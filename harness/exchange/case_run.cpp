@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "harness/exchange/p2p_blocks.hpp"
+
 namespace fieldproof::exchange {
 
 using vectors::Step;
@@ -27,7 +29,8 @@ void CaseRun::begin() {
   if (!transport) {
     links_.add_line({}, own);
   } else if (client_) {
-    links_.await_device(own);
+    const bool datagrams = asks_by_datagrams(prepared_.source->config);
+    links_.await_device(own, datagrams ? Transport::udp : Transport::tcp);
   } else if (prepared_.implicit_link) {
     links_.open({}, own, *transport, own.protocol->port_for(*transport));
   }
@@ -38,7 +41,9 @@ void CaseRun::execute() {
   for (const PreparedStep& one : prepared_.steps) {
     for (int i = 0; i < one.step->times && !stopped(); ++i) {
       step(one);
-      if (!record().refused.empty()) return;
+      // What follows is said on a connection that is not there.
+      const bool missing = one.step->kind == Step::Kind::expect_open && !links_.find(one.link);
+      if (missing || !record().refused.empty()) return;
     }
   }
 }

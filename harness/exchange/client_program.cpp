@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/exchange/prepared_case.hpp"
@@ -17,9 +18,10 @@ using nlohmann::json;
 using vectors::Step;
 
 /// In the order of the README.
-constexpr std::array<std::string_view, 14> abilities{
-    "clock",    "memory", "busy",   "mode",           "link",        "power_cycle", "channel",
-    "time_out", "delay",  "frames", "character_time", "write_order", "line",        "names"};
+constexpr std::array<std::string_view, 15> abilities{
+    "clock",          "memory",      "busy",     "mode",  "link",
+    "power_cycle",    "channel",     "time_out", "delay", "frames",
+    "character_time", "write_order", "line",     "names", "transport"};
 
 struct Told {
   std::string_view key, as;
@@ -43,10 +45,12 @@ bool unanswered_by(const vectors::PartnerSpec& partner) {
   return partner.fault == "never" || partner.fault == "late";
 }
 
-/// A request is left without an answer, and the case goes on: how long the client waits shows.
+/// A request is left without an answer, and the case goes on with another on its link: how long the
+/// client waits shows.
 bool waits_out(const vectors::Case& source) {
-  bool open = false;
+  std::map<std::string, bool> of_links;
   for (const Step& step : source.steps) {
+    bool& open = of_links[step.on];
     if (step.kind == Step::Kind::send) open = false;
     if (step.kind == Step::Kind::partner) open = unanswered_by(*step.partner);
     if (step.kind != Step::Kind::expect) continue;
@@ -158,6 +162,7 @@ std::set<std::string> needs_of(const vectors::Case& source, bool on_a_line,
     if (function == "send" || function == "receive") needs.insert("frames");
     if (on_a_line && block["channel"] != number_of(p2p, "channel", 1)) needs.insert("channel");
   }
+  if (asks_by_datagrams(source.config)) needs.insert("transport");
   if (!p2p.value("link", true)) needs.insert("link");
   if (source.config.value("mode", "run") != "run") needs.insert("mode");
   for (const Step& step : source.steps) {
@@ -177,14 +182,19 @@ std::string_view told_as(std::string_view config_key) {
   return found == told.end() ? std::string_view() : found->as;
 }
 
-json set_up_of(const vectors::Case& source) {
+Duration client_time_out(const json& config, bool on_a_line) {
+  if (!on_a_line) return 5s;
+  return (number_of(config, "time_out", 1) + 1) * 100ms;
+}
+
+json set_up_of(const vectors::Case& source, bool on_a_line) {
   const json& config = source.config;
   const json p2p = config.value("p2p", json::object());
   json begin{{"mode", config.value("mode", "run")},
              {"link", p2p.value("link", true)},
              {"channel", number_of(p2p, "channel", 1)},
              {"station", number_of(config, "station", 0)},
-             {"time_out_ms", (number_of(config, "time_out", 1) + 1) * 100},
+             {"time_out_ms", client_time_out(config, on_a_line) / 1ms},
              {"delay_ms", number_of(config, "delay_ms", 0)},
              {"inter_character_ms", number_of(config, "inter_character_ms", 0)},
              {"rs485", config.value("rs485", false)},

@@ -49,7 +49,11 @@ std::set<std::string> needs_of(const vectors::Case& source, bool on_a_line,
 /// The name in "follows" under which a key of given.config is told; empty: it is not told.
 std::string_view told_as(std::string_view config_key);
 
+/// What a client waits for an answer: (time_out + 1) x 100 ms (Cnet EN and KO 4.3.1), on a network
+/// 5 s (DECISIONS.md fenet/p2p-time-out).
+Duration client_time_out(const nlohmann::json& config, bool on_a_line);
+
 /// What the case sets up in the device, with every default written out: the value of "begin".
-nlohmann::json set_up_of(const vectors::Case& source);
+nlohmann::json set_up_of(const vectors::Case& source, bool on_a_line);
 
 }  // namespace fieldproof::exchange

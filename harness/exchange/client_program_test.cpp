@@ -120,9 +120,22 @@ TEST(ClientProgram, WhatIsSetUpHasEveryDefault) {
   source.config =
       json::parse(R"({"role": "client", "time_out": "20", "p2p": {"channel": 2, "blocks": []}})");
   source.memory = {{"%MW1", "5ABC"}};
-  EXPECT_EQ(set_up_of(source),
+  EXPECT_EQ(set_up_of(source, true),
             json::parse(R"({"mode": "run", "link": true, "channel": 2, "station": 0,
     "time_out_ms": 2100, "delay_ms": 0, "inter_character_ms": 0, "rs485": false, "blocks": [], "memory": {"%MW1": "5ABC"}})"));
+  EXPECT_EQ(set_up_of(source, false).at("time_out_ms"), 5000);
+}
+
+TEST(ClientProgram, DatagramsAreSaidOfEachBlockAndMustBeFollowed) {
+  constexpr const char* block = R"("blocks": [{"flag": "%MX0", "read": "%MW1", "save": "%MW2"}])";
+  const auto parameters = [&](const char* transport) {
+    return std::string("{\"transport\": \"") + transport + "\", " + block + "}";
+  };
+  EXPECT_THAT(needs(parameters("udp").c_str(), {}), ElementsAre("transport"));
+  EXPECT_THAT(needs(parameters("tcp").c_str(), {}), IsEmpty());
+  vectors::Case source;
+  source.config = {{"p2p", json::parse(parameters("udp"))}};
+  EXPECT_EQ(set_up_of(source, false).at("blocks").at(0).at("transport"), "udp");
 }
 
 }  // namespace

@@ -39,8 +39,9 @@ Link& Links::add_line(std::string name, const Channel& to, LinkId id) {
   return link;
 }
 
-Link& Links::await_device(const Channel& to) {
+Link& Links::await_device(const Channel& to, Transport transport) {
   Link& link = add_line({}, to);
+  link.transport = transport;
   link.id = not_there;
   link.network = link.by_device = true;
   link.sends = false;
@@ -95,7 +96,7 @@ void Links::name(Link& link, const std::string& name, int step) {
   }
   if (link.ending) (*link.ending)->link = name;
   for (const Pending::EventAt event : link.pending.events()) event->link = name;
-  if (!find("")) await_device(link.to).cause = link.cause;
+  if (!find("")) await_device(link.to, link.transport).cause = link.cause;
 }
 
 Pending::EventAt Links::record(const Link& link, Event event) {
@@ -145,12 +146,15 @@ bool Links::listen(endpoints::Endpoint& endpoint, Time deadline) {
 Link* Links::accept(const endpoints::Endpoint& from, const Burst& burst) {
   Link* before = find("");
   if (!before || !before->by_device || before->to.endpoint != &from) return nullptr;
+  const bool datagram = burst.event == LinkEvent::datagram;
+  if (datagram != before->datagrams()) return nullptr;
   const Time cause = before->cause;
-  Link& link = before->id == not_there ? *before : await_device(before->to);
+  Link& link = before->id == not_there ? *before : await_device(before->to, before->transport);
   link.id = burst.link;
   link.port = burst.port;
   link.sends = true;
   link.cause = cause;
+  if (datagram) return &link;                         // nothing is opened there
   const bool now = burst.event == LinkEvent::opened;  // else it stands since an earlier case
   link.opened = record(link, {Event::Kind::opened,
                               burst.start,

@@ -49,8 +49,9 @@ class Links {
 
   /// A line: it is there.
   Link& add_line(std::string name, const Channel& to, LinkId id = line_link);
-  /// The connection that the device will open; until then nothing can be sent on it.
-  Link& await_device(const Channel& to);
+  /// The connection that the device will open, or the first datagram that it will send; until then
+  /// nothing can be sent on it. What it opens otherwise is not heard.
+  Link& await_device(const Channel& to, Transport transport);
   /// nullptr: trouble of the port.
   Link* open(std::string name, const Channel& to, Transport transport, std::uint16_t port);
   /// The link of that name that was opened last; nullptr: none.

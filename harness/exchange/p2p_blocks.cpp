@@ -50,6 +50,7 @@ std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
     const std::string function = given.is_object() ? given.value("function", "read") : "";
     if (function == "read" || function == "write")
       block.update({{"command", "single"}, {"type", "word"}, {"size", 1}});
+    if (p2p.value("transport", "tcp") != "tcp") block["transport"] = p2p["transport"];
     block.update(given);
     for (const char* key : {"parameter", "block", "channel", "size", "station"})
       if (block.contains(key)) block[key] = plain_value(block[key]);
@@ -59,6 +60,11 @@ std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
     result.push_back(std::move(block));
   }
   return result;
+}
+
+bool asks_by_datagrams(const json& config) {
+  const auto p2p = config.find("p2p");
+  return p2p != config.end() && p2p->is_object() && p2p->value("transport", "tcp") == "udp";
 }
 
 std::vector<json> p2p_blocks(const json& config) {
@@ -84,6 +90,7 @@ std::string in_words(const json& block, std::string_view protocol) {
   std::string text =
       fmt::format("P2P {} block {}: {} client, channel {}, {}", text_of(block, "parameter"),
                   text_of(block, "block"), protocol, text_of(block, "channel"), function);
+  if (block.contains("transport")) text += ", " + text_of(block, "transport");
   if (block.contains("frame")) text += " " + text_of(block, "frame");
   if (block.contains("command")) {
     text += fmt::format(", {}", text_of(block, "command"));

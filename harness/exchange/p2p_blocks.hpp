@@ -12,6 +12,9 @@ namespace fieldproof::exchange {
 /// where there are none.
 std::vector<nlohmann::json> p2p_blocks(const nlohmann::json& config);
 
+/// Does `given.config.p2p` ask over UDP?
+bool asks_by_datagrams(const nlohmann::json& config);
+
 /// The blocks of a list as it stands in `p2p.blocks` and in a profile's `prepared_blocks`.
 std::vector<nlohmann::json> complete_blocks(const nlohmann::json& blocks,
                                             const nlohmann::json& p2p = nlohmann::json::object());

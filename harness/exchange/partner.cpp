@@ -33,9 +33,12 @@ class Editor {
     const auto found = std::ranges::find(fields_, name, &Field::name);
     return found == fields_.end() ? nullptr : &*found;
   }
+  /// That of the content: no length.
   const Field* check() const {
-    const auto found = std::ranges::find_if(
-        fields_, [&](const Field& field) { return find_check(checks_, field.name) != nullptr; });
+    const auto found = std::ranges::find_if(fields_, [&](const Field& field) {
+      const notation::Check* check = find_check(checks_, field.name);
+      return check && !check->counts;
+    });
     return found == fields_.end() ? nullptr : &*found;
   }
   /// The last field that carries something: no frame part and no station.
@@ -67,10 +70,13 @@ class Editor {
                   : ByteView(bytes_).first(check.offset);
   }
 
+  /// Lengths and checks follow, in the order of the frame.
   Bytes finish() {
-    if (const Field* found = check()) {
-      const Bytes right = find_check(checks_, found->name)->over(covered(*found));
-      std::ranges::copy(right, bytes_.begin() + static_cast<std::ptrdiff_t>(found->offset));
+    for (const Field& field : fields_) {
+      const notation::Check* check = find_check(checks_, field.name);
+      if (!check) continue;
+      const Bytes right = check->over(covered(field));
+      std::ranges::copy(right, bytes_.begin() + static_cast<std::ptrdiff_t>(field.offset));
     }
     return std::move(bytes_);
   }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "harness/exchange/client_program.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/exchange/stimulus_hash.hpp"
 #include "harness/vectors/link_names.hpp"
@@ -31,7 +32,13 @@ bool PreparedCase::answers_probes() const {
 }
 
 Duration PreparedCase::client_time_out() const {
-  return Duration((number_of(source->config, "time_out", 1) + 1) * 100ms);
+  const bool network =
+      std::ranges::any_of(steps, [](const PreparedStep& step) { return step.network; });
+  return exchange::client_time_out(source->config, !network);
+}
+
+Duration PreparedCase::client_settles() const {
+  return exchange::client_time_out(source->config, true);
 }
 
 Duration PreparedCase::reply_delay() const {

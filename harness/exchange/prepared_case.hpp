@@ -41,9 +41,11 @@ struct PreparedCase {
   bool runs_by_clock() const;
   /// A device that asks, or one whose line settings differ from the bench's, answers no probe.
   bool answers_probes() const;
-  /// What the client under test waits for an answer: (time_out + 1) x 100 ms (Cnet EN and
-  /// KO 4.3.1).
+  /// What the client under test waits for an answer (client_program.hpp).
   Duration client_time_out() const;
+  /// How long what it has asked last may disturb the next case: on a line until its time-out; on a
+  /// network a late answer belongs to a connection and has a number, so no longer than on a line.
+  Duration client_settles() const;
   /// The configured delay of every reply (delay_ms).
   Duration reply_delay() const;
   bool expects_requests() const;  // in the partner's chair: an expect or partner step

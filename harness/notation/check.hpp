@@ -10,10 +10,11 @@
 namespace fieldproof::notation {
 
 struct Check {
-  std::string_view name;  // as vectors write it: "CRC"
-  std::size_t size = 2;   // bytes in the frame
-  bool behind = false;    // covers what follows it in its bracket (a length), else what precedes it
-  bool counts = false;    // tells how many bytes it covers, whatever they are
+  std::string_view name;     // as vectors write it: "CRC"
+  std::string_view field{};  // as `Protocol::explain` calls it, where that is another name
+  std::size_t size = 2;      // bytes in the frame
+  bool behind = false;  // covers what follows it in its bracket (a length), else what precedes it
+  bool counts = false;  // tells how many bytes it covers, whatever they are
   /// The bytes over what it covers; `off` is added to the value: 1 makes it deliberately wrong.
   Bytes (*compute)(ByteView covered, unsigned off) = nullptr;
   /// Does a frame that begins so have none? (Literal bytes; others are 0.) nullptr: each has one.
@@ -24,10 +25,10 @@ struct Check {
 };
 using Checks = std::span<const Check>;
 
-/// nullptr when there is none of that name.
+/// By its name, or its field; nullptr when there is none.
 inline const Check* find_check(Checks checks, std::string_view name) {
   for (const Check& check : checks)
-    if (check.name == name) return &check;
+    if (check.name == name || (!name.empty() && check.field == name)) return &check;
   return nullptr;
 }
 

@@ -13,8 +13,10 @@ void Transactions::begin(Step::Kind kind, std::string_view link) {
 Result<std::string> Transactions::next() {
   ++taken_;
   most_taken_ = std::max(most_taken_, taken_);
-  if (client_)
-    return std::string(kind_ == Step::Kind::expect ? "{transaction:2}" : "{transaction}");
+  if (client_) {
+    const std::string name = link_.empty() ? "transaction" : "transaction_" + link_;
+    return '{' + name + (kind_ == Step::Kind::expect ? ":2}" : "}");
+  }
   int number = sent_ + static_cast<int>(taken_);
   if (kind_ == Step::Kind::expect) {
     const std::deque<int>& open = open_[link_];

@@ -13,7 +13,8 @@ namespace fieldproof::vectors {
 
 /// Requests of the bench count from 1, over all links of a case; a reply has the number of the
 /// request that it answers, the oldest that is open on its link (as the steps name it). A silence
-/// leaves none open. Where the device asks, its own number is captured, and the answer carries it.
+/// leaves none open. Where the device asks, its own number is captured, and the answer
+/// on that link carries it.
 ///
 /// begin() for each step in order, next() for each frame of it that asks for a number, end().
 class Transactions {

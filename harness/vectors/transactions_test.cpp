@@ -87,6 +87,8 @@ TEST(Transactions, ADeviceThatAsksNumbersItself) {
   Transactions transactions(true);
   EXPECT_EQ(one(transactions, Kind::expect), "{transaction:2}");
   EXPECT_EQ(one(transactions, Kind::send), "{transaction}");
+  EXPECT_EQ(one(transactions, Kind::expect, "a"), "{transaction_a:2}");
+  EXPECT_EQ(one(transactions, Kind::send, "a"), "{transaction_a}");
 }
 
 }  // namespace

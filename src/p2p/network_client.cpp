@@ -13,6 +13,10 @@ NetworkClient::NetworkClient(std::unique_ptr<P2pClient> client, NetworkPartner p
 
 void NetworkClient::receive(const Burst& burst) {
   now_ = std::max(now_, burst.start);
+  if (by_datagrams()) {
+    if (burst.link == link_ && burst.event == LinkEvent::datagram) client_->receive(burst);
+    return;
+  }
   if (burst.link != link_) return receive_of_old(burst);
   if (burst.event == LinkEvent::data) return client_->receive(burst);
   if (burst.event == LinkEvent::closed) event(link_, LinkEvent::closed);
@@ -41,6 +45,7 @@ std::vector<Burst> NetworkClient::advance(Time now) {
 }
 
 void NetworkClient::send(Bytes request) {
+  if (by_datagrams()) return send_datagram(std::move(request));
   if (link_ == none) {
     end_old();
     client_->connection_opened();
@@ -55,8 +60,18 @@ void NetworkClient::send(Bytes request) {
   doings_.push_back({.bytes = std::move(request), .start = now_, .link = link_});
 }
 
+void NetworkClient::send_datagram(Bytes request) {
+  if (link_ == none) link_ = links_.next();
+  doings_.push_back({.bytes = std::move(request),
+                     .start = now_,
+                     .link = link_,
+                     .event = LinkEvent::datagram,
+                     .port = partner_.port,
+                     .peer = partner_.address});
+}
+
 void NetworkClient::close() {
-  if (link_ == none) return;
+  if (link_ == none || by_datagrams()) return;
   event(link_, LinkEvent::closed);
   half_closed_ = std::exchange(link_, none);
 }
@@ -72,7 +87,8 @@ void NetworkClient::event(LinkId link, LinkEvent what) {
 
 void NetworkClient::power_cycle() {
   client_->power_cycle();
-  if (link_ != none) forgotten_.push_back(std::exchange(link_, none));
+  if (link_ != none && !by_datagrams()) forgotten_.push_back(link_);
+  link_ = none;
   doings_.clear();
 }
 

@@ -8,6 +8,9 @@
 // request. Where the stream cannot be followed any more the connection ends, too. What is left of
 // an old connection, closed by the client alone or forgotten when the power went, ends by RST
 // before the next one is opened.
+//
+// Over UDP requests are datagrams of one port of its own, which is another one when the power went;
+// there is nothing to open or to lose, and whether anybody listens is not heard.
 #pragma once
 
 #include <memory>
@@ -20,10 +23,11 @@
 
 namespace fieldproof::p2p {
 
-/// Whom the channel connects to; an empty address is left to whoever carries the connection.
+/// Whom the channel asks; an empty address is left to whoever carries the connection.
 struct NetworkPartner {
   std::string address{};
   std::uint16_t port = 0;
+  Transport transport = Transport::tcp;
 };
 
 class NetworkClient : public plc::NetworkService {
@@ -47,7 +51,9 @@ class NetworkClient : public plc::NetworkService {
  private:
   static constexpr LinkId none = 0;
 
+  bool by_datagrams() const { return partner_.transport == Transport::udp; }
   void send(Bytes request);
+  void send_datagram(Bytes request);
   void close();
   void receive_of_old(const Burst& burst);
   void end_old();

@@ -14,14 +14,15 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr std::uint16_t port = 502;
+constexpr std::uint16_t port = 502, udp_port = 2005;
 
-Result<std::unique_ptr<plc::Plc>> make_plc(const json& p2p) {
-  const json config{{"role", "client"}, {"p2p", p2p}};
+Result<std::unique_ptr<plc::Plc>> make_plc(const json& p2p, const json& more = json::object()) {
+  json config{{"role", "client"}, {"p2p", p2p}};
+  config.update(more);
   Result<std::unique_ptr<plc::Plc>> plc = plc::make_plc("xbc-h", config);
   if (!plc) return plc;
-  const Status added =
-      add_network_clients(**plc, config, port, [] { return std::make_unique<test::TestDriver>(); });
+  const Status added = add_network_clients(**plc, config, {.tcp = port, .udp = udp_port},
+                                           [] { return std::make_unique<test::TestDriver>(); });
   if (!added) return added.error();
   return plc;
 }
@@ -30,11 +31,12 @@ Result<std::unique_ptr<plc::Plc>> make_plc(const json& p2p) {
 /// The driver's requests are "ask N", its replies "ok", or "error NN".
 class Client : public testing::Test {
  protected:
-  Client() {
-    const json p2p = json::parse(R"({"partner": "10.0.0.9", "blocks": [
+  explicit Client(const json& more = json::object()) {
+    json p2p = json::parse(R"({"partner": "10.0.0.9", "blocks": [
       {"flag": "%MX0", "read": "%MW0", "save": "%DW0"},
       {"flag": "%MX1", "read": "%MW0", "save": "%DW1"},
       {"flag": "%MX2", "channel": 2, "read": "%MW0", "save": "%DW2"}]})");
+    p2p.update(more);
     Result<std::unique_ptr<plc::Plc>> made = make_plc(p2p);
     if (!made) throw std::runtime_error(made.error().message);
     plc = std::move(*made);
@@ -212,6 +214,77 @@ TEST(NetworkClients, HaveThreeChannels) {
   EXPECT_THAT(error(on_channels({4})), HasSubstr("channel is 4"));
   EXPECT_THAT(error(on_channels({0})), HasSubstr("channel is 0; use 1 to 3"));
   EXPECT_THAT(error({{"blocks", json::array()}}), HasSubstr("there are no blocks"));
+}
+
+TEST(NetworkClients, HaveWhatTheServersConnectionsLeave) {
+  const auto error = [](unsigned connections, unsigned channels) {
+    json blocks = json::array();
+    for (unsigned channel = 1; channel <= channels; ++channel)
+      blocks.push_back(
+          {{"channel", channel}, {"flag", "%MX0"}, {"read", "%MW0"}, {"save", "%DW0"}});
+    const auto plc = make_plc({{"blocks", blocks}}, {{"connections", connections}});
+    return plc ? "" : plc.error().message;
+  };
+  for (unsigned connections = 1; connections <= 4; ++connections) {
+    EXPECT_EQ(error(connections, 4 - connections),
+              connections < 4 ? "" : "cannot read p2p: there are no blocks; give a list of them");
+    EXPECT_THAT(error(connections, 5 - connections),
+                HasSubstr(connections > 1 ? "together they are at most 4" : "channel is 4"));
+  }
+}
+
+/// The same by datagrams.
+class DatagramClient : public Client {
+ protected:
+  DatagramClient() : Client({{"transport", "udp"}}) {}
+};
+
+TEST_F(DatagramClient, AsksByDatagramsOfOnePort) {
+  pulse(0);
+  const Burst asked = network.receive(network.now());
+  EXPECT_EQ(asked.event, LinkEvent::datagram);
+  EXPECT_EQ(asked.port, udp_port);
+  EXPECT_EQ(asked.peer, "10.0.0.9");
+  EXPECT_EQ(asked.bytes, to_bytes("ask 0"));
+  reply(0, "ok");
+  EXPECT_EQ(result(0), "0001 0000");
+  pulse(1);
+  EXPECT_EQ(heard(1s), "0:ask 1");
+  reply(0, "ok");
+  EXPECT_EQ(result(1), "0001 0000");
+  pulse(2);
+  EXPECT_EQ(heard(), "1:ask 2") << "each channel has its own";
+}
+
+TEST_F(DatagramClient, TimesOutAndGoesOnWithTheSamePort) {
+  pulse(0);
+  EXPECT_EQ(heard(5s - 1ns), "0:ask 0");
+  EXPECT_EQ(result(0), "0000 0000");
+  EXPECT_EQ(heard(1ns), "") << "there is nothing to close";
+  EXPECT_EQ(result(0), "0002 000A");
+  pulse(0);
+  EXPECT_EQ(heard(), "0:ask 0");
+}
+
+TEST_F(DatagramClient, HasAnotherPortWhenThePowerWent) {
+  pulse(0);
+  EXPECT_EQ(heard(), "0:ask 0");
+  ASSERT_TRUE(plc->act("power_cycle"));
+  reply(0, "ok");
+  EXPECT_EQ(heard(1s), "");
+  EXPECT_EQ(result(0), "0000 0000");
+  pulse(0);
+  EXPECT_EQ(heard(), "1:ask 0");
+}
+
+TEST(NetworkClients, WithoutADatagramPortAreFixedToTcp) {
+  const json config = json::parse(R"({"role": "client", "p2p": {"transport": "udp", "blocks": [
+      {"flag": "%MX0", "read": "%MW0", "save": "%DW0"}]}})");
+  const auto plc = plc::make_plc("xbc-h", config);
+  const Status added = add_network_clients(**plc, config, {.tcp = port},
+                                           [] { return std::make_unique<test::TestDriver>(); });
+  ASSERT_FALSE(added);
+  EXPECT_THAT(added.error().message, HasSubstr("fixed to TCP"));
 }
 
 }  // namespace

@@ -1,12 +1,16 @@
 #include "src/p2p/p2p_plc.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace fieldproof::p2p {
 
 namespace {
 constexpr unsigned longest_time_out = 50;  // Cnet EN figure 4.3.1: (0-50)(*100ms)
+constexpr unsigned most_connections = 4;   // of an Ethernet module (FEnet EN 7.3.2)
 constexpr Duration network_time_out = 5s;  // decision: FEnet EN prints none
 
 constexpr std::string_view whose = "the P2P client's configuration";
@@ -83,28 +87,56 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_p2p_device(
   return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));
 }
 
-Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, std::uint16_t port,
+namespace {
+/// The server's connections, and the channels that are used, are no more than the module has.
+Status check_channels(const P2pParameters& parameters, unsigned dedicated) {
+  std::set<unsigned> channels;
+  for (const P2pBlock& block : parameters.blocks) channels.insert(block.channel);
+  const std::size_t used = channels.size();
+  if (used + dedicated <= most_connections) return ok();
+  return fail(
+      fmt::format("cannot read p2p: it uses {} channels, and connections is {}; together they are "
+                  "at most {} (FEnet EN 7.3.2)",
+                  used, dedicated, most_connections));
+}
+
+Result<NetworkPartner> partner_of(const P2pParameters& parameters, const PartnerPorts& ports) {
+  const bool datagrams = parameters.transport == Transport::udp;
+  if (datagrams && ports.udp == 0)
+    return fail(
+        "cannot read p2p: transport is udp, and this driver is fixed to TCP (FEnet EN "
+        "table 7-3); leave transport out");
+  const std::uint16_t usual = datagrams ? ports.udp : ports.tcp;
+  return NetworkPartner{parameters.partner,
+                        parameters.port != 0 ? static_cast<std::uint16_t>(parameters.port) : usual,
+                        parameters.transport};
+}
+}  // namespace
+
+Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, const PartnerPorts& ports,
                            const std::function<std::unique_ptr<P2pDriver>()>& driver) {
-  const auto keys = plc::network_keys({"p2p"});
+  const auto keys = plc::network_keys({"connections", "p2p"});
   if (const Status status = plc::known_keys(config, whose, keys); !status) return status;
   P2pRules rules = network_p2p_rules();
   plc::ConfigReader reader(config, std::string(whose));
+  unsigned dedicated = 1;
   reader.whole("station", 255, rules.station);
+  reader.whole("connections", most_connections, dedicated);
   if (reader.error()) return *reader.error();
   if (!config.contains("p2p")) return no_blocks();
   const plc::PlcModel& model = plc.memory().model();
   const Result<P2pParameters> parameters = parse_p2p_parameters(config["p2p"], model, rules);
   if (!parameters) return parameters.error();
+  if (const Status fit = check_channels(*parameters, dedicated); !fit) return fit;
+  const Result<NetworkPartner> partner = partner_of(*parameters, ports);
+  if (!partner) return partner.error();
 
   write_p2p_registers(plc.memory(), *parameters);
   for (const unsigned channel : channels_in_use(*parameters)) {
     auto client = make_client(plc.memory(), *parameters, channel, driver(), {network_time_out});
     if (!client) return client.error();
-    const NetworkPartner partner{
-        parameters->partner,
-        parameters->port != 0 ? static_cast<std::uint16_t>(parameters->port) : port};
     const Status added =
-        plc.add(std::make_unique<NetworkClient>(std::move(*client), partner, plc.own_links()));
+        plc.add(std::make_unique<NetworkClient>(std::move(*client), *partner, plc.own_links()));
     if (!added) return added;
   }
   return ok();

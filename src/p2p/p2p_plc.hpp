@@ -43,10 +43,16 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_p2p_device(
     std::string_view model, const nlohmann::json& config, const P2pDriverFactory& driver,
     std::initializer_list<std::string_view> own_keys = {});
 
-/// The P2P channels of an Ethernet module (FEnet EN 7.3.2), up to three, each with a partner whose
-/// server listens on `port`. `config`: mode, role, station (the unit of a block that gives no
-/// station), p2p (parameters.hpp). Errors name the key, or the block and its key.
-Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, std::uint16_t port,
+/// Where partners listen. udp 0: the driver is fixed to TCP (FEnet EN table 7-3).
+struct PartnerPorts {
+  std::uint16_t tcp = 0, udp = 0;
+};
+
+/// The P2P channels of an Ethernet module (FEnet EN 7.3.2), up to three. `config`: mode, role,
+/// station (the unit of a block that gives no station), connections (of the module's server, which
+/// leave 4 less as many channels), p2p (parameters.hpp). Errors name the key, or the block and its
+/// key.
+Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, const PartnerPorts& ports,
                            const std::function<std::unique_ptr<P2pDriver>()>& driver);
 
 /// Is role client asked for?

@@ -232,9 +232,9 @@ Status check_together(const P2pParameters& parameters) {
 
 Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel& model,
                                            const P2pRules& rules) {
-  constexpr std::array<std::string_view, 6> keys{"blocks",    "channel", "link",
-                                                 "parameter", "partner", "port"};
-  const auto own_keys = std::span(keys).first(rules.network ? keys.size() : keys.size() - 2);
+  constexpr std::array<std::string_view, 7> keys{"blocks",  "channel", "link",     "parameter",
+                                                 "partner", "port",    "transport"};
+  const auto own_keys = std::span(keys).first(rules.network ? keys.size() : keys.size() - 3);
   if (const Status known = plc::known_keys(p2p, "p2p", own_keys); !known) return known.error();
   P2pParameters parameters;
   parameters.network = rules.network;
@@ -244,6 +244,9 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel&
   reader.boolean("link", parameters.link);
   reader.text("partner", parameters.partner);
   reader.whole("port", 65'535u, parameters.port);
+  bool datagrams = false;
+  reader.either("transport", "udp", "tcp", datagrams);
+  if (datagrams) parameters.transport = Transport::udp;
   if (reader.error()) return *reader.error();
   if (parameters.parameter == 0 || parameters.channel == 0)
     return fail("cannot read p2p: parameter is 1 to 3, and channel " + channel_numbers(rules));

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/burst.hpp"
 #include "src/base/result.hpp"
 #include "src/p2p/block.hpp"
 
@@ -25,7 +26,8 @@ class P2pDriver;
 
 /// What differs between the Cnet channels and those of an Ethernet module.
 struct P2pRules {
-  bool network = false;   // parameters 1 to 3 each have all channels; `partner` is a key of p2p
+  bool network = false;   // parameters 1 to 3 each have all channels; `partner`, `port` and
+                          // `transport` are keys of p2p
   unsigned channels = 2;  // 1 to so many
   unsigned station = 0;   // of a block that gives none
 };
@@ -33,13 +35,14 @@ struct P2pRules {
 constexpr P2pRules network_p2p_rules() { return {.network = true, .channels = 3, .station = 1}; }
 
 struct P2pParameters {
-  unsigned parameter = 1;          // 1-3
-  unsigned channel = 1;            // the one that an endpoint leads to
-  bool link = true;                // link enable (Cnet EN 6.2.6)
-  std::vector<P2pBlock> blocks{};  // in the order of their numbers
-  bool network = false;            // of an Ethernet module
-  std::string partner{};           // its address; empty: whoever is there
-  unsigned port = 0;               // where it listens; 0: where the service has its port
+  unsigned parameter = 1;                // 1-3
+  unsigned channel = 1;                  // the one that an endpoint leads to
+  bool link = true;                      // link enable (Cnet EN 6.2.6)
+  std::vector<P2pBlock> blocks{};        // in the order of their numbers
+  bool network = false;                  // of an Ethernet module
+  std::string partner{};                 // its address; empty: whoever is there
+  unsigned port = 0;                     // where it listens; 0: where the service has its port
+  Transport transport = Transport::tcp;  // FEnet EN table 7-3
 };
 
 /// What holds whatever the driver is. Errors name the block and the key: "cannot set up P2P block

@@ -25,8 +25,12 @@ std::vector<const UserFrame*> armed_frames(const FrameDefinition& definition,
 
 class UserFrameP2pDriver : public p2p::P2pDriver {
  public:
-  UserFrameP2pDriver(FrameDefinition definition, std::span<const P2pBlock> blocks, Duration gap)
-      : definition_(std::move(definition)), finder_(armed_frames(definition_, blocks), gap) {}
+  UserFrameP2pDriver(FrameDefinition definition, std::span<const P2pBlock> blocks, Duration gap,
+                     bool network)
+      : definition_(std::move(definition)),
+        network_(network),
+        gap_(gap),
+        finder_(armed_frames(definition_, blocks), gap) {}
 
   std::string_view name() const override { return "user-frames"; }
 
@@ -58,7 +62,11 @@ class UserFrameP2pDriver : public p2p::P2pDriver {
 
   void receive(const Burst& burst, plc::FrameSink& sink) override {
     Heard heard(*this, sink);
+    if (burst.event == LinkEvent::datagram) finder_.reset();
     finder_.receive(burst, heard);
+    if (burst.event != LinkEvent::datagram) return;
+    finder_.advance(burst.end() + 2 * gap_, heard);
+    finder_.reset();
   }
   std::optional<Time> wake_at() const override { return finder_.wake_at(); }
   void advance(Time now, plc::FrameSink& sink) override {
@@ -77,7 +85,9 @@ class UserFrameP2pDriver : public p2p::P2pDriver {
       driver_.found_ = frame.name;
       to_.on_frame(bytes, end);
     }
-    void on_no_frame(std::uint16_t why) override { to_.on_broken_frame(why); }
+    void on_no_frame(std::uint16_t why) override {
+      if (!driver_.network_) to_.on_broken_frame(why);
+    }
 
    private:
     UserFrameP2pDriver& driver_;
@@ -85,6 +95,8 @@ class UserFrameP2pDriver : public p2p::P2pDriver {
   };
 
   const FrameDefinition definition_;
+  const bool network_;
+  const Duration gap_;
   FrameFinder finder_;
   std::string found_;
 };
@@ -94,7 +106,13 @@ class UserFrameP2pDriver : public p2p::P2pDriver {
 std::unique_ptr<p2p::P2pDriver> make_user_frame_p2p_driver(FrameDefinition definition,
                                                            std::span<const P2pBlock> blocks,
                                                            Duration gap) {
-  return std::make_unique<UserFrameP2pDriver>(std::move(definition), blocks, gap);
+  return std::make_unique<UserFrameP2pDriver>(std::move(definition), blocks, gap, false);
+}
+
+std::unique_ptr<p2p::P2pDriver> make_user_frame_network_driver(FrameDefinition definition,
+                                                               std::span<const P2pBlock> blocks,
+                                                               Duration gap) {
+  return std::make_unique<UserFrameP2pDriver>(std::move(definition), blocks, gap, true);
 }
 
 }  // namespace fieldproof::user_frames

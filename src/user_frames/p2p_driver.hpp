@@ -27,4 +27,9 @@ std::unique_ptr<p2p::P2pDriver> make_user_frame_p2p_driver(FrameDefinition defin
                                                            std::span<const p2p::P2pBlock> blocks,
                                                            Duration gap);
 
+/// The same on a network (FEnet EN 7.7.5): a datagram is a frame, and bytes of none are passed over
+/// without an end of the connection. `gap` is the silence that ends a frame without an end.
+std::unique_ptr<p2p::P2pDriver> make_user_frame_network_driver(
+    FrameDefinition definition, std::span<const p2p::P2pBlock> blocks, Duration gap);
+
 }  // namespace fieldproof::user_frames

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "src/base/letters.hpp"
+#include "src/p2p/partner_name.hpp"
 
 namespace fieldproof::xgt_cnet {
 
@@ -78,27 +79,8 @@ std::uint16_t check_reply(const XgtReply& reply, const P2pBlock& block,
 }
 }  // namespace
 
-std::string unpadded_name(std::string_view name) {
-  if (name.size() < 4 || name.find('.') != std::string_view::npos) return std::string(name);
-  const std::size_t digit = std::min(name.find_first_not_of('0', 3), name.size() - 1);
-  return std::string(name.substr(0, 3)) + std::string(name.substr(digit));
-}
-
 Status XgtP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
-  const std::string_view key = writes(block) ? "save" : "read";
-  // The name belongs to the partner, whose areas are not known here.
-  for (const p2p::P2pVariable& variable : block.variables) {
-    const std::string& name = variable.partner;
-    const auto is_index = [](char c) { return hex_digit(c) >= 0 || c == '.'; };
-    if (name.size() < 4 || name.size() > xgt_max_name || name[0] != '%' ||
-        plc::type_bytes(name[2]) == 0 ||
-        !std::ranges::all_of(std::string_view(name).substr(3), is_index))
-      return fail(fmt::format("{} '{}' is no device name of the partner; give one such as %MW100",
-                              key, name));
-    if (upper(name[2]) != block.type)
-      return fail(fmt::format("{} '{}' is not of the block's type; its type letter is {}", key,
-                              name, block.type));
-  }
+  if (const Status names = p2p::check_partner_names(block, xgt_max_name); !names) return names;
   if (!block.continuous) return ok();
   if (block.type == 'X')
     return fail("bits are not read or written as a run; use command single (Cnet KO 6.3.2)");
@@ -121,7 +103,7 @@ Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const plc::PlcMemory&
   request.count = block.elements();
   std::array<std::string, p2p::p2p_max_variables> names, data;
   for (std::size_t i = 0; i < block.variables.size(); ++i) {
-    names[i] = unpadded_name(block.variables[i].partner);
+    names[i] = p2p::unpadded_name(block.variables[i].partner);
     if (writes(block)) data[i] = digits_in(memory, block, block.variables[i].own);
     request.block[i] = {names[i], data[i]};
   }

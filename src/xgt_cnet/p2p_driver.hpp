@@ -39,7 +39,4 @@ class XgtP2pDriver : public p2p::P2pDriver {
   FrameReceiver receiver_;
 };
 
-/// "%MW00100" as it is sent: "%MW100". Dotted names stay as they are.
-std::string unpadded_name(std::string_view name);
-
 }  // namespace fieldproof::xgt_cnet

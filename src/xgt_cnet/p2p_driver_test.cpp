@@ -299,14 +299,5 @@ TEST(XgtP2pDriver, TalksToAServer) {
   EXPECT_EQ(*(*client)->get("%LD264", 0), "00000002");
 }
 
-TEST(UnpaddedName, DropsLeadingZeros) {
-  EXPECT_EQ(unpadded_name("%MW00100"), "%MW100");
-  EXPECT_EQ(unpadded_name("%MW000"), "%MW0");
-  EXPECT_EQ(unpadded_name("%MW0"), "%MW0");
-  EXPECT_EQ(unpadded_name("%MX0000A"), "%MXA");
-  EXPECT_EQ(unpadded_name("%IW00.0.0"), "%IW00.0.0");
-  EXPECT_EQ(unpadded_name("%M"), "%M");
-}
-
 }  // namespace
 }  // namespace fieldproof::xgt_cnet

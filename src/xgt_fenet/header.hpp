@@ -25,6 +25,8 @@ constexpr CompanyId lgis_glofa{'L', 'G', 'I', 'S', '-', 'G', 'L', 'O', 'F', 'A'}
 
 /// Who sends: table 5-3, 'Source of Frame'.
 constexpr Byte from_client = 0x33, from_server = 0x11;
+/// Its CPU: 'CPU Info', XGB of the MK and of the IEC series.
+constexpr Byte cpu_xgb = 0xB0, cpu_xgb_iec = 0xB4;
 
 struct Header {
   CompanyId company = lsis_xgt;

@@ -13,7 +13,6 @@ namespace {
 // Table 5-3. The CPU type of XGB is not printed: DECISIONS.md fenet/plcinfo.
 constexpr std::uint16_t cpu_type = 0x07, cpu_has_error = 1 << 7, state_run = 1 << 8,
                         state_stop = 2 << 8, state_error = 4 << 8;
-constexpr Byte cpu_xgb = 0xB0, cpu_xgb_iec = 0xB4;
 
 std::uint64_t value_of(ByteView data) {
   std::uint64_t value = 0;

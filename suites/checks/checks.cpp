@@ -59,13 +59,21 @@ const notation::Check lrc{.name = "LRC", .compute = [](ByteView covered, unsigne
                           }};
 
 const notation::Check length{
-    .name = "LEN", .behind = true, .counts = true, .compute = [](ByteView covered, unsigned off) {
+    .name = "LEN",
+    .field = "length",
+    .behind = true,
+    .counts = true,
+    .compute = [](ByteView covered, unsigned off) {
       const auto value = static_cast<unsigned>(covered.size()) + off;
       return Bytes{static_cast<Byte>(value >> 8), static_cast<Byte>(value)};
     }};
 
 const notation::Check fenet_length{
-    .name = "LEN", .behind = true, .counts = true, .compute = [](ByteView covered, unsigned off) {
+    .name = "LEN",
+    .field = "length",
+    .behind = true,
+    .counts = true,
+    .compute = [](ByteView covered, unsigned off) {
       constexpr std::size_t position_and_check = 2;
       const std::size_t body = covered.size() - std::min(covered.size(), position_and_check);
       const auto value = static_cast<unsigned>(body) + off;
@@ -73,7 +81,7 @@ const notation::Check fenet_length{
     }};
 
 const notation::Check fenet_sum{
-    .name = "SUM", .size = 1, .compute = [](ByteView covered, unsigned off) {
+    .name = "SUM", .field = "check sum", .size = 1, .compute = [](ByteView covered, unsigned off) {
       return Bytes{static_cast<Byte>(sum_of(covered) + off)};
     }};
 

@@ -201,7 +201,7 @@ class Modbus : public Protocol,
  private:
   Status add_clients(plc::Plc& plc, const nlohmann::json& config) const {
     if (mode_ == modbus::ModbusMode::tcp)
-      return p2p::add_network_clients(plc, config, default_port(), [] {
+      return p2p::add_network_clients(plc, config, {.tcp = default_port()}, [] {
         return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp);
       });
     return p2p::add_p2p_clients(plc, config, [mode = mode_](const plc::PortConfig& port) {

@@ -92,5 +92,26 @@ INSTANTIATE_TEST_SUITE_P(Protocols, PartnerFaults,
                                          Asked{"modbus-ascii", "xbc-h", "%MW100"},
                                          Asked{"ls-bus", "inverter", "1230"}));
 
+/// Of frames with a length and a check in their header, on a network.
+TEST(NetworkPartnerFaults, LengthAndCheckFollowTheContent) {
+  const harness::Protocol& fenet = *suites::protocols().find("xgt-fenet");
+  const auto problems = [&](const std::string& fault) {
+    exchange::Partner partner(fenet);
+    const Burst request{fenet.read_requests(0, "%MW100", 4)->front(), Time{}, {}};
+    const auto answer = partner.answer(
+        {"xbc-h", nlohmann::json::object(), {{"%MW100", "5ABC"}}, fault}, request, 1s);
+    EXPECT_TRUE(answer) << (answer ? "" : answer.error().message);
+    std::string names;
+    for (const harness::Field& field : fenet.explain(answer ? answer->bytes : Bytes{}))
+      if (!field.problem.empty()) names += field.name + "!";
+    return names;
+  };
+  EXPECT_EQ(problems(""), "");
+  EXPECT_EQ(problems("wrong_check"), "check sum!");
+  EXPECT_EQ(problems("short"), "data!");
+  EXPECT_EQ(problems("long"), "surplus!");
+  EXPECT_EQ(problems("nak"), "");
+}
+
 }  // namespace
 }  // namespace fieldproof::tool_tests

@@ -11,6 +11,7 @@
 #include "src/p2p/parameters.hpp"
 #include "src/plc/config_reader.hpp"
 #include "src/user_frames/codec.hpp"
+#include "src/user_frames/network_server.hpp"
 #include "src/user_frames/p2p_driver.hpp"
 #include "src/user_frames/port.hpp"
 #include "suites/checks/checks.hpp"
@@ -26,10 +27,15 @@ namespace {
 
 class UserFrames : public Protocol, public harness::Probing, public harness::Tables {
  public:
-  explicit UserFrames(std::vector<NamedDefinition> all) : definitions_(std::move(all)) {}
-  explicit UserFrames(NamedDefinition one) : definitions_{std::move(one)}, own_(true) {}
+  UserFrames(Way way, std::vector<NamedDefinition> all) : way_(way), definitions_(std::move(all)) {}
+  UserFrames(Way way, NamedDefinition one) : way_(way), definitions_{std::move(one)}, own_(true) {}
 
-  std::string_view name() const override { return "user-frames"; }
+  std::string_view name() const override {
+    return way_ == Way::line ? "user-frames" : "user-frames-net";
+  }
+  std::uint16_t default_port() const override {
+    return way_ == Way::line ? 0 : user_frames::first_network_port;
+  }
   std::vector<std::string> models() const override {
     return definition_names(definitions_folder());
   }
@@ -38,7 +44,7 @@ class UserFrames : public Protocol, public harness::Probing, public harness::Tab
     return is_definition_path(model) || Protocol::has_model(model) || plc::find_plc_model(model);
   }
   const Protocol& of_model(std::string_view model) const override {
-    return model.empty() ? *this : protocol_of(model);
+    return model.empty() ? *this : protocol_of(model, way_);
   }
 
   Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
@@ -99,29 +105,36 @@ class UserFrames : public Protocol, public harness::Probing, public harness::Tab
   }
 
  private:
+  Result<std::unique_ptr<plc::EmulatedDevice>> make_client(
+      const user_frames::FrameDefinition& definition, const plc::PlcModel& plc,
+      const nlohmann::json& config) const;
   /// Where this is the protocol of one model.
   const user_frames::FrameDefinition* own() const {
     return own_ ? &definitions_.front().definition : nullptr;
   }
 
+  Way way_;
   std::vector<NamedDefinition> definitions_;
   bool own_ = false;
 };
 
 /// The protocol of one model. A definition is read when it is first asked for: each case makes a
 /// device of it.
-Result<const UserFrames*> read_once(std::string_view model) {
-  static std::map<std::string, UserFrames, std::less<>> known;
+Result<const UserFrames*> read_once(std::string_view model, Way way) {
+  static std::map<Way, std::map<std::string, UserFrames, std::less<>>> all;
+  std::map<std::string, UserFrames, std::less<>>& known = all[way];
   if (const auto found = known.find(model); found != known.end()) return &found->second;
   Result<NamedDefinition> loaded = load_definition(model, definitions_folder());
   if (!loaded) return loaded.error();
-  return &known.try_emplace(std::string(model), std::move(*loaded)).first->second;
+  return &known.try_emplace(std::string(model), way, std::move(*loaded)).first->second;
 }
 
 /// The blocks of role client, where they can be read; what is wrong with them make_p2p_device says.
-std::vector<p2p::P2pBlock> blocks_of(const nlohmann::json& config, const plc::PlcModel& plc) {
+std::vector<p2p::P2pBlock> blocks_of(const nlohmann::json& config, const plc::PlcModel& plc,
+                                     const p2p::P2pRules& rules) {
   if (!config.contains("p2p")) return {};
-  const Result<p2p::P2pParameters> parameters = p2p::parse_p2p_parameters(config["p2p"], plc);
+  const Result<p2p::P2pParameters> parameters =
+      p2p::parse_p2p_parameters(config["p2p"], plc, rules);
   return parameters ? parameters->blocks : std::vector<p2p::P2pBlock>{};
 }
 
@@ -135,34 +148,55 @@ Result<std::unique_ptr<plc::EmulatedDevice>> UserFrames::make_device(
     return fail(fmt::format(
         "cannot make {} send or receive user frames: name them with definition, such as px7",
         name));
-  const Result<const UserFrames*> one = read_once(name);
+  const Result<const UserFrames*> one = read_once(name, way_);
   if (!one) return one.error();
   const user_frames::FrameDefinition& definition = *(*one)->own();
   if (!p2p::is_p2p_client(config)) {
     nlohmann::json of_port = config;
     of_port.erase("definition");
-    return user_frames::make_user_frame_device(definition, of_port);
+    return way_ == Way::line ? user_frames::make_user_frame_device(definition, of_port)
+                             : user_frames::make_user_frame_server(definition, of_port);
   }
   const plc::PlcModel* plc = plc::find_plc_model(model);
   if (!plc) plc = definition.plc;
-  return p2p::make_p2p_device(plc->name, config,
-                              [&](const plc::PortConfig& port) {
-                                return user_frames::make_user_frame_p2p_driver(
-                                    definition, blocks_of(config, *plc), port.gap());
-                              },
-                              {"definition"});
+  return make_client(definition, *plc, config);
+}
+
+Result<std::unique_ptr<plc::EmulatedDevice>> UserFrames::make_client(
+    const user_frames::FrameDefinition& definition, const plc::PlcModel& model,
+    const nlohmann::json& config) const {
+  if (way_ == Way::line)
+    return p2p::make_p2p_device(model.name, config,
+                                [&](const plc::PortConfig& port) {
+                                  return user_frames::make_user_frame_p2p_driver(
+                                      definition, blocks_of(config, model, {}), port.gap());
+                                },
+                                {"definition"});
+  nlohmann::json own = config;
+  own.erase("definition");
+  Result<std::unique_ptr<plc::Plc>> plc = plc::make_plc(model.name, own);
+  if (!plc) return plc.error();
+  constexpr p2p::PartnerPorts ports{user_frames::first_network_port,
+                                    user_frames::first_network_port};
+  const Status added = p2p::add_network_clients(**plc, own, ports, [&] {
+    return user_frames::make_user_frame_network_driver(
+        definition, blocks_of(own, model, p2p::network_p2p_rules()), user_frames::network_gap);
+  });
+  if (!added) return added.error();
+  return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));
 }
 
 }  // namespace
 
-const Protocol& protocol() {
-  static const UserFrames all(load_definitions(definitions_folder()));
-  return all;
+const Protocol& protocol(Way way) {
+  static const UserFrames line(Way::line, load_definitions(definitions_folder()));
+  static const UserFrames network(Way::network, load_definitions(definitions_folder()));
+  return way == Way::line ? line : network;
 }
 
-const Protocol& protocol_of(std::string_view model) {
-  const Result<const UserFrames*> one = read_once(model);
-  return one ? **one : protocol();
+const Protocol& protocol_of(std::string_view model, Way way) {
+  const Result<const UserFrames*> one = read_once(model, way);
+  return one ? **one : protocol(way);
 }
 
 }  // namespace fieldproof::user_frames_suite

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/device_names.hpp"
+#include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
+#include "src/xgt_fenet/p2p_driver.hpp"
 #include "src/xgt_fenet/plc.hpp"
 #include "suites/checks/checks.hpp"
 #include "suites/services/services.hpp"
@@ -47,7 +49,9 @@ class XgtFenet : public harness::Protocol,
 
   Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
       std::string_view model, const nlohmann::json& config) const override {
-    return services::make_plc(model, config, xgt_fenet::add_server);
+    return services::make_plc(model, config, [](plc::Plc& plc, const nlohmann::json& own) {
+      return p2p::is_p2p_client(own) ? add_clients(plc, own) : xgt_fenet::add_server(plc, own);
+    });
   }
 
   /// Frames name no station: the address of the module is that of the network.
@@ -150,6 +154,11 @@ class XgtFenet : public harness::Protocol,
   }
 
  private:
+  static Status add_clients(plc::Plc& plc, const nlohmann::json& config) {
+    constexpr p2p::PartnerPorts ports{xgt_fenet::tcp_port, xgt_fenet::udp_port};
+    return p2p::add_network_clients(plc, config, ports,
+                                    [] { return std::make_unique<xgt_fenet::FenetP2pDriver>(); });
+  }
   const PlcModel& model() const { return model_ ? *model_ : plc::plc_models().front(); }
 
   const PlcModel* model_;

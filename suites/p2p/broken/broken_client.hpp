@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "src/p2p/client.hpp"
+#include "src/p2p/network_client.hpp"
 #include "src/plc/emulated_device.hpp"
 #include "src/udata/config.hpp"
 
@@ -57,6 +57,14 @@ struct Behaviour {
   bool all_at_once = false;         // no block waits for another
   std::string deaf_to{};            // an action that changes nothing: "stop", "link off"
 
+  // Of a client on a network.
+  std::function<void(p2p::NetworkPartner& partner)> partner{};
+  std::function<bool(Burst& burst)> hears_link{};          // false: not heard
+  std::function<void(std::vector<Burst>& doings)> does{};  // on its links
+  bool hangs_up = false;                                   // after each service
+  bool keeps_rests = false;  // of a frame, when its connection is gone
+  bool saves_late = false;   // what comes when nothing is under way is taken for the last block
+
   // Of a port that works with UDATA instructions.
   std::function<void(udata::UdataConfig& config)> works_with_udata{};
   std::function<void(Bytes&bytes)> says{}, hears{};
@@ -68,6 +76,9 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_client(const Behaviour&
                                                                 std::string_view protocol,
                                                                 std::string_view model,
                                                                 const nlohmann::json& config);
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_network_client(
+    const Behaviour& behaviour, std::string_view protocol, std::string_view model,
+    const nlohmann::json& config);
 Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_udata_port(const Behaviour& behaviour,
                                                                     std::string_view model,
                                                                     const nlohmann::json& config);

@@ -68,7 +68,7 @@ TEST_P(HealthyClient, PassesTheWholeSuite) {
 
 INSTANTIATE_TEST_SUITE_P(P2p, HealthyClient,
                          testing::Values("xgt_cnet", "modbus_rtu", "modbus_ascii", "ls_bus",
-                                         "user_frames", "udata"),
+                                         "user_frames", "udata", "xgt_fenet", "modbus_tcp"),
                          [](const auto& test) { return test.param; });
 
 TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 150); }

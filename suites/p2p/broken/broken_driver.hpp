@@ -21,6 +21,7 @@ class BrokenDriver : public p2p::P2pDriver {
   }
   Result<Bytes> request(const p2p::P2pBlock& block, const plc::PlcMemory& memory) override {
     asked_(block);
+    last_ = block;
     return behaviour_.asks ? behaviour_.asks(*good_, block, memory) : good_->request(block, memory);
   }
   bool awaits_reply(const p2p::P2pBlock& block) const override {
@@ -34,10 +35,18 @@ class BrokenDriver : public p2p::P2pDriver {
   void receive(const Burst& burst, plc::FrameSink& sink) override { good_->receive(burst, sink); }
   std::optional<Time> wake_at() const override { return good_->wake_at(); }
   void advance(Time now, plc::FrameSink& sink) override { good_->advance(now, sink); }
-  void reset() override { good_->reset(); }
+  void reset() override {
+    if (!behaviour_.keeps_rests) good_->reset();
+  }
+
+  /// Takes a frame for the reply to the last request, although that is over.
+  void take_late(ByteView frame, plc::PlcMemory& memory) const {
+    if (last_) (void)take(*last_, frame, memory);
+  }
 
  private:
   std::unique_ptr<p2p::P2pDriver> good_;
+  std::optional<p2p::P2pBlock> last_;
   Behaviour behaviour_;
   Asked asked_;
 };

@@ -11,7 +11,8 @@ using plc::PlcMemory;
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> table = broken::gather<Fault>(
       {trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults, modbus_faults,
-       ls_bus_faults, user_frame_faults, udata_faults, narrow_faults});
+       ls_bus_faults, user_frame_faults, udata_faults, narrow_faults, fenet_request_faults,
+       fenet_reply_faults, network_faults});
   return table;
 }
 

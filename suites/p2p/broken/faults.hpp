@@ -27,6 +27,9 @@ std::vector<Fault> ls_bus_faults();
 std::vector<Fault> user_frame_faults();
 std::vector<Fault> udata_faults();
 std::vector<Fault> narrow_faults();
+std::vector<Fault> fenet_request_faults();
+std::vector<Fault> fenet_reply_faults();
+std::vector<Fault> network_faults();
 
 // How their rows are made.
 MakeBehaviour trigger(Trigger trigger);

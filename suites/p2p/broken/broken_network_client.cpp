@@ -1,0 +1,119 @@
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "src/modbus/p2p_driver.hpp"
+#include "src/p2p/p2p_plc.hpp"
+#include "src/plc/ethernet.hpp"
+#include "src/xgt_fenet/p2p_driver.hpp"
+#include "src/xgt_fenet/server.hpp"
+#include "suites/p2p/broken/broken_core.hpp"
+
+namespace fieldproof::p2p_broken {
+
+using p2p::NetworkClient;
+using p2p::NetworkPartner;
+using p2p::P2pClient;
+using p2p::P2pParameters;
+
+namespace {
+
+std::unique_ptr<p2p::P2pDriver> good_driver(std::string_view protocol) {
+  if (protocol == "modbus-tcp") return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp);
+  return std::make_unique<xgt_fenet::FenetP2pDriver>();
+}
+
+NetworkPartner partner_of(std::string_view protocol, const P2pParameters& parameters) {
+  const bool datagrams = parameters.transport == Transport::udp;
+  const std::uint16_t fenet = datagrams ? xgt_fenet::udp_port : xgt_fenet::tcp_port;
+  return {parameters.partner, protocol == "modbus-tcp" ? std::uint16_t{502} : fenet,
+          parameters.transport};
+}
+
+/// Behind connections, or datagrams.
+class BrokenNetworkClient : public plc::EmulatedDevice, public net::Host {
+ public:
+  BrokenNetworkClient(const plc::PlcModel& model, const P2pParameters& parameters, bool run,
+                      const Behaviour& behaviour, std::string_view protocol)
+      : core_(model, parameters, run, behaviour) {
+    NetworkPartner partner = partner_of(protocol, parameters);
+    if (behaviour.partner) behaviour.partner(partner);
+    const auto driver = [&](BrokenDriver::Asked asked) {
+      auto made =
+          std::make_unique<BrokenDriver>(good_driver(protocol), behaviour, std::move(asked));
+      drivers_.push_back(made.get());
+      return made;
+    };
+    const auto place = [&](std::unique_ptr<P2pClient> engine, const P2pParameters&) {
+      clients_.push_back(
+          std::make_unique<NetworkClient>(std::move(engine), partner, ethernet_.own_links()));
+      (void)ethernet_.add(*clients_.back());
+      return [client = clients_.back().get()] { client->power_cycle(); };
+    };
+    core_.make_engines({.time_out = 5s}, driver, place);
+  }
+
+  net::Host* network() override { return this; }
+  bool listens(Transport, std::uint16_t) const override { return false; }
+  void receive(const Burst& burst) override {
+    core_.remember();
+    Burst heard = burst;
+    if (core_.behaviour().hears_link && !core_.behaviour().hears_link(heard)) return;
+    const bool busy = core_.is_busy();
+    ethernet_.receive(heard);
+    if (core_.behaviour().saves_late && !busy)
+      for (const BrokenDriver* driver : drivers_) driver->take_late(heard.bytes, core_.memory());
+    hang_up(burst.start, busy && !core_.is_busy());
+  }
+  std::optional<Time> wake_at() const override { return ethernet_.wake_at(); }
+  std::vector<Burst> advance(Time now) override {
+    core_.remember();
+    std::vector<Burst> doings = ethernet_.advance(now);
+    for (const Burst& one : doings)
+      if (one.event == LinkEvent::opened) link_ = one.link;
+    if (core_.behaviour().does) core_.behaviour().does(doings);
+    return doings;
+  }
+
+  Status set(std::string_view address, std::string_view hex) override {
+    return core_.set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    return core_.get(address, digits);
+  }
+  Status act(std::string_view action) override { return core_.act(action); }
+
+ private:
+  /// As if the partner had.
+  void hang_up(Time now, bool served) {
+    if (!core_.behaviour().hangs_up || !served) return;
+    ethernet_.receive({.bytes = {}, .start = now, .link = link_, .event = LinkEvent::closed});
+  }
+
+  BrokenCore core_;
+  plc::Ethernet ethernet_;
+  std::vector<BrokenDriver*> drivers_;
+  std::vector<std::unique_ptr<NetworkClient>> clients_;
+  LinkId link_ = line_link;  // opened last
+};
+
+}  // namespace
+
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_network_client(
+    const Behaviour& behaviour, std::string_view protocol, std::string_view model,
+    const nlohmann::json& config) {
+  const Result<const plc::PlcModel*> plc = plc::known_plc_model(model);
+  if (!plc) return plc.error();
+  p2p::P2pRules rules = p2p::network_p2p_rules();
+  bool run = true;
+  plc::ConfigReader reader(config, "the P2P client's configuration");
+  reader.whole("station", 255, rules.station);
+  reader.either("mode", "run", "stop", run);
+  if (reader.error()) return *reader.error();
+  const Result<P2pParameters> parameters =
+      p2p::parse_p2p_parameters(config.at("p2p"), **plc, rules);
+  if (!parameters) return parameters.error();
+  return std::unique_ptr<plc::EmulatedDevice>(
+      std::make_unique<BrokenNetworkClient>(**plc, *parameters, run, behaviour, protocol));
+}
+
+}  // namespace fieldproof::p2p_broken

@@ -1,0 +1,89 @@
+// The bench waits for XGT FEnet clients: the emulated one in another process, and a program in
+// another language that asks what --stimulus names.
+#include <gmock/gmock.h>
+
+#include "harness/system/test_sockets.hpp"
+#include "suites/tool/tool_files.hpp"
+
+namespace fieldproof::tool_tests {
+namespace {
+
+using nlohmann::ordered_json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string free_port(int type) { return std::to_string(os::test::port_of(os::test::bound(type))); }
+
+class FenetClient : public testing::Test {
+ protected:
+  Finished run(const std::string& filter, std::vector<std::string> more,
+               const ProcessOptions& options = {}) {
+    std::vector<std::string> arguments{"run",
+                                       "--role",
+                                       "client",
+                                       "--endpoint",
+                                       "listen:127.0.0.1:" + tcp + "?protocol=xgt-fenet&udp=" + udp,
+                                       "--filter",
+                                       filter,
+                                       "--out",
+                                       folder / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Finished finished = run_tool(arguments, options);
+    results = read_results(folder / "out/results.ndjson");
+    return finished;
+  }
+  Finished stimulated(const std::string& filter, const std::string& behaviour = "") {
+    ProcessOptions options;
+    if (!behaviour.empty()) options.environment = {{"FIELDPROOF_CLIENT", behaviour}};
+    return run(filter,
+               {"--profile", "xbc-h", "--stimulus",
+                std::string("exec python3 ") + FIELDPROOF_SOURCE_DIR +
+                    "/suites/tool/testdata/fenet_client.py " + tcp + ' ' + udp},
+               options);
+  }
+
+  TestFolder folder;
+  const std::string tcp = free_port(SOCK_STREAM), udp = free_port(SOCK_DGRAM);
+  Results results;
+};
+
+TEST_F(FenetClient, TheEmulatedOneInAnotherProcessAsksByItself) {
+  ordered_json block{{"flag", "F92"}, {"read", "%MW100"}, {"save", "%MW120"}};
+  const std::string p2p =
+      folder.write("p2p.json", ordered_json{{"p2p",
+                                             {{"partner", "127.0.0.1"},
+                                              {"port", std::stoi(tcp)},
+                                              {"blocks", ordered_json::array({block})}}}}
+                                   .dump());
+  block["channel"] = 1;
+  const std::string profile =
+      folder.write("profile.json", ordered_json{{"name", "client"},
+                                                {"extends", "xbc-h"},
+                                                {"prepared_blocks", ordered_json::array({block})}}
+                                       .dump());
+  Process client({FIELDPROOF_TOOL, "emulate", "xbc-h?protocol=xgt-fenet", "--p2p", p2p});
+  const Finished finished = run("xgt_fenet/client/schedule/f9*", {"--profile", profile});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_EQ(results.verdict("xgt_fenet/client/schedule/f92"), "PASS");
+  EXPECT_EQ(results.verdict("xgt_fenet/client/schedule/f90"), "BLOCKED");
+}
+
+TEST_F(FenetClient, AProgramThatAsksWhatItIsToldPasses) {
+  const Finished finished = stimulated(
+      "xgt_fenet/client/read/single*:*/client/read/areas_*:*/client/read/continuous_word:"
+      "*/client/write/areas_*:*/client/connection/*_channels:*/client/connection/kept:"
+      "xgt_fenet/client/udp/*");
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_GE(results.counts()["PASS"], 16u) << finished.out;
+  EXPECT_EQ(results.verdict("xgt_fenet/client/udp/read"), "PASS");
+  EXPECT_EQ(results.verdict("xgt_fenet/client/connection/three_channels"), "PASS");
+}
+
+TEST_F(FenetClient, OneThatErrsIsCaughtOnTheWire) {
+  EXPECT_EQ(stimulated("xgt_fenet/client/write/single/word", "big_endian").code, 1);
+  EXPECT_THAT(results.of("xgt_fenet/client/write/single/word").at("message").get<std::string>(),
+              StartsWith("data: expected"));
+}
+
+}  // namespace
+}  // namespace fieldproof::tool_tests
