@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 /// "S12\r" stores 12 in M0 and is answered "K12\r"; "N..." has no end of its own.
-constexpr const char* talker = R"j({
+constexpr const char* network_talker = R"j({
   "title": "a server that stores and answers",
   "groups": {
     "OUT": {"type": "send", "tail": [{"hex": "0D"}],
@@ -27,7 +27,7 @@ constexpr const char* talker = R"j({
 })j";
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make(const nlohmann::json& config) {
-  const auto definition = parse_frame_definition(talker, "talker.json");
+  const auto definition = parse_frame_definition(network_talker, "network_talker.json");
   if (!definition) throw std::runtime_error(definition.error().message);
   return make_user_frame_server(*definition, config);
 }
