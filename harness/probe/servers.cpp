@@ -10,7 +10,7 @@ namespace fieldproof::probe {
 
 using endpoints::Endpoint;
 using harness::Protocol;
-using Kind = ServerFinding::Kind;
+using ServerKind = ServerFinding::Kind;
 
 namespace {
 
@@ -135,13 +135,14 @@ class Look {
     const Result<Answer> answer = port_.ask(protocol_, request);
     if (!answer) {
       if (answer.error().interrupted) return answer.error();
-      return finding(Kind::unreachable, answer.error().message,
+      return finding(ServerKind::unreachable, answer.error().message,
                      "see that the device is on, that its address is right and that no firewall "
                      "stands between");
     }
     if (is_reply(protocol_, request, *answer)) return server(answer->took);
     if (answer->end == Answer::End::refused)
-      return finding(Kind::refused, "nothing listens there, or the connection is ended at once",
+      return finding(ServerKind::refused,
+                     "nothing listens there, or the connection is ended at once",
                      "set the driver of the module as server of this protocol: a module has one "
                      "server driver, and the port of the other one refuses; or all channels are "
                      "taken, or the host table lacks the address of this computer");
@@ -149,7 +150,7 @@ class Look {
   }
 
  private:
-  ServerFinding finding(Kind kind, std::string text, std::string advice) const {
+  ServerFinding finding(ServerKind kind, std::string text, std::string advice) const {
     return {kind,
             &protocol_,
             transport_,
@@ -171,11 +172,12 @@ class Look {
       fastest = std::min(fastest, again->took);
       slowest = std::max(slowest, again->took);
     }
-    ServerFinding found = finding(
-        Kind::server, fmt::format("answers in {:.1f} to {:.1f} ms", to_ms(fastest), to_ms(slowest)),
-        answered == times ? ""
-                          : "only some questions are answered: see that others leave it a "
-                            "channel");
+    ServerFinding found =
+        finding(ServerKind::server,
+                fmt::format("answers in {:.1f} to {:.1f} ms", to_ms(fastest), to_ms(slowest)),
+                answered == times ? ""
+                                  : "only some questions are answered: see that others leave it a "
+                                    "channel");
     Result<std::vector<std::string>> limits = limits_of(port_, protocol_);
     if (!limits) return limits.error();
     found.limits = std::move(*limits);
@@ -190,24 +192,24 @@ class Look {
       if (!answer) return answer.error();
       if (!is_reply(*other, request, *answer)) continue;
       ServerFinding found =
-          finding(Kind::other, fmt::format("a server of {} answers there", other->name()),
+          finding(ServerKind::other, fmt::format("a server of {} answers there", other->name()),
                   fmt::format("add protocol={} behind the '?' of the endpoint, or correct the port",
                               other->name()));
       found.protocol = other;
       return found;
     }
     if (own.end == Answer::End::ended)
-      return finding(Kind::ended, "the connection is taken, and ended at once",
+      return finding(ServerKind::ended, "the connection is taken, and ended at once",
                      "all channels may be taken: close other clients; or the host table of the "
                      "module lacks the address of this computer");
     if (!own.bytes.empty())
-      return finding(Kind::garbage, "the answer is no reply: " + shown(own.bytes),
+      return finding(ServerKind::garbage, "the answer is no reply: " + shown(own.bytes),
                      "another service has this port: correct it");
     if (transport_ == Transport::udp)
-      return finding(Kind::silent, "no answer",
+      return finding(ServerKind::silent, "no answer",
                      "nothing listens there, or the host table of the module lacks the address of "
                      "this computer, or a firewall drops datagrams");
-    return finding(Kind::silent, "the connection is taken, and nothing is answered",
+    return finding(ServerKind::silent, "the connection is taken, and nothing is answered",
                    "all channels may be taken, or another service has this port; a slow device "
                    "wants --wait");
   }
@@ -221,15 +223,15 @@ class Look {
 
 }  // namespace
 
-std::string_view to_string(Kind kind) {
+std::string_view to_string(ServerKind kind) {
   switch (kind) {
-    case Kind::server: return "found";
-    case Kind::other: return "other server";
-    case Kind::refused: return "refused";
-    case Kind::unreachable: return "unreachable";
-    case Kind::ended: return "ended";
-    case Kind::silent: return "silence";
-    case Kind::garbage: return "garbage";
+    case ServerKind::server: return "found";
+    case ServerKind::other: return "other server";
+    case ServerKind::refused: return "refused";
+    case ServerKind::unreachable: return "unreachable";
+    case ServerKind::ended: return "ended";
+    case ServerKind::silent: return "silence";
+    case ServerKind::garbage: return "garbage";
   }
   return "";
 }

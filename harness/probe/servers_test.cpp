@@ -14,7 +14,7 @@ using endpoints::Endpoint;
 using harness::Protocol;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using Kind = ServerFinding::Kind;
+using ServerKind = ServerFinding::Kind;
 
 const Protocol& named(std::string_view name) { return *suites::protocols().find(name); }
 
@@ -42,13 +42,13 @@ TEST(Servers, AreFoundWithTheirLimits) {
   const auto fenet = look(device("xgt-fenet", {}), "xgt-fenet");
   ASSERT_EQ(fenet.size(), 2u) << "over TCP and UDP";
   for (const ServerFinding& one : fenet) {
-    EXPECT_EQ(one.kind, Kind::server) << one.text;
+    EXPECT_EQ(one.kind, ServerKind::server) << one.text;
     EXPECT_THAT(one.limits, ElementsAre("bytes of a continuous read: 512, as printed",
                                         "blocks of a read: 16, as printed"));
   }
   EXPECT_EQ(fenet[1].port, 2005);
   const auto modbus = look(device("modbus-tcp", {}), "modbus-tcp");
-  ASSERT_EQ(modbus[0].kind, Kind::server) << modbus[0].text;
+  ASSERT_EQ(modbus[0].kind, ServerKind::server) << modbus[0].text;
   EXPECT_THAT(modbus[0].limits, ElementsAre("words of a read (03): 125, as printed",
                                             "bits of a read (01): 2000, as printed"));
 }
@@ -56,15 +56,15 @@ TEST(Servers, AreFoundWithTheirLimits) {
 TEST(Servers, OfAnotherDriverRefuse) {
   const auto found = look(device("modbus-tcp", {}), "xgt-fenet");
   ASSERT_FALSE(found.empty());
-  EXPECT_EQ(found[0].kind, Kind::refused);
+  EXPECT_EQ(found[0].kind, ServerKind::refused);
   EXPECT_THAT(found[0].advice, HasSubstr("one server driver"));
 }
 
 TEST(Servers, ThatTheHostTableKeepsUsFromAreNamed) {
   const auto found = look(device("xgt-fenet", {{"host_table", {"203.0.113.7"}}}), "xgt-fenet");
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].kind, Kind::ended);
-  EXPECT_EQ(found[1].kind, Kind::silent);
+  EXPECT_EQ(found[0].kind, ServerKind::ended);
+  EXPECT_EQ(found[1].kind, ServerKind::silent);
   for (const ServerFinding& one : found) EXPECT_THAT(one.advice, HasSubstr("host table"));
 }
 

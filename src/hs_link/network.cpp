@@ -105,11 +105,12 @@ Status HsNetwork::act(std::string_view action) {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> keys{"hs_link", "mode", "station", "stations"};
+constexpr std::array<std::string_view, 4> station_keys{"hs_link", "mode", "station", "stations"};
 
 Result<std::unique_ptr<Station>> make_station(const plc::PlcModel& model, const json& config) {
   constexpr const char* what = "a station of the high-speed link";
-  if (const Status known = plc::known_keys(config, what, keys); !known) return known.error();
+  if (const Status known = plc::known_keys(config, what, station_keys); !known)
+    return known.error();
   unsigned number = 1;
   bool run = true;
   plc::ConfigReader reader(config, what);
