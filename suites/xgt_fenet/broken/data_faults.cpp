@@ -99,7 +99,6 @@ MakeBehaviour reply_word(std::size_t at, unsigned (*change)(unsigned)) {
       put_word(reply, at, change(word_at(reply, at)));
   });
 }
-unsigned swapped(unsigned word) { return (word & 0xFF) << 8 | word >> 8; }
 
 }  // namespace
 

@@ -73,4 +73,7 @@ std::vector<Name> names_of(const Bytes& request);
 /// The data of each block of a reply or of a write.
 std::vector<Name> data_of(const Bytes& frame);
 
+/// A word with its bytes in the other order.
+constexpr unsigned swapped(unsigned word) { return (word & 0xFF) << 8 | word >> 8; }
+
 }  // namespace fieldproof::xgt_fenet_broken

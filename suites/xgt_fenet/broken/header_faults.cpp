@@ -20,7 +20,6 @@ MakeBehaviour word_is(std::size_t at, unsigned (*change)(unsigned)) {
 MakeBehaviour byte_is(std::size_t at, Byte (*change)(Byte)) {
   return edits_if(always, [=](Bytes& reply) { reply[at] = change(reply[at]); });
 }
-unsigned swapped(unsigned word) { return (word & 0xFF) << 8 | word >> 8; }
 
 /// Numbers its replies itself.
 Behaviour counting() {
