@@ -5,7 +5,7 @@
 #include "harness/system/test_sockets.hpp"
 #include "suites/tool/tool_files.hpp"
 
-namespace fieldproof::tool_tests {
+namespace fieldproof::tool_tests::fenet_client {
 namespace {
 
 using nlohmann::ordered_json;
@@ -86,4 +86,4 @@ TEST_F(FenetClient, OneThatErrsIsCaughtOnTheWire) {
 }
 
 }  // namespace
-}  // namespace fieldproof::tool_tests
+}  // namespace fieldproof::tool_tests::fenet_client

@@ -8,7 +8,7 @@
 #include "src/base/bytes.hpp"
 #include "suites/tool/network_runs.hpp"
 
-namespace fieldproof::tool_tests {
+namespace fieldproof::tool_tests::fenet {
 namespace {
 
 using testing::AllOf;
@@ -169,4 +169,4 @@ TEST(XgtFenetReadme, a_client_of_four_lines_reads_a_word) {
 }
 
 }  // namespace
-}  // namespace fieldproof::tool_tests
+}  // namespace fieldproof::tool_tests::fenet
