@@ -17,7 +17,7 @@ using testing::Not;
 
 constexpr const char* plc = "xbc-h?protocol=modbus-tcp";
 constexpr const char* protocol = "modbus-tcp";
-constexpr const char* all = "modbus_tcp/*";
+constexpr const char* every_case = "modbus_tcp/*";
 
 class Emulated : public EmulatedServer {
  public:
@@ -66,12 +66,13 @@ std::vector<std::vector<std::string>> decoded(const std::string& capture,
   return rows;
 }
 
-/// Once in process, for all tests of this suite.
+/// Once in process, for every_case tests of this suite.
 class ModbusTcp : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TestFolder>();
-    const Finished finished = run_on(*folder_, std::string("emulator:") + plc, "in_process", all);
+    const Finished finished =
+        run_on(*folder_, std::string("emulator:") + plc, "in_process", every_case);
     EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
     in_process_ = read_results(*folder_ / "in_process/results.ndjson");
   }
@@ -83,8 +84,8 @@ class ModbusTcp : public testing::Test {
 
 TEST_F(ModbusTcp, in_another_process_as_in_process) {
   Emulated device;
-  const Finished finished =
-      run_on(*folder_, device.endpoint(), "tcp", all, {"--capture", *folder_ / "tcp.pcapng"});
+  const Finished finished = run_on(*folder_, device.endpoint(), "tcp", every_case,
+                                   {"--capture", *folder_ / "tcp.pcapng"});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   std::vector<NotThere> reasons = without_back_door;
   reasons.insert(reasons.end(), not_saved.begin(), not_saved.end());
@@ -107,7 +108,7 @@ TEST_F(ModbusTcp, started_by_the_bench_as_in_process) {
   const Finished finished = run_on(*folder_,
                                    "exec:exec " + quoted(FIELDPROOF_TOOL) + " emulate " +
                                        quoted(plc) + " --tcp {port}?protocol=modbus-tcp",
-                                   "exec", all);
+                                   "exec", every_case);
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   expect_same_verdicts(in_process_, read_results(*folder_ / "exec/results.ndjson"),
                        without_back_door, 250);
@@ -134,7 +135,8 @@ TEST_F(ModbusTcp, a_printed_example_is_decoded_field_by_field) {
 TEST(ModbusTcpTrouble, a_refused_connection_speaks_of_port_and_host_table) {
   const TestFolder folder;
   const std::string where = "127.0.0.1:" + std::to_string(free_port());
-  const Finished finished = run_on(folder, "tcp:" + where + "?protocol=modbus-tcp", "out", all);
+  const Finished finished =
+      run_on(folder, "tcp:" + where + "?protocol=modbus-tcp", "out", every_case);
   EXPECT_EQ(finished.code, 3);
   EXPECT_THAT(finished.err, AllOf(HasSubstr("tcp:" + where), HasSubstr("refused"),
                                   HasSubstr("port"), HasSubstr("table of hosts")));
@@ -145,7 +147,8 @@ TEST(ModbusTcpTrouble, a_silent_device_speaks_of_address_firewall_and_connection
   const TestFolder folder;
   const os::UniqueFd silent = os::test::bound(SOCK_STREAM);  // takes connections, and no more
   const std::string where = "127.0.0.1:" + std::to_string(os::test::port_of(silent));
-  const Finished finished = run_on(folder, "tcp:" + where + "?protocol=modbus-tcp", "out", all);
+  const Finished finished =
+      run_on(folder, "tcp:" + where + "?protocol=modbus-tcp", "out", every_case);
   EXPECT_EQ(finished.code, 3);
   EXPECT_THAT(finished.err,
               AllOf(HasSubstr("nothing answers on tcp:" + where), HasSubstr("address"),
@@ -155,7 +158,8 @@ TEST(ModbusTcpTrouble, a_silent_device_speaks_of_address_firewall_and_connection
 
 TEST(ModbusTcpTrouble, a_host_that_is_not_there) {
   const TestFolder folder;
-  const Finished finished = run_on(folder, "tcp:plc.invalid?protocol=modbus-tcp", "out", all);
+  const Finished finished =
+      run_on(folder, "tcp:plc.invalid?protocol=modbus-tcp", "out", every_case);
   EXPECT_EQ(finished.code, 3);
   EXPECT_THAT(finished.err,
               AllOf(HasSubstr("cannot find host 'plc.invalid'"), HasSubstr("write its address")));
