@@ -66,7 +66,7 @@ std::vector<std::vector<std::string>> decoded(const std::string& capture,
   return rows;
 }
 
-/// Once in process, for every_case tests of this suite.
+/// Once in process, for all tests of this suite.
 class ModbusTcp : public testing::Test {
  protected:
   static void SetUpTestSuite() {
