@@ -194,6 +194,11 @@ void Links::take(const endpoints::Endpoint& from, Burst burst) {
 }
 
 void Links::close(Link& link, Closing how) {
+  if (link.by_device && link.datagrams()) {  // there is nothing to end
+    link.sends = link.hears = false;
+    link.gone = true;
+    return;
+  }
   const Time now = link.to.endpoint->now();
   const Status closed = link.to.endpoint->close(link.id, how);
   if (!closed && !transcript_.trouble) transcript_.trouble = closed.error();

@@ -72,7 +72,7 @@ TEST_F(FenetClient, AProgramThatAsksWhatItIsToldPasses) {
   const Finished finished = stimulated(
       "xgt_fenet/client/read/single*:*/client/read/areas_*:*/client/read/continuous_word:"
       "*/client/write/areas_*:*/client/connection/*_channels:*/client/connection/kept:"
-      "xgt_fenet/client/udp/*");
+      "xgt_fenet/client/udp/read:xgt_fenet/client/udp/w*");
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   EXPECT_GE(results.counts()["PASS"], 16u) << finished.out;
   EXPECT_EQ(results.verdict("xgt_fenet/client/udp/read"), "PASS");
