@@ -57,7 +57,7 @@ TEST(CaseReport, AFailureIsALineAndABlock) {
   EXPECT_EQ(
       R"(FAIL          xgt_cnet/rss/one_word  BCC: expected 0F, received 09 (the sum leaves out the header)
   Read one word from M100 of station 1
-  clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed)
+  clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed rule)
   expected  [ACK st 'rSS' '01' '02' '1234' ETX BCC]
             0000  06 30 31 72 53 53 30 31  30 32 31 32 33 34 03 30
             0010  46

@@ -41,7 +41,7 @@ std::string case_timing(const results::CaseResult& result);
 /// not known is left out.
 ///
 ///   Read one word from M20 and one from P001 of station 1
-///   clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed)
+///   clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed rule)
 ///             "This example supposes when 1 WORD from M20 ..."
 ///   sent      ENQ '01rSS0206%MW02006%PW001' EOT '68'
 ///             05 30 31 ...

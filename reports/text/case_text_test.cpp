@@ -16,7 +16,7 @@ using testing::Not;
 
 TEST(CaseBlock, SaysWhatABenchEngineerNeeds) {
   EXPECT_EQ(R"(Read one word from M100 of station 1
-clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed)
+clause    xgb-cnet-en-1.6, 7.1.5 (1)(e) (must, printed rule)
           "BCC is the low byte of the sum from ENQ to EOT"
 sent      ENQ '01rSS0106%MW100' EOT 'A3'
           0000  05 30 31 72 53 53 30 31  30 36 25 4D 57 31 30 30
