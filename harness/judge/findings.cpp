@@ -46,7 +46,10 @@ void Findings::miss_in_any_case(std::string message) {
     missed_ = false;
     message += "; " + result.message;
   }
-  miss(std::move(message));
+  if (missed_)
+    result.notes.push_back(std::move(message));
+  else
+    miss(std::move(message));
 }
 
 void Findings::settle(const vectors::Case& source, bool binding_decisions) {

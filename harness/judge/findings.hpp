@@ -19,7 +19,8 @@ class Findings {
   void miss_or_lower(bool binding, std::string message);
   /// Something that is not the device's doing ends the case.
   void block(std::string message);
-  /// A miss that counts although the case was blocked before it came out.
+  /// A miss that counts although the case was blocked before it came out. Beside another one it is
+  /// a note.
   void miss_in_any_case(std::string message);
   bool missed() const { return missed_; }
 

@@ -260,6 +260,14 @@ TEST_F(JudgeTest, ALinkThatDiesIsBlamedOnTheFrame) {
   EXPECT_EQ(judged(ask()).message, "link dead after this frame: nothing answers any more");
 }
 
+TEST_F(JudgeTest, ALinkThatDiesIsNotedBesideTheMissThatShowsIt) {
+  endpoint.can.simulated = false;
+  const auto found = judged(ask());
+  EXPECT_EQ(found.message, "no answer within 500 ms");
+  EXPECT_THAT(found.notes,
+              Contains(HasSubstr("link dead after this frame: nothing answers any more")));
+}
+
 TEST_F(JudgeTest, ADeviceThatAnswersProbesItsOwnWayIsAlive) {
   endpoint.can.simulated = false;
   endpoint.answers["<probe>"] = Pieces{{1ms, "<what?>"}};

@@ -25,13 +25,13 @@ std::size_t characters(const std::string& text) {
 }
 
 /// Of one vector, or of what differs in one framing.
-std::vector<std::string> faults(const json& vector) {
+std::vector<std::string> faults(const json& one) {
   std::vector<std::string> found;
-  const std::string title = vector.value("title", "");
+  const std::string title = one.value("title", "");
   if (characters(title) > longest_title) found.push_back("a long title: " + title);
-  if (vector.value("basis", "") == "printed")
+  if (one.value("basis", "") == "printed")
     found.push_back("printed frame, or printed rule? " + title);
-  const json differs = vector.value("differs", json::object());
+  const json differs = one.value("differs", json::object());
   for (const json& difference : differs)
     std::ranges::move(faults(difference), std::back_inserter(found));
   return found;
@@ -45,8 +45,8 @@ TEST(OwnVectors, HaveShortTitlesAndSayWhatIsPrinted) {
     if (!folder.is_directory() || name == "statements" || name == "errata" || name == "wires")
       continue;
     for (const fs::directory_entry& file : fs::directory_iterator(folder))
-      for (const json& vector : json::parse(*results::read_whole_file(file.path()))) {
-        EXPECT_THAT(faults(vector), IsEmpty()) << file.path();
+      for (const json& one : json::parse(*results::read_whole_file(file.path()))) {
+        EXPECT_THAT(faults(one), IsEmpty()) << file.path();
         ++seen;
       }
   }

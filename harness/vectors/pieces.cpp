@@ -8,7 +8,7 @@ namespace {
 
 class Cutter {
  public:
-  explicit Cutter(std::string_view json) : json_(json) {}
+  explicit Cutter(std::string_view text) : json_(text) {}
 
   std::optional<std::vector<Piece>> cut() {
     std::vector<Piece> pieces;
@@ -103,6 +103,6 @@ class Cutter {
 
 }  // namespace
 
-std::optional<std::vector<Piece>> cut(std::string_view json) { return Cutter(json).cut(); }
+std::optional<std::vector<Piece>> cut(std::string_view text) { return Cutter(text).cut(); }
 
 }  // namespace fieldproof::vectors

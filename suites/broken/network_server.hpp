@@ -34,6 +34,29 @@ struct NetworkBehaviour {
   std::function<void(Bursts& does, Server& server)> act{};
 };
 
+/// Makers for the tables of faults: one function of a behaviour each.
+template <typename Settings>
+struct Makes {
+  using Behaviour = NetworkBehaviour<Settings>;
+  using Make = std::function<Behaviour()>;
+
+  static Make edits(std::function<void(Bytes& reply, const Bytes& request)> edit) {
+    return [=] { return Behaviour{.edit = edit}; };
+  }
+  static Make misreads(std::function<Bytes(Bytes request)> misread) {
+    return [=] { return Behaviour{.misread = misread}; };
+  }
+  static Make hears(std::function<Bursts(Burst heard, Server& server)> hear) {
+    return [=] { return Behaviour{.hear = hear}; };
+  }
+  static Make acts(std::function<void(Bursts& does, Server& server)> act) {
+    return [=] { return Behaviour{.act = act}; };
+  }
+  static Make set_up(std::function<void(Settings&)> settings) {
+    return [=] { return Behaviour{.settings = settings}; };
+  }
+};
+
 /// How many bytes of a stream are its first frame (or cannot be followed); nothing: not all of it
 /// has come.
 using FirstFrame = std::optional<std::size_t> (*)(ByteView stream);

@@ -106,26 +106,17 @@ Kit inverter() {
                  });
 }
 
-Kit modbus_tcp_server() {
-  const auto run_one = [](std::optional<std::size_t> fault, const Case& source) {
-    const auto behaviour =
-        fault ? modbus_tcp_broken::faults()[*fault].make() : modbus_tcp_broken::Behaviour{};
+/// A device that is made by the behaviour of its fault; without one it does the right thing.
+template <typename Fault, typename Behaviour>
+Kit by_behaviour(std::string name, std::string folder, const std::vector<Fault>& table,
+                 Device (*make)(const Behaviour&, std::string_view model, const json&)) {
+  const auto run_one = [&table, make](std::optional<std::size_t> fault, const Case& source) {
+    const Behaviour behaviour = fault ? table[*fault].make() : Behaviour{};
     return run(source, model_of(source, "xbc-h"), [=](std::string_view model, const json& config) {
-      return modbus_tcp_broken::make_broken_server(behaviour, model, config);
+      return make(behaviour, model, config);
     });
   };
-  return {"modbus-tcp", "modbus_tcp", names(modbus_tcp_broken::faults()), is_server_case, run_one};
-}
-
-Kit high_speed_link() {
-  const auto run_one = [](std::optional<std::size_t> fault, const Case& source) {
-    const auto behaviour =
-        fault ? hs_link_broken::faults()[*fault].make() : hs_link_broken::Behaviour{};
-    return run(source, model_of(source, "xbc-h"), [=](std::string_view model, const json& config) {
-      return hs_link_broken::make_broken_network(behaviour, model, config);
-    });
-  };
-  return {"hs-link", "hs_link", names(hs_link_broken::faults()), is_server_case, run_one};
+  return {std::move(name), std::move(folder), names(table), is_server_case, run_one};
 }
 
 Kit user_frames_port() {
@@ -167,8 +158,10 @@ std::vector<Kit> kits() {
   return {xgt_server(),
           modbus_server("rtu"),
           modbus_server("ascii"),
-          modbus_tcp_server(),
-          high_speed_link(),
+          by_behaviour("modbus-tcp", "modbus_tcp", modbus_tcp_broken::faults(),
+                       modbus_tcp_broken::make_broken_server),
+          by_behaviour("hs-link", "hs_link", hs_link_broken::faults(),
+                       hs_link_broken::make_broken_network),
           inverter(),
           user_frames_port(),
           client("xgt-cnet client", "xgt_cnet"),

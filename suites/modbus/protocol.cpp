@@ -5,7 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "harness/device_names.hpp"
+#include "harness/plc_protocol.hpp"
 #include "src/base/letters.hpp"
 #include "src/modbus/modbus_plc.hpp"
 #include "src/modbus/p2p_driver.hpp"
@@ -26,19 +26,18 @@ using harness::Protocol;
 
 namespace {
 
-class Modbus : public Protocol,
+class Modbus : public harness::PlcProtocol,
                public harness::Probing,
                public harness::MemoryRequests,
                public harness::Tables {
  public:
   Modbus(modbus::ModbusMode mode, const Framing& framing, Bases bases = default_bases())
-      : mode_(mode), framing_(framing), bases_(std::move(bases)) {}
+      : PlcProtocol(bases.model), mode_(mode), framing_(framing), bases_(std::move(bases)) {}
 
   std::string_view name() const override { return framing_.protocol_name(); }
 
   std::vector<std::string> models() const override {
-    std::vector<std::string> names;
-    for (const plc::PlcModel& model : plc::plc_models()) names.emplace_back(model.name);
+    std::vector<std::string> names = PlcProtocol::models();
     if (mode_ == modbus::ModbusMode::tcp) names.emplace_back(xnet::xd);
     return names;
   }
@@ -168,12 +167,6 @@ class Modbus : public Protocol,
   std::vector<Place> places(const Written& written) const override {
     return modbus_suite::places(bases_, written);
   }
-  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
-    return harness::named_memory(*bases_.model, address, digits);
-  }
-  std::optional<std::string> moved(std::string_view address, int words) const override {
-    return harness::moved_name(*bases_.model, address, words);
-  }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return modbus_suite::address_fields(framing_, bases_, frame, reply);
   }
@@ -181,15 +174,8 @@ class Modbus : public Protocol,
                                    int words) const override {
     return modbus_suite::moved_field(framing_, bases_, frame, field, words);
   }
-  std::uint32_t words_of(std::string_view area) const override {
-    const plc::DeviceArea* found = area.size() == 1 ? bases_.model->area(area[0]) : nullptr;
-    return found ? found->words : 0;
-  }
 
   std::string_view output_areas() const override { return "PQU"; }
-  std::optional<WordName> read_word(std::string_view text) const override {
-    return harness::read_word_name(text);
-  }
 
   /// What the default base of the holding registers reaches.
   std::vector<Area> areas() const override { return {{"M", plc::last_words_of('M')}}; }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/device_names.hpp"
+#include "harness/plc_protocol.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
 #include "src/xgt_cnet/p2p_driver.hpp"
@@ -23,21 +23,14 @@ namespace {
 
 std::string station_text(int station) { return hex_number(static_cast<unsigned>(station), 2); }
 
-class XgtCnet : public harness::Protocol,
+class XgtCnet : public harness::PlcProtocol,
                 public harness::Probing,
                 public harness::MemoryRequests,
                 public harness::Tables {
  public:
-  /// nullptr: of no model in particular.
-  explicit XgtCnet(const PlcModel* model = nullptr) : model_(model) {}
+  using PlcProtocol::PlcProtocol;
 
   std::string_view name() const override { return "xgt-cnet"; }
-
-  std::vector<std::string> models() const override {
-    std::vector<std::string> names;
-    for (const PlcModel& model : plc::plc_models()) names.emplace_back(model.name);
-    return names;
-  }
 
   Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
       std::string_view model, const nlohmann::json& config) const override {
@@ -127,7 +120,7 @@ class XgtCnet : public harness::Protocol,
     return xgt_cnet_suite::without_check(request);
   }
   std::vector<Written> written_by(ByteView request) const override {
-    return xgt_cnet_suite::written_by(request, model_);
+    return xgt_cnet_suite::written_by(request, declared_model());
   }
 
   Result<std::unique_ptr<harness::Protocol>> configured(std::string_view model,
@@ -135,34 +128,10 @@ class XgtCnet : public harness::Protocol,
     return std::unique_ptr<harness::Protocol>(
         std::make_unique<XgtCnet>(plc::find_plc_model(model)));
   }
-  std::vector<Place> places(const Written& written) const override {
-    return harness::places_on(model(), written);
-  }
-  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
-    return harness::named_memory(model(), address, digits);
-  }
-  std::optional<std::string> moved(std::string_view address, int words) const override {
-    return harness::moved_name(model(), address, words);
-  }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return reply ? std::vector<AddressField>() : xgt_cnet_suite::address_fields(frame, model());
   }
-  std::uint32_t words_of(std::string_view area) const override {
-    const plc::DeviceArea* found = area.size() == 1 ? model().area(area[0]) : nullptr;
-    return found ? found->words : 0;
-  }
   std::string_view output_areas() const override { return "PQU"; }
-  std::optional<WordName> read_word(std::string_view text) const override {
-    return harness::read_word_name(text);
-  }
-
-  std::vector<Area> areas() const override {
-    std::vector<Area> areas;
-    for (char letter = 'A'; letter <= 'Z'; ++letter)
-      if (std::vector<std::uint32_t> ends = plc::last_words_of(letter); !ends.empty())
-        areas.push_back({std::string(1, letter), std::move(ends)});
-    return areas;
-  }
 
   Status check_table(const nlohmann::json& facts) const override {
     if (facts.contains("p2p")) return check_p2p_fact(facts);
@@ -183,11 +152,6 @@ class XgtCnet : public harness::Protocol,
         return fail(fmt::format("unknown fact '{}'", key));
     return ok();
   }
-
- private:
-  const PlcModel& model() const { return model_ ? *model_ : plc::plc_models().front(); }
-
-  const PlcModel* model_;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "harness/device_names.hpp"
+#include "harness/plc_protocol.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
 #include "src/xgt_fenet/p2p_driver.hpp"
@@ -29,21 +29,15 @@ constexpr notation::Dressing dressing_of_frames{
     .reply_of_bench = "['LSIS-XGT' 00 00 07 01 B0 11 ${transaction} LEN 01 SUM${wrong} ${body}]",
     .low_byte_first = true};
 
-class XgtFenet : public harness::Protocol,
+class XgtFenet : public harness::PlcProtocol,
                  public harness::Probing,
                  public harness::MemoryRequests,
                  public harness::Tables {
  public:
-  /// nullptr: of no model in particular.
-  explicit XgtFenet(const PlcModel* model = nullptr) : model_(model) {}
+  using PlcProtocol::PlcProtocol;
 
   std::string_view name() const override { return "xgt-fenet"; }
 
-  std::vector<std::string> models() const override {
-    std::vector<std::string> names;
-    for (const PlcModel& one : plc::plc_models()) names.emplace_back(one.name);
-    return names;
-  }
   std::uint16_t default_port() const override { return xgt_fenet::tcp_port; }
   std::uint16_t datagram_port() const override { return xgt_fenet::udp_port; }
 
@@ -111,7 +105,7 @@ class XgtFenet : public harness::Protocol,
   /// The sum is of the header alone, and no server need look at it.
   bool is_checked(ByteView) const override { return false; }
   std::vector<Written> written_by(ByteView request) const override {
-    return xgt_fenet_suite::written_by(request, model_);
+    return xgt_fenet_suite::written_by(request, declared_model());
   }
 
   Result<std::unique_ptr<harness::Protocol>> configured(std::string_view model,
@@ -119,34 +113,10 @@ class XgtFenet : public harness::Protocol,
     return std::unique_ptr<harness::Protocol>(
         std::make_unique<XgtFenet>(plc::find_plc_model(model)));
   }
-  std::vector<Place> places(const Written& written) const override {
-    return harness::places_on(model(), written);
-  }
-  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
-    return harness::named_memory(model(), address, digits);
-  }
-  std::optional<std::string> moved(std::string_view address, int words) const override {
-    return harness::moved_name(model(), address, words);
-  }
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return reply ? std::vector<AddressField>() : xgt_fenet_suite::address_fields(frame, model());
   }
-  std::uint32_t words_of(std::string_view area) const override {
-    const plc::DeviceArea* found = area.size() == 1 ? model().area(area[0]) : nullptr;
-    return found ? found->words : 0;
-  }
   std::string_view output_areas() const override { return "PQU"; }
-  std::optional<WordName> read_word(std::string_view text) const override {
-    return harness::read_word_name(text);
-  }
-
-  std::vector<Area> areas() const override {
-    std::vector<Area> areas;
-    for (char letter = 'A'; letter <= 'Z'; ++letter)
-      if (std::vector<std::uint32_t> ends = plc::last_words_of(letter); !ends.empty())
-        areas.push_back({std::string(1, letter), std::move(ends)});
-    return areas;
-  }
 
   /// Areas, and flags and registers of P2P, are those of the same PLC on Cnet.
   Status check_table(const nlohmann::json& facts) const override {
@@ -159,9 +129,6 @@ class XgtFenet : public harness::Protocol,
     return p2p::add_network_clients(plc, config, ports,
                                     [] { return std::make_unique<xgt_fenet::FenetP2pDriver>(); });
   }
-  const PlcModel& model() const { return model_ ? *model_ : plc::plc_models().front(); }
-
-  const PlcModel* model_;
 };
 
 }  // namespace

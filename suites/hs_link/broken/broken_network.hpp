@@ -23,8 +23,8 @@ struct Behaviour {
   std::function<std::vector<std::string>(const std::string& action)> act{};
 };
 
-using Fault = broken::FaultOf<Behaviour (*)()>;
-std::vector<Fault> faults();
+using Fault = broken::FaultOf<std::function<Behaviour()>>;
+const std::vector<Fault>& faults();
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_network(const Behaviour& behaviour,
                                                                  std::string_view model,

@@ -35,7 +35,7 @@ Result<std::unique_ptr<modbus::DataSpace>> data_of(plc::PlcMemory& memory,
 
 }  // namespace
 
-Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(Behaviour behaviour,
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(const Behaviour& behaviour,
                                                                 std::string_view model,
                                                                 const nlohmann::json& config) {
   Result<std::unique_ptr<plc::Plc>> good = plc::make_plc(model, config);

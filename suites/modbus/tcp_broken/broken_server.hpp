@@ -10,7 +10,7 @@
 namespace fieldproof::modbus_tcp_broken {
 
 /// `config` as of a Modbus TCP server. Errors name the model or the parameter.
-Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(Behaviour behaviour,
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(const Behaviour& behaviour,
                                                                 std::string_view model,
                                                                 const nlohmann::json& config);
 

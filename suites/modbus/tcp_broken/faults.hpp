@@ -14,8 +14,9 @@ namespace fieldproof::modbus_tcp_broken {
 
 using broken::Bursts;
 using broken::Server;
-using Behaviour = broken::NetworkBehaviour<modbus::TcpServerConfig>;
-using MakeBehaviour = std::function<Behaviour()>;
+using Makes = broken::Makes<modbus::TcpServerConfig>;
+using Behaviour = Makes::Behaviour;
+using MakeBehaviour = Makes::Make;
 using Fault = broken::FaultOf<MakeBehaviour>;
 
 /// All of them.
@@ -27,11 +28,11 @@ std::vector<Fault> stream_faults();
 std::vector<Fault> connection_faults();
 std::vector<Fault> data_faults();
 
-MakeBehaviour edits(std::function<void(Bytes& reply, const Bytes& request)> edit);
-MakeBehaviour misreads(std::function<Bytes(Bytes request)> misread);
-MakeBehaviour hears(std::function<Bursts(Burst heard, Server& server)> hear);
-MakeBehaviour acts(std::function<void(Bursts& does, Server& server)> act);
-MakeBehaviour set_up(std::function<void(modbus::TcpServerConfig&)> settings);
+constexpr auto edits = Makes::edits;
+constexpr auto misreads = Makes::misreads;
+constexpr auto hears = Makes::hears;
+constexpr auto acts = Makes::acts;
+constexpr auto set_up = Makes::set_up;
 
 // Parts of a frame (FEnet EN 5.3.3).
 constexpr std::size_t protocol_at = 2, length_at = 4, unit_at = 6, function_at = 7, address_at = 8,

@@ -2,32 +2,27 @@
 #include <algorithm>
 #include <memory>
 
+#include "suites/broken/stream_faults.hpp"
 #include "suites/modbus/tcp_broken/faults.hpp"
 
 namespace fieldproof::modbus_tcp_broken {
 
 namespace {
 
+using Settings = modbus::TcpServerConfig;
+
 bool is_data(const Burst& heard) { return heard.event == LinkEvent::data; }
 
-/// How many bytes of whole frames `bytes` begins with, at most `frames` of them.
-std::size_t whole(const Bytes& bytes, std::size_t frames = ~std::size_t{0}) {
-  std::size_t at = 0;
-  for (; frames > 0 && at + unit_at <= bytes.size(); --frames) {
-    const std::size_t end = at + unit_at + word_at(bytes, at + length_at);
-    if (end > bytes.size()) break;
-    at = end;
-  }
-  return at;
-}
-
-/// What it hears in one segment.
-MakeBehaviour hears_segment(std::function<Bytes(Bytes segment)> change) {
-  return hears([=](Burst heard, Server&) {
-    if (is_data(heard)) heard.bytes = change(std::move(heard.bytes));
-    return Bursts{std::move(heard)};
+std::size_t whole(const Bytes& bytes, std::size_t frames) {
+  return broken::whole_frames(bytes, frames, unit_at, [](const Bytes& all, std::size_t at) {
+    return word_at(all, at + length_at);
   });
 }
+std::size_t whole(const Bytes& bytes) { return whole(bytes, broken::all_frames); }
+
+constexpr auto hears_segment = broken::hears_segment<Settings>;
+Behaviour one_stream() { return broken::one_stream<Settings>(whole); }
+Behaviour half_stays(LinkEvent ending) { return broken::half_stays<Settings>(whole, ending); }
 
 Bytes last_frame(Bytes segment) {
   std::size_t begin = 0;
@@ -37,42 +32,6 @@ Bytes last_frame(Bytes segment) {
     begin = end;
   }
   return {segment.begin() + static_cast<std::ptrdiff_t>(begin), segment.end()};
-}
-
-/// Puts one stream together for all connections; whoever completes a frame gets the answer.
-Behaviour one_stream() {
-  auto kept = std::make_shared<Bytes>();
-  return {.hear = [kept](Burst heard, Server&) {
-    if (!is_data(heard)) return Bursts{std::move(heard)};
-    kept->insert(kept->end(), heard.bytes.begin(), heard.bytes.end());
-    const auto end = kept->begin() + static_cast<std::ptrdiff_t>(whole(*kept));
-    heard.bytes.assign(kept->begin(), end);
-    kept->erase(kept->begin(), end);
-    return Bursts{std::move(heard)};
-  }};
-}
-
-/// A half frame stays when its connection ends so, and the next connection goes on with it.
-Behaviour half_stays(LinkEvent ending) {
-  struct Kept {
-    std::map<LinkId, Bytes> streams;
-    Bytes left;
-  };
-  auto kept = std::make_shared<Kept>();
-  return {.hear = [kept, ending](Burst heard, Server&) {
-    if (heard.event == LinkEvent::opened) {
-      kept->streams[heard.link] = std::exchange(kept->left, {});
-    } else if (is_data(heard)) {
-      Bytes& stream = kept->streams[heard.link];
-      stream.insert(stream.end(), heard.bytes.begin(), heard.bytes.end());
-      const auto end = stream.begin() + static_cast<std::ptrdiff_t>(whole(stream));
-      heard.bytes.assign(stream.begin(), end);
-      stream.erase(stream.begin(), end);
-    } else if (heard.event == ending) {
-      kept->left = kept->streams[heard.link];
-    }
-    return Bursts{std::move(heard)};
-  }};
 }
 
 /// Answers as soon as the function has come: the rest is taken for zeros.
@@ -107,9 +66,7 @@ Behaviour forgets_after(Duration pause) {
     if (heard.start - own.last > pause) own.half.clear();
     own.last = heard.start;
     own.half.insert(own.half.end(), heard.bytes.begin(), heard.bytes.end());
-    const auto end = own.half.begin() + static_cast<std::ptrdiff_t>(whole(own.half));
-    heard.bytes.assign(own.half.begin(), end);
-    own.half.erase(own.half.begin(), end);
+    heard.bytes = broken::take_whole(own.half, whole);
     return Bursts{std::move(heard)};
   }};
 }
@@ -121,7 +78,7 @@ Behaviour completes_at_the_end() {
     Bytes& stream = (*streams)[heard.link];
     if (is_data(heard)) {
       stream.insert(stream.end(), heard.bytes.begin(), heard.bytes.end());
-      stream.erase(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(whole(stream)));
+      broken::take_whole(stream, whole);
       return Bursts{std::move(heard)};
     }
     Bursts all;

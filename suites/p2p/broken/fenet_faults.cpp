@@ -50,7 +50,7 @@ MakeBehaviour request(std::function<void(Request& request, std::vector<std::stri
   });
 }
 
-MakeBehaviour names(std::function<std::string(std::string name)> edit) {
+MakeBehaviour spells(std::function<std::string(std::string name)> edit) {
   return request([=](Request& own, std::vector<std::string>& texts) {
     for (Request::Block& block : own.blocks)
       block.name = texts.emplace_back(edit(std::string(block.name)));
@@ -68,7 +68,7 @@ MakeBehaviour reply(std::function<void(Header& header, Bytes& body, const P2pBlo
   });
 }
 
-void set_word(Bytes& bytes, std::size_t at, unsigned value) {
+void set_low_first(Bytes& bytes, std::size_t at, unsigned value) {
   if (bytes.size() < at + 2) return;
   bytes[at] = static_cast<Byte>(value);
   bytes[at + 1] = static_cast<Byte>(value >> 8);
@@ -92,7 +92,7 @@ Behaviour taken_by(std::function<bool(std::uint16_t came, const Sent& sent)> pas
           .takes =
               [=](const P2pDriver& good, const P2pBlock& block, Bytes frame, PlcMemory& memory) {
                 const auto own = xgt_fenet::read_header(frame);
-                if (own) set_word(frame, 14, passes(own->invoke, *sent) ? sent->invoke : 0xFFFF);
+                if (own) set_low_first(frame, 14, passes(own->invoke, *sent) ? sent->invoke : 0xFFFF);
                 return good.take(block, frame, memory);
               }};
 }
@@ -105,7 +105,7 @@ Behaviour does_not_count() {
                 Result<Bytes> frame = good.request(block, memory);
                 if (frame) {
                   *sent = xgt_fenet::word_at(*frame, 14);
-                  set_word(*frame, 14, 1);
+                  set_low_first(*frame, 14, 1);
                   frame->at(19) = xgt_fenet::header_check(*frame);
                 }
                 return frame;
@@ -113,7 +113,7 @@ Behaviour does_not_count() {
           .takes =
               [=](const P2pDriver& good, const P2pBlock& block, Bytes frame, PlcMemory& memory) {
                 const auto own = xgt_fenet::read_header(frame);
-                if (own) set_word(frame, 14, own->invoke == 1 ? *sent : 0xFFFF);
+                if (own) set_low_first(frame, 14, own->invoke == 1 ? *sent : 0xFFFF);
                 return good.take(block, frame, memory);
               }};
 }
@@ -162,7 +162,7 @@ MakeBehaviour refusal(std::function<std::uint16_t(std::uint16_t code)> shown) {
 
 void with_the_command_asked_for(Header&, Bytes& content, const P2pBlock& block) {
   const bool writes = block.function == P2pBlock::Function::write;
-  set_word(content, 0, writes ? 0x59 : 0x55);
+  set_low_first(content, 0, writes ? 0x59 : 0x55);
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ std::vector<Fault> fenet_request_faults() {
        header([](Header& own) { own.source = xgt_fenet::from_server; }),
        "xgt_fenet/client/read/header", "source: expected"},
       {"fenet_length_with_header", "the length counts the header, too",
-       spoils([](Bytes& frame) { set_word(frame, 16, static_cast<unsigned>(frame.size())); }),
+       spoils([](Bytes& frame) { set_low_first(frame, 16, static_cast<unsigned>(frame.size())); }),
        "xgt_fenet/client/read/single/word", "length: expected"},
       {"fenet_length_high_byte_first", "the length stands high byte first",
        spoils([](Bytes& frame) { std::swap(frame.at(16), frame.at(17)); }),
@@ -205,28 +205,28 @@ std::vector<Fault> fenet_request_faults() {
        }),
        "xgt_fenet/client/read/single_long/dword", "data type: expected"},
       {"fenet_reserved_word", "the reserved word of the body is not 0",
-       body([](Bytes& bytes) { set_word(bytes, reserved_at, 1); }),
+       body([](Bytes& bytes) { set_low_first(bytes, reserved_at, 1); }),
        "xgt_fenet/client/read/single/word", "reserved: expected"},
       {"fenet_one_block", "the number of blocks is 1 whatever it is",
-       body([](Bytes& bytes) { set_word(bytes, 6, 1); }), "xgt_fenet/client/read/areas_3",
+       body([](Bytes& bytes) { set_low_first(bytes, 6, 1); }), "xgt_fenet/client/read/areas_3",
        "block count: expected"},
       {"fenet_names_in_reverse", "the last name is asked for first",
        request([](Request& own, auto&) {
          if (!own.writes()) std::ranges::reverse(own.blocks);
        }),
        "xgt_fenet/client/read/areas_2", "name length 1: expected 0600, got 0400"},
-      {"fenet_names_padded", "names have five digits", names([](std::string name) {
+      {"fenet_names_padded", "names have five digits", spells([](std::string name) {
          return name.substr(0, 3) + std::string(8 - std::min<std::size_t>(8, name.size()), '0') +
                 name.substr(3);
        }),
        "xgt_fenet/client/read/single/word", "name"},
-      {"fenet_names_in_lower_case", "names are in lower case", names([](std::string name) {
+      {"fenet_names_in_lower_case", "names are in lower case", spells([](std::string name) {
          for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
          return name;
        }),
        "xgt_fenet/client/read/single/word", "name: expected"},
       {"fenet_name_without_percent", "names have no %",
-       names([](std::string name) { return name.substr(1); }), "xgt_fenet/client/read/single/word",
+       spells([](std::string name) { return name.substr(1); }), "xgt_fenet/client/read/single/word",
        "length: expected 1000 (16 bytes), got 0F00"},
       {"fenet_name_length_high_byte_first", "the length of a name stands high byte first",
        body([](Bytes& bytes) { std::swap(bytes.at(8), bytes.at(9)); }),
@@ -330,19 +330,19 @@ std::vector<Fault> fenet_reply_faults() {
        reply(with_the_command_asked_for), "xgt_fenet/client/errors/body/command_54",
        "%MW119 holds 13576BCD9BDF86427531FDB9"},
       {"fenet_type_not_compared", "a reply of another data type is taken",
-       reply([](Header&, Bytes& content, const P2pBlock&) { set_word(content, type_at, 2); }),
+       reply([](Header&, Bytes& content, const P2pBlock&) { set_low_first(content, type_at, 2); }),
        "xgt_fenet/client/errors/body/data_type", "%MW119 holds 13576BCD9BDF86427531FDB9"},
       {"fenet_blocks_not_compared", "a reply with too many blocks is taken",
        reply([](Header&, Bytes& content, const P2pBlock& block) {
          if (content.size() < data_at || block.variables.size() != 1) return;
-         set_word(content, blocks_at, 1);
+         set_low_first(content, blocks_at, 1);
          content.resize(data_at + 2);
        }),
        "xgt_fenet/client/errors/body/two_blocks", "%MW119 holds 13576BCD9BDF86427531FDB9"},
       {"fenet_size_not_compared", "of a block that is too long the first bytes are saved",
        reply([](Header&, Bytes& content, const P2pBlock& block) {
          if (content.size() <= data_at + 2 || block.variables.size() != 1) return;
-         set_word(content, 10, 2);
+         set_low_first(content, 10, 2);
          content.resize(data_at + 2);
        }),
        "xgt_fenet/client/errors/body/four_bytes", "%MW119 holds 13576BCD9BDF86427531FDB9"},

@@ -22,7 +22,7 @@ MakeBehaviour says(std::function<void(Bytes& bytes)> edit) {
   return [=] { return Behaviour{.says = edit}; };
 }
 
-MakeBehaviour hears(std::function<void(Bytes& bytes)> edit) {
+MakeBehaviour udata_hears(std::function<void(Bytes& bytes)> edit) {
   return [=] { return Behaviour{.hears = edit}; };
 }
 
@@ -49,10 +49,10 @@ std::vector<Fault> udata_faults() {
        says([](Bytes& bytes) { bytes.pop_back(); }), "udata/send/size_10", "data: expected"},
       {"udata_bytes_swapped", "of a word the high byte is sent first", says(swap_bytes),
        "udata/send/byte_order", "data: expected"},
-      {"udata_stored_swapped", "of a word the high byte is stored first", hears(swap_bytes),
+      {"udata_stored_swapped", "of a word the high byte is stored first", udata_hears(swap_bytes),
        "udata/receive/byte_order", "%DW300 holds BC5AEF12"},
       {"udata_stores_one_byte_less", "the last byte that was received is lost",
-       hears([](Bytes& bytes) { bytes.pop_back(); }), "udata/receive/size_7",
+       udata_hears([](Bytes& bytes) { bytes.pop_back(); }), "udata/receive/size_7",
        "%DB600 holds 00FF0D0A807FE7E8"},
       {"udata_data_from_next_byte", "data are taken and stored one byte too high",
        each_instruction(

@@ -11,27 +11,12 @@ const std::vector<Fault>& faults() {
   return all;
 }
 
-MakeBehaviour edits(std::function<void(Bytes&, const Bytes&)> edit) {
-  return [=] { return Behaviour{.edit = edit}; };
-}
 MakeBehaviour edits_if(bool (*of)(const Bytes&, const Bytes&), std::function<void(Bytes&)> edit) {
   return edits([of, edit](Bytes& reply, const Bytes& request) {
     if (!of(reply, request)) return;
     edit(reply);
     mend(reply);
   });
-}
-MakeBehaviour misreads(std::function<Bytes(Bytes)> misread) {
-  return [=] { return Behaviour{.misread = misread}; };
-}
-MakeBehaviour hears(std::function<Bursts(Burst, Server&)> hear) {
-  return [=] { return Behaviour{.hear = hear}; };
-}
-MakeBehaviour acts(std::function<void(Bursts&, Server&)> act) {
-  return [=] { return Behaviour{.act = act}; };
-}
-MakeBehaviour set_up(std::function<void(xgt_fenet::ServerConfig&)> settings) {
-  return [=] { return Behaviour{.settings = settings}; };
 }
 
 Byte sum_of_header(const Bytes& frame) {

@@ -13,8 +13,9 @@ namespace fieldproof::xgt_fenet_broken {
 
 using broken::Bursts;
 using broken::Server;
-using Behaviour = broken::NetworkBehaviour<xgt_fenet::ServerConfig>;
-using MakeBehaviour = std::function<Behaviour()>;
+using Makes = broken::Makes<xgt_fenet::ServerConfig>;
+using Behaviour = Makes::Behaviour;
+using MakeBehaviour = Makes::Make;
 using Fault = broken::FaultOf<MakeBehaviour>;
 
 /// All of them.
@@ -30,14 +31,14 @@ std::vector<Fault> stream_faults();
 std::vector<Fault> connection_faults();
 std::vector<Fault> datagram_faults();
 
-MakeBehaviour edits(std::function<void(Bytes& reply, const Bytes& request)> edit);
+constexpr auto edits = Makes::edits;
+constexpr auto misreads = Makes::misreads;
+constexpr auto hears = Makes::hears;
+constexpr auto acts = Makes::acts;
+constexpr auto set_up = Makes::set_up;
 /// The same of a reply to a request for which `of` holds; the check of the header is made good.
 MakeBehaviour edits_if(bool (*of)(const Bytes& reply, const Bytes& request),
                        std::function<void(Bytes& reply)> edit);
-MakeBehaviour misreads(std::function<Bytes(Bytes request)> misread);
-MakeBehaviour hears(std::function<Bursts(Burst heard, Server& server)> hear);
-MakeBehaviour acts(std::function<void(Bursts& does, Server& server)> act);
-MakeBehaviour set_up(std::function<void(xgt_fenet::ServerConfig&)> settings);
 
 // Parts of a frame (FEnet EN 5.2.3, 5.2.5).
 constexpr std::size_t plc_info_at = 10, cpu_at = 12, source_at = 13, invoke_at = 14, length_at = 16,

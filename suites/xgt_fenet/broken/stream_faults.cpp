@@ -2,70 +2,30 @@
 #include <algorithm>
 #include <memory>
 
+#include "suites/broken/stream_faults.hpp"
 #include "suites/xgt_fenet/broken/faults.hpp"
 
 namespace fieldproof::xgt_fenet_broken {
 
 namespace {
 
+using Settings = xgt_fenet::ServerConfig;
+
 bool is_data(const Burst& heard) { return heard.event == LinkEvent::data; }
 
-/// How many bytes of whole frames `bytes` begins with, at most `frames` of them.
-std::size_t whole(const Bytes& bytes, std::size_t frames = ~std::size_t{0}) {
-  std::size_t at = 0;
-  for (; frames > 0 && at + body_at <= bytes.size(); --frames) {
-    const std::size_t end = at + body_at + word_at(bytes, at + length_at);
-    if (end > bytes.size()) break;
-    at = end;
-  }
-  return at;
-}
-
-/// What it hears in one segment.
-MakeBehaviour hears_segment(std::function<Bytes(Bytes segment)> change) {
-  return hears([=](Burst heard, Server&) {
-    if (is_data(heard)) heard.bytes = change(std::move(heard.bytes));
-    return Bursts{std::move(heard)};
+std::size_t whole(const Bytes& bytes, std::size_t frames) {
+  return broken::whole_frames(bytes, frames, body_at, [](const Bytes& all, std::size_t at) {
+    return word_at(all, at + length_at);
   });
 }
+std::size_t whole(const Bytes& bytes) { return whole(bytes, broken::all_frames); }
+
+constexpr auto hears_segment = broken::hears_segment<Settings>;
+Behaviour one_stream() { return broken::one_stream<Settings>(whole); }
+Behaviour half_stays(LinkEvent ending) { return broken::half_stays<Settings>(whole, ending); }
+
 Bytes beginning(const Bytes& bytes, std::size_t size) {
   return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)};
-}
-
-/// Puts one stream together for all connections; whoever completes a frame gets the answer.
-Behaviour one_stream() {
-  auto kept = std::make_shared<Bytes>();
-  return {.hear = [kept](Burst heard, Server&) {
-    if (!is_data(heard)) return Bursts{std::move(heard)};
-    kept->insert(kept->end(), heard.bytes.begin(), heard.bytes.end());
-    const std::size_t size = whole(*kept);
-    heard.bytes = beginning(*kept, size);
-    kept->erase(kept->begin(), kept->begin() + static_cast<std::ptrdiff_t>(size));
-    return Bursts{std::move(heard)};
-  }};
-}
-
-/// A half frame stays when its connection ends so, and the next connection goes on with it.
-Behaviour half_stays(LinkEvent ending) {
-  struct Kept {
-    std::map<LinkId, Bytes> streams;
-    Bytes left;
-  };
-  auto kept = std::make_shared<Kept>();
-  return {.hear = [kept, ending](Burst heard, Server&) {
-    if (heard.event == LinkEvent::opened) {
-      kept->streams[heard.link] = std::exchange(kept->left, {});
-    } else if (is_data(heard)) {
-      Bytes& stream = kept->streams[heard.link];
-      stream.insert(stream.end(), heard.bytes.begin(), heard.bytes.end());
-      const std::size_t size = whole(stream);
-      heard.bytes = beginning(stream, size);
-      stream.erase(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(size));
-    } else if (heard.event == ending) {
-      kept->left = kept->streams[heard.link];
-    }
-    return Bursts{std::move(heard)};
-  }};
 }
 
 /// Forgets what it has heard of a frame when the next segment comes later than so.
