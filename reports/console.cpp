@@ -57,6 +57,8 @@ std::string counts(const text::Tally& tally, const ConsoleOptions& options) {
     text += fmt::format("  {:>{}}  {}{}{}\n", tally.of(verdict), digits, word,
                         text::verdict_meaning(verdict), text::gate_hint(verdict, options.gate));
   }
+  if (const std::string models = text::on_model_text(tally); !models.empty())
+    text += fmt::format("  {}\n", models);
   return text;
 }
 
@@ -200,7 +202,7 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
 Status ConsoleReport::begin(const RunInfo& run) { return print_(run_head(run, options_)), ok(); }
 
 const text::Finding* ConsoleReport::count(const CaseResult& result) {
-  summary_.tally.add(result.verdict);
+  summary_.tally.add(result);
   timing_.add(result);
   return gates(result.verdict, options_.gate) ? &summary_.red.add(result) : nullptr;
 }

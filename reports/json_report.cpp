@@ -44,7 +44,7 @@ class JsonReport final : public Sink {
 
   Status add(const Delivery& one) override {
     if (Status kept = cases_.append(tally_.total() == 0 ? "\n" : ",\n"); !kept) return kept;
-    tally_.add(one->verdict);
+    tally_.add(*one);
     timing_.add(*one);
     return cases_.append(one.json());
   }

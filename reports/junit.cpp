@@ -144,7 +144,7 @@ class JunitReport final : public Sink {
 
   Status add(const Delivery& one) override {
     Suite& suite = suite_of(one->protocol);
-    suite.tally.add(one->verdict);
+    suite.tally.add(*one);
     suite.seconds += one->seconds;
     suite.timing.add(*one);
     text_.clear();

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,6 +30,7 @@
 #include "src/p2p/p2p_plc.hpp"
 #include "src/xgt_cnet/p2p_driver.hpp"
 #include "src/xgt_cnet/plc.hpp"
+#include "src/xnet_network/network.hpp"
 #include "suites/protocols.hpp"
 
 namespace fieldproof::suites {
@@ -298,12 +300,54 @@ void register_tool_runs(const std::vector<std::pair<std::string, Tool>>& tools, 
                                             : 5);
 }
 
+/// X-NET on simulated time, until `end`: what is done to it every 12 s keeps it busy.
+void xnet_until(benchmark::State& state, Time end, const std::string& model,
+                const nlohmann::json& config, const std::vector<std::string>& actions) {
+  for (auto _ : state) {
+    (void)_;
+    Result<std::unique_ptr<plc::EmulatedDevice>> made = xnet::make_xnet(model, config);
+    if (!made) throw std::runtime_error(made.error().message);
+    line::Device& line = *(*made)->line();
+    Time again{};
+    line.advance(Time{});
+    for (unsigned axis = 0; axis < 20; ++axis)
+      (void)(*made)->set(fmt::format("SM{}", 2010 + 20 * axis), "01");
+    while (line.wake_at() && *line.wake_at() <= end) {
+      const Time now = *line.wake_at();
+      line.advance(now);
+      if (now < again) continue;
+      again = now + 12s;
+      for (const std::string& action : actions) (void)(*made)->act(action);
+    }
+  }
+}
+
+/// An hour of 20 axes that move most of the time; an hour of 32 stations with traffic.
+void register_xnet(bool brief) {
+  const Time end = brief ? 10s : 3600s;
+  std::vector<std::string> moves, reads;
+  for (unsigned axis = 1; axis <= 20; ++axis)
+    moves.push_back(fmt::format("MOTO {} 5000 50 axis {}", axis % 2 == 0 ? 50000 : -50000, axis));
+  nlohmann::json net{{"ports", {{{"station", 1}, {"cycle_ms", 32}}}}};
+  for (unsigned station = 2; station <= 32; ++station) {
+    net["stations"].push_back({{"ports", {{{"station", station}, {"cycle_ms", 32}}}}});
+    reads.push_back(fmt::format("REG_READ net 1 station {} D0 count 125 to D0", station));
+  }
+  benchmark::RegisterBenchmark("xnet/hour_of_20_axes", [=](benchmark::State& state) {
+    xnet_until(state, end, "xdc", {{"servos", 20}}, moves);
+  })->Unit(benchmark::kSecond);
+  benchmark::RegisterBenchmark("xnet/hour_of_32_stations", [=](benchmark::State& state) {
+    xnet_until(state, end, "xd3", net, reads);
+  })->Unit(benchmark::kSecond);
+}
+
 void register_all(const std::vector<std::pair<std::string, Tool>>& tools, bool brief) {
   using benchmark::RegisterBenchmark;
   // First: the peak of a child is never below what this process held when it made it.
   register_tool_runs(tools, brief);
   RegisterBenchmark("in_process_exchange", in_process_exchange);
   RegisterBenchmark("whole_suite", whole_suite)->Unit(benchmark::kMillisecond);
+  register_xnet(brief);
   RegisterBenchmark("load_all_vectors", load_all_vectors)->Unit(benchmark::kMillisecond);
   RegisterBenchmark("pty_exchange_against_bare_ping_pong", pty_exchange_against_bare_ping_pong)
       ->Unit(benchmark::kMicrosecond)

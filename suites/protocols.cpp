@@ -9,6 +9,7 @@
 #include "suites/user_frames/protocol.hpp"
 #include "suites/xgt_cnet/protocol.hpp"
 #include "suites/xgt_fenet/protocol.hpp"
+#include "suites/xnet/protocol.hpp"
 
 namespace fieldproof::suites {
 
@@ -23,6 +24,7 @@ harness::Protocols protocols() {
                                 &udata_suite::protocol(),
                                 &xgt_fenet_suite::protocol(),
                                 &hs_link_suite::protocol(),
+                                &xnet_suite::protocol(),
                                 &user_frames_suite::protocol(user_frames_suite::Way::network)};
   return std::span<const harness::Protocol* const>(table);
 }

@@ -24,6 +24,13 @@ ordered_json memory_json(const std::vector<std::pair<std::string, std::string>>&
   return result;
 }
 
+ordered_json checked_json(const Step& step) {
+  ordered_json result = memory_json(step.memory);
+  for (std::size_t i = 0; i < step.numbers.size(); ++i)
+    if (step.numbers[i]) result[step.memory[i].first] = step.numbers[i]->text();
+  return result;
+}
+
 ordered_json partner_json(const vectors::PartnerSpec& partner) {
   ordered_json result = partner.config;
   if (!partner.model.empty()) result["model"] = partner.model;
@@ -68,7 +75,7 @@ ordered_json kind_json(const exchange::PreparedStep& step) {
     case Step::Kind::silence: return {{"silence", true}};
     case Step::Kind::wait: return {{"wait", fmt::format("{}ms", to_ms(source.duration))}};
     case Step::Kind::set: return {{"set", memory_json(source.memory)}};
-    case Step::Kind::check: return {{"check", memory_json(source.memory)}};
+    case Step::Kind::check: return {{"check", checked_json(source)}};
     case Step::Kind::act: return {{"do", source.action}};
     case Step::Kind::open: return open_json(step);
     case Step::Kind::close: return {{"close", name_of(source.closing)}};

@@ -32,6 +32,7 @@ results::CaseResult result_of(const vectors::Case& source) {
   result.title = source.title;
   result.level = source.level;
   result.basis = source.basis;
+  result.on_model = source.on_model;
   cite(source.source, result);
   return result;
 }

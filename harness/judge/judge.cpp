@@ -333,7 +333,8 @@ class Judge {
   }
 
   void judge_memory(const Step& step, const StepRecord& record) {
-    for (const auto& [address, due] : step.memory) {
+    for (std::size_t i = 0; i < step.memory.size(); ++i) {
+      const auto& [address, due] = step.memory[i];
       const auto held =
           std::ranges::find(record.memory, address, &std::pair<std::string, std::string>::first);
       if (held == record.memory.end()) {
@@ -341,12 +342,25 @@ class Judge {
         continue;
       }
       const std::string& value = held->second;
+      if (i < step.numbers.size() && step.numbers[i]) {
+        judge_number(address, *step.numbers[i], value);
+        continue;
+      }
       if (std::ranges::equal(value, due,
                              [](char a, char b) { return hex_digit(a) == hex_digit(b); }))
         continue;
       if (!findings_.missed()) findings_.result.differences.push_back({address, due, value, ""});
       findings_.miss(fmt::format("{} holds {}, {} is due", address, value, due));
     }
+  }
+
+  void judge_number(const std::string& address, const vectors::Number& due,
+                    const std::string& value) {
+    if (due.holds(value)) return;
+    if (!findings_.missed())
+      findings_.result.differences.push_back({address, due.text(), due.text_of(value), ""});
+    findings_.miss(
+        fmt::format("{} holds {}, {} is due", address, due.text_of(value), due.text()));
   }
 
   /// What no step was waiting for.

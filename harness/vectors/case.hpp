@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/notation/notation.hpp"
+#include "harness/vectors/number.hpp"
 #include "src/base/burst.hpp"
 
 namespace fieldproof::vectors {
@@ -77,6 +78,7 @@ struct Step {
   std::vector<Frame> frames;  // send: one; expect: the preferred first
   std::string reading;        // what the alternatives of `expect` are about: type_echo
   std::vector<std::pair<std::string, std::string>> memory;  // set, check: address and hex digits
+  std::vector<std::optional<Number>> numbers;  // check: beside memory, where it names a number
   std::string action;                                       // do
   Duration duration{};                                      // wait
   std::optional<Duration> within;      // expect: instead of the profile's response_max
@@ -98,6 +100,7 @@ struct Case {
   std::string protocol;  // "xgt-cnet", from the folder of the id
   Source source;
   std::string level, basis, why;
+  std::string on_model;  // nothing of it is on a wire: instruction, register, configuration, timing
   std::vector<Decision> decisions;  // that it rests on
   std::vector<std::string> models;  // empty: all
   nlohmann::json config = nlohmann::json::object();

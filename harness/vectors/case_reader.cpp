@@ -40,11 +40,32 @@ std::vector<std::pair<std::string, std::string>> read_memory(const json& value, 
   std::vector<std::pair<std::string, std::string>> memory;
   for (const auto& [key, hex] : value.items()) {
     const std::string address = substitute(key, row), text = text_of(hex, row);
+    if (const std::optional<Number> number = read_number(text)) {
+      if (number->is_range())
+        throw Broken(fmt::format("{}: '{}' is a range; only a check may have one", address, text));
+      memory.emplace_back(address, number->digits());
+      continue;
+    }
     const std::optional<std::string> digits = expand_hex(text);
-    if (!digits) throw Broken(fmt::format("{}: '{}' are no hex digits", address, text));
+    if (!digits)
+      throw Broken(fmt::format("{}: '{}' are no hex digits, nor a number as dec(1500), dec32(-400), "
+                               "float(0.5)",
+                               address, text));
     memory.emplace_back(address, *digits);
   }
   return memory;
+}
+
+/// What must be there: numbers may lie between two.
+void read_checked(const json& value, const Row& row, Step& step) {
+  for (const auto& [key, text] : value.items()) {
+    const std::optional<Number> number = read_number(text_of(text, row));
+    step.numbers.push_back(number);
+    if (number)
+      step.memory.emplace_back(substitute(key, row), number->digits());
+    else
+      step.memory.push_back(read_memory(json{{key, text}}, row).front());
+  }
 }
 
 PartnerSpec read_partner(const json& value, const Row& row) {
@@ -188,7 +209,7 @@ class StepReader {
       case Step::Kind::silence: return read_silence(step);
       case Step::Kind::wait: step.duration = duration(value["wait"]); return;
       case Step::Kind::set: step.memory = read_memory(value["set"], row_); return;
-      case Step::Kind::check: step.memory = read_memory(value["check"], row_); return;
+      case Step::Kind::check: read_checked(value["check"], row_, step); return;
       case Step::Kind::act: step.action = text_of(value["do"], row_); return;
       case Step::Kind::expect_close:
         step.ending = read_ending(value["expect_close"]);
@@ -269,6 +290,15 @@ class StepReader {
 
 }  // namespace
 
+namespace {
+
+bool is_on_a_wire(Step::Kind kind) {
+  constexpr std::array off{Step::Kind::wait, Step::Kind::set, Step::Kind::check, Step::Kind::act};
+  return std::ranges::find(off, kind) == off.end();
+}
+
+}  // namespace
+
 CaseReader::CaseReader(const json& vector, std::string file, const notation::Dressing* dressing)
     : vector_(vector), file_(std::move(file)), dressing_(dressing) {}
 
@@ -284,6 +314,8 @@ Case CaseReader::read(const Combination& combination) const {
   result.level = text_of(vector_.at("level"), row);
   result.basis = text_of(vector_.at("basis"), row);
   result.why = text_of(vector_, "why", row);
+  if (const std::string kind = vector_.value("kind", "case"); kind != "case" && kind != "table")
+    result.on_model = kind;
   if (vector_.contains("decision"))
     for (const json& id : vector_["decision"]) result.decisions.push_back({id, {}});
   if (vector_.contains("models"))
@@ -297,6 +329,10 @@ Case CaseReader::read(const Combination& combination) const {
   StepReader reader(row, dressing_, is_client_case(result));
   for (std::size_t i = 0; i < steps.size(); ++i) try {
       result.steps.push_back(reader.read(steps[i]));
+      if (!result.on_model.empty() && is_on_a_wire(result.steps.back().kind))
+        throw Broken(fmt::format("kind '{}' is of a model: it has no step on a wire; leave the "
+                                 "kind out",
+                                 result.on_model));
     } catch (const Broken& broken) {
       throw Broken(fmt::format("steps[{}]: {}", i, broken.what()));
     }

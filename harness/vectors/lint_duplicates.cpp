@@ -53,6 +53,8 @@ std::string text_of(const Step& step, const notation::Fields& fields) {
       ns(step.every), ns(step.max_gap), step.times, step.on, step.link.protocol,
       static_cast<int>(step.link.transport), step.link.port, static_cast<int>(step.closing),
       step.ending ? static_cast<int>(*step.ending) : -1, step.may_stay);
+  for (const std::optional<Number>& number : step.numbers)
+    if (number) text += " " + number->text();
   if (step.partner) text += " partner " + text_of(*step.partner);
   for (const Frame& frame : step.frames) {
     const auto templates = notation::make_templates(frame.notation, fields);

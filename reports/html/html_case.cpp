@@ -166,6 +166,8 @@ void write_clause(HtmlWriter& out, const CaseResult& result) {
         "b", {},
         fmt::format("{}{}{}", result.manual, result.section.empty() ? "" : ", ", result.section));
     if (!result.level.empty()) out.text(fmt::format(" ({}, {})", result.level, result.basis));
+    if (!result.on_model.empty())
+      out.text(fmt::format(" {} of a model, not on a wire", result.on_model));
     if (!result.quote.empty()) out.element("q", {}, text::shorten(result.quote, limits));
   });
 }

@@ -113,6 +113,8 @@ void write_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
                                 ? ""
                                 : fmt::format(", {} transposed to this device", survey.transposed);
   facts.row("cases", fmt::format("{}{}", survey.tally.total(), moved));
+  if (const std::string models = text::on_model_text(survey.tally); !models.empty())
+    facts.row("of a model", models);
   facts.row("gate", text::to_string(gate));
   facts.row("fieldproof", run.tool_version);
   facts.row("vectors", run.vectors_hash);

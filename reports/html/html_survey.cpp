@@ -69,7 +69,7 @@ SectionName first_place(const ErratumInfo& erratum) {
 }
 
 void HtmlSurveyor::add(const CaseResult& result) {
-  survey_.tally.add(result.verdict);
+  survey_.tally.add(result);
   by_id_[result.id].add(result.verdict);
   SectionReport& section = survey_.sections[{result.manual, result.section}];
   section.tally.add(result.verdict);

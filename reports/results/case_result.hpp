@@ -102,6 +102,7 @@ struct CaseResult {
   std::string title;
   std::string level;  // must, should, info
   std::string basis;  // printed frame, printed rule, derived, decision
+  std::string on_model;  // not on a wire: instruction, register, configuration, timing; else empty
   std::string manual, section, quote;
 
   Verdict verdict = Verdict::error;

@@ -104,6 +104,7 @@ void fields(auto& json, Of<CaseResult> auto& result) {
   json.may("manual", result.manual);
   json.may("message", result.message);
   json.may("notes", result.notes);
+  json.may("on_model", result.on_model);
   json.always("protocol", result.protocol);
   json.may("quote", result.quote);
   json.may("readings", result.readings);

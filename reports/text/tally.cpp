@@ -34,6 +34,17 @@ std::size_t Tally::gating(const Gate& gate) const {
   return count;
 }
 
+std::string on_model_text(const Tally& tally) {
+  std::size_t all = 0;
+  std::string kinds;
+  for (const auto& [kind, count] : tally.on_model()) {
+    all += count;
+    kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", grouped(count), kind);
+  }
+  if (all == 0) return "";
+  return fmt::format("{} of them on a model, not on a wire: {}", grouped(all), kinds);
+}
+
 std::string to_string(const Tally& tally) {
   std::string text;
   for (Verdict verdict : Tally::verdicts) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ class Tally {
   void add(results::Verdict verdict, std::size_t count = 1) {
     counts_[static_cast<std::size_t>(verdict)] += count;
   }
+  /// A result; of a model where it says so.
+  void add(const results::CaseResult& result) {
+    add(result.verdict);
+    if (!result.on_model.empty() && result.verdict != results::Verdict::skip)
+      ++on_model_[result.on_model];
+  }
   void add(const Tally& other) {
     for (results::Verdict verdict : verdicts) add(verdict, other.of(verdict));
   }
@@ -34,13 +41,19 @@ class Tally {
   std::size_t judged() const;
   /// Those that could have one: all but SKIP.
   std::size_t applicable() const { return total() - of(results::Verdict::skip); }
+  /// How many were of a model, by kind: no wire conformance.
+  const std::map<std::string, std::size_t>& on_model() const { return on_model_; }
   /// How many results turn the gate red.
   std::size_t gating(const results::Gate& gate) const;
   bool operator==(const Tally&) const = default;
 
  private:
   std::array<std::size_t, verdicts.size()> counts_{};
+  std::map<std::string, std::size_t> on_model_;
 };
+
+/// "1,234 of them on a model, not on a wire: 404 instruction, 830 register"; empty where none is.
+std::string on_model_text(const Tally& tally);
 
 /// "1402 PASS, 2 FAIL": those that occur; "nothing" when none does.
 std::string to_string(const Tally& tally);

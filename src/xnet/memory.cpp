@@ -18,8 +18,9 @@ struct Run {
 };
 
 /// What `digits` hex digits at a name cover; 0: one component.
-Result<Run> find_run(std::string_view verb, std::string_view name, std::size_t digits) {
-  const std::optional<Component> component = find_component(name);
+Result<Run> find_run(std::string_view verb, std::string_view name, std::size_t digits,
+                     Series series) {
+  const std::optional<Component> component = find_component(name, series);
   if (!component)
     return fail(fmt::format(
         "cannot {} {}: a XINJE PLC has no such component; write D100, HD0, M10 or, in octal, X17",
@@ -32,27 +33,33 @@ Result<Run> find_run(std::string_view verb, std::string_view name, std::size_t d
                     "digits for each",
                     verb, name, digits, each));
   const std::size_t count = digits / each;
-  if (count > component->area->size - component->number)
+  const std::uint32_t room = room_from(*component, series);
+  if (count > room)
     return fail(fmt::format("cannot {} {} components from {} on: {} ends at {}", verb, count, name,
                             component->area->name,
-                            to_string({component->area, component->area->size - 1})));
+                            to_string({component->area, component->number + room - 1})));
   return Run{*component, static_cast<std::uint32_t>(count)};
 }
 }  // namespace
 
-Memory::Memory() {
+Memory::Memory(Series series) : series_(series) {
   std::size_t size = 0;
   for (const Area& area : areas()) {
-    first_.push_back(size);
-    size += area.size;
+    std::vector<Stored>& stored = stored_.emplace_back();
+    for (const Range& range : ranges_of(area, series)) {
+      stored.push_back({range, size});
+      size += range.count;
+    }
   }
   values_.resize(size);
 }
 
 std::size_t Memory::place(const Component& component) const {
-  if (component.number >= component.area->size)
-    throw std::out_of_range("xnet::Memory: component outside its area");
-  return first_[static_cast<std::size_t>(component.area - areas().data())] + component.number;
+  const auto area = static_cast<std::size_t>(component.area - areas().data());
+  for (const auto& [range, at] : stored_[area])
+    if (component.number >= range.first && component.number - range.first < range.count)
+      return at + component.number - range.first;
+  throw std::out_of_range("xnet::Memory: component outside its area");
 }
 
 std::uint16_t Memory::read(const Component& component) const { return values_[place(component)]; }
@@ -64,7 +71,7 @@ void Memory::write(const Component& component, unsigned value) {
 Status Memory::set(std::string_view name, std::string_view hex) {
   if (hex.empty())
     return fail(fmt::format("cannot set {}: there is no value; give its hex digits", name));
-  const Result<Run> run = find_run("set", name, hex.size());
+  const Result<Run> run = find_run("set", name, hex.size(), series_);
   if (!run) return run.error();
   const std::size_t each = digits_of(*run->first.area);
   std::vector<unsigned> values;
@@ -79,13 +86,14 @@ Status Memory::set(std::string_view name, std::string_view hex) {
       return fail(fmt::format("cannot set {} to {}: a bit is 00 or 01", name, hex));
     values.push_back(value);
   }
+  touch();
   for (std::uint32_t i = 0; i < run->count; ++i)
     write({run->first.area, run->first.number + i}, values[i]);
   return ok();
 }
 
 Result<std::string> Memory::get(std::string_view name, std::size_t digits) const {
-  const Result<Run> run = find_run("get", name, digits);
+  const Result<Run> run = find_run("get", name, digits, series_);
   if (!run) return run.error();
   std::string hex;
   for (std::uint32_t i = 0; i < run->count; ++i)

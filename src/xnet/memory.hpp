@@ -14,11 +14,17 @@ namespace fieldproof::xnet {
 class Memory {
  public:
   /// All zero.
-  Memory();
+  explicit Memory(Series series = Series::xd5);
 
-  /// `component.number` is inside its area; a bit is 0 or 1.
+  Series series() const { return series_; }
+
+  /// `component` is one of this series; a bit is 0 or 1.
   std::uint16_t read(const Component& component) const;
   void write(const Component& component, unsigned value);
+
+  /// How often somebody wrote who is not an axis of its motion bus.
+  std::uint64_t touched() const { return touched_; }
+  void touch() { ++touched_; }
 
   /// The back door (src/plc/emulated_device.hpp): names as in areas.hpp, a word has four hex digits
   /// and a bit two ("00", "01"); more fill the components that follow.
@@ -28,7 +34,13 @@ class Memory {
  private:
   std::size_t place(const Component& component) const;
 
-  std::vector<std::size_t> first_;  // of each area in values_
+  Series series_;
+  std::uint64_t touched_ = 0;
+  struct Stored {
+    Range range;
+    std::size_t at = 0;  // in values_
+  };
+  std::vector<std::vector<Stored>> stored_;  // of each area
   std::vector<std::uint16_t> values_;
 };
 

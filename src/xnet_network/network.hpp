@@ -1,0 +1,86 @@
+// PLCs on X-NET, in one device: the first is the one that a case is about. They exchange objects as
+// values; no manual prints a frame, so nothing of it is on a wire.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+#include <vector>
+
+#include "src/plc/emulated_device.hpp"
+#include "src/xnet/memory.hpp"
+#include "src/xnet_motion/motion_bus.hpp"
+#include "src/xnet_network/configuration.hpp"
+#include "src/xnet_network/instruction.hpp"
+#include "src/xnet_network/token_bus.hpp"
+
+namespace fieldproof::xnet {
+
+/// Result of an X-NET instruction, SD141 + 10 x port (1-5-1).
+enum class Outcome : std::uint16_t { done = 0, overtime = 1, memory = 2, crc = 3 };
+
+class XnetNetwork : public plc::SerialDevice {
+ public:
+  /// At least one; check_nets() holds.
+  explicit XnetNetwork(std::vector<StationConfig> stations);
+
+  /// No byte means anything to it.
+  void receive(const Burst&) override {}
+  std::optional<Time> wake_at() const override;
+  Bytes advance(Time now) override;
+
+  /// "D0" is of the first PLC, "B:D0" of the one called B. Errors name the address.
+  Status set(std::string_view address, std::string_view hex) override;
+  /// Also "@turns": stations that had the token, the last 16 turns, two digits each.
+  Result<std::string> get(std::string_view address, std::size_t digits) const override;
+  /// Instructions (instruction.hpp), at a rising edge; "hold INSTRUCTION", whose condition stays
+  /// on, and "release"; "run", "stop", "power_cycle", "on", "off", "noise on", "noise off". "B:
+  /// off" is done to B.
+  Status act(std::string_view action) override;
+
+ private:
+  struct Plc {
+    StationConfig config;
+    Memory memory;
+    bool run = true, powered = true, noisy = false;
+    Time ethernet_free{};
+    unsigned under_way = 0;           // instructions
+    std::vector<Instruction> held{};  // conditions that stay on
+    std::unique_ptr<MotionBus> motion{};
+  };
+  struct Job {
+    Plc* from = nullptr;
+    Instruction instruction;
+    unsigned port = 0;  // of `from`: where its result goes
+    unsigned hops = 0;
+    bool held = false;
+  };
+
+  Plc* named(std::string_view name) const;
+  Plc* addressed(std::string_view& text) const;
+  Plc* station_on(std::uint16_t net, std::uint32_t station) const;
+  TokenBus& bus(const Port& port);
+  Status execute(Plc& plc, std::string_view text, bool held);
+  void start(Plc& plc, const Instruction& instruction, bool held);
+  void forward(Plc& via, Job job, Time now);
+  void carry(Plc& via, const Port& port, Job job, Time now);
+  void arrive(Plc& target, const Job& job, Time now);
+  void finish(const Job& job, Outcome outcome, Time now);
+  Outcome move(Plc& target, const Job& job);
+  void power(Plc& plc, bool on);
+  void show_presence();
+  void later(Time at, std::function<void(Time)> what);
+
+  std::vector<std::unique_ptr<Plc>> plcs_;
+  std::map<std::uint16_t, TokenBus> buses_;  // by net
+  std::multimap<Time, std::function<void(Time)>> events_;
+  Time now_{};
+};
+
+/// Of given.config (vectors/README.md): that of the first PLC, and `stations`, the others, called
+/// B, C, ... Errors name the key.
+Result<std::unique_ptr<plc::EmulatedDevice>> make_xnet(std::string_view model,
+                                                       const nlohmann::json& config);
+
+}  // namespace fieldproof::xnet

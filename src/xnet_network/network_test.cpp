@@ -1,0 +1,135 @@
+#include "src/xnet_network/network.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace fieldproof::xnet {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class XnetTest : public testing::Test {
+ protected:
+  void make(const std::string& model, const json& config) {
+    auto made = make_xnet(model, config);
+    ASSERT_TRUE(made) << made.error().message;
+    plc = std::move(*made);
+  }
+  void two(const json& more = json::object()) {
+    json config{{"ports", {{{"port", 2}, {"net", 1}, {"station", 1}}}},
+                {"stations", {{{"ports", {{{"port", 2}, {"net", 1}, {"station", 2}}}}}}}};
+    config.update(more);
+    make("xd3", config);
+  }
+  void wait(Duration time) {
+    const Time end = now + time;
+    while (plc->line()->wake_at() && *plc->line()->wake_at() <= end) {
+      now = *plc->line()->wake_at();
+      plc->line()->advance(now);
+    }
+    now = end;
+  }
+  void act(std::string_view what) {
+    const Status done = plc->act(what);
+    EXPECT_TRUE(done) << done.error().message;
+  }
+  std::string get(std::string_view name, std::size_t digits = 0) { return *plc->get(name, digits); }
+
+  std::unique_ptr<plc::EmulatedDevice> plc;
+  Time now{};
+};
+
+TEST_F(XnetTest, ReadsAndWritesRegistersAndCoils) {
+  two();
+  ASSERT_TRUE(plc->set("B:D0", "112233445566"));
+  ASSERT_TRUE(plc->set("M0", "010001"));
+  act("REG_READ net 1 station 2 D0 count 3 to D10");
+  act("BIT_WRITE net 1 station 2 Y0 count 3 from M0");
+  wait(50ms);
+  EXPECT_EQ(get("D10", 16), "1122334455660000");
+  EXPECT_EQ(get("B:Y0", 8), "01000100");
+  EXPECT_EQ(get("SD161"), "0000");
+}
+
+TEST_F(XnetTest, ResultsOfWhatCannotBe) {
+  two();
+  act("REG_READ net 1 station 3 D0 count 1 to D10");
+  wait(150ms);
+  EXPECT_EQ(get("SD161"), "0001") << "there is no station 3";
+  act("REG_READ net 1 station 2 type 128 address 7999 count 2 to D10");
+  wait(50ms);
+  EXPECT_EQ(get("SD161"), "0002") << "past the end";
+  act("noise on");
+  act("REG_READ net 1 station 2 D0 count 1 to D10");
+  wait(50ms);
+  EXPECT_EQ(get("SD161"), "0003");
+  act("REG_READ net 7 station 2 D0 count 1 to D10");
+  wait(150ms);
+  EXPECT_EQ(get("SD161"), "0001") << "no route";
+}
+
+TEST_F(XnetTest, AStationThatIsOffIsPassedOver) {
+  two();
+  wait(100ms);
+  EXPECT_EQ(get("SM1401"), "01");
+  EXPECT_EQ(get("@turns", 8).find("01020102") == 0 || get("@turns", 8) == "02010201", true);
+  act("B: off");
+  wait(100ms);
+  EXPECT_EQ(get("SM1401"), "00");
+  EXPECT_EQ(get("@turns", 8), "01010101");
+}
+
+TEST_F(XnetTest, AGatewayForwards) {
+  make(
+      "xd5",
+      {{"ports", {{{"port", 2}, {"net", 1}, {"station", 1}}}},
+       {"routes", {{{"net", 1}, {"port", 2}}, {{"net", 2}, {"port", 2}, {"gateway", 2}}}},
+       {"stations",
+        {{{"model", "xd5"},
+          {"ports",
+           {{{"port", 2}, {"net", 1}, {"station", 2}}, {{"port", 4}, {"net", 2}, {"station", 1}}}}},
+         {{"model", "xd5"}, {"ports", {{{"port", 2}, {"net", 2}, {"station", 5}}}}}}}});
+  ASSERT_TRUE(plc->set("C:D7", "BEEF"));
+  act("REG_READ net 2 station 5 D7 count 1 to D0");
+  wait(100ms);
+  EXPECT_EQ(get("D0"), "BEEF");
+}
+
+TEST_F(XnetTest, EthernetCountsAndHolds) {
+  make("xde", {{"ip", "192.168.6.10"}, {"stations", {{{"model", "xde"}, {"ip", "192.168.6.11"}}}}});
+  EXPECT_EQ(get("SD1905"), "C0A8");
+  EXPECT_EQ(get("SD1906"), "060A");
+  act("hold REG_WRITE net H0C0A8 station H060B D0 count 10 from D0");
+  wait(20ms);
+  act("release");
+  wait(10ms);
+  EXPECT_EQ(get("SD194"), "000B");  // ten in 20 ms, and the one under way when it was released
+  EXPECT_EQ(get("SD196"), "0000");
+}
+
+TEST_F(XnetTest, WhatIsWrongIsNamed) {
+  const auto error = [](const json& config, const char* model = "xd3") {
+    const auto made = make_xnet(model, config);
+    return made ? std::string("made") : made.error().message;
+  };
+  EXPECT_THAT(error({{"ports", {{{"station", 33}}}}}), HasSubstr("stations of TBN are 1 to 32"));
+  EXPECT_THAT(error({{"prots", 1}}), HasSubstr("ports"));
+  EXPECT_THAT(error({{"ip", "192.168.6.1"}}), HasSubstr("no Ethernet"));
+  EXPECT_THAT(error({{"ports", {{{"net", 1}}}}, {"routes", {{{"net", 2}, {"port", 2}}}}}),
+              HasSubstr("has no gateway"));
+  EXPECT_THAT(
+      error({{"ports", {{{"station", 1}}}}, {"stations", {{{"ports", {{{"station", 1}}}}}}}}),
+      HasSubstr("A port 2 and B port 2 are both station 1"));
+  two();
+  EXPECT_THAT(plc->act("REG_READ net 1 station 2 X8 count 1 to D0").error().message,
+              HasSubstr("no object 'X8'"));
+  EXPECT_THAT(plc->act("REG_READ net 1 station 2 D0 count 1 to M0").error().message,
+              HasSubstr("is a coil"));
+  EXPECT_THAT(plc->act("MOTO 1 2 3 axis 1").error().message, HasSubstr("no motion bus"));
+  EXPECT_THAT(plc->get("C:D0", 0).error().message, HasSubstr("no such PLC"));
+}
+
+}  // namespace
+}  // namespace fieldproof::xnet

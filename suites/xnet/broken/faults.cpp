@@ -1,0 +1,10 @@
+#include "suites/xnet/broken/broken_xnet.hpp"
+
+namespace fieldproof::xnet_broken {
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> all = broken::gather<Fault>({data_faults, motion_faults});
+  return all;
+}
+
+}  // namespace fieldproof::xnet_broken
