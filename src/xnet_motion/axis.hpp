@@ -1,6 +1,6 @@
 // One axis of the motion bus on given time: what instructions, registers and coils make of it
 // (X-NET 2-2 to 2-5). It looks at its registers, and moves, once in each refresh period of the bus
-// (SFD2990). What the manual is silent about: DECISIONS.md xnet/slopes and those after it.
+// (SFD2990). What the manual is silent about: DECISIONS.md xnet/slopes and what follows there.
 #pragma once
 
 #include <array>
@@ -98,7 +98,7 @@ class Axis {
   void home_on(Time now);
   void find_z(double direction, Time now);
   void end_homing();
-  void look_at_settings(Time now, Duration period);
+  void look_at_settings(Time now);
   void apply(const Register& setting, double value, Time now);
   void move_feedback();
   void move_switches();

@@ -11,6 +11,7 @@ namespace {
 constexpr std::array settings{reg::target, reg::speed_setting, reg::acceleration,
                               reg::deceleration};
 constexpr Duration loop_time = 30ms;  // "up to 50ms" (2-3-5)
+constexpr Duration latency = 6ms;     // after it was seen (DECISIONS.md xnet/refresh)
 constexpr int no_terminal = 0xFF, inverse_x0 = -30000;
 
 const Area& area_named(std::string_view name) {
@@ -27,7 +28,7 @@ void Axis::refresh(Time now, Duration period, bool run, unsigned slaves) {
   look_at_limits();
   look_at_loop(now);
   if (run) look_at_coils(now);
-  look_at_settings(now, period);
+  look_at_settings(now);
   move_on(now);
   publish();
   const bool wants_more = registers_.on(reg::full_loop) != in_loop_ ||
@@ -229,14 +230,13 @@ void Axis::jog(double sign, Time now) {
 }
 
 /// Who changed a setting waits 6 to 16 ms for its effect (2-2-1).
-void Axis::look_at_settings(Time now, Duration period) {
+void Axis::look_at_settings(Time now) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const double value = registers_.get(settings[i]);
     if (value == seen_[i]) continue;
     seen_[i] = value;
-    changes_.push_back({i, value, now + 6ms});
+    changes_.push_back({i, value, now + latency});
   }
-  (void)period;
   while (!changes_.empty() && changes_.front().due <= now) {
     const Change change = changes_.front();
     changes_.pop_front();

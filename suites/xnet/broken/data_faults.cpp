@@ -216,8 +216,6 @@ std::vector<Fault> data_faults() {
        "xnet/instruction_ethernet/annular", "SD194"},
       {"net_and_station_swapped", "SD1905 shows the station", moved("SD", 1905, 1905, 1),
        "xnet/register_ethernet/address/high", "SD1905"},
-      {"mask_is_gateway", "SD1907 shows the gateway", moved("SD", 1907, 1907, 2),
-       "xnet/register_ethernet/example", "B:SD1907"},
       {"inputs_in_decimal", "X and Y are numbered in decimal", tells("", decimal_inputs),
        "xnet/instruction_octal/coils", "M0"},
   };

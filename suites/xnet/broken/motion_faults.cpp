@@ -297,7 +297,7 @@ std::vector<Fault> motion_faults() {
       {"no_switches", "inputs are not read", without_switches, "xnet/instruction_homing_hard/s01",
        "SD2010"},
       {"z_at_0", "the Z phase is at 0 whatever the encoder says", other_z,
-       "xnet/instruction_homing_hard/z_forward", "SM2001"},
+       "xnet/instruction_homing_hard/z_reverse", "SM2001"},
       {"error_20001_not_told", "20001 is not told in SD2002",
        sees("SD", 2002, 3202, "4E21", "0000"), "xnet/instruction_errors_limits/soft/max", "SD2002"},
       {"error_20002_not_told", "20002 is not told in SD2002",
