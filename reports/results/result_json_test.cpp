@@ -24,6 +24,7 @@ CaseResult full_result() {
   result.title = "Read two words";
   result.level = "must";
   result.basis = "printed rule";
+  result.on_model = "register";
   result.manual = "xgb-cnet-en-1.6";
   result.section = "7.1.5 (1)(e)";
   result.quote = "This example supposes when 1 WORD";
@@ -99,11 +100,11 @@ TEST(CaseResultJson, TimesAreMillisecondsToTheNanosecond) {
 TEST(CaseResultJson, NoFieldIsForgotten) {
   // As many keys as fields, when none is empty. The binding does not compile once a field is added:
   // then extend it, full_result() and `fields`.
-  const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, manual, section, quote,
-               verdict, message, notes, expected, expected_bytes, expected_hex, received,
+  const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, on_model, manual, section,
+               quote, verdict, message, notes, expected, expected_bytes, expected_hex, received,
                received_bytes, received_extract, differences, exchange, recording, readings,
                response_ms, seconds, replay] = full_result();
-  EXPECT_EQ(28u, as_json(full_result()).size());
+  EXPECT_EQ(29u, as_json(full_result()).size());
 }
 
 TEST(CaseResultJson, EmptyFieldsAreLeftOut) {

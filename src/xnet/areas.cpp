@@ -65,6 +65,10 @@ std::optional<Range> range_around(const Area& area, std::uint32_t number, Series
 
 std::span<const Area> areas() { return all_areas; }
 
+const Area& area_named(std::string_view name) {
+  return *std::ranges::find(all_areas, name, &Area::name);
+}
+
 std::vector<Range> ranges_of(const Area& area, Series series) {
   const std::uint32_t each = body(area, series);
   std::vector<Range> ranges{{0, each}};

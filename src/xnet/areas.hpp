@@ -37,6 +37,8 @@ struct Area {
 };
 
 std::span<const Area> areas();
+/// `name` is one of theirs.
+const Area& area_named(std::string_view name);
 /// In ascending order; they do not touch X-NET addresses of each other.
 std::vector<Range> ranges_of(const Area& area, Series series);
 

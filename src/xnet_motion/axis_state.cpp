@@ -14,10 +14,6 @@ constexpr Duration loop_time = 30ms;  // "up to 50ms" (2-3-5)
 constexpr Duration latency = 6ms;     // after it was seen (DECISIONS.md xnet/refresh)
 constexpr int no_terminal = 0xFF, inverse_x0 = -30000;
 
-const Area& area_named(std::string_view name) {
-  return *std::ranges::find(areas(), name, &Area::name);
-}
-
 }  // namespace
 
 void Axis::refresh(Time now, Duration period, bool run, unsigned slaves) {

@@ -15,14 +15,11 @@ namespace {
 
 constexpr std::uint32_t refresh_register = 2990, slaves_register = 2991, retries_register = 2992;
 
-const Area& area_named(std::string_view name) {
-  return *std::ranges::find(areas(), name, &Area::name);
-}
 Component object(std::string_view area, std::uint32_t number) {
   return {&area_named(area), number};
 }
 
-enum class Name { moto, motoa, motos, mostop, mogoon, mosyn, mousyn, mowrite, moread };
+using Name = MotionInstruction;
 struct Form {
   std::string_view name;
   Name what;
@@ -64,7 +61,7 @@ Error wrong(std::string_view text, const std::string& what) {
 }  // namespace
 
 struct MotionBus::Order {
-  Name what{};
+  MotionInstruction what{};
   std::array<std::string_view, 3> operands{};
   int master = 1;
   unsigned axis = 1;

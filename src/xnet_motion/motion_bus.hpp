@@ -12,6 +12,9 @@
 
 namespace fieldproof::xnet {
 
+/// 2-2
+enum class MotionInstruction { moto, motoa, motos, mostop, mogoon, mosyn, mousyn, mowrite, moread };
+
 class MotionBus {
  public:
   /// Twenty axes, those without a servo disconnected. `memory`: of its PLC, which outlives it.

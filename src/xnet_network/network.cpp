@@ -24,8 +24,7 @@ constexpr unsigned result_register = 141, presence_relay = 1200;
 constexpr unsigned times_of_ethernet = 194, failures_of_ethernet = 196, overtimes_of_ethernet = 198;
 
 Component object(std::string_view area, std::uint32_t number) {
-  const auto found = std::ranges::find(areas(), area, &Area::name);
-  return {&*found, number};
+  return {&area_named(area), number};
 }
 
 void count_up(Memory& memory, unsigned number) {
