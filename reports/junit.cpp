@@ -272,6 +272,8 @@ class JunitReport final : public Sink {
     add("command", log.run.command);
     add("vectors", log.run.vectors_hash);
     add("gate", text::to_string(gate_));
+    if (const std::string models = text::on_model_text(suite.tally); !models.empty())
+      add("on_model", models);
     for (const auto& [name, value] : log.run.properties)
       if (name != "gate") add(name, value);
     for (const DutInfo& dut : log.run.duts) add("dut." + dut.identity.name, text::device_text(dut));

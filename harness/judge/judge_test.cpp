@@ -283,6 +283,17 @@ TEST_F(JudgeTest, MemoryIsComparedWhateverTheCase) {
   EXPECT_EQ(judged(R"({"check": {"%MW1": "00FF"}})").message, "%MW1 holds 00FE, 00FF is due");
 }
 
+TEST_F(JudgeTest, NumbersAreToldAsTheyWereWritten) {
+  endpoint.can.back_door = true;
+  endpoint.memory["SD8"] = "3A9B0000";
+  const auto checked = [this](const std::string& due) {
+    return judged("{\"check\": {\"SD8\": \"" + due + "\"}}");
+  };
+  EXPECT_EQ(checked("dec32(15003)").verdict, Verdict::pass);
+  EXPECT_EQ(checked("dec32(15000..15003)").verdict, Verdict::pass);
+  EXPECT_EQ(checked("dec32(14990..15002)").message, "SD8 holds 15003, 14990 to 15002 is due");
+}
+
 TEST_F(JudgeTest, WithoutABackDoorMemoryGoesThroughTheProtocol) {
   endpoint.answers["<w%MW1=1234>"] = Pieces{{1ms, "<ok>"}};
   endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<1234>"}};

@@ -113,6 +113,30 @@ TEST(Loader, EveryKindOfStepIsRead) {
   EXPECT_EQ(steps[4].action, "stop");
 }
 
+TEST(Loader, NumbersAreWrittenAsTheManualWritesThem) {
+  const std::string text = replaced(
+      replaced(two_words, "\"1234\"", "\"dec32(100000)\""), R"j("steps": [)j",
+      R"j("steps": [{"set": {"D0": "float(0.5)"}}, {"check": {"D0": "dec32(631..641)", "D2": "0001"}}, )j");
+  const VectorSet set = load(text);
+  ASSERT_THAT(set.problems, IsEmpty());
+  EXPECT_EQ(set.cases[0].memory[0].second, "86A00001");
+  EXPECT_EQ(set.cases[0].steps[0].memory[0].second, "00003F00");
+  const Step& check = set.cases[0].steps[1];
+  ASSERT_EQ(check.numbers.size(), 2u);
+  EXPECT_TRUE(check.numbers[0]->is_range());
+  EXPECT_FALSE(check.numbers[1]);
+  EXPECT_THAT(only_problem(replaced(two_words, "\"1234\"", "\"dec(1..2)\"")),
+              HasSubstr("is a range; only a check may have one"));
+}
+
+TEST(Loader, WhatIsOfAModelHasNoStepOnAWire) {
+  const std::string kind = replaced(two_words, "\"level\"", "\"kind\": \"register\", \"level\"");
+  EXPECT_THAT(only_problem(kind), HasSubstr("kind 'register' is of a model"));
+  const std::string steps =
+      kind.substr(0, kind.find("\"steps\"")) + R"j("steps": [{"check": {"%MW020": "1234"}}]})j";
+  EXPECT_EQ(load(steps).cases.at(0).on_model, "register");
+}
+
 TEST(Loader, BadInputNamesFileVectorAndKey) {
   EXPECT_THAT(only_problem(replaced(two_words, "\"level\"", "\"levle\"")),
               HasSubstr("xgt_cnet/rss/two_words"));

@@ -14,15 +14,15 @@ namespace fieldproof::vectors {
 
 namespace {
 
-struct Form {
+struct NumberForm {
   std::string_view name;
   unsigned bits;
   bool floating;
 };
-constexpr std::array forms{Form{"dec", 16, false}, Form{"dec32", 32, false},
-                           Form{"dec64", 64, false}, Form{"float", 32, true}};
+constexpr std::array number_forms{NumberForm{"dec", 16, false}, NumberForm{"dec32", 32, false},
+                                  NumberForm{"dec64", 64, false}, NumberForm{"float", 32, true}};
 
-std::optional<double> value(std::string_view text, const Form& form) {
+std::optional<double> value_in(std::string_view text, const NumberForm& form) {
   double number = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
@@ -91,13 +91,13 @@ std::string Number::text_of(std::string_view digits) const {
 std::optional<Number> read_number(std::string_view text) {
   const std::size_t open = text.find('(');
   if (open == text.npos || !text.ends_with(')')) return std::nullopt;
-  for (const Form& form : forms) {
+  for (const NumberForm& form : number_forms) {
     if (text.substr(0, open) != form.name) continue;
     const std::string_view inside = text.substr(open + 1, text.size() - open - 2);
     const std::size_t dots = inside.find("..");
-    const std::optional<double> low = value(inside.substr(0, dots), form);
+    const std::optional<double> low = value_in(inside.substr(0, dots), form);
     const std::optional<double> high =
-        dots == inside.npos ? low : value(inside.substr(dots + 2), form);
+        dots == inside.npos ? low : value_in(inside.substr(dots + 2), form);
     if (!low || !high || *low > *high) return std::nullopt;
     return Number{form.bits, form.floating, *low, *high};
   }

@@ -18,6 +18,23 @@ Tally tally_of(std::initializer_list<Verdict> verdicts) {
   return tally;
 }
 
+TEST(Tally, CasesOfAModelAreCountedApart) {
+  Tally tally;
+  results::CaseResult result;
+  result.verdict = Verdict::pass;
+  tally.add(result);
+  EXPECT_EQ(on_model_text(tally), "");
+  result.on_model = "register";
+  for (int i = 0; i < 1200; ++i) tally.add(result);
+  result.on_model = "instruction";
+  tally.add(result);
+  result.verdict = Verdict::skip;
+  tally.add(result);
+  EXPECT_EQ(on_model_text(tally),
+            "1,201 of them on a model, not on a wire: 1 instruction, 1,200 register");
+  EXPECT_EQ(tally.total(), 1203u);
+}
+
 TEST(Tally, EachVerdictStandsOnceInItsList) {
   for (std::size_t i = 0; i < Tally::verdicts.size(); ++i)
     EXPECT_EQ(i, static_cast<std::size_t>(Tally::verdicts[i]));
