@@ -62,6 +62,8 @@ std::size_t Memory::place(const Component& component) const {
   throw std::out_of_range("xnet::Memory: component outside its area");
 }
 
+std::uint16_t* Memory::body(const Area& area) { return &values_[place({&area, 0})]; }
+
 std::uint16_t Memory::read(const Component& component) const { return values_[place(component)]; }
 
 void Memory::write(const Component& component, unsigned value) {

@@ -11,7 +11,10 @@ constexpr double speed_when_enabled = 1000;  // 2-2-1
 }  // namespace
 
 Axis::Axis(Memory& memory, Servo servo)
-    : memory_(memory), registers_(memory, servo.axis), servo_(std::move(servo)) {
+    : memory_(memory),
+      inputs_(memory.body(area_named("X"))),
+      registers_(memory, servo.axis),
+      servo_(std::move(servo)) {
   registers_.initialise();
   state_.position = feedback_ = start_ = published_ = servo_.start;
   path_ = Path(state_.position);

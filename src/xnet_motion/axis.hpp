@@ -135,6 +135,7 @@ class Axis {
   Signals signals() const;
 
   Memory& memory_;
+  std::uint16_t* inputs_;  // X
   AxisRegisters registers_;
   Servo servo_;
   State state_;          // as set

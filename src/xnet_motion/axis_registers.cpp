@@ -90,16 +90,22 @@ unsigned words_of(Kind kind) {
   }
 }
 
-/// Of SM, SD, HSD, SFD: looked up once, since an axis asks a thousand times a second.
-const Area& area_of(const Register& one) {
-  static const auto find = [](std::string_view name) {
-    return &*std::ranges::find(areas(), name, &Area::name);
-  };
-  static const Area *const sm = find("SM"), *const sd = find("SD"), *const hsd = find("HSD"),
-                           *const sfd = find("SFD");
-  if (one.area == "SD") return *sd;
-  if (one.area == "SM") return *sm;
-  return one.area == "SFD" ? *sfd : *hsd;
+double number_at(const std::uint16_t* words, Kind kind) {
+  if (kind == Kind::coil) return *words;
+  const unsigned count = words_of(kind);
+  std::uint64_t raw = 0;
+  for (unsigned i = 0; i < count; ++i) raw |= std::uint64_t{words[i]} << (16 * i);
+  if (kind == Kind::floating) return std::bit_cast<float>(static_cast<std::uint32_t>(raw));
+  const unsigned unused = 64 - 16 * count;
+  return static_cast<double>(static_cast<std::int64_t>(raw << unused) >> unused);
+}
+
+void put_number(std::uint16_t* words, Kind kind, double value) {
+  const std::uint64_t raw = kind == Kind::floating
+                                ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
+                                : static_cast<std::uint64_t>(std::llround(value));
+  for (unsigned i = 0; i < words_of(kind); ++i)
+    words[i] = static_cast<std::uint16_t>(raw >> (16 * i) & 0xFFFF);
 }
 
 }  // namespace
@@ -109,32 +115,28 @@ std::uint32_t stride_of(std::string_view area) { return area == "SD" || area == 
 std::span<const Register> axis_registers() { return all; }
 
 double read_number(const Memory& memory, const Component& first, Kind kind) {
-  const unsigned words = words_of(kind);
-  std::uint64_t raw = 0;
-  for (unsigned i = 0; i < words; ++i)
-    raw |= std::uint64_t{memory.read({first.area, first.number + i})} << (16 * i);
-  if (kind == Kind::coil) return static_cast<double>(raw);
-  if (kind == Kind::floating) return std::bit_cast<float>(static_cast<std::uint32_t>(raw));
-  const unsigned unused = 64 - 16 * words;
-  return static_cast<double>(static_cast<std::int64_t>(raw << unused) >> unused);
+  std::array<std::uint16_t, 4> words{};
+  for (unsigned i = 0; i < words_of(kind); ++i)
+    words[i] = memory.read({first.area, first.number + i});
+  return number_at(words.data(), kind);
 }
 
 void write_number(Memory& memory, const Component& first, Kind kind, double value) {
-  const std::uint64_t raw = kind == Kind::floating
-                                ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
-                                : static_cast<std::uint64_t>(std::llround(value));
+  std::array<std::uint16_t, 4> words{};
+  put_number(words.data(), kind, value);
   for (unsigned i = 0; i < words_of(kind); ++i)
-    memory.write({first.area, first.number + i}, raw >> (16 * i) & 0xFFFF);
+    memory.write({first.area, first.number + i}, words[i]);
 }
 
-Component AxisRegisters::place(const Register& one) const {
-  return {&area_of(one), one.first + stride_of(one.area) * (axis_ - 1)};
+AxisRegisters::AxisRegisters(Memory& memory, unsigned axis) : axis_(axis) {
+  constexpr std::array<std::string_view, 4> names{"SM", "SD", "HSD", "SFD"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    banks_[i] = memory.body(area_named(names[i])) + stride_of(names[i]) * (axis - 1);
 }
-double AxisRegisters::get(const Register& one) const {
-  return read_number(memory_, place(one), one.kind);
-}
+
+double AxisRegisters::get(const Register& one) const { return number_at(place(one), one.kind); }
 void AxisRegisters::set(const Register& one, double value) {
-  write_number(memory_, place(one), one.kind, value);
+  put_number(place(one), one.kind, value);
 }
 
 bool AxisRegisters::take(const Register& coil) {

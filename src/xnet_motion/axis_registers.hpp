@@ -1,6 +1,7 @@
 // The registers and coils of one axis of the motion bus, N = 1 to 20: addresses of X-NET 2-4, 2-5.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -23,6 +24,12 @@ struct Register {
   Kind kind = Kind::dword;
   std::string_view name;  // in facts
   double initial = 0;     // 2-4-1; else 0
+
+  /// 0 to 3: SM, SD, HSD, SFD.
+  constexpr std::size_t bank() const {
+    if (area.size() == 2) return area[1] == 'M' ? 0 : 1;
+    return area[0] == 'H' ? 2 : 3;
+  }
 };
 std::uint32_t stride_of(std::string_view area);
 std::span<const Register> axis_registers();
@@ -119,7 +126,7 @@ void write_number(Memory& memory, const Component& first, Kind kind, double valu
 /// Those of axis N in the memory of its PLC, which outlives it.
 class AxisRegisters {
  public:
-  AxisRegisters(Memory& memory, unsigned axis) : memory_(memory), axis_(axis) {}
+  AxisRegisters(Memory& memory, unsigned axis);
 
   unsigned axis() const { return axis_; }
   double get(const Register& one) const;
@@ -131,8 +138,8 @@ class AxisRegisters {
   void initialise();
 
  private:
-  Component place(const Register& one) const;
-  Memory& memory_;
+  std::uint16_t* place(const Register& one) const { return banks_[one.bank()] + one.first; }
+  std::array<std::uint16_t*, 4> banks_;  // of this axis: what is at 0 in it for axis 1
   unsigned axis_;
 };
 

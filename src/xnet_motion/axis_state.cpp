@@ -12,6 +12,7 @@ constexpr std::array settings{reg::target, reg::speed_setting, reg::acceleration
                               reg::deceleration};
 constexpr Duration loop_time = 30ms;  // "up to 50ms" (2-3-5)
 constexpr Duration latency = 6ms;     // after it was seen (DECISIONS.md xnet/refresh)
+constexpr unsigned inputs = 64;       // X0 to X77
 constexpr int no_terminal = 0xFF, inverse_x0 = -30000;
 
 }  // namespace
@@ -105,7 +106,7 @@ void Axis::move_feedback() {
 void Axis::move_switches() {
   const double machine = machine_at(feedback_);
   for (const Switch& one : servo_.switches)
-    memory_.write({&area_named("X"), one.terminal}, machine >= one.from && machine <= one.to);
+    inputs_[one.terminal] = machine >= one.from && machine <= one.to;
 }
 
 double Axis::machine_at(double position) const {
@@ -118,14 +119,14 @@ Axis::Terminal Axis::terminal(const Register& one) const {
   if (value == no_terminal) return {};
   const bool inverse = value < 0;
   const unsigned input = value == inverse_x0 ? 0 : static_cast<unsigned>(std::abs(value));
-  if (input >= area_named("X").size) return {std::nullopt, inverse, false};
+  if (input >= inputs) return {std::nullopt, inverse, false};
   return {input, inverse};
 }
 
 bool Axis::is_on(const Register& one) const {
   const Terminal where = terminal(one);
   if (!where.input) return false;
-  return (memory_.read({&area_named("X"), *where.input}) != 0) != where.inverse;
+  return (inputs_[*where.input] != 0) != where.inverse;
 }
 
 Signals Axis::signals() const {

@@ -67,7 +67,8 @@ struct MotionBus::Order {
   unsigned axis = 1;
 };
 
-MotionBus::MotionBus(Memory& memory, std::vector<Servo> servos, unsigned slaves) : memory_(memory) {
+MotionBus::MotionBus(Memory& memory, std::vector<Servo> servos, unsigned slaves)
+    : memory_(memory), settings_(memory.body(area_named("SFD"))) {
   memory_.write(object("SFD", refresh_register), slaves > 10 ? 6000 : 3000);
   memory_.write(object("SFD", slaves_register), slaves);
   memory_.write(object("SFD", retries_register), 20);
@@ -93,9 +94,9 @@ void MotionBus::advance(Time now, bool run) {
     next_ = now;
   }
   while (next_ <= now) {
-    const auto us = std::max<unsigned>(memory_.read(object("SFD", refresh_register)), 1000);
+    const auto us = std::max<unsigned>(settings_[refresh_register], 1000);
     const Duration period = us * 1us;
-    const unsigned slaves = memory_.read(object("SFD", slaves_register));
+    const unsigned slaves = settings_[slaves_register];
     const bool look = memory_.touched() != touched_ || ran_ != run;
     touched_ = memory_.touched();
     ran_ = run;

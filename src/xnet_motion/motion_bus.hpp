@@ -58,6 +58,7 @@ class MotionBus {
   Axis* find(unsigned number) const;
 
   Memory& memory_;
+  const std::uint16_t* settings_;  // SFD
   std::vector<std::unique_ptr<Axis>> axes_;
   std::vector<Binding> bindings_;
   bool downloads_ = false;  // 2-3-7: it runs no instruction

@@ -46,8 +46,8 @@ std::optional<double> number(const json& value) {
 
 Result<Switch> read_switch(unsigned axis, const std::string& name, const json& where) {
   const std::optional<Component> input = find_component(name);
-  if (!input || input->area->name != "X")
-    return wrong(axis, fmt::format("a switch at '{}'; write X4", name));
+  if (!input || input->area->name != "X" || input->number >= input->area->size)
+    return wrong(axis, fmt::format("a switch at '{}'; inputs of the PLC are X0 to X77", name));
   const std::optional<double> from =
       where.is_array() && where.size() == 2 ? number(where[0]) : std::nullopt;
   const std::optional<double> to = from ? number(where[1]) : std::nullopt;
