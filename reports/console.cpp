@@ -58,7 +58,7 @@ std::string counts(const text::Tally& tally, const ConsoleOptions& options) {
                         text::verdict_meaning(verdict), text::gate_hint(verdict, options.gate));
   }
   if (const std::string models = text::on_model_text(tally); !models.empty())
-    text += fmt::format("  {}\n", models);
+    text += fmt::format("  of them {}\n", models);
   return text;
 }
 

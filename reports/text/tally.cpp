@@ -42,7 +42,7 @@ std::string on_model_text(const Tally& tally) {
     kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", grouped(count), kind);
   }
   if (all == 0) return "";
-  return fmt::format("{} of them on a model, not on a wire: {}", grouped(all), kinds);
+  return fmt::format("on a model, not on a wire: {} ({})", grouped(all), kinds);
 }
 
 std::string to_string(const Tally& tally) {

@@ -52,7 +52,7 @@ class Tally {
   std::map<std::string, std::size_t> on_model_;
 };
 
-/// "1,234 of them on a model, not on a wire: 404 instruction, 830 register"; empty where none is.
+/// "on a model, not on a wire: 1,234 (404 instruction, 830 register)"; empty where none is.
 std::string on_model_text(const Tally& tally);
 
 /// "1402 PASS, 2 FAIL": those that occur; "nothing" when none does.

@@ -31,7 +31,7 @@ TEST(Tally, CasesOfAModelAreCountedApart) {
   result.verdict = Verdict::skip;
   tally.add(result);
   EXPECT_EQ(on_model_text(tally),
-            "1,201 of them on a model, not on a wire: 1 instruction, 1,200 register");
+            "on a model, not on a wire: 1,201 (1 instruction, 1,200 register)");
   EXPECT_EQ(tally.total(), 1203u);
 }
 
