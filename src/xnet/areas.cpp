@@ -79,6 +79,10 @@ std::vector<Range> ranges_of(const Area& area, Series series) {
   return ranges;
 }
 
+Component component_in(std::string_view area, std::uint32_t number) {
+  return {&area_named(area), number};
+}
+
 std::optional<Component> find_component(std::string_view name, Series series) {
   const std::size_t letters = std::min(name.find_first_of("0123456789"), name.size());
   const std::string area_name = upper(std::string(name.substr(0, letters)));

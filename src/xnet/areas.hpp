@@ -47,6 +47,8 @@ struct Component {
   const Area* area = nullptr;
   std::uint32_t number = 0;  // its X-NET address
 };
+/// `area` is the name of one.
+Component component_in(std::string_view area, std::uint32_t number);
 /// "D100", "HD0", "X17" (the sixteenth): letters in either case. Nothing where there is none.
 std::optional<Component> find_component(std::string_view name, Series series = Series::xd5);
 /// By type code and address (1-3).

@@ -31,6 +31,12 @@ void Axis::clear_error() {
   registers_.set(reg::error_flag, 0);
 }
 
+void Axis::shut_off(AxisError error) {
+  fail(error);
+  disable();
+  refused_ = true;
+}
+
 // ---- what it is told ----
 
 bool Axis::may_start() {
@@ -85,8 +91,8 @@ void Axis::move(bool relative, double position, double speed, double ms, Time no
   }
   expect(reg::target, goal_);
   expect(reg::speed_setting, speed_);
-  expect(reg::acceleration, max_speed() * 1000 / acceleration_);
-  expect(reg::deceleration, max_speed() * 1000 / deceleration_);
+  expect(reg::acceleration, time_of(acceleration_));
+  expect(reg::deceleration, time_of(deceleration_));
   plan(goal_, now);
   if (target == state_.position) arrive();
 }
@@ -106,10 +112,12 @@ void Axis::move_segments(bool relative, std::vector<Segment> segments, double ac
   changes_.clear();
   segments_ = std::move(segments);
   segment_ = 0;
+  const auto slope_to = [](double speed, double ms) { return std::max(speed, 1.0) * 1000 / ms; };
   acceleration_ =
-      steepest(segments_.front().speed * 1000 / acceleration_ms, reg::least_acceleration);
-  last_slope_ = steepest(segments_.back().speed * 1000 / deceleration_ms, reg::least_deceleration);
-  expect(reg::acceleration, max_speed() * 1000 / acceleration_);
+      steepest(slope_to(segments_.front().speed, acceleration_ms), reg::least_acceleration);
+  last_slope_ =
+      steepest(slope_to(segments_.back().speed, deceleration_ms), reg::least_deceleration);
+  expect(reg::acceleration, time_of(acceleration_));
   next_segment(now);
 }
 
@@ -124,7 +132,7 @@ void Axis::next_segment(Time now) {
   deceleration_ = acceleration_;
   expect(reg::target, goal_);
   expect(reg::speed_setting, speed_);
-  expect(reg::deceleration, max_speed() * 1000 / last_slope_);
+  expect(reg::deceleration, time_of(last_slope_));
   plan(goal_, now, goes_on ? speed_ : 0);
 }
 
@@ -188,7 +196,8 @@ void Axis::bind(double ratio) {
 }
 
 void Axis::release() {
-  if (bound_) state_.speed = 0;
+  if (!bound_) return;
+  state_.speed = 0;
   bound_ = false;
   path_ = Path(state_.position);
 }
@@ -217,6 +226,11 @@ double Axis::slope(const Register& time, const Register& fastest) const {
   return max_speed() * 1000 / ms;
 }
 
+void Axis::take_ramps() {
+  acceleration_ = slope(reg::acceleration, reg::least_acceleration);
+  deceleration_ = slope(reg::deceleration, reg::least_deceleration);
+}
+
 void Axis::enable() {
   const double mode = registers_.get(reg::mode), encoder = registers_.get(reg::encoder);
   if (refused_) return;
@@ -230,8 +244,7 @@ void Axis::enable() {
   registers_.set(reg::jog_speed, registers_.get(reg::first_jog_speed));
   registers_.set(reg::width, registers_.get(reg::first_width));
   registers_.set(reg::gain, registers_.get(reg::first_gain));
-  acceleration_ = slope(reg::acceleration, reg::least_acceleration);
-  deceleration_ = slope(reg::deceleration, reg::least_deceleration);
+  take_ramps();
   speed_ = speed_when_enabled;
   expect(reg::speed_setting, speed_);
   expect(reg::target, state_.position);
@@ -307,8 +320,7 @@ void Axis::home(double sign, Time now) {
   begin(Doing::homing);
   const Homing::Speeds speeds{registers_.get(reg::home_high), registers_.get(reg::home_low),
                               registers_.get(reg::home_creep)};
-  acceleration_ = slope(reg::acceleration, reg::least_acceleration);
-  deceleration_ = slope(reg::deceleration, reg::least_deceleration);
+  take_ramps();
   homing_.emplace(mode, sign, speeds, signals());
   home_on(now);
 }
@@ -328,7 +340,7 @@ void Axis::home_on(Time now) {
 
 /// Onward to the next Z phase of the encoder (DECISIONS.md xnet/homing); P7-20: which one.
 void Axis::find_z(double speed, Time now) {
-  const double turn = std::max(registers_.get(reg::per_turn), 1.0);
+  const double turn = pulses_of_a_turn();
   const int wanted = servo_.parameter("P7-20");
   const double direction = (speed < 0) == (wanted < 0) ? 1 : -1;
   const double machine = state_.position + machine_;

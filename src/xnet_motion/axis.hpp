@@ -3,6 +3,7 @@
 // (SFD2990). What the manual is silent about: DECISIONS.md xnet/slopes and what follows there.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <optional>
@@ -117,12 +118,22 @@ class Axis {
   void publish_pulses();
   void expect(const Register& setting, double value);
   void clear_error();
+  /// Urgent stop, and no enable until SM2010 was off.
+  void shut_off(AxisError error);
 
-  double max_speed() const { return registers_.get(reg::max_speed); }
+  // What a division needs is never 0.
+  double max_speed() const { return std::max(registers_.get(reg::max_speed), 1.0); }
+  double pulses_of_a_turn() const { return std::max(registers_.get(reg::per_turn), 1.0); }
   double slope(const Register& time, const Register& fastest) const;
   double steepest(double slope, const Register& fastest) const;
+  /// From 0 to the max speed, in ms.
+  double time_of(double slope) const { return max_speed() * 1000 / slope; }
+  /// The slopes of SD2034 and SD2036.
+  void take_ramps();
   /// Torque limits of 0 that way hold the shaft (2-3-2).
   bool is_held() const;
+  /// The high speed counter of the full closed loop (SFD3028); nothing: there is none.
+  std::optional<Component> loop_counter() const;
   /// Of SFD3034 to SFD3037: an input, or none; with its logic.
   struct Terminal {
     std::optional<unsigned> input;
@@ -173,7 +184,7 @@ class Axis {
   std::deque<Change> changes_;
 
   bool in_loop_ = false;
-  double loop_shift_ = 0, loop_seen_ = 0;
+  double loop_shift_ = 0;
   std::optional<Time> loop_turns_;
 };
 

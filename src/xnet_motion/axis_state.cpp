@@ -52,7 +52,7 @@ void Axis::look_at_servo(bool run, unsigned slaves, Duration period) {
   if (!run) {
     if (is_moving()) stop_at_once();
     // 2-2-8: in STOP, who changes the feedback pulses changes the position.
-    const double turn = registers_.get(reg::per_turn), ppr = registers_.get(reg::ppr);
+    const double turn = pulses_of_a_turn(), ppr = registers_.get(reg::ppr);
     const double pulses = registers_.get(reg::feedback_pulses);
     if (ppr > 0 && pulses != std::round(published_ * ppr / turn))
       write_position(pulses * turn / ppr);
@@ -95,10 +95,8 @@ void Axis::move_feedback() {
   // Nobody plans a position in speed mode: the motor runs away from where it was (2-3-1).
   const double due = doing_ == Doing::at_speed ? start_ : state_.position;
   if (std::abs(due - feedback_) <= most) return;
-  fail(AxisError::deviation);
   state_.position = feedback_;
-  disable();
-  refused_ = true;
+  shut_off(AxisError::deviation);
 }
 
 // ---- switches and limits ----
@@ -169,13 +167,13 @@ void Axis::look_at_loop(Time now) {
     loop_turns_.reset();
     if (wanted != in_loop_ && !is_moving()) turn_loop(wanted);
   }
+  in_loop_ = in_loop_ && loop_counter();
   if (!in_loop_) return;
   const double counted = state_.position + loop_shift_;
   const double numerator = registers_.get(reg::loop_numerator);
-  const double turn = std::max(registers_.get(reg::per_turn), 1.0);
-  const auto counter = static_cast<std::uint32_t>(registers_.get(reg::loop_counter) * 2);
+  const double turn = pulses_of_a_turn();
   const double count = std::round(counted * numerator / turn);
-  write_number(memory_, {&area_named("HSCD"), counter}, Kind::dword, count);
+  write_number(memory_, *loop_counter(), Kind::dword, count);
   const double gain = registers_.get(reg::gain), most = registers_.get(reg::loop_deviation);
   const double lag = gain > 0 ? state_.speed / gain : 0;
   registers_.set(reg::loop_position,
@@ -184,19 +182,22 @@ void Axis::look_at_loop(Time now) {
   if (!is_moving() || state_.speed == 0) return;
   const bool backwards = registers_.get(reg::direction) != 0;
   if (!backwards && gain > 0 && std::abs(state_.speed) / gain <= most) return;
-  fail(AxisError::deviation);
-  disable();
-  refused_ = true;
+  shut_off(AxisError::deviation);
+}
+
+std::optional<Component> Axis::loop_counter() const {
+  const double counter = registers_.get(reg::loop_counter);  // 0: HSC0, 1: HSC2
+  if (counter < 0 || counter > 3) return std::nullopt;
+  return component_in("HSCD", static_cast<std::uint32_t>(counter) * 2);
 }
 
 void Axis::turn_loop(bool on) {
-  in_loop_ = on;
-  if (!on) return;
+  in_loop_ = on && loop_counter();
+  if (!in_loop_) return;
   registers_.set(reg::gain, registers_.get(reg::first_gain));
   const double numerator = std::max(registers_.get(reg::loop_numerator), 1.0);
-  const auto counter = static_cast<std::uint32_t>(registers_.get(reg::loop_counter) * 2);
-  const double count = read_number(memory_, {&area_named("HSCD"), counter}, Kind::dword);
-  loop_shift_ = count * registers_.get(reg::per_turn) / numerator - state_.position;
+  const double count = read_number(memory_, *loop_counter(), Kind::dword);
+  loop_shift_ = count * pulses_of_a_turn() / numerator - state_.position;
 }
 
 // ---- coils and settings ----
@@ -220,8 +221,7 @@ void Axis::jog(double sign, Time now) {
   if (doing_ != Doing::jogging) begin(Doing::jogging);
   goal_ = state_.position + sign * step;
   speed_ = std::abs(registers_.get(reg::jog_speed));
-  acceleration_ = slope(reg::acceleration, reg::least_acceleration);
-  deceleration_ = slope(reg::deceleration, reg::least_deceleration);
+  take_ramps();
   expect(reg::target, goal_);
   plan(goal_, now);
 }
@@ -261,8 +261,7 @@ void Axis::apply(const Register& setting, double value, Time now) {
     if (doing_ == Doing::nothing) begin(Doing::moving);
     goal_ = value - (in_loop_ ? loop_shift_ : 0);
   } else {
-    acceleration_ = slope(reg::acceleration, reg::least_acceleration);
-    deceleration_ = slope(reg::deceleration, reg::least_deceleration);
+    take_ramps();
   }
   if (free && doing_ == Doing::moving) plan(goal_, now);
 }
@@ -289,7 +288,7 @@ void Axis::publish() {
 
 /// Encoder counts (table 2-4-4).
 void Axis::publish_pulses() {
-  const double scale = registers_.get(reg::ppr) / std::max(registers_.get(reg::per_turn), 1.0);
+  const double scale = registers_.get(reg::ppr) / pulses_of_a_turn();
   registers_.set(reg::set_pulses, state_.position * scale);
   registers_.set(reg::feedback_pulses, feedback_ * scale);
   registers_.set(reg::offset_pulses, (feedback_ - start_) * scale);

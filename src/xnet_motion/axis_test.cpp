@@ -176,6 +176,48 @@ TEST_F(MotionTest, WhatIsRefusedSaysWhy) {
     EXPECT_FALSE(bus->act(wrong)) << wrong;
 }
 
+TEST_F(MotionTest, RegistersAtTheEdgeAreRefused) {
+  make({{{"axis", 1}}});
+  enable();
+  EXPECT_FALSE(bus->act("MOTO D69999 1000 50 axis 1")) << "a double word";
+  EXPECT_FALSE(bus->act("MOREAD D69999 axis 1"));
+  act("MOTOS D0 D69998 axis 1");
+  EXPECT_EQ(get(reg::error), 20022) << "the parameters end behind D69999";
+  write_number(memory, *find_component("D102"), Kind::dword, 3);
+  act("MOTOS D69990 D100 axis 1");
+  EXPECT_EQ(get(reg::error), 20022) << "the data do";
+  registers().set(reg::loop_counter, -1);
+  registers().set(reg::full_loop, 1);
+  run(100ms);
+  EXPECT_EQ(get(reg::loop_position), 0) << "there is no such counter";
+}
+
+TEST_F(MotionTest, NothingIsDividedByZero) {
+  make({{{"axis", 1}}});
+  enable();
+  for (const Register& one : {reg::per_turn, reg::ppr, reg::max_speed, reg::least_acceleration})
+    registers().set(one, 0);
+  act("MOTO 10 1 50 axis 1");
+  write_number(memory, *find_component("D102"), Kind::dword, 1);
+  write_number(memory, *find_component("D104"), Kind::dword, 50);
+  write_number(memory, *find_component("D106"), Kind::dword, 50);
+  run(20s);
+  EXPECT_EQ(get(reg::position), 10);
+  act("MOTOS D0 D100 axis 1");
+  run(1s);
+  EXPECT_EQ(get(reg::position), 10);
+}
+
+TEST_F(MotionTest, ReleasingAnAxisThatIsNotBoundChangesNothing) {
+  make({{{"axis", 1}}});
+  enable();
+  act("MOTO 1000 1000 50 axis 1");
+  run(500ms);
+  act("MOUSYN axis 1");
+  until_it_stands();
+  EXPECT_EQ(get(reg::position), 1000);
+}
+
 TEST_F(MotionTest, ErrorsOfTheServo) {
   make({{{"axis", 1}}});
   enable();

@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::uint32_t refresh_register = 2990, slaves_register = 2991, retries_register = 2992;
 
-Component object(std::string_view area, std::uint32_t number) {
-  return {&area_named(area), number};
-}
-
 using Name = MotionInstruction;
 struct Form {
   std::string_view name;
@@ -42,7 +38,7 @@ const Form* find_form(std::string_view name) {
 std::optional<Component> read_register(std::string_view word, Series series) {
   const std::optional<Component> found = find_component(word, series);
   const bool suits = found && (found->area->name == "D" || found->area->name == "HD");
-  return suits ? found : std::nullopt;
+  return suits && room_from(*found, series) >= 2 ? found : std::nullopt;  // a double word
 }
 
 std::optional<double> read_float(std::string_view word) {
@@ -69,9 +65,9 @@ struct MotionBus::Order {
 
 MotionBus::MotionBus(Memory& memory, std::vector<Servo> servos, unsigned slaves)
     : memory_(memory), settings_(memory.body(area_named("SFD"))) {
-  memory_.write(object("SFD", refresh_register), slaves > 10 ? 6000 : 3000);
-  memory_.write(object("SFD", slaves_register), slaves);
-  memory_.write(object("SFD", retries_register), 20);
+  memory_.write(component_in("SFD", refresh_register), slaves > 10 ? 6000 : 3000);
+  memory_.write(component_in("SFD", slaves_register), slaves);
+  memory_.write(component_in("SFD", retries_register), 20);
   for (unsigned number = 1; number <= last_axis; ++number) {
     const auto own = std::ranges::find(servos, number, &Servo::axis);
     Servo none;
@@ -86,7 +82,6 @@ Axis* MotionBus::find(unsigned number) const {
       std::ranges::find_if(axes_, [&](const auto& axis) { return axis->number() == number; });
   return found == axes_.end() ? nullptr : found->get();
 }
-const Axis* MotionBus::axis(unsigned number) const { return find(number); }
 
 void MotionBus::advance(Time now, bool run) {
   if (!begun_) {
@@ -114,7 +109,7 @@ void MotionBus::advance(Time now, bool run) {
 
 double MotionBus::place_of(int master) const {
   if (master < 0)
-    return read_number(memory_, object("HSCD", static_cast<std::uint32_t>(-master - 1) * 2),
+    return read_number(memory_, component_in("HSCD", static_cast<std::uint32_t>(-master - 1) * 2),
                        Kind::dword);
   const Axis* const axis = find(static_cast<unsigned>(master));
   return axis ? axis->position() : 0;
@@ -174,12 +169,6 @@ Result<MotionBus::Order> MotionBus::read(std::string_view action) const {
   return order;
 }
 
-Status MotionBus::check(std::string_view action) const {
-  if (action.starts_with("servo ")) return ok();
-  const Result<Order> order = read(action);
-  return order ? ok() : Status(order.error());
-}
-
 Status MotionBus::act(std::string_view action) {
   memory_.touch();
   if (action.starts_with("servo ")) return act_on_servo(action);
@@ -217,14 +206,18 @@ void MotionBus::execute(const Order& order, Time now) {
 void MotionBus::move_segments(const Order& order, Axis& axis, Time now) {
   const Component data = *read_register(order.operands[0], memory_.series());
   const Component parameters = *read_register(order.operands[1], memory_.series());
+  constexpr std::uint32_t of_a_segment = 10, last_of_a_segment = 4, parameter_registers = 8;
+  const auto room = [&](const Component& from) { return room_from(from, memory_.series()); };
   const auto at = [&](const Component& from, std::uint32_t offset) {
     return read_number(memory_, {from.area, from.number + offset}, Kind::dword);
   };
+  if (room(parameters) < parameter_registers) return axis.fail(AxisError::segments);
   const double count = at(parameters, 2);
-  if (count < 1 || count > 100) return axis.fail(AxisError::segments);
+  if (count < 1 || count > 100 || (count - 1) * of_a_segment + last_of_a_segment > room(data))
+    return axis.fail(AxisError::segments);
   std::vector<Segment> segments;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i)
-    segments.push_back({at(data, 10 * i), at(data, 10 * i + 2)});
+    segments.push_back({at(data, of_a_segment * i), at(data, of_a_segment * i + 2)});
   axis.move_segments(at(parameters, 0) == 0, std::move(segments), at(parameters, 4),
                      at(parameters, 6), now);
 }
@@ -274,7 +267,7 @@ Status MotionBus::act_on_servo(std::string_view action) {
 
 void MotionBus::restart() {
   bindings_.clear();
-  downloads_ = false;
+  downloads_ = begun_ = false;
   for (const auto& axis : axes_) axis->restart();
 }
 

@@ -34,10 +34,7 @@ class MotionBus {
   /// What is wrong with the motion stands in SD2002.
   Status act(std::string_view action);
 
-  /// What an act would refuse of the text.
-  Status check(std::string_view action) const;
-
-  const Axis* axis(unsigned number) const;
+  /// Power is gone and back.
   void restart();
 
  private:

@@ -22,7 +22,6 @@ constexpr std::array<std::string_view, 8> port_keys{"baud", "cable_m", "cycle_ms
                                                     "net",  "peer",    "port",     "station"};
 constexpr std::array<std::string_view, 3> route_keys{"gateway", "net", "port"};
 constexpr unsigned slowest = 600, fastest = 3'000'000;
-constexpr unsigned cycle_most_ms = 60'000;
 
 Error wrong(const std::string& what) {
   return fail(fmt::format("cannot configure the PLC: {}", what));
@@ -235,7 +234,7 @@ const Port* StationConfig::port(unsigned number) const {
   return found == ports.end() ? nullptr : &*found;
 }
 
-const Route* StationConfig::route(std::uint16_t net) const {
+const Route* StationConfig::route(std::uint32_t net) const {
   const auto found = std::ranges::find(routes, net, &Route::net);
   return found == routes.end() ? nullptr : &*found;
 }

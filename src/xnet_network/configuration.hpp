@@ -67,7 +67,7 @@ struct StationConfig {
   bool run = true;
 
   const Port* port(unsigned number) const;
-  const Route* route(std::uint16_t net) const;
+  const Route* route(std::uint32_t net) const;
 };
 
 /// The first two bytes of an address, and the last two (3-3-1): "192.168.6.60" is net 49320,

@@ -23,12 +23,8 @@ constexpr Duration look_period = 1ms;  // how old its time may be when it is tol
 constexpr unsigned result_register = 141, presence_relay = 1200;
 constexpr unsigned times_of_ethernet = 194, failures_of_ethernet = 196, overtimes_of_ethernet = 198;
 
-Component object(std::string_view area, std::uint32_t number) {
-  return {&area_named(area), number};
-}
-
 void count_up(Memory& memory, unsigned number) {
-  const Component low = object("SD", number), high = object("SD", number + 1);
+  const Component low = component_in("SD", number), high = component_in("SD", number + 1);
   const unsigned next = (memory.read(high) << 16 | memory.read(low)) + 1;
   memory.write(low, next & 0xFFFF);
   memory.write(high, next >> 16);
@@ -61,8 +57,8 @@ XnetNetwork::XnetNetwork(std::vector<StationConfig> stations) {
     const Ethernet& own = plc.config.ethernet;
     const std::array<std::uint32_t, 3> shown{own.address, own.mask, own.gateway};
     for (std::uint32_t i = 0; own.address != 0 && i < shown.size(); ++i) {
-      plc.memory.write(object("SD", 1905 + 2 * i), shown[i] >> 16);
-      plc.memory.write(object("SD", 1906 + 2 * i), shown[i] & 0xFFFF);
+      plc.memory.write(component_in("SD", 1905 + 2 * i), shown[i] >> 16);
+      plc.memory.write(component_in("SD", 1906 + 2 * i), shown[i] & 0xFFFF);
     }
     if (has_motion_bus(plc.config))
       plc.motion = std::make_unique<MotionBus>(plc.memory, plc.config.servos, plc.config.slaves);
@@ -210,9 +206,7 @@ Status XnetNetwork::execute(Plc& plc, std::string_view text, bool held) {
 /// Where the route leads: the port whose register has the result.
 void XnetNetwork::start(Plc& plc, const Instruction& instruction, bool held) {
   if (!plc.run || !plc.powered) return;
-  const Route* const route = instruction.net <= 0xFFFF
-                                 ? plc.config.route(static_cast<std::uint16_t>(instruction.net))
-                                 : nullptr;
+  const Route* const route = plc.config.route(instruction.net);
   Job job{&plc, instruction, 0, 0, held};
   if (route)
     job.port = route->port;
@@ -227,36 +221,35 @@ void XnetNetwork::start(Plc& plc, const Instruction& instruction, bool held) {
 }
 
 void XnetNetwork::forward(Plc& via, Job job, Time now) {
-  const Route* const route = job.instruction.net <= 0xFFFF
-                                 ? via.config.route(static_cast<std::uint16_t>(job.instruction.net))
-                                 : nullptr;
+  const Route* const route = via.config.route(job.instruction.net);
   const Port* const port = route ? via.config.port(route->port) : nullptr;
-  if (!port || ++job.hops > most_hops)
-    return later(now + overtime, [=, this](Time at) { finish(job, Outcome::overtime, at); });
-  carry(via, *port, job, now);
+  if (!port || ++job.hops > most_hops) return fail_later(job, now);
+  carry(via, *route, *port, job, now);
 }
 
-void XnetNetwork::carry(Plc& via, const Port& port, Job job, Time now) {
-  const Route& route = *via.config.route(static_cast<std::uint16_t>(job.instruction.net));
+void XnetNetwork::carry(Plc& via, const Route& route, const Port& port, Job job, Time now) {
   const std::uint16_t net = port.net;
   const std::uint32_t station = route.gateway ? route.gateway : job.instruction.station;
   const bool last = route.gateway == 0;
   const auto there = [=, this](Time at) {
     Plc* const next = station_on(net, station);
-    if (!next || !next->powered)
-      return later(at + overtime, [=, this](Time end) { finish(job, Outcome::overtime, end); });
+    if (!next || !next->powered) return fail_later(job, at);
     if (next->noisy || job.from->noisy) return finish(job, Outcome::crc, at);
-    last ? arrive(*next, job, at) : forward(*next, job, at);
+    last ? finish(job, move(*next, job), at) : forward(*next, job, at);
+  };
+  // A gateway that loses its power answers nobody.
+  const auto lost = [=, this, own = job.from == &via] {
+    if (!own) fail_later(job, now_);
   };
   if (port.type != NetType::ethernet)
-    return bus(port).queue(port.station, {job.instruction.words(), there}, now);
+    return bus(port).queue(port.station, {job.instruction.words(), there, lost}, now);
   // One after the other through the port; each instruction takes its 2 ms.
   via.ethernet_free = std::max(via.ethernet_free, now) + ethernet_word * job.instruction.words();
   later(std::max(via.ethernet_free, now + least_on_ethernet), there);
 }
 
-void XnetNetwork::arrive(Plc& target, const Job& job, Time now) {
-  finish(job, move(target, job), now);
+void XnetNetwork::fail_later(const Job& job, Time now) {
+  later(now + overtime, [=, this](Time at) { finish(job, Outcome::overtime, at); });
 }
 
 /// Nothing is moved unless all of it can be.
@@ -283,7 +276,7 @@ void XnetNetwork::finish(const Job& job, Outcome outcome, Time now) {
   if (plc.under_way > 0) --plc.under_way;
   if (!plc.powered) return;
   if (job.port != ethernet_port)
-    return plc.memory.write(object("SD", result_register + 10 * job.port),
+    return plc.memory.write(component_in("SD", result_register + 10 * job.port),
                             static_cast<unsigned>(outcome));
   count_up(plc.memory, times_of_ethernet);
   if (outcome != Outcome::done) count_up(plc.memory, failures_of_ethernet);
@@ -305,7 +298,7 @@ void XnetNetwork::power(Plc& plc, bool on) {
     if (on)
       bus(port).join(port.station);
     else
-      bus(port).leave(port.station);
+      for (const TokenBus::Transfer& one : bus(port).leave(port.station)) one.lost();
   }
   show_presence();
 }
@@ -315,7 +308,7 @@ void XnetNetwork::show_presence() {
   for (const auto& plc : plcs_)
     for (const Port& port : plc->config.ports)
       for (unsigned station = 1; port.type == NetType::tbn && station <= last_station; ++station)
-        plc->memory.write(object("SM", presence_relay + 100 * port.number + station - 1),
+        plc->memory.write(component_in("SM", presence_relay + 100 * port.number + station - 1),
                           plc->powered && bus(port).is_there(station));
 }
 

@@ -64,9 +64,9 @@ class XnetNetwork : public plc::SerialDevice {
   Status execute(Plc& plc, std::string_view text, bool held);
   void start(Plc& plc, const Instruction& instruction, bool held);
   void forward(Plc& via, Job job, Time now);
-  void carry(Plc& via, const Port& port, Job job, Time now);
-  void arrive(Plc& target, const Job& job, Time now);
+  void carry(Plc& via, const Route& route, const Port& port, Job job, Time now);
   void finish(const Job& job, Outcome outcome, Time now);
+  void fail_later(const Job& job, Time now);
   Outcome move(Plc& target, const Job& job);
   void power(Plc& plc, bool on);
   void show_presence();

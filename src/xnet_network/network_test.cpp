@@ -97,6 +97,25 @@ TEST_F(XnetTest, AGatewayForwards) {
   EXPECT_EQ(get("D0"), "BEEF");
 }
 
+TEST_F(XnetTest, AGatewayThatLosesItsPowerIsOvertime) {
+  make("xd5", {{"ports", {{{"port", 2}, {"net", 1}, {"station", 1}}}},
+               {"routes", {{{"net", 2}, {"port", 2}, {"gateway", 2}}}},
+               {"stations",
+                {{{"model", "xd5"},
+                  {"ports",
+                   {{{"port", 2}, {"net", 1}, {"station", 2}},
+                    {{"port", 4}, {"net", 2}, {"station", 1}, {"cycle_ms", 1000}}}}},
+                 {{"model", "xd5"},
+                  {"ports", {{{"port", 2}, {"net", 2}, {"station", 5}, {"cycle_ms", 1000}}}}}}}});
+  wait(510ms);  // station 5 has the token of net 2
+  ASSERT_TRUE(plc->set("SD161", "0009"));
+  act("REG_READ net 2 station 5 D7 count 1 to D0");
+  wait(50ms);
+  act("B: off");
+  wait(150ms);
+  EXPECT_EQ(get("SD161"), "0001");
+}
+
 TEST_F(XnetTest, EthernetCountsAndHolds) {
   make("xde", {{"ip", "192.168.6.10"}, {"stations", {{{"model", "xde"}, {"ip", "192.168.6.11"}}}}});
   EXPECT_EQ(get("SD1905"), "C0A8");

@@ -15,9 +15,12 @@ Duration TokenBus::time_of(std::uint32_t words) const {
 
 void TokenBus::join(unsigned station) { queues_.try_emplace(station); }
 
-void TokenBus::leave(unsigned station) {
+std::vector<TokenBus::Transfer> TokenBus::leave(unsigned station) {
+  std::vector<Transfer> lost;
+  for (Waiting& waiting : queues_[station]) lost.push_back(std::move(waiting.transfer));
   queues_.erase(station);
   if (station == holder_) carried_until_.reset();
+  return lost;
 }
 
 void TokenBus::queue(unsigned station, Transfer transfer, Time now) {
@@ -25,11 +28,6 @@ void TokenBus::queue(unsigned station, Transfer transfer, Time now) {
   queues_[station].push_back({std::move(transfer), time});
   if (begun_ && station == holder_ && !carried_until_ && now < turn_ends_)
     carried_until_ = now + time;
-}
-
-void TokenBus::forget(unsigned station) {
-  if (const auto found = queues_.find(station); found != queues_.end()) found->second.clear();
-  if (station == holder_) carried_until_.reset();
 }
 
 std::optional<Time> TokenBus::wake_at() const {

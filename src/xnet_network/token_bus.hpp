@@ -19,20 +19,22 @@ class TokenBus {
   /// `cycle`: in which each station has the token once. `baud` in bit/s.
   TokenBus(Duration cycle, unsigned baud) : cycle_(cycle), baud_(baud) {}
 
-  /// From now on the station takes part, or does not. A holder that leaves takes the token with it
-  /// until its turn would have ended.
-  void join(unsigned station);
-  void leave(unsigned station);
-  bool is_there(unsigned station) const { return queues_.contains(station); }
-
-  /// The station has so many words to carry; `done` is told when the last of them went.
+  /// The station has so many words to carry; `done` is told when the last of them went, `lost` by
+  /// nobody but who lets the station leave.
   struct Transfer {
     std::uint32_t words = 1;
     std::function<void(Time)> done;
+    std::function<void()> lost{};
   };
+
+  /// From now on the station takes part, or does not. A holder that leaves takes the token with it
+  /// until its turn would have ended.
+  void join(unsigned station);
+  /// The transfers that it takes with it.
+  std::vector<Transfer> leave(unsigned station);
+  bool is_there(unsigned station) const { return queues_.contains(station); }
+
   void queue(unsigned station, Transfer transfer, Time now);
-  /// What the station has not carried yet is forgotten.
-  void forget(unsigned station);
 
   /// Words that the bus carries in 10 ms: 200 at 1 Mbit/s (1-4, note 3).
   Duration time_of(std::uint32_t words) const;
