@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/frameless_protocol.hpp"
 #include "src/hs_link/network.hpp"
 #include "src/plc/model.hpp"
 #include "suites/hs_link/facts.hpp"
@@ -10,7 +11,8 @@ namespace fieldproof::hs_link_suite {
 
 namespace {
 
-class HsLink : public harness::Protocol, public harness::Tables {
+/// DECISIONS.md hslink/no-frames
+class HsLink : public harness::FramelessProtocol, public harness::Tables {
  public:
   std::string_view name() const override { return "hs-link"; }
   std::vector<std::string> models() const override {
@@ -24,13 +26,6 @@ class HsLink : public harness::Protocol, public harness::Tables {
     return hs_link::make_hs_network(model, config);
   }
 
-  // No manual prints a frame of it (DECISIONS.md hslink/no-frames).
-  Bytes station_bytes(int station) const override { return {static_cast<Byte>(station)}; }
-  bool is_text() const override { return false; }
-  bool has_frame_ends() const override { return false; }
-  std::optional<std::size_t> frame_length(ByteView) const override { return std::nullopt; }
-  std::vector<harness::Field> explain(ByteView) const override { return {}; }
-  std::vector<Written> written_by(ByteView) const override { return {}; }
   std::string_view output_areas() const override { return "PQU"; }
 
   const harness::Tables* tables() const override { return this; }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/frameless_protocol.hpp"
 #include "src/xnet_network/network.hpp"
 #include "suites/xnet/facts.hpp"
 
@@ -9,7 +10,8 @@ namespace fieldproof::xnet_suite {
 
 namespace {
 
-class Xnet : public harness::Protocol, public harness::Tables {
+/// DECISIONS.md xnet/no-frames
+class Xnet : public harness::FramelessProtocol, public harness::Tables {
  public:
   std::string_view name() const override { return "xnet"; }
   std::vector<std::string> models() const override {
@@ -23,13 +25,6 @@ class Xnet : public harness::Protocol, public harness::Tables {
     return xnet::make_xnet(model, config);
   }
 
-  // No frame of it is printed (DECISIONS.md xnet/no-frames).
-  Bytes station_bytes(int station) const override { return {static_cast<Byte>(station)}; }
-  bool is_text() const override { return false; }
-  bool has_frame_ends() const override { return false; }
-  std::optional<std::size_t> frame_length(ByteView) const override { return std::nullopt; }
-  std::vector<harness::Field> explain(ByteView) const override { return {}; }
-  std::vector<Written> written_by(ByteView) const override { return {}; }
   std::string_view output_areas() const override { return "Y"; }
 
   const harness::Tables* tables() const override { return this; }

@@ -5,40 +5,31 @@
 #include <nlohmann/json.hpp>
 
 #include "src/hs_link/network.hpp"
+#include "suites/broken/wrapped_device.hpp"
 
 namespace fieldproof::hs_link_broken {
 
 namespace {
 
-class BrokenNetwork : public plc::SerialDevice {
+class BrokenNetwork : public broken::WrappedDevice {
  public:
   BrokenNetwork(std::unique_ptr<plc::EmulatedDevice> right, const plc::PlcModel& model,
                 Behaviour behaviour)
-      : right_(std::move(right)), model_(model), behaviour_(std::move(behaviour)) {}
+      : WrappedDevice(std::move(right)), model_(model), behaviour_(std::move(behaviour)) {}
 
-  void receive(const Burst& burst) override { right_->line()->receive(burst); }
-  std::optional<Time> wake_at() const override { return right_->line()->wake_at(); }
-  Bytes advance(Time now) override { return right_->line()->advance(now); }
-
-  Status set(std::string_view address, std::string_view hex) override {
-    return right_->set(address, hex);
-  }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
     const plc::ParsedAddress parsed = plc::parse_address(model_, address);
     if (behaviour_.bit && parsed && address.starts_with("%L")) return of_l(parsed.address, digits);
-    return right_->get(address, digits);
+    return WrappedDevice::get(address, digits);
   }
   Status act(std::string_view action) override {
-    if (!behaviour_.act) return right_->act(action);
-    Status done = ok();
-    for (const std::string& one : behaviour_.act(std::string(action)))
-      if (done) done = right_->act(one);
-    return done;
+    if (!behaviour_.act) return WrappedDevice::act(action);
+    return act_all(behaviour_.act(std::string(action)));
   }
 
  private:
   std::string look(unsigned bit) const {
-    const std::string word = *right_->get(fmt::format("%LW{}", bit / 16), 4);
+    const std::string word = *right().get(fmt::format("%LW{}", bit / 16), 4);
     return std::stoul(word, nullptr, 16) >> bit % 16 & 1 ? "01" : "00";
   }
   /// Bits and words of L, bit by bit.
@@ -55,7 +46,6 @@ class BrokenNetwork : public plc::SerialDevice {
     return text;
   }
 
-  std::unique_ptr<plc::EmulatedDevice> right_;
   const plc::PlcModel& model_;
   Behaviour behaviour_;
 };

@@ -5,80 +5,66 @@
 #include <nlohmann/json.hpp>
 
 #include "src/xnet_network/network.hpp"
+#include "suites/broken/wrapped_device.hpp"
 
 namespace fieldproof::xnet_broken {
 
 namespace {
 
-constexpr Duration look_period = 3ms;
-
-class BrokenXnet : public plc::SerialDevice {
+class BrokenXnet : public broken::WrappedDevice {
  public:
   BrokenXnet(std::unique_ptr<plc::EmulatedDevice> right, Behaviour behaviour)
-      : right_(std::move(right)), behaviour_(std::move(behaviour)) {}
+      : WrappedDevice(std::move(right)), behaviour_(std::move(behaviour)) {}
 
-  void receive(const Burst& burst) override { right_->line()->receive(burst); }
   std::optional<Time> wake_at() const override {
-    std::optional<Time> first = right_->line()->wake_at();
-    const auto consider = [&](Time at) { first = std::min(first.value_or(at), at); };
-    if (behaviour_.meddle) consider(next_look_);
-    if (!waiting_.empty()) consider(waiting_.front().first);
-    return first;
+    const std::optional<Time> first = WrappedDevice::wake_at();
+    if (waiting_.empty()) return first;
+    return std::min(first.value_or(Time::max()), waiting_.front().first);
   }
   Bytes advance(Time now) override {
     now_ = now;
-    Bytes sent = right_->line()->advance(now);
+    Bytes sent = WrappedDevice::advance(now);
     while (!waiting_.empty() && waiting_.front().first <= now) {
-      (void)right_->act(waiting_.front().second);
+      (void)WrappedDevice::act(waiting_.front().second);
       waiting_.pop_front();
-    }
-    if (behaviour_.meddle && now >= next_look_) {
-      behaviour_.meddle(looking(), putting());
-      next_look_ = now + look_period;
     }
     return sent;
   }
 
   Status set(std::string_view address, std::string_view hex) override {
     const std::string name(address);
-    return right_->set(behaviour_.set_name ? behaviour_.set_name(name) : name, hex);
+    return WrappedDevice::set(behaviour_.set_name ? behaviour_.set_name(name) : name, hex);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
     const std::string name(address);
-    auto held = right_->get(behaviour_.look_name ? behaviour_.look_name(name) : name, digits);
+    auto held =
+        WrappedDevice::get(behaviour_.look_name ? behaviour_.look_name(name) : name, digits);
     if (!held || !behaviour_.value) return held;
     return behaviour_.value(name, *held);
   }
   Status act(std::string_view action) override {
-    Status done = ok();
-    const std::string own(action);
-    for (const std::string& one :
-         behaviour_.act ? behaviour_.act(own, looking(), putting()) : std::vector{own}) {
-      if (!done) return done;
-      if (behaviour_.late > 0ms)
-        waiting_.emplace_back(now_ + behaviour_.late, one);
-      else
-        done = right_->act(one);
-    }
-    return done;
+    std::vector<std::string> actions{std::string(action)};
+    if (behaviour_.act) actions = behaviour_.act(actions.front(), looking(), putting());
+    if (behaviour_.late == 0ms) return act_all(actions);
+    for (std::string& one : actions) waiting_.emplace_back(now_ + behaviour_.late, std::move(one));
+    return ok();
   }
 
  private:
   Look looking() {
     return [this](const std::string& name, std::size_t digits) {
-      const auto held = right_->get(name, digits);
+      const auto held = right().get(name, digits);
       return held ? *held : std::string(digits, '0');
     };
   }
   Put putting() {
     return
-        [this](const std::string& name, const std::string& hex) { (void)right_->set(name, hex); };
+        [this](const std::string& name, const std::string& hex) { (void)right().set(name, hex); };
   }
 
-  std::unique_ptr<plc::EmulatedDevice> right_;
   Behaviour behaviour_;
   std::deque<std::pair<Time, std::string>> waiting_;
-  Time now_{}, next_look_{};
+  Time now_{};
 };
 
 }  // namespace

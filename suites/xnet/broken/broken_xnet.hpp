@@ -18,8 +18,8 @@ using Look = std::function<std::string(const std::string& name, std::size_t digi
 /// Sets memory of the right device.
 using Put = std::function<void(const std::string& name, const std::string& hex)>;
 
-/// What the broken device makes of its configuration, of what it is told, of memory that is looked
-/// at, and, every 3 ms, of its own memory; empty: nothing.
+/// What the broken device makes of its configuration, of what it is told, and of memory that is set
+/// or looked at; empty: nothing.
 struct Behaviour {
   std::function<void(nlohmann::json& config)> config{};
   std::function<std::vector<std::string>(const std::string& action, const Look& look,
@@ -28,7 +28,6 @@ struct Behaviour {
   /// Where a name that is set, or looked at, is found instead.
   std::function<std::string(const std::string&name)> set_name{}, look_name{};
   std::function<std::string(const std::string& name, const std::string& hex)> value{};
-  std::function<void(const Look& look, const Put& put)> meddle{};
   Duration late{};  // actions act so much later
 };
 
