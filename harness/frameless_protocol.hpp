@@ -8,6 +8,7 @@ namespace fieldproof::harness {
 
 class FramelessProtocol : public Protocol {
  public:
+  bool has_frames() const override { return false; }
   Bytes station_bytes(int station) const override { return {static_cast<Byte>(station)}; }
   bool is_text() const override { return false; }
   bool has_frame_ends() const override { return false; }

@@ -51,6 +51,10 @@ class Protocol {
   virtual Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
       std::string_view model, const nlohmann::json& config) const = 0;
 
+  /// Does a manual print its frames? Else it is tested on a model alone: there is nothing to serve,
+  /// and no way to ask a device.
+  virtual bool has_frames() const { return true; }
+
   /// The port of its servers; 0: it runs on a serial line.
   virtual std::uint16_t default_port() const { return 0; }
   /// Where they take datagrams.

@@ -56,6 +56,11 @@ Status check_addresses(const EmulateOptions& options, const harness::Protocol& p
   const auto wrong = [&](const std::string& why) {
     return fail(fmt::format("cannot emulate {}: {} {}", options.model, protocol.name(), why));
   };
+  if (!protocol.has_frames())
+    return wrong(
+        "has no frame that a manual prints, so there is nothing to serve; its cases run on a model: "
+        "fieldproof run --protocol " +
+        std::string(protocol.name()));
   const std::uint16_t port = protocol.default_port();
   const bool socket = !options.tcp.empty() || !options.udp.empty();
   if (port == 0 && !options.udp.empty())

@@ -130,6 +130,9 @@ Status check_endpoint(const EndpointName& name, const harness::Protocol& protoco
     return fail(
         fmt::format("cannot use {}:{} for {}: {}", name.kind, name.target, protocol.name(), why));
   };
+  if (!protocol.has_frames() && !kind.simulated)
+    return wrong(
+        "no manual prints a frame of it, so it is tested on a model alone; write emulator:");
   if (!is_network(protocol) && !kind.lines)
     return wrong("it runs on a serial line; write serial:, rfc2217: or tcp: (a serial server)");
   if (is_network(protocol) && !kind.connections && !kind.datagrams)

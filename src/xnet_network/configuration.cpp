@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, 8> port_keys{"baud", "cable_m", "cycle_ms
                                                     "net",  "peer",    "port",     "station"};
 constexpr std::array<std::string_view, 3> route_keys{"gateway", "net", "port"};
 constexpr unsigned slowest = 600, fastest = 3'000'000;
+constexpr Duration shortest_cycle = 1ms;  // its register counts milliseconds
 
 Error wrong(const std::string& what) {
   return fail(fmt::format("cannot configure the PLC: {}", what));
@@ -68,11 +69,11 @@ Status check_port(const Port& port, const Model& model, unsigned cable) {
   if (port.baud < slowest || port.baud > fastest)
     return wrong(fmt::format("{} bit/s at port {}; TBN_RS485 has {} to {}", port.baud, port.number,
                              slowest, fastest));
-  if (port.cycle <= 0ms)
+  if (port.cycle < shortest_cycle)
     return wrong(
-        fmt::format("cycle_ms 0 at port {}; it is the time in which each station has the "
-                    "token once",
-                    port.number));
+        fmt::format("cycle_ms {:g} at port {}; it is the time in which each station has the "
+                    "token once, 1 ms or more",
+                    to_ms(port.cycle), port.number));
   if (const std::optional<unsigned> reach = longest_cable(port.baud); reach && cable > *reach)
     return wrong(
         fmt::format("a cable of {} m at {} bit/s; it reaches {} m", cable, port.baud, *reach));

@@ -377,6 +377,15 @@ TEST(BadEmulate, addresses_and_ports) {
   expect("192.0.2.7:4001", 3, "this is no address of this computer");
 }
 
+TEST(BadEmulate, protocol_without_frames) {
+  const Finished served = run_tool({"emulate", "xdc?protocol=xnet", "--tcp", "127.0.0.1:0"});
+  EXPECT_EQ(served.code, 2);
+  EXPECT_THAT(served.err, HasSubstr("xnet has no frame that a manual prints"));
+  const Finished asked = run_tool({"run", "--protocol", "hs-link", "--endpoint", "tcp:127.0.0.1:1"});
+  EXPECT_EQ(asked.code, 2);
+  EXPECT_THAT(asked.err, HasSubstr("tested on a model alone; write emulator:"));
+}
+
 TEST_F(BadDevices, no_terminal) {
   const std::string file = folder_.write("file", "");
   const Finished finished = run("serial:" + file, 1);

@@ -142,7 +142,7 @@ TEST_F(ClientRole, ACadenceIsExactInSimulatedTimeAndNoted) {
 }
 
 TEST_F(ClientRole, AStimulatedProgramIsJudgedOnTheWire) {
-  EXPECT_EQ(run({read_case("none", "0000"), write_case(), cadence_case()},
+  EXPECT_EQ(run({read_case("none", "0000"), write_case()},
                 {"--endpoint", program(), "--stimulus", "-", "--profile", profile()})
                 .code,
             0);
@@ -153,6 +153,13 @@ TEST_F(ClientRole, AStimulatedProgramIsJudgedOnTheWire) {
   EXPECT_EQ(judged.code, 0) << judged.out << judged.err;
   EXPECT_EQ(read_results(folder / "judged/results.ndjson").counts(), results.counts());
   EXPECT_THAT(read_text(folder / "judged/results.ndjson"), HasSubstr("judged on the wire alone"));
+}
+
+/// Exactly how often is for the machine to say that it runs on.
+TEST_F(ClientRole, TheCadenceOfAStimulatedProgramIsMeasured) {
+  run({cadence_case()}, {"--endpoint", program(), "--stimulus", "-", "--profile", profile()});
+  const json measured = results.of("xgt_cnet/client/cadence");
+  EXPECT_THAT(measured.at("notes").dump(), testing::ContainsRegex("every 200 ms: measured min .* of 4 periods"));
 }
 
 TEST_F(ClientRole, AProgramThatAsksTwiceFails) {
