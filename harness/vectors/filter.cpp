@@ -56,6 +56,7 @@ std::string meant_filter(std::string_view filter, const std::vector<std::string>
     const std::ptrdiff_t parts = std::ranges::count(head, '/') + 1;
     std::set<std::string_view> beginnings;
     for (const std::string& id : ids) beginnings.insert(first_parts(id, parts));
+    if (beginnings.contains(head)) return fmt::format("; did you mean '{}/*'?", head);
     return suggestion(head, std::vector<std::string_view>(beginnings.begin(), beginnings.end()));
   }
   return {};

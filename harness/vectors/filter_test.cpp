@@ -22,6 +22,7 @@ TEST(Filter, AMistypedOneIsSaid) {
   EXPECT_EQ(meant_filter("xgt-cnet/*", ids), "; did you mean 'xgt_cnet'?");
   EXPECT_EQ(meant_filter("modbus_rtu/*:xgt_cnet/rss/two_wrds", ids),
             "; did you mean 'xgt_cnet/rss/two_words'?");
+  EXPECT_EQ(meant_filter("xgt_cnet/rss", ids), "; did you mean 'xgt_cnet/rss/*'?");
   EXPECT_EQ(meant_filter("*/nothing", ids), "");
   EXPECT_EQ(meant_filter("modbus_rtu/*:-x", ids), "");
 }
