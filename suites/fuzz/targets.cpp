@@ -1,0 +1,33 @@
+#include "suites/fuzz/targets.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "suites/fuzz/file_targets.hpp"
+#include "suites/fuzz/wire_targets.hpp"
+
+namespace fieldproof::fuzz {
+
+namespace {
+constexpr std::array every_target{
+    Target{"frames", "codecs and stream splitters of all protocols", feed_frames,
+           frames_of_vectors},
+    Target{"devices", "the emulated devices", feed_device, frames_of_vectors},
+    Target{"notation", "the notation of frames", feed_notation, good_notation},
+    Target{"vectors", "vector files", feed_vectors, good_vectors},
+    Target{"profile", "profiles", feed_profile, good_profiles},
+    Target{"bench", "bench files", feed_bench, good_benches},
+    Target{"waivers", "waivers", feed_waivers, good_waivers},
+    Target{"definition", "user-defined frames", feed_definition, good_definitions},
+    Target{"journal", "journals", feed_journal, good_journals},
+    Target{"results", "results.ndjson", feed_results, good_results}};
+}  // namespace
+
+std::span<const Target> targets() { return every_target; }
+
+const Target* find_target(std::string_view name) {
+  const auto found = std::ranges::find(every_target, name, &Target::name);
+  return found == every_target.end() ? nullptr : &*found;
+}
+
+}  // namespace fieldproof::fuzz

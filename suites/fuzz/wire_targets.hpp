@@ -1,0 +1,16 @@
+// What comes over a line or a network: codecs, stream splitters, and the emulated devices.
+#pragma once
+
+#include "src/base/bytes.hpp"
+
+namespace fieldproof::fuzz {
+
+/// The first byte chooses the protocol, the rest are bytes of its stream.
+void feed_frames(ByteView input);
+/// The same for an emulated device; the bytes come in pieces with pauses. It answers a probe behind
+/// them.
+void feed_device(ByteView input);
+/// The frames of the vectors, behind the number of their protocol.
+std::vector<Bytes> frames_of_vectors();
+
+}  // namespace fieldproof::fuzz
