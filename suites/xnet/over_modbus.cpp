@@ -37,10 +37,10 @@ struct Slice {
 
 /// What a request sets, and the PLC does not take, or takes for something else.
 std::string not_settable(std::string_view area) {
-  if (area == "X" || area == "ID") return "inputs are wired; switch them there";
-  if (area.starts_with("HSC")) return "it counts pulses; send them there";
+  if (area == "X" || area == "ID") return "is an input; switch it where it is wired";
+  if (area.starts_with("HSC")) return "counts pulses; send them to its input";
   if (area == "SFD" || area == "FD" || area == "FS")
-    return "the PLC reads it at power-on; set it in XINJEConfig, and power it off and on";
+    return "is read at power-on; set it in XINJEConfig, and switch the PLC off and on";
   return {};
 }
 
@@ -175,7 +175,7 @@ Result<std::vector<Bytes>> OverModbus::requests_to_write(int station, std::strin
   const Result<std::vector<Slice>> all = slices(address, hex.size());
   if (!all) return all.error();
   if (const std::string why = not_settable(all->front().first.area->name); !why.empty())
-    return fail(fmt::format("cannot set {}: {}", address, why));
+    return fail(fmt::format("{} {}", address, why));
   const std::optional<Bytes> values = from_hex(hex);
   if (!values) return fail(fmt::format("'{}' is not hex", hex));
   std::vector<Bytes> requests;
