@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "harness/notation/dressing.hpp"
@@ -54,6 +55,9 @@ class Protocol {
   /// Does a manual print its frames? Else it is tested on a model alone: there is nothing to serve,
   /// and no way to ask a device.
   virtual bool has_frames() const { return true; }
+  /// How a device of it is reached nevertheless: by what it serves on a network, or else on a line.
+  /// nullptr: there is no way.
+  virtual const Protocol* carried([[maybe_unused]] bool network) const { return nullptr; }
 
   /// The port of its servers; 0: it runs on a serial line.
   virtual std::uint16_t default_port() const { return 0; }
@@ -147,6 +151,26 @@ class Protocol {
   /// Why such requests mean something else on the declared device than on one that declares
   /// nothing; empty: they do not.
   virtual std::string tied_to_default(const std::vector<Bytes>& requests) const;
+
+  /// What is set on the declared device, in this order, so that an action of a case (`do`) happens;
+  /// empty: it is no matter of memory. Errors say what the device lacks for it.
+  using Setting = std::pair<std::string, std::string>;  // address and hex digits
+  virtual Result<std::vector<Setting>> set_off_by([[maybe_unused]] std::string_view action) const {
+    return std::vector<Setting>{};
+  }
+  /// What must be so on the device before such a case begins: addresses and values. `axis` is one
+  /// that it moves.
+  virtual std::vector<Setting> premises([[maybe_unused]] std::string_view axis) const { return {}; }
+  /// The axis that an action moves, or that writing to an address moves; empty: none.
+  virtual std::string moves([[maybe_unused]] std::string_view action) const { return {}; }
+  virtual std::string moved_by([[maybe_unused]] std::string_view address) const { return {}; }
+
+  /// Does a case that looks at these values, one list a look, want a moment to the millisecond? No
+  /// request keeps one.
+  virtual bool wants_moments(
+      [[maybe_unused]] const std::vector<std::vector<Setting>>& looks) const {
+    return false;
+  }
 
   /// Memory that a request or an address names: words of an area, or its contacts (bits of T and
   /// C), which are apart.

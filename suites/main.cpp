@@ -108,6 +108,9 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.add_option("--allow-write", run.allow_write,
                  "Real devices: what may be written: M, M100-M199, h1230-h12FF, all (outputs P, Q, "
                  "U only when named). Of exec: anything, where this is not given");
+  app.add_option("--allow-motion", run.allow_motion,
+                 "Real devices: axes that may move: 1, 3-5, all; without it nothing that moves an "
+                 "axis is sent");
   app.add_flag("--read-only", run.read_only, "Write nothing, to exec: neither");
   app.add_option(
       "--journal", run.journal,
@@ -261,8 +264,12 @@ int run_tool(int argc, char** argv) {
   emulate_app->add_option("--pty", emulate.pty, "A terminal to open, or the link to a new pty")
       ->excludes(tcp)
       ->excludes(udp);
+  emulate_app->add_option("--config", emulate.config,
+                          "What is set up in it, a JSON file: keys of given.config");
   emulate_app->add_option("--p2p", emulate.p2p,
                           "P2P parameters, a JSON file: the device is the client that asks");
+  emulate_app->add_option("--bus", emulate.bus,
+                          "[HOST:]PORT where a second emulated device joins its fieldbus (X-NET)");
   emulate_app->add_option(
       "--monitor", emulate.monitor,
       "CSV file of the frame monitor: each frame with its result, time and data");

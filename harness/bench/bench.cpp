@@ -184,8 +184,9 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   if (real && !save_memory(prepared, result)) return;
   if (prepare_device(prepared, result)) exchange(prepared, result);
   if (!real) return;
-  if (const std::string problem = saved_for(prepared).restore(); !problem.empty())
-    result.notes.push_back("not put back what it wrote: " + problem);
+  for (safety::SavedMemory* memory : {&saved_, &saved_over_aux_})
+    if (const std::string problem = memory->restore(); !problem.empty())
+      result.notes.push_back("not put back what it wrote: " + problem);
 }
 
 void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
@@ -198,7 +199,20 @@ void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
   readings_.note(result);
 }
 
+/// What it sets in a partner of the device.
+bool Bench::save_partner(const PreparedCase& prepared, CaseResult& result) {
+  if (prepared.is_client() || !options_.aux) return true;
+  const Status saved = saved_over_aux_.save(*written_over_aux(prepared));
+  if (saved) return true;
+  result.verdict = saved_over_aux_.port_failed() ? Verdict::error : Verdict::blocked;
+  result.message = "--aux: " + saved.error().message;
+  if (saved_over_aux_.port_failed() || saved_over_aux_.silent())
+    stop(result.message, &saved.error());
+  return false;
+}
+
 bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
+  if (!save_partner(prepared, result)) return false;
   const std::vector<Protocol::Written> written = written_by(prepared);
   if (std::ranges::any_of(written, &Protocol::Written::unknown))
     result.notes.push_back(
@@ -269,6 +283,7 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
     return give_up(Verdict::error, begun.error());
   if (prepared.source->fresh && real && !power_cycle(result, prepared.is_client()))
     return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
+  if (real && !prepared.is_client() && !meets_premises(prepared, result)) return false;
   // What a clock asked between the cases is no part of this one. It waits for its answer before it
   // asks again.
   if (real && prepared.runs_by_clock())
@@ -282,6 +297,34 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
 }
 
 /// Sets the given memory; whatever makes a real client ask is told of the case.
+/// What is not as it must be before the case; empty: all is.
+Result<std::string> Bench::unmet_premise(const PreparedCase& prepared) {
+  const exchange::Leaving leaving(memory_);
+  for (const std::string& axis : moved_axes(prepared))
+    for (const auto& [address, value] : protocol_.premises(axis)) {
+      const Result<std::string> holds = memory_.get(prepared, address, value.size());
+      if (!holds) return holds.error();
+      if (*holds != value)
+        return fmt::format("axis {} is not where the case begins: {} holds {}, not {}", axis,
+                           address, *holds, value);
+    }
+  return std::string();
+}
+
+/// A device that can be switched off and on begins anew.
+bool Bench::meets_premises(const PreparedCase& prepared, CaseResult& result) {
+  Result<std::string> unmet = unmet_premise(prepared);
+  const bool can =
+      endpoint_.capabilities().can_power_cycle || !options_.power_cycle_command.empty();
+  if (unmet && !unmet->empty() && can && power_cycle(result)) unmet = unmet_premise(prepared);
+  if (unmet && unmet->empty()) return true;
+  result.verdict = unmet ? Verdict::blocked : Verdict::error;
+  result.message =
+      unmet ? *unmet + "; bring it there (home it, clear the error), and run this case again"
+            : unmet.error().message;
+  return false;
+}
+
 bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   const auto give_up = [&](Verdict verdict, const Error& error) {
     result.verdict = verdict;

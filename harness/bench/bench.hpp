@@ -107,9 +107,17 @@ class Bench {
   Eligibility blocked(const vectors::Case& source, const exchange::PreparedCase& prepared) const;
   Eligibility below_floor(const exchange::PreparedCase& prepared) const;
   std::string undeclared(const nlohmann::json& config) const;
+  std::string not_of_the_case(const vectors::Case& source) const;
   Result<std::vector<harness::Protocol::Written>> written_over_aux(
       const exchange::PreparedCase& prepared) const;
+  std::vector<harness::Protocol::Setting> settings_of(const exchange::PreparedCase& prepared) const;
   std::string fence_objection(const exchange::PreparedCase& prepared) const;
+  std::vector<std::string> moved_axes(const exchange::PreparedCase& prepared) const;
+  std::string motion_objection(const exchange::PreparedCase& prepared) const;
+  Result<std::string> unmet_premise(const exchange::PreparedCase& prepared);
+  bool meets_premises(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  std::string out_of_reach(const exchange::PreparedCase& prepared) const;
+  std::string unreadable(const std::string& address, std::size_t digits) const;
 
   Result<exchange::PreparedCase> prepare(const vectors::Case& source) const;
   int station_for(const vectors::Case& source) const;
@@ -127,6 +135,7 @@ class Bench {
   safety::SavedMemory& saved_for(const exchange::PreparedCase& prepared) {
     return prepared.is_client() ? saved_over_aux_ : saved_;
   }
+  bool save_partner(const exchange::PreparedCase& prepared, results::CaseResult& result);
   bool save_memory(const exchange::PreparedCase& prepared, results::CaseResult& result);
   bool writes_without_check(const exchange::PreparedCase& prepared) const;
   void exchange(const exchange::PreparedCase& prepared, results::CaseResult& result);

@@ -35,6 +35,14 @@ std::string plain(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+/// Programs are the bench's: no part of what a case is about.
+json without_programs(json stations) {
+  if (stations.is_array())
+    for (json& one : stations)
+      if (one.is_object()) one.erase("program");
+  return stations;
+}
+
 }  // namespace
 
 Result<PreparedCase> Bench::prepare(const Case& source) const {
@@ -74,6 +82,18 @@ Bench::Eligibility Bench::outside_profile(const Case& source) const {
   return {};
 }
 
+/// A case that does something to nets is about those that it names, and no others.
+std::string Bench::not_of_the_case(const Case& source) const {
+  const bool acts = std::ranges::any_of(
+      source.steps, [](const auto& step) { return step.kind == vectors::Step::Kind::act; });
+  if (source.on_model.empty() || !acts) return {};
+  for (const auto& [key, value] : options_.profile.config.items())
+    if (key != "station" && key != "program" && !default_config().contains(key) &&
+        !source.config.contains(key))
+      return fmt::format("is about a PLC without {}; the profile declares {}", key, plain(value));
+  return {};
+}
+
 /// On hardware the configuration of a case must be what is declared.
 std::string Bench::undeclared(const json& config) const {
   const bool asks = config.value("role", "server") == "client";
@@ -83,29 +103,44 @@ std::string Bench::undeclared(const json& config) const {
     const json& declared = options_.profile.config;
     const json fallback = default_config().value(key, json());
     const json has = declared.value(key, fallback);
-    if (!has.is_null() && plain(has) == plain(value)) continue;
+    if (!has.is_null() && plain(without_programs(has)) == plain(value)) continue;
     return fmt::format("needs {} = {}; the profile declares {}{}", key, plain(value),
                        has.is_null() ? "nothing" : plain(has), asks ? arming_.not_told(key) : "");
   }
   return {};
 }
 
-/// What the bench sends to a client are answers; what it sets goes over the second channel. An
-/// error: it cannot be set.
+/// All that the bench sets for a case, in its order: what is given, what its steps set, and what
+/// sets its actions off.
+std::vector<Protocol::Setting> Bench::settings_of(const PreparedCase& prepared) const {
+  std::vector<Protocol::Setting> settings = prepared.source->memory;
+  for (const exchange::PreparedStep& step : prepared.steps) {
+    if (step.step->kind == vectors::Step::Kind::set)
+      settings.insert(settings.end(), step.step->memory.begin(), step.step->memory.end());
+    if (step.step->kind == vectors::Step::Kind::act && !prepared.is_client())
+      if (const auto off = protocol_.set_off_by(step.step->action))
+        settings.insert(settings.end(), off->begin(), off->end());
+  }
+  return settings;
+}
+
+/// What the bench sends to a client are answers; what it sets goes over the second channel, as does
+/// what it sets in a partner of the device. An error: it cannot be set.
 Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCase& prepared) const {
   std::vector<Protocol::Written> written;
   const exchange::Channel& aux = options_.aux;
   if (!aux.endpoint) return written;
-  std::vector<std::pair<std::string, std::string>> memory = prepared.source->memory;
+  std::vector<Protocol::Setting> memory = settings_of(prepared);
+  if (!prepared.is_client())
+    std::erase_if(memory, [](const Protocol::Setting& one) {
+      return exchange::place_name(one.first).partner.empty();
+    });
   for (const nlohmann::json& block : exchange::p2p_blocks(prepared.source->config))
     if (!exchange::flag_of(block).empty() && !exchange::runs_by_clock(block))
       memory.emplace_back(exchange::flag_of(block), "00");
-  for (const exchange::PreparedStep& step : prepared.steps)
-    if (step.step->kind == vectors::Step::Kind::set)
-      memory.insert(memory.end(), step.step->memory.begin(), step.step->memory.end());
   for (const auto& [address, hex] : memory) {
     const Result<std::vector<Bytes>> requests =
-        aux.protocol->write_requests(aux.station, address, hex);
+        aux.protocol->write_requests(aux.station, exchange::place_name(address).address, hex);
     if (!requests)
       return fail(fmt::format("cannot set {} over --aux: {}", address, requests.error().message));
     for (const Bytes& request : *requests)
@@ -114,25 +149,48 @@ Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCas
   return written;
 }
 
-std::string Bench::fence_objection(const PreparedCase& prepared) const {
-  if (prepared.is_client()) {
-    const Result<std::vector<Protocol::Written>> written = written_over_aux(prepared);
-    if (!written) return written.error().message;
-    return written->empty() ? "" : options_.fence.objection(*written, *options_.aux.protocol);
-  }
-  const auto unsettable =
-      [&](const std::vector<std::pair<std::string, std::string>>& memory) -> std::string {
-    for (const auto& [address, hex] : memory)
-      if (const Result<std::vector<Bytes>> requests =
-              protocol_.write_requests(prepared.station, address, hex);
-          !requests)
-        return fmt::format("cannot set {}: {}", address, requests.error().message);
-    return {};
+std::vector<std::string> Bench::moved_axes(const PreparedCase& prepared) const {
+  std::vector<std::string> axes;
+  const auto add = [&](std::string axis) {
+    if (!axis.empty() && std::ranges::count(axes, axis) == 0) axes.push_back(std::move(axis));
   };
-  if (std::string why = unsettable(prepared.source->memory); !why.empty()) return why;
   for (const exchange::PreparedStep& step : prepared.steps)
-    if (step.step->kind == vectors::Step::Kind::set)
-      if (std::string why = unsettable(step.step->memory); !why.empty()) return why;
+    if (step.step->kind == vectors::Step::Kind::act) add(protocol_.moves(step.step->action));
+  for (const auto& [address, hex] : settings_of(prepared)) add(protocol_.moved_by(address));
+  return axes;
+}
+
+/// Nothing that moves is set in motion unless it is named.
+std::string Bench::motion_objection(const PreparedCase& prepared) const {
+  for (const exchange::PreparedStep& step : prepared.steps)
+    if (step.step->kind == vectors::Step::Kind::act)
+      if (std::string why = options_.fence.motion_objection(protocol_.moves(step.step->action),
+                                                            step.step->action);
+          !why.empty())
+        return why;
+  for (const auto& [address, hex] : settings_of(prepared))
+    if (std::string why = options_.fence.motion_objection(
+            protocol_.moved_by(exchange::place_name(address).address), "sets " + address);
+        !why.empty())
+      return why;
+  return {};
+}
+
+std::string Bench::fence_objection(const PreparedCase& prepared) const {
+  const Result<std::vector<Protocol::Written>> over_aux = written_over_aux(prepared);
+  if (!over_aux) return over_aux.error().message;
+  if (!over_aux->empty())
+    if (std::string why = options_.fence.objection(*over_aux, *options_.aux.protocol); !why.empty())
+      return why;
+  if (prepared.is_client()) return {};
+  if (std::string why = motion_objection(prepared); !why.empty()) return why;
+  for (const auto& [address, hex] : settings_of(prepared)) {
+    if (!exchange::place_name(address).partner.empty()) continue;
+    if (const Result<std::vector<Bytes>> requests =
+            protocol_.write_requests(prepared.station, address, hex);
+        !requests)
+      return fmt::format("cannot set {}: {}", address, requests.error().message);
+  }
   return options_.fence.objection(written_by(prepared), protocol_);
 }
 
@@ -143,20 +201,39 @@ std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) c
   const auto add = [&](ByteView request, const Protocol& protocol) {
     std::ranges::move(protocol.written_by(request), std::back_inserter(written));
   };
-  const auto add_memory = [&](const std::vector<std::pair<std::string, std::string>>& memory) {
-    for (const auto& [address, hex] : memory)
-      if (const Result<std::vector<Bytes>> requests =
-              protocol_.write_requests(prepared.station, address, hex);
-          requests)
-        for (const Bytes& request : *requests) add(request, protocol_);
-  };
-  add_memory(prepared.source->memory);
-  for (const exchange::PreparedStep& step : prepared.steps) {
-    if (step.step->kind == vectors::Step::Kind::set) add_memory(step.step->memory);
+  for (const auto& [address, hex] : settings_of(prepared))
+    if (const Result<std::vector<Bytes>> requests =
+            protocol_.write_requests(prepared.station, address, hex);
+        requests)
+      for (const Bytes& request : *requests) add(request, protocol_);
+  for (const exchange::PreparedStep& step : prepared.steps)
     if (step.step->kind == vectors::Step::Kind::send)
       add(step.frames.front().frame.bytes, *step.protocol);
-  }
   return written;
+}
+
+/// Why the bench cannot do what the case does to the device or its partners, or look at it; empty:
+/// it can.
+std::string Bench::out_of_reach(const PreparedCase& prepared) const {
+  for (const exchange::PreparedStep& step : prepared.steps) {
+    if (step.step->kind == vectors::Step::Kind::act)
+      if (const auto off = protocol_.set_off_by(step.step->action); !off)
+        return off.error().message;
+    if (step.step->kind != vectors::Step::Kind::check) continue;
+    for (const auto& [address, hex] : step.step->memory)
+      if (std::string why = unreadable(address, hex.size()); !why.empty()) return why;
+  }
+  for (const auto& [address, hex] : settings_of(prepared))
+    if (const Status there = memory_.partner_of(address); !there) return there.error().message;
+  return {};
+}
+
+std::string Bench::unreadable(const std::string& address, std::size_t digits) const {
+  if (const Status there = memory_.partner_of(address); !there) return there.error().message;
+  const exchange::PlaceName name = exchange::place_name(address);
+  const Protocol& protocol = name.partner.empty() ? protocol_ : *options_.aux.protocol;
+  const auto requests = protocol.read_requests(options_.station, name.address, digits);
+  return requests ? "" : requests.error().message;
 }
 
 Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepared) const {
@@ -172,6 +249,9 @@ Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepar
     return {Verdict::blocked,
             fmt::format("is about station {}; the device is station {}",
                         *vectors::config_station(source.config, 1), options_.station)};
+  if (!source.on_model.empty() && !prepared.is_client())
+    for (std::string why : {not_of_the_case(source), out_of_reach(prepared)})
+      if (!why.empty()) return {Verdict::blocked, why};
   if (std::string why = undeclared(source.config); !why.empty())
     return {prepared.is_client() && arming_.declares() ? Verdict::skip : Verdict::blocked, why};
   if (prepared.looks_at_counters() && !prepared.is_client())
@@ -189,6 +269,15 @@ Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
   if (config.contains("line") || config.contains("bench_line"))
     return {Verdict::inconclusive,
             "is about speed and character format, which a pty or socket does not carry"};
+  if (const std::string& kind = prepared.source->on_model; !kind.empty()) {
+    std::vector<std::vector<Protocol::Setting>> looks;
+    for (const exchange::PreparedStep& step : prepared.steps)
+      if (step.step->kind == vectors::Step::Kind::check) looks.push_back(step.step->memory);
+    if (kind == "timing" || protocol_.wants_moments(looks))
+      return {Verdict::inconclusive,
+              "looks at what is so for milliseconds, which no request that is sent here hits"};
+    return {};  // waiting longer does no harm
+  }
   // On a network a pause may be longer than it is written: it only sees that a segment has come.
   if (protocol_.default_port() != 0) return {};
   const Duration pause = prepared.shortest_pause(endpoint_.character_time());

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/commands.hpp"
+#include "harness/cli/config_file.hpp"
 #include "harness/cli/monitor_file.hpp"
-#include "harness/cli/p2p_file.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/hosting/device_host.hpp"
 #include "harness/hosting/listening.hpp"
@@ -58,7 +58,8 @@ Status check_addresses(const EmulateOptions& options, const harness::Protocol& p
   };
   if (!protocol.has_frames())
     return wrong(
-        "has no frame that a manual prints, so there is nothing to serve; its cases run on a model: "
+        "has no frame that a manual prints, so there is nothing to serve; its cases run on a "
+        "model: "
         "fieldproof run --protocol " +
         std::string(protocol.name()));
   const std::uint16_t port = protocol.default_port();
@@ -92,8 +93,10 @@ int emulate_command(const EmulateOptions& options, const harness::Protocols& pro
 
   hosting::HostOptions host;
   host.model = name->target;
-  if (!options.p2p.empty()) {
-    const Result<nlohmann::json> config = read_p2p_file(options.p2p);
+  const std::string& file = options.p2p.empty() ? options.config : options.p2p;
+  if (!file.empty()) {
+    const Result<nlohmann::json> config =
+        options.p2p.empty() ? read_config_file(file) : read_p2p_file(file);
     if (!config) return run::complain(config.error().message, run::exit_code::usage);
     host.config = *config;
   }
@@ -108,10 +111,10 @@ int emulate_command(const EmulateOptions& options, const harness::Protocols& pro
   host.make_device = [protocol = *protocol, record](const nlohmann::json& config) {
     return make_stations(*protocol, config, record);
   };
-  if (!options.p2p.empty())
-    host.make_device = naming_file(std::move(host.make_device),
-                                   fmt::format("{}, as {} (MODEL?protocol=... for another)",
-                                               options.p2p, (*protocol)->name()));
+  if (!file.empty())
+    host.make_device = naming_file(
+        std::move(host.make_device),
+        fmt::format("{}, as {} (MODEL?protocol=... for another)", file, (*protocol)->name()));
   host.port = (*protocol)->default_port();
   host.udp_port = (*protocol)->datagram_port();
   if (const Status address = check_addresses(options, **protocol); !address)
@@ -119,6 +122,7 @@ int emulate_command(const EmulateOptions& options, const harness::Protocols& pro
   host.tcp = options.tcp;
   host.udp = options.udp;
   host.tty = options.tty.empty() ? options.pty : options.tty;
+  host.bus = options.bus;
   host.control = options.control;
   if (options.verbose) host.monitor = print_traffic;
   os::catch_interrupts();

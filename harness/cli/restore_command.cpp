@@ -4,6 +4,7 @@
 
 #include "harness/bench/what_to_check.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/endpoints/kinds.hpp"
 #include "harness/exchange/exchange.hpp"
 #include "harness/safety/saved_memory.hpp"
 #include "harness/system/interrupt.hpp"
@@ -31,11 +32,12 @@ Result<Connection> connect(const safety::JournalDevice& device, const std::strin
   name->options["protocol"] = device.protocol;
   const Result<const harness::Protocol*> protocol = protocols.choose(device.protocol, device.model);
   if (!protocol) return protocol.error();
+  const harness::Protocol& spoken = endpoints::spoken_over(*name, **protocol);
   Result<std::unique_ptr<harness::Protocol>> configured =
-      (*protocol)->configured(device.model, device.config);
+      spoken.configured(device.model, device.config);
   if (!configured) return configured.error();
   connection.configured = std::move(*configured);
-  const harness::Protocol& declared = connection.configured ? *connection.configured : **protocol;
+  const harness::Protocol& declared = connection.configured ? *connection.configured : spoken;
   Result<std::unique_ptr<endpoints::Endpoint>> endpoint = endpoints::open_endpoint(*name, declared);
   if (!endpoint) return endpoint.error();
   connection.endpoint = std::move(*endpoint);

@@ -144,6 +144,14 @@ Status check_endpoint(const EndpointName& name, const harness::Protocol& protoco
   return checked ? ok() : Status(wrong(checked.error().message));
 }
 
+const harness::Protocol& spoken_over(const EndpointName& name, const harness::Protocol& protocol) {
+  const KindOf& kind = kind_of(name);
+  const bool by_command = kind.free_target && name.target.find("{port}") == std::string::npos;
+  const bool network = kind.connections && !name.options.contains("line") && !by_command;
+  const harness::Protocol* carrier = kind.emulated ? nullptr : protocol.carried(network);
+  return carrier ? *carrier : protocol;
+}
+
 EndpointName with_line(EndpointName name, const line::LineSettings& settings) {
   const std::string text = to_string(settings);
   const std::size_t dash = text.find('-');

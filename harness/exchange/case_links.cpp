@@ -69,6 +69,13 @@ void CaseRun::await_ending(const PreparedStep& step) {
 }
 
 void CaseRun::act(const std::string& action) {
+  const Result<std::vector<harness::Protocol::Setting>> settings =
+      around_.device.protocol->set_off_by(action);
+  if (!client_ && can().real_device && settings && !settings->empty()) {
+    set_memory(*settings);
+    links_.note(now(), "do " + action);
+    return;
+  }
   Arming* const told = client_ && can().real_device ? around_.arming : nullptr;
   const Status done =
       told && told->follows(action) ? told->act(action) : around_.device.endpoint->act(action);
@@ -96,10 +103,10 @@ void CaseRun::borrow_idle_link() {
   if (const Link* idle = links_.idle(*around_.device.protocol)) memory_.borrow(idle->id);
 }
 
-void CaseRun::set_memory(const Step& step) {
+void CaseRun::set_memory(const std::vector<std::pair<std::string, std::string>>& memory) {
   links_.restart(now());
   borrow_idle_link();
-  for (const auto& [address, hex] : step.memory) {
+  for (const auto& [address, hex] : memory) {
     const Status done = memory_.set(prepared_, address, hex);
     links_.note(now(), fmt::format("set {} = {}", address, hex));
     if (done) continue;

@@ -14,6 +14,11 @@ constexpr int repeats = 2;  // of a request whose answer is damaged
 
 }  // namespace
 
+PlaceName place_name(std::string_view address) {
+  const bool named = address.size() > 2 && address[1] == ':';
+  return named ? PlaceName{address.substr(0, 1), address.substr(2)} : PlaceName{{}, address};
+}
+
 MemoryAccess::MemoryAccess(Channel device, Duration patience, Channel aux, Arming* arming,
                            Visit::Elsewhere elsewhere)
     : device_(device),
@@ -143,10 +148,28 @@ Result<std::string> MemoryAccess::read(const Channel& server, const std::string&
   return value.substr(0, digits);
 }
 
+/// The bench reaches one.
+Result<Channel> MemoryAccess::partner(const PlaceName& name) const {
+  if (name.partner == "B" && aux_) return aux_;
+  return fail(fmt::format("cannot reach {} of {}: {}", name.address, name.partner,
+                          aux_ ? "--aux leads to B alone" : "give --aux a port of that PLC"));
+}
+
+Status MemoryAccess::partner_of(const std::string& address) const {
+  const PlaceName name = place_name(address);
+  if (name.partner.empty()) return ok();
+  const Result<Channel> there = partner(name);
+  return there ? ok() : Status(there.error());
+}
+
 Status MemoryAccess::set(const PreparedCase& prepared, const std::string& address,
                          const std::string& hex) {
   refused_ = false;
   if (device_.endpoint->capabilities().back_door) return device_.endpoint->set(address, hex);
+  if (const PlaceName name = place_name(address); !name.partner.empty()) {
+    const Result<Channel> other = partner(name);
+    return other ? write(*other, std::string(name.address), hex) : Status(other.error());
+  }
   if (!prepared.is_client()) {
     if (!aux_ || device_.protocol->write_requests(prepared.station, address, hex))
       return write(own(prepared), address, hex);
@@ -169,6 +192,11 @@ Result<std::string> MemoryAccess::get(const PreparedCase& prepared, const std::s
                                       std::size_t digits) {
   refused_ = false;
   if (device_.endpoint->capabilities().back_door) return device_.endpoint->get(address, digits);
+  if (const PlaceName name = place_name(address); !name.partner.empty()) {
+    const Result<Channel> other = partner(name);
+    return other ? read(*other, std::string(name.address), digits)
+                 : Result<std::string>(other.error());
+  }
   const bool by_itself = !prepared.is_client() && (!aux_ || device_.protocol->read_requests(
                                                                 prepared.station, address, digits));
   Result<std::string> value =

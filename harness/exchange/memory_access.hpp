@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "harness/exchange/arming.hpp"
 #include "harness/exchange/channel.hpp"
@@ -11,6 +12,13 @@
 #include "harness/exchange/visit.hpp"
 
 namespace fieldproof::exchange {
+
+/// "B:D0" is memory of a partner of the device, which is asked over the second channel.
+struct PlaceName {
+  std::string_view partner;  // "B"; empty: of the device itself
+  std::string_view address;
+};
+PlaceName place_name(std::string_view address);
 
 /// How the message of a case begins whose set-up the device did not take.
 inline constexpr std::string_view set_up_failure = "set-up: ";
@@ -28,6 +36,8 @@ class MemoryAccess {
   Status set(const PreparedCase& prepared, const std::string& address, const std::string& hex);
   Result<std::string> get(const PreparedCase& prepared, const std::string& address,
                           std::size_t digits);
+  /// The error says that the PLC of this address is none that the bench reaches.
+  Status partner_of(const std::string& address) const;
   /// Is there a way to read it? Of a real client only over a second channel, and no counters.
   bool can_read(const PreparedCase& prepared, const std::string& address) const;
   /// The last error came from the device (a NAK, no answer), not from a way that does not exist.
@@ -58,6 +68,7 @@ class MemoryAccess {
   Result<Bytes> ask_again(const Channel& server, ByteView request);
   Result<Bytes> ask_in_any_mode(const Channel& server, ByteView request,
                                 const std::function<bool(ByteView)>& taken);
+  Result<Channel> partner(const PlaceName& name) const;
   Visit& visit_of(const Channel& server);
   Status let_pass(const Channel& server, Duration silence);
 

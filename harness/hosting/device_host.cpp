@@ -12,6 +12,7 @@
 #include <cstdio>
 
 #include "harness/endpoints/device_control.hpp"
+#include "harness/hosting/bus_link.hpp"
 #include "harness/hosting/host_port.hpp"
 #include "harness/hosting/party.hpp"
 #include "harness/system/fd_link.hpp"
@@ -35,8 +36,12 @@ void complain(const std::string& message) { fmt::print(stderr, "fieldproof: {}\n
 
 class DeviceHost {
  public:
-  DeviceHost(const HostOptions& options, HostPort& port)
-      : options_(options), port_(port), control_(options.control), hangup_(os::catch_hangup()) {}
+  DeviceHost(const HostOptions& options, HostPort& port, BusLink* bus)
+      : options_(options),
+        port_(port),
+        bus_(bus),
+        control_(options.control),
+        hangup_(os::catch_hangup()) {}
 
   Status begin(const json& config);
   int run();
@@ -48,6 +53,7 @@ class DeviceHost {
   Status hear();
   Status check_listens(const Party& party, const std::string& model) const;
   void run_due(Time until);
+  Status serve_bus();
   void tell_time();
   void transmit(std::vector<Burst> bursts);
   void serve_control();
@@ -57,6 +63,7 @@ class DeviceHost {
 
   const HostOptions& options_;
   HostPort& port_;
+  BusLink* bus_;  // nullptr: none
   os::UniqueFd control_;
   int hangup_;
   os::RunClock clock_;
@@ -85,8 +92,11 @@ Status DeviceHost::begin(const json& config) {
                             options_.port != 0 ? "network; leave --tcp and --udp out"
                                                : "serial line; give --tcp HOST:PORT"));
   if (const Status listens = check_listens(*party, model); !listens) return listens;
+  if (bus_ && !(*device)->bus_end())
+    return fail(fmt::format("cannot emulate {}: it has no fieldbus; leave --bus out", model));
   party_ = std::move(party);
   device_ = std::move(*device);
+  if (bus_) bus_->begin(*device_->bus_end());
   port_.flush();
   return ok();
 }
@@ -115,6 +125,10 @@ int DeviceHost::run() {
       return exit_trouble;
     }
     run_due(clock_.now());
+    if (const Status joined = serve_bus(); !joined) {
+      complain(joined.error().message);
+      return exit_trouble;
+    }
     if (fds_[hangup_slot].revents != 0 || fds_[control_slot].revents != 0) tell_time();
     if (fds_[hangup_slot].revents != 0) power_cycle();
     if (fds_[control_slot].revents != 0) serve_control();
@@ -125,6 +139,7 @@ int DeviceHost::run() {
 void DeviceHost::wait() {
   fds_.assign({{os::interrupt_fd(), POLLIN, 0}, {hangup_, POLLIN, 0}, {control_.get(), POLLIN, 0}});
   port_.add_to(fds_);
+  if (bus_) bus_->add_to(fds_);
   timespec timeout{};
   const std::optional<Time> wake = party_->wake_at();
   if (wake) {
@@ -161,6 +176,17 @@ void DeviceHost::run_due(Time until) {
     device_time_ = std::max(device_time_, *wake);
     transmit(party_->advance(device_time_));
   }
+}
+
+/// What a partner asks for, it asks for now.
+Status DeviceHost::serve_bus() {
+  if (!bus_) return ok();
+  if (fds_.back().revents != 0) {
+    tell_time();
+    if (const Status served = bus_->serve(*device_->bus_end()); !served) return served;
+  }
+  bus_->tell(*device_->bus_end());
+  return ok();
 }
 
 /// What is changed through the back door is changed now, not when the device last had something to
@@ -253,12 +279,21 @@ int host(const HostOptions& options, Result<std::unique_ptr<HostPort>> port) {
     return exit_trouble;
   }
   os::catch_interrupts();
-  DeviceHost host(options, **port);
+  std::optional<BusLink> bus;
+  if (!options.bus.empty()) {
+    Result<BusLink> opened = BusLink::open(options.bus);
+    if (!opened) {
+      complain(opened.error().message);
+      return exit_trouble;
+    }
+    bus = std::move(*opened);
+  }
+  DeviceHost host(options, **port, bus ? &*bus : nullptr);
   if (const Status made = host.begin(json::object()); !made) {
     complain(made.error().message);
     return exit_usage;
   }
-  announce(options, (*port)->describe());
+  announce(options, (*port)->describe() + (bus ? ", " + bus->describe() : ""));
   return host.run();
 }
 

@@ -45,6 +45,7 @@ struct HostOptions {
   std::string tcp, udp;          // --tcp and --udp HOST:PORT; port 0: any; no host: loopback
   std::uint16_t port = 0;        // of the device's protocol: it runs on a network; 0: on a line
   std::uint16_t udp_port = 0;    // where it takes datagrams
+  std::string bus;               // --bus HOST:PORT: BusLink; empty: its fieldbus ends here
   int control = -1;              // --control FD, taken over; its end ends the host
   int inter_character_floor_ms = 20;
   std::function<void(const Traffic&)> monitor;     // -v; may be empty

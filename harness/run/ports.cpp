@@ -68,15 +68,15 @@ Status Fixtures::open_aux(const endpoints::EndpointName& name, const safety::Jou
                           const harness::Protocols& known) {
   const Result<const harness::Protocol*> protocol = known.choose(device.protocol, "");
   if (!protocol) return fail("--aux: " + protocol.error().message);
+  const harness::Protocol& spoken = endpoints::spoken_over(name, **protocol);
   Result<std::unique_ptr<harness::Protocol>> configured =
-      (*protocol)->configured(device.model, device.config);
+      spoken.configured(device.model, device.config);
   if (!configured) return fail("--aux: " + configured.error().message);
   aux_configured_ = std::move(*configured);
-  Result<std::unique_ptr<endpoints::Endpoint>> endpoint =
-      endpoints::open_endpoint(name, **protocol);
+  Result<std::unique_ptr<endpoints::Endpoint>> endpoint = endpoints::open_endpoint(name, spoken);
   if (!endpoint) return fail("--aux: " + endpoint.error().message);
   aux_ = std::move(*endpoint);
-  aux_protocol_ = aux_configured_ ? aux_configured_.get() : *protocol;
+  aux_protocol_ = aux_configured_ ? aux_configured_.get() : &spoken;
   aux_station_ = device.station;
   const Result<exchange::Sign> alive =
       exchange::Exchange(*aux_, *aux_protocol_, {}).first_sign(aux_station_, 10s);

@@ -26,7 +26,8 @@ struct RunOptions {
   std::string stimulus;  // what makes a device ask: a command, or "-": the program of exec:
   std::string aux;       // a second channel of the PLC under test
   std::vector<std::string> allow_write;
-  bool read_only = false;  // nothing is written, to no device
+  std::vector<std::string> allow_motion;  // axes
+  bool read_only = false;                 // nothing is written, to no device
   std::vector<std::string> gtest_arguments;
   std::string floor;        // the link's own uncertainty: "2ms"; empty: measured
   std::string loop;         // endpoint with an emulator behind it, to measure the link with

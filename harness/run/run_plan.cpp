@@ -112,6 +112,8 @@ std::string replay_command(const RunOptions& options) {
   if (!options.vectors.empty()) command += " --vectors " + shell_word(options.vectors);
   for (const std::string& range : options.allow_write)
     command += " --allow-write " + shell_word(range);
+  for (const std::string& axes : options.allow_motion)
+    command += " --allow-motion " + shell_word(axes);
   if (options.read_only) command += " --read-only";
   if (!options.protocol.empty()) command += " --protocol " + shell_word(options.protocol);
   if (!options.journal.empty()) command += " --journal " + shell_word(options.journal);
@@ -152,6 +154,8 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
       return allowed.error();
   if (ends_with_run(endpoint) && options.allow_write.empty() && !options.read_only)
     bench.fence.allow_everything();
+  for (const std::string& axes : options.allow_motion)
+    if (Status allowed = bench.fence.allow_motion(axes); !allowed) return allowed.error();
   const Result<int> station = station_of(endpoint, bench.profile);
   if (!station) return station.error();
   bench.station = *station;
@@ -282,9 +286,10 @@ Result<std::vector<const Protocol*>> protocols_of(const DutPlan& plan,
     if (!protocol)
       return fail(fmt::format("cannot run on {}:{}: {}", plan.endpoint.kind, plan.endpoint.target,
                               protocol.error().message));
-    const Status one = endpoints::check_endpoint(plan.endpoint, **protocol);
+    const Protocol& spoken = endpoints::spoken_over(plan.endpoint, **protocol);
+    const Status one = endpoints::check_endpoint(plan.endpoint, spoken);
     if (one)
-      protocols.push_back(*protocol);
+      protocols.push_back(&spoken);
     else
       fits = one;
   }
@@ -300,6 +305,22 @@ std::string journal_path(const RunOptions& options, const std::string& dut) {
   if (options.duts.size() > 1)
     path.replace_filename(path.stem().string() + "-" + dut + path.extension().string());
   return path.string();
+}
+
+/// A second port of the device; or, of a protocol that is carried, the PLC that is its partner: the
+/// first of its stations.
+safety::JournalDevice aux_device(const RunOptions& options, const EndpointName& name, int station,
+                                 const DutPlan& plan) {
+  const bench::Profile& profile = plan.bench.profile;
+  const Protocol* const own = plan.known.find(plan.protocols.front()->name());
+  if (!own || own->has_frames())
+    return {options.aux, station, name.option("protocol", std::string(plan.known.front().name())),
+            profile.model, profile.config};
+  const nlohmann::json stations = profile.config.value("stations", nlohmann::json::array());
+  const nlohmann::json partner =
+      stations.is_array() && !stations.empty() ? stations.front() : nlohmann::json::object();
+  return {options.aux, station, std::string(own->name()), partner.value("model", profile.model),
+          partner};
 }
 
 /// `profile` becomes the name of the device's profile.
@@ -363,9 +384,7 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
     if (!station)
       return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255",
                               aux->option("station", "1")));
-    plan.bench.aux_device = {options->aux, *station,
-                             aux->option("protocol", std::string(known.front().name())),
-                             plan.bench.profile.model, plan.bench.profile.config};
+    plan.bench.aux_device = aux_device(*options, *aux, *station, plan);
     plan.aux = std::move(*aux);
   }
   if (const Status checked =

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <optional>
 
@@ -33,6 +34,40 @@ Status WriteFence::allow(const std::string& ranges, const WordReader& words) {
     ranges_.push_back({first->area, first->word.value_or(0), last->word.value_or(whole_area)});
   }
   return ok();
+}
+
+Status WriteFence::allow_motion(const std::string& axes) {
+  const auto number = [](std::string_view text) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? value : 0;
+  };
+  for (std::string_view rest = axes; !rest.empty();) {
+    const std::string_view part = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+    const std::size_t dash = part.find('-');
+    const std::uint32_t first = part == "all" ? 1 : number(part.substr(0, dash));
+    const std::uint32_t last = part == "all"                    ? whole_area
+                               : dash == std::string_view::npos ? first
+                                                                : number(part.substr(dash + 1));
+    if (first == 0 || last < first)
+      return fail(fmt::format(
+          "cannot read --allow-motion '{}': write an axis (1), axes (3-5), or all", part));
+    axes_.push_back({first, last});
+  }
+  return ok();
+}
+
+std::string WriteFence::motion_objection(std::string_view axis, std::string_view by) const {
+  if (axis.empty()) return {};
+  std::uint32_t number = whole_area;
+  std::from_chars(axis.data(), axis.data() + axis.size(), number);
+  if (std::ranges::any_of(
+          axes_, [&](const Words& one) { return one.first <= number && number <= one.last; }))
+    return {};
+  const bool known = number != whole_area;
+  return fmt::format("moves {} ({}); allow it with --allow-motion {}, when nobody stands near",
+                     known ? fmt::format("axis {}", axis) : "an axis", by, known ? axis : "all");
 }
 
 bool WriteFence::allows(const harness::Protocol::Written& written,

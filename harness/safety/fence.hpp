@@ -27,6 +27,13 @@ class WriteFence {
   /// All there is, outputs too: of a device that is nobody's plant.
   void allow_everything() { ranges_.push_back({std::string(everything), 0, ~0u}); }
 
+  /// Axes that may move: "1", "3-5", "all"; several separated by commas. Errors name the part that
+  /// is wrong.
+  Status allow_motion(const std::string& axes);
+  /// Empty when that axis may; else what must be allowed: "moves axis 3 (MOTO ...); allow it with
+  /// --allow-motion 3". An axis that nobody can tell is allowed with all.
+  std::string motion_objection(std::string_view axis, std::string_view by) const;
+
   bool empty() const { return ranges_.empty(); }
 
   /// Empty when all of it is allowed; else what must be allowed: "writes %MW100; allow it with
@@ -49,6 +56,7 @@ class WriteFence {
   bool allows(const harness::Protocol::Written& written, std::string_view output_areas) const;
 
   std::vector<Range> ranges_;
+  std::vector<Words> axes_;
 };
 
 }  // namespace fieldproof::safety

@@ -8,6 +8,7 @@
 #include "src/base/result.hpp"
 #include "src/line/device.hpp"
 #include "src/net/host.hpp"
+#include "src/plc/bus_end.hpp"
 
 namespace fieldproof::plc {
 
@@ -15,10 +16,12 @@ class EmulatedDevice {
  public:
   virtual ~EmulatedDevice() = default;
 
-  /// What it has on a serial channel, and on its network; nullptr: nothing. Both belong to the
+  /// What it has on a serial channel, and on its network; nullptr: nothing. All belong to the
   /// device. Channel 0 is the one that its configuration leads to, else 1.
   virtual line::Device* line([[maybe_unused]] unsigned channel = 0) { return nullptr; }
   virtual net::Host* network() { return nullptr; }
+  /// Where a device in another process may join it.
+  virtual BusEnd* bus_end() { return nullptr; }
 
   /// Sets memory at a device address ("%MW100", "%MX0010A") to hex digits, most significant first.
   /// More digits than the type has fill the following elements. Rights do not bind the back door.

@@ -66,6 +66,7 @@ class FrameMonitor : public EmulatedDevice, public line::Device {
     return of_device && of_device == line_ ? this : of_device;
   }
   net::Host* network() override { return device_->network(); }
+  BusEnd* bus_end() override { return device_->bus_end(); }
 
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;

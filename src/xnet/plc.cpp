@@ -1,5 +1,6 @@
 #include "src/xnet/plc.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "src/modbus/data_space.hpp"
@@ -17,26 +18,29 @@ constexpr std::string_view what = "the XINJE PLC's configuration";
 
 class XinjeDataSpace : public modbus::DataSpace {
  public:
-  explicit XinjeDataSpace(XinjePlc& plc) : plc_(plc) {}
+  XinjeDataSpace(Memory& memory, std::function<void()> written)
+      : memory_(memory), written_(std::move(written)) {}
 
   bool covers(ModbusBase table, std::uint32_t address, std::uint32_t count, bool) const override {
     const std::optional<Component> first = at(table, address);
-    return first && count <= first->area->shown - first->number;
+    return first && count <= std::min(first->area->shown - first->number,
+                                      room_from(*first, memory_.series()));
   }
   unsigned read(ModbusBase table, std::uint32_t address) const override {
-    return plc_.memory().read(*at(table, address));
+    return memory_.read(*at(table, address));
   }
   void write(ModbusBase table, std::uint32_t address, unsigned value) override {
-    plc_.memory().write(*at(table, address), value);
+    memory_.write(*at(table, address), value);
   }
-  void written() override { plc_.written(); }
+  void written() override { written_(); }
 
  private:
   static std::optional<Component> at(ModbusBase table, std::uint32_t address) {
     return component_at(table == ModbusBase::bit_read || table == ModbusBase::bit_write, address);
   }
 
-  XinjePlc& plc_;
+  Memory& memory_;
+  std::function<void()> written_;
 };
 }  // namespace
 
@@ -51,8 +55,13 @@ Result<std::string> XinjePlc::get(std::string_view address, std::size_t digits) 
   return memory_.get(address, digits);
 }
 
-Status add_modbus_server(XinjePlc& plc, ModbusMode mode, unsigned channel,
-                         const nlohmann::json& config) {
+Status XinjePlc::serve(ModbusMode mode, const nlohmann::json& config) {
+  return add_modbus_server(
+      *this, memory_, [this] { scan(); }, mode, 1, config);
+}
+
+Status add_modbus_server(plc::Controller& plc, Memory& memory, std::function<void()> written,
+                         ModbusMode mode, unsigned channel, const nlohmann::json& config) {
   if (config.is_object() && config.value("role", "server") != "server")
     return fail("cannot make a XINJE PLC of role client; it is no Modbus TCP client (X-NET 3-4-2)");
   const bool network = mode == ModbusMode::tcp;
@@ -63,7 +72,7 @@ Status add_modbus_server(XinjePlc& plc, ModbusMode mode, unsigned channel,
   plc::read_port_config(reader, port);
   if (reader.error()) return *reader.error();
   if (const auto right = plc::check_port_config(port); !right) return right.error();
-  auto data = std::make_unique<XinjeDataSpace>(plc);
+  auto data = std::make_unique<XinjeDataSpace>(memory, std::move(written));
   if (!network)
     return plc.add(channel, std::make_unique<modbus::ModbusServer>(mode, std::move(data), port));
   modbus::TcpServerConfig tcp;
@@ -78,7 +87,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_xinje_plc(ModbusMode mode,
   reader.either("mode", "run", "stop", run);
   if (reader.error()) return *reader.error();
   auto plc = std::make_unique<XinjePlc>(run);
-  if (const Status added = add_modbus_server(*plc, mode, 1, config); !added) return added.error();
+  if (const Status added = plc->serve(mode, config); !added) return added.error();
   return std::unique_ptr<plc::EmulatedDevice>(std::move(plc));
 }
 

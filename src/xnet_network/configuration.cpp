@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/plc/config_reader.hpp"
+#include "src/xnet_motion/motion_bus.hpp"
+#include "src/xnet_network/instruction.hpp"
 
 namespace fieldproof::xnet {
 
@@ -15,8 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 9> station_keys{
-    "ip", "mode", "model", "name", "ports", "routes", "servos", "station", "stations"};
+constexpr std::array<std::string_view, 10> station_keys{
+    "ip", "mode", "model", "name", "ports", "program", "routes", "servos", "station", "stations"};
 constexpr unsigned servos_at_first = 10;  // 2-4
 constexpr std::array<std::string_view, 8> port_keys{"baud", "cable_m", "cycle_ms", "max_station",
                                                     "net",  "peer",    "port",     "station"};
@@ -206,6 +208,31 @@ Status read_servos(const json& config, StationConfig& station) {
   return ok();
 }
 
+/// {"M100": "REG_READ net 1 station 2 D0 count 10 to D10", "M101": "hold BIT_WRITE ..."}
+Status read_program(const json& config, StationConfig& station) {
+  const json program = config.value("program", json::object());
+  if (!program.is_object())
+    return wrong(R"("program" is no object; write {"M100": "REG_READ net 1 station 2 D0 ..."})");
+  for (const auto& [name, text] : program.items()) {
+    const std::optional<Component> relay = find_component(name, station.model->series);
+    if (!relay || !relay->area->bits)
+      return wrong(
+          fmt::format("program: {} has no relay '{}'; write M100", station.model->name, name));
+    Rung rung{*relay, text.is_string() ? text.get<std::string>() : text.dump()};
+    constexpr std::string_view hold = "hold ";
+    if ((rung.level = rung.instruction.starts_with(hold))) rung.instruction.erase(0, hold.size());
+    if (!is_instruction(rung.instruction) && !MotionBus::knows(rung.instruction))
+      return wrong(
+          fmt::format("program: '{}' at {} is no instruction of X-NET", rung.instruction, name));
+    if (is_instruction(rung.instruction))
+      if (const auto read = read_instruction(rung.instruction, Memory(station.model->series));
+          !read)
+        return wrong(fmt::format("program: {}", read.error().message));
+    station.program.push_back(std::move(rung));
+  }
+  return ok();
+}
+
 }  // namespace
 
 const std::vector<Model>& models() {
@@ -275,6 +302,7 @@ Result<StationConfig> read_station(const json& config, std::string name) {
   if (const Status read = read_ports(config, station); !read) return read.error();
   if (const Status read = read_routes(config, station); !read) return read.error();
   if (const Status read = read_servos(config, station); !read) return read.error();
+  if (const Status read = read_program(config, station); !read) return read.error();
   return station;
 }
 

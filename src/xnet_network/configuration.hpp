@@ -55,6 +55,13 @@ struct Route {
   std::uint16_t gateway = 0;  // the station that forwards; 0: the net is that of the port
 };
 
+/// An instruction in the program of a PLC, and the relay that is its condition.
+struct Rung {
+  Component relay;
+  std::string instruction;  // as XnetNetwork::act takes it
+  bool level = false;       // executed as long as the relay is on ("hold ..."), not at its edge
+};
+
 /// One PLC on the nets.
 struct StationConfig {
   std::string name = "A";  // in vectors: "A", "B"
@@ -65,6 +72,7 @@ struct StationConfig {
   unsigned slaves = 10;       // SFD2991
   Ethernet ethernet;
   bool run = true;
+  std::vector<Rung> program;
 
   const Port* port(unsigned number) const;
   const Route* route(std::uint32_t net) const;

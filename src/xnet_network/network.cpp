@@ -66,7 +66,7 @@ XnetNetwork::XnetNetwork(std::vector<StationConfig> stations) {
   for (const auto& plc : plcs_) power(*plc, true);
 }
 
-Result<std::unique_ptr<plc::EmulatedDevice>> make_xnet(std::string_view model, const json& config) {
+Result<std::unique_ptr<XnetNetwork>> make_network(std::string_view model, const json& config) {
   json own = config;
   own["model"] = model;
   std::vector<StationConfig> stations;
@@ -80,7 +80,13 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_xnet(std::string_view model, c
     stations.push_back(std::move(*read));
   }
   if (const Status right = check_nets(stations); !right) return right.error();
-  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<XnetNetwork>(std::move(stations)));
+  return std::make_unique<XnetNetwork>(std::move(stations));
+}
+
+Result<std::unique_ptr<plc::EmulatedDevice>> make_xnet(std::string_view model, const json& config) {
+  Result<std::unique_ptr<XnetNetwork>> made = make_network(model, config);
+  if (!made) return made.error();
+  return std::unique_ptr<plc::EmulatedDevice>(std::move(*made));
 }
 
 XnetNetwork::Plc* XnetNetwork::named(std::string_view name) const {
@@ -118,6 +124,7 @@ std::optional<Time> XnetNetwork::wake_at() const {
     if (const std::optional<Time> at = bus.wake_at()) consider(std::min(*at, now_ + look_period));
   for (const auto& plc : plcs_)
     if (plc->motion && plc->powered) consider(plc->motion->wake_at());
+  if (std::ranges::any_of(plcs_, [](const auto& plc) { return has_to_look(*plc); })) consider(now_);
   return first;
 }
 
@@ -132,7 +139,31 @@ Bytes XnetNetwork::advance(Time now) {
   for (auto& [net, bus] : buses_) bus.advance(now);
   for (const auto& plc : plcs_)
     if (plc->motion && plc->powered) plc->motion->advance(now, plc->run);
+  for (const auto& plc : plcs_)
+    if (has_to_look(*plc)) run_program(*plc);
   return {};
+}
+
+bool XnetNetwork::has_to_look(const Plc& plc) {
+  return !plc.config.program.empty() && plc.looked != plc.memory.touched();
+}
+
+/// What became of its relays since it was last looked at.
+void XnetNetwork::run_program(Plc& plc) {
+  plc.looked = plc.memory.touched();
+  plc.relays_on.resize(plc.config.program.size());
+  for (std::size_t i = 0; i < plc.config.program.size(); ++i) {
+    const Rung& rung = plc.config.program[i];
+    const bool on = plc.run && plc.powered && plc.memory.read(rung.relay) != 0;
+    const bool was = plc.relays_on[i];
+    plc.relays_on[i] = on;
+    const std::string what =
+        plc.config.name + ": " + (rung.level ? "hold " : "") + rung.instruction;
+    // An operand in a register may be wrong: then it does nothing.
+    if (on && !was) [[maybe_unused]]
+      const Status done = act(what);
+    if (was && !on && rung.level) plc.held.clear();
+  }
 }
 
 void XnetNetwork::later(Time at, std::function<void(Time)> what) {
@@ -233,8 +264,9 @@ void XnetNetwork::carry(Plc& via, const Route& route, const Port& port, Job job,
   const bool last = route.gateway == 0;
   const auto there = [=, this](Time at) {
     Plc* const next = station_on(net, station);
-    if (!next || !next->powered) return fail_later(job, at);
+    if (!next || !next->powered || (next == partner_ && !last)) return fail_later(job, at);
     if (next->noisy || job.from->noisy) return finish(job, Outcome::crc, at);
+    if (next == partner_) return ask_partner(job, at);
     last ? finish(job, move(*next, job), at) : forward(*next, job, at);
   };
   // A gateway that loses its power answers nobody.
@@ -292,6 +324,7 @@ void XnetNetwork::power(Plc& plc, bool on) {
   plc.powered = on;
   plc.under_way = 0;
   plc.held.clear();
+  plc.relays_on.clear();
   if (plc.motion && !on) plc.motion->restart();
   for (const Port& port : plc.config.ports) {
     if (port.type == NetType::ethernet) continue;

@@ -2,10 +2,13 @@
 // values; no manual prints a frame, so nothing of it is on a wire.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "src/plc/emulated_device.hpp"
@@ -20,7 +23,7 @@ namespace fieldproof::xnet {
 /// Result of an X-NET instruction, SD141 + 10 x port (1-5-1).
 enum class Outcome : std::uint16_t { done = 0, overtime = 1, memory = 2, crc = 3 };
 
-class XnetNetwork : public plc::SerialDevice {
+class XnetNetwork : public plc::SerialDevice, public plc::BusEnd {
  public:
   /// At least one; check_nets() holds.
   explicit XnetNetwork(std::vector<StationConfig> stations);
@@ -39,6 +42,18 @@ class XnetNetwork : public plc::SerialDevice {
   /// off" is done to B.
   Status act(std::string_view action) override;
 
+  /// Of the first PLC: what a server of it reads and writes. Who writes calls `touch` of it.
+  Memory& memory() { return plcs_.front()->memory; }
+
+  /// A PLC in another process takes part as one more, named behind those that are here. What it is
+  /// asked for goes over the bus end, in the time that the nets of this process take; it is no
+  /// gateway. DECISIONS.md xnet/partner
+  plc::BusEnd* bus_end() override { return this; }
+  std::string hello() const override;
+  Status hear(std::string_view line) override;
+  void part() override;
+  std::vector<std::string> take_lines() override { return std::exchange(to_partner_, {}); }
+
  private:
   struct Plc {
     StationConfig config;
@@ -48,6 +63,8 @@ class XnetNetwork : public plc::SerialDevice {
     unsigned under_way = 0;           // instructions
     std::vector<Instruction> held{};  // conditions that stay on
     std::unique_ptr<MotionBus> motion{};
+    std::vector<bool> relays_on{};  // of the program, when it was looked at
+    std::uint64_t looked = 0;       // Memory::touched then
   };
   struct Job {
     Plc* from = nullptr;
@@ -68,18 +85,30 @@ class XnetNetwork : public plc::SerialDevice {
   void finish(const Job& job, Outcome outcome, Time now);
   void fail_later(const Job& job, Time now);
   Outcome move(Plc& target, const Job& job);
+  void run_program(Plc& plc);
+  static bool has_to_look(const Plc& plc);
   void power(Plc& plc, bool on);
+  Status join(const nlohmann::json& hello);
+  void ask_partner(const Job& job, Time now);
+  void answer_partner(const nlohmann::json& asked);
+  void take_answer(const nlohmann::json& answer);
   void show_presence();
   void later(Time at, std::function<void(Time)> what);
 
   std::vector<std::unique_ptr<Plc>> plcs_;
   std::map<std::uint16_t, TokenBus> buses_;  // by net
   std::multimap<Time, std::function<void(Time)>> events_;
+  Plc* partner_ = nullptr;  // whose memory is in another process
+  std::map<std::uint64_t, Job> asked_;
+  std::uint64_t asked_so_far_ = 0;
+  std::vector<std::string> to_partner_;
   Time now_{};
 };
 
 /// Of given.config (vectors/README.md): that of the first PLC, and `stations`, the others, called
 /// B, C, ... Errors name the key.
+Result<std::unique_ptr<XnetNetwork>> make_network(std::string_view model,
+                                                  const nlohmann::json& config);
 Result<std::unique_ptr<plc::EmulatedDevice>> make_xnet(std::string_view model,
                                                        const nlohmann::json& config);
 

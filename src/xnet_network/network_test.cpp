@@ -150,5 +150,102 @@ TEST_F(XnetTest, WhatIsWrongIsNamed) {
   EXPECT_THAT(plc->get("C:D0", 0).error().message, HasSubstr("no such PLC"));
 }
 
+TEST_F(XnetTest, AProgramRunsAtTheEdgeOfItsRelay) {
+  two({{"program",
+        {{"M100", "REG_READ net 1 station 2 D0 count 1 to D10"},
+         {"M101", "hold BIT_WRITE net 1 station 2 Y0 count 1 from M0"}}}});
+  ASSERT_TRUE(plc->set("B:D0", "1234"));
+  ASSERT_TRUE(plc->set("M100", "01"));
+  wait(50ms);
+  EXPECT_EQ(get("D10"), "1234");
+  ASSERT_TRUE(plc->set("B:D0", "5678"));
+  wait(50ms);
+  EXPECT_EQ(get("D10"), "1234") << "the relay stays on: no edge";
+  ASSERT_TRUE(plc->set("M100", "00"));
+  wait(5ms);
+  ASSERT_TRUE(plc->set("M100", "01"));
+  wait(50ms);
+  EXPECT_EQ(get("D10"), "5678");
+}
+
+TEST_F(XnetTest, WrongProgramsAreNamed) {
+  const auto wrong = [](const json& program) {
+    auto made = make_xnet("xd3", {{"program", program}});
+    return made ? "" : made.error().message;
+  };
+  EXPECT_THAT(wrong({{"D0", "REG_READ net 1 station 2 D0 count 1 to D10"}}),
+              HasSubstr("no relay 'D0'"));
+  EXPECT_THAT(wrong({{"M0", "MOVE"}}), HasSubstr("'MOVE' at M0 is no instruction"));
+  EXPECT_THAT(wrong({{"M0", "REG_READ net 1"}}), HasSubstr("program: cannot execute"));
+  EXPECT_THAT(wrong("M0"), HasSubstr("no object"));
+}
+
+/// Two models that are told each other's lines, as two processes are.
+class JoinedTest : public testing::Test {
+ protected:
+  static std::unique_ptr<plc::EmulatedDevice> station(int number,
+                                                      const json& more = json::object()) {
+    json config{{"ports", {{{"port", 2}, {"net", 1}, {"station", number}}}}};
+    config.update(more);
+    auto made = make_xnet("xd3", config);
+    EXPECT_TRUE(made) << made.error().message;
+    return std::move(*made);
+  }
+  void join() {
+    EXPECT_TRUE(a->bus_end()->hear(b->bus_end()->hello()));
+    EXPECT_TRUE(b->bus_end()->hear(a->bus_end()->hello()));
+  }
+  static void carry(plc::EmulatedDevice& from, plc::EmulatedDevice& to, bool carried) {
+    for (const std::string& line : from.bus_end()->take_lines())
+      EXPECT_TRUE(!carried || to.bus_end()->hear(line)) << line;
+  }
+  void wait(Duration time, bool carried = true) {
+    for (const Time end = now + time; now < end; now += 1ms) {
+      a->line()->advance(now);
+      b->line()->advance(now);
+      carry(*a, *b, carried);
+      carry(*b, *a, carried);
+    }
+  }
+  std::unique_ptr<plc::EmulatedDevice> a = station(1), b = station(2);
+  Time now{};
+};
+
+TEST_F(JoinedTest, EachReachesTheMemoryOfTheOther) {
+  join();
+  EXPECT_EQ(*a->get("SM1401", 2), "01") << "its relay of presence";
+  ASSERT_TRUE(b->set("D0", "11223344"));
+  ASSERT_TRUE(b->set("M5", "0101"));
+  ASSERT_TRUE(a->act("REG_READ net 1 station 2 D0 count 2 to D10"));
+  ASSERT_TRUE(a->act("BIT_WRITE net 1 station 2 Y0 count 2 from SM0"));
+  ASSERT_TRUE(b->act("BIT_WRITE net 1 station 1 Y0 count 2 from M5"));
+  wait(60ms);
+  EXPECT_EQ(*a->get("D10", 8), "11223344");
+  EXPECT_EQ(*a->get("Y0", 4), "0101");
+  EXPECT_EQ(*a->get("SD161", 4), "0000");
+  ASSERT_TRUE(a->act("REG_READ net 1 station 2 D7999 count 2 to D10"));
+  wait(60ms);
+  EXPECT_EQ(*a->get("SD161", 4), "0002") << "past the end of B's D";
+}
+
+TEST_F(JoinedTest, WhoDoesNotAnswerIsOvertime) {
+  join();
+  ASSERT_TRUE(a->act("REG_READ net 1 station 2 D0 count 2 to D10"));
+  wait(150ms, false);
+  EXPECT_EQ(*a->get("SD161", 4), "0001");
+  a->bus_end()->part();
+  EXPECT_EQ(*a->get("SM1401", 2), "00");
+}
+
+TEST_F(JoinedTest, StationsThatClashDoNotJoin) {
+  b = station(1);
+  const Status heard = a->bus_end()->hear(b->bus_end()->hello());
+  ASSERT_FALSE(heard);
+  EXPECT_THAT(heard.error().message, HasSubstr("station 1"));
+  EXPECT_FALSE(a->bus_end()->hear("noise"));
+  EXPECT_TRUE(a->bus_end()->hear(R"({"answer": 7, "values": "x"})"));
+  EXPECT_TRUE(a->bus_end()->hear(R"({"ask": 7, "count": 3})"));
+}
+
 }  // namespace
 }  // namespace fieldproof::xnet

@@ -12,6 +12,8 @@
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
 #include "src/xnet/plc.hpp"
+#include "src/xnet_network/configuration.hpp"
+#include "src/xnet_network/served_plc.hpp"
 #include "suites/modbus/facts.hpp"
 #include "suites/modbus/framing.hpp"
 #include "suites/modbus/functions.hpp"
@@ -46,6 +48,8 @@ class Modbus : public harness::PlcProtocol,
   Result<std::unique_ptr<plc::EmulatedDevice>> make_device(
       std::string_view model, const nlohmann::json& config) const override {
     if (has_model(model) && model == xnet::xd) return xnet::make_xinje_plc(mode_, config);
+    if (xnet::find_model(model) && mode_ != modbus::ModbusMode::ascii)
+      return xnet::make_served_plc(mode_, model, config);
     return services::make_plc(model, config, [this](plc::Plc& plc, const nlohmann::json& own) {
       return p2p::is_p2p_client(own) ? add_clients(plc, own)
                                      : modbus::add_modbus_server(plc, mode_, 1, own);

@@ -44,7 +44,7 @@ class HostileRuns : public testing::Test {
   Finished run(const Hostile& one) {
     return run_tool({"run", "--endpoint", device(one.behaviour, one.network), "--profile", "xbc-h",
                      "--filter", one.network ? "modbus_tcp/*" : "xgt_cnet/*", "--role", "server",
-                     "--max-restarts", "3", "--out", out_});
+                     "--max-restarts", "1", "--out", out_});
   }
   TestFolder folder_;
   std::string out_ = folder_ / "out";

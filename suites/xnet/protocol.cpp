@@ -5,6 +5,7 @@
 #include "harness/frameless_protocol.hpp"
 #include "src/xnet_network/network.hpp"
 #include "suites/xnet/facts.hpp"
+#include "suites/xnet/over_modbus.hpp"
 
 namespace fieldproof::xnet_suite {
 
@@ -25,7 +26,18 @@ class Xnet : public harness::FramelessProtocol, public harness::Tables {
     return xnet::make_xnet(model, config);
   }
 
+  const harness::Protocol* carried(bool network) const override {
+    return network ? &over_modbus_tcp() : &over_modbus_rtu();
+  }
+
   std::string_view output_areas() const override { return "Y"; }
+  std::optional<WordName> read_word(std::string_view text) const override {
+    const bool whole = text.find_first_of("0123456789") == text.npos;
+    const auto found = xnet::find_component(whole ? std::string(text) + "0" : std::string(text));
+    if (!found) return std::nullopt;
+    return WordName{std::string(found->area->name),
+                    whole ? std::nullopt : std::optional(found->number)};
+  }
 
   const harness::Tables* tables() const override { return this; }
   Status check_table(const nlohmann::json& facts) const override {

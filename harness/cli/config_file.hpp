@@ -1,4 +1,5 @@
-// `emulate MODEL --p2p FILE.json`: the P2P parameters of an emulated client.
+// `emulate MODEL --config FILE.json`: what is set up in an emulated device; `--p2p FILE.json`: the
+// P2P parameters of an emulated client.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,8 +9,9 @@
 
 namespace fieldproof::cli {
 
-/// The configuration in a file, as in `given.config` (vectors/README.md); its role is client.
-/// Errors name the file.
+/// The configuration in a file, as in `given.config` (vectors/README.md). Errors name the file.
+Result<nlohmann::json> read_config_file(const std::string& path);
+/// The same of a client.
 Result<nlohmann::json> read_p2p_file(const std::string& path);
 
 /// The same factory, whose errors name the file.

@@ -1,4 +1,4 @@
-#include "harness/cli/p2p_file.hpp"
+#include "harness/cli/config_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,16 +6,25 @@
 
 namespace fieldproof::cli {
 
-Result<nlohmann::json> read_p2p_file(const std::string& path) {
+Result<nlohmann::json> read_config_file(const std::string& path) {
   const Result<std::string> text = results::read_whole_file(path);
   if (!text) return text.error();
-  nlohmann::json config;
   try {
-    config = nlohmann::json::parse(*text);
+    nlohmann::json config = nlohmann::json::parse(*text);
+    if (config.is_object()) return config;
   } catch (const nlohmann::json::parse_error& error) {
     return fail(fmt::format("cannot read {}: it is no JSON: {}", path, error.what()));
   }
-  if (!config.is_object() || !config.contains("p2p"))
+  return fail(fmt::format("cannot read {}: it is no object; write the keys of given.config "
+                          "(vectors/README.md)",
+                          path));
+}
+
+Result<nlohmann::json> read_p2p_file(const std::string& path) {
+  Result<nlohmann::json> read = read_config_file(path);
+  if (!read) return read.error();
+  nlohmann::json& config = *read;
+  if (!config.contains("p2p"))
     return fail(
         fmt::format("cannot read {}: there is no \"p2p\"; give {{\"p2p\": {{\"blocks\": [...]}}}} "
                     "as vectors/README.md says",

@@ -1,0 +1,84 @@
+#include "suites/xnet/ladder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace fieldproof::xnet_suite {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
+
+const json program{
+    {"M100", "REG_READ net 1 station 2 D0 count 10 to D10"},
+    {"M101", "REG_WRITE net D6900 station D6901 type D6902 address D6904 count D6906 from D0"},
+    {"M102", "hold BIT_READ net 1 station 2 M0 count 1 to M10"},
+    {"M103", "MOTO D20 D22 D24 axis 1"},
+    {"M104", "MOSYN D30 master 1 slave 2"}};
+
+Ladder ladder(const json& config = {{"program", program}}) {
+  const Result<Ladder> read = Ladder::read(config);
+  EXPECT_TRUE(read) << read.error().message;
+  return read ? *read : Ladder();
+}
+
+TEST(Ladder, AnInstructionIsAnEdgeOfItsRelay) {
+  const auto edge = ElementsAre(Pair("M100", "00"), Pair("M100", "01"));
+  EXPECT_THAT(*ladder().set_off("REG_READ net 1 station 2 D0 count 10 to D10"), edge);
+  EXPECT_THAT(*ladder().set_off("REG_READ net K1 station K2 type 128 address 0 count 10 to D10"),
+              edge)
+      << "the same, as the manual writes it elsewhere";
+  EXPECT_FALSE(ladder().set_off("REG_READ net 1 station 2 D0 count 9 to D10"));
+  EXPECT_FALSE(ladder().set_off("REG_READ net 1 station 2 D1 count 10 to D10"));
+}
+
+TEST(Ladder, OperandsInRegistersAreSetBefore) {
+  EXPECT_THAT(*ladder().set_off("REG_WRITE net H0C0A8 station 2 HD3 count 7 from D0"),
+              ElementsAre(Pair("D6900", "C0A8"), Pair("D6901", "0002"), Pair("D6902", "0088"),
+                          Pair("D6904", "00030000"), Pair("D6906", "0007"), Pair("M101", "00"),
+                          Pair("M101", "01")));
+  EXPECT_THAT(*ladder().set_off("MOTO -2 70000 50 axis 1"),
+              ElementsAre(Pair("D20", "FFFEFFFF"), Pair("D22", "11700001"), Pair("D24", "00320000"),
+                          Pair("M103", "00"), Pair("M103", "01")));
+  EXPECT_THAT(*ladder().set_off("MOSYN 0.5 master 1 slave 2"),
+              testing::Contains(Pair("D30", "00003F00")));
+}
+
+TEST(Ladder, AConditionThatStaysOnIsReleased) {
+  EXPECT_TRUE(ladder().set_off("hold BIT_READ net 1 station 2 M0 count 1 to M10"));
+  EXPECT_FALSE(ladder().set_off("BIT_READ net 1 station 2 M0 count 1 to M10"));
+  EXPECT_THAT(*ladder().set_off("release"), ElementsAre(Pair("M102", "00")));
+}
+
+TEST(Ladder, APartnerHasItsOwn) {
+  const Ladder both = ladder({{"stations", {{{"program", program}}}}});
+  EXPECT_THAT(*both.set_off("B: REG_READ net 1 station 2 D0 count 10 to D10"),
+              ElementsAre(Pair("B:M100", "00"), Pair("B:M100", "01")));
+  EXPECT_FALSE(both.set_off("REG_READ net 1 station 2 D0 count 10 to D10"));
+  EXPECT_FALSE(both.set_off("C: REG_READ net 1 station 2 D0 count 10 to D10"));
+}
+
+TEST(Ladder, WhatTheProgramLacksIsToldAsItIsWritten) {
+  EXPECT_THAT(ladder().set_off("MOTO 1 2 3 axis 7").error().message,
+              HasSubstr(R"("program": {"M100": "MOTO 1 2 3 axis 7"})"));
+  EXPECT_THAT(ladder().set_off("B: off").error().message, HasSubstr("done to the model alone"));
+  EXPECT_THAT(*ladder().set_off("stop"), IsEmpty());
+}
+
+TEST(Ladder, BadProgramsAreNamed) {
+  const auto wrong = [](const json& bad) {
+    const Result<Ladder> read = Ladder::read({{"program", bad}});
+    return read ? "" : read.error().message;
+  };
+  EXPECT_THAT(wrong("M1"), HasSubstr("no object"));
+  EXPECT_THAT(wrong({{"D1", "MOTO 1 2 3 axis 1"}}), HasSubstr("'D1' is no relay"));
+  EXPECT_THAT(wrong({{"M1", "MOVE"}}), HasSubstr("no instruction of X-NET"));
+  EXPECT_THAT(wrong({{"M1", 7}}), HasSubstr("7 at M1"));
+}
+
+}  // namespace
+}  // namespace fieldproof::xnet_suite
