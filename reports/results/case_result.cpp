@@ -14,6 +14,10 @@ std::string_view to_string(Event::Kind kind) {
   return "note";
 }
 
+Time shown_from(const CaseResult& result) {
+  return result.exchange.empty() ? Time{} : result.exchange.front().start;
+}
+
 Identity in_common(Identity a, const Identity& b) {
   for (std::string Identity::*field :
        {&Identity::name, &Identity::maker, &Identity::model, &Identity::serial, &Identity::firmware,

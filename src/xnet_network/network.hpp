@@ -38,6 +38,7 @@ class XnetNetwork : public plc::SerialDevice {
   /// on, and "release"; "run", "stop", "power_cycle", "on", "off", "noise on", "noise off". "B:
   /// off" is done to B.
   Status act(std::string_view action) override;
+  Trace trace() const override;
 
  private:
   struct Plc {
