@@ -18,9 +18,10 @@ namespace {
 using Sample = AxisTrace::Sample;
 
 // In units of the picture; text has the size that the style sheet gives it.
-constexpr double picture_width = 640, plot_left = 62, plot_right = 632, numbers_base = 14;
-constexpr double label_room = 36;  // between numbers of marks
-constexpr std::size_t colours = 6, most_listed = 40;
+constexpr double picture_width = 640, plot_left = 62, plot_right = 632, numbers_base = 30;
+constexpr double label_room = 46;  // between numbers of marks
+constexpr std::size_t colours = 6, most_listed = 40, most_drawn = 100;
+constexpr double finest_drawn = 5e-3;  // of the range: a unit
 
 /// Values along one side of a plot.
 struct Side {
@@ -62,7 +63,12 @@ std::vector<double> ticks(const Side& side, double count) {
   return found;
 }
 
-std::string units(double value) { return fmt::format("{:.4g}", value); }
+/// As short as it can be: a run has hundreds of pictures.
+std::string units(double value) {
+  std::string text = fmt::format("{:.1f}", value);
+  if (text.ends_with(".0")) text.resize(text.size() - 2);
+  return text;
+}
 
 /// 500, 41k, 2.5M
 std::string brief(double value) {
@@ -72,7 +78,22 @@ std::string brief(double value) {
 }
 
 void write_label(HtmlWriter& out, double x, double y, std::string_view css, std::string_view what) {
-  out.element("text", {{"x", units(x)}, {"y", units(y)}, {"class", css}}, what);
+  out.element("text", {{"class", css}, {"x", units(x)}, {"y", units(y)}}, what);
+}
+
+/// In a row: x, and the text.
+using Labels = std::vector<std::pair<double, std::string>>;
+
+void write_row(HtmlWriter& out, double y, const Labels& labels) {
+  out.element("text", {{"class", "x"}, {"y", units(y)}}, [&] {
+    for (const auto& [x, what] : labels) out.element("tspan", {{"x", units(std::round(x))}}, what);
+  });
+}
+
+/// Labels left of a plot, each with its y.
+void write_steps(HtmlWriter& out, const auto& body) {
+  const std::string place = fmt::format("translate({} 4)", plot_left - 6);
+  out.element("g", {{"class", "y"}, {"transform", place}}, body);
 }
 
 void write_picture(HtmlWriter& out, double tall, const std::string& what, const auto& body) {
@@ -87,17 +108,17 @@ void write_picture(HtmlWriter& out, double tall, const std::string& what, const 
 /// Ticks along the bottom, with the unit at the last.
 void write_times(HtmlWriter& out, const Side& time, double top, double bottom) {
   const double scale = time.to - time.from >= 20'000 ? 1e-3 : 1;  // seconds
-  const std::vector<double> found = ticks({time.from * scale, time.to * scale}, 5);
+  const std::vector<double> found = ticks({time.from * scale, time.to * scale}, 4);
+  const char* const unit = scale < 1 ? " s" : " ms";
   std::string path;
-  for (const double at : found)
-    path += fmt::format("M{} {}V{}", units(time.at(at / scale)), units(top), units(bottom));
+  Labels labels;
+  for (const double at : found) {
+    const double x = std::round(time.at(at / scale));
+    path += fmt::format("M{} {}V{}", units(x), units(top), units(bottom));
+    labels.emplace_back(x, fmt::format("{:g}{}", at, at == found.back() ? unit : ""));
+  }
   out.empty("path", {{"class", "grid"}, {"d", path}});
-  for (const double at : found)
-    write_label(out, time.at(at / scale), bottom + 17, "x",
-                fmt::format("{:g}{}", at,
-                            at != found.back() ? ""
-                            : scale < 1        ? " s"
-                                               : " ms"));
+  write_row(out, bottom + 17, labels);
 }
 
 // ---- axes ----
@@ -119,19 +140,16 @@ class Motion {
     for (const Mark& one : marks_) times.add(one.ms);
     add_limits_in_reach(positions);
     time_ = {times.least(), std::max(times.greatest(), times.least() + 1), plot_left, plot_right};
-    position_ = positions.side(176, 22);
-    speed_ = speeds.side(300, 192);
-    what_ = fmt::format("position {} to {} pulses, speed {} to {} pulses a second",
-                        brief(positions.least()), brief(positions.greatest()),
-                        brief(speeds.least()), brief(speeds.greatest()));
+    position_ = positions.side(192, 38);
+    speed_ = speeds.side(322, 228);
   }
 
   void write() {
     out_.element("figure", {{"class", "trace"}}, [&] {
-      write_picture(out_, 324, what_, [&] {
+      write_picture(out_, 346, "motion", [&] {
         write_times(out_, time_, position_.end, speed_.begin);
-        write_side(position_, "position, pulses");
-        write_side(speed_, "speed, pulses/s");
+        write_side(position_, 3, "position, pulses");
+        write_side(speed_, 2.5, "speed, pulses/s");
         write_limits();
         write_marks();
         write_lines(position_, &Sample::position);
@@ -183,20 +201,30 @@ class Motion {
           if (at >= least && at <= greatest) positions.add(at);
   }
 
-  void write_side(const Side& side, std::string_view title) {
-    const std::vector<double> found = ticks(side, 4);
+  void write_side(const Side& side, double count, std::string_view title) {
     std::string path;
-    for (const double at : found)
-      path += fmt::format("M{} {}H{}", plot_left, units(side.at(at)), plot_right);
+    write_steps(out_, [&] {
+      for (const double at : ticks(side, count)) {
+        const std::string y = units(std::round(side.at(at)));
+        path += fmt::format("M{} {}H{}", plot_left, y, plot_right);
+        out_.element("text", {{"y", y}}, brief(at));
+      }
+    });
     out_.empty("path", {{"class", "grid"}, {"d", path}});
-    for (const double at : found) write_label(out_, plot_left - 6, side.at(at) + 4, "y", brief(at));
-    write_label(out_, plot_left + 4, side.end + 13, "title", title);
+    out_.element("text", {{"y", units(side.end - (&side == &position_ ? 25 : 12))}}, title);
   }
 
   void write_limits() {
     std::vector<double> labelled;
+    std::vector<const AxisTrace::Limit*> seen;  // axes often have the same
     for (const AxisTrace& axis : axes_)
-      for (const AxisTrace::Limit& limit : axis.limits) write_limit(limit, labelled);
+      for (const AxisTrace::Limit& limit : axis.limits) {
+        const auto same = [&](const AxisTrace::Limit* one) {
+          return one->name == limit.name && one->from == limit.from && one->to == limit.to;
+        };
+        if (std::ranges::none_of(seen, same)) write_limit(limit, labelled);
+        seen.push_back(&limit);
+      }
   }
 
   void write_limit(const AxisTrace::Limit& limit, std::vector<double>& labelled) {
@@ -222,32 +250,36 @@ class Motion {
   /// Vertical lines; numbers where there is room, "2-4" where there is not.
   void write_marks() {
     if (marks_.empty()) return;
-    std::string path;
-    double last = -1;
+    std::string path, last;
     for (const Mark& one : marks_) {
-      const double x = std::round(time_.at(one.ms) * 10) / 10;
-      if (x != last)
-        path += fmt::format("M{0} {1}V{2}M{0} {3}V{4}", units(x), position_.end, position_.begin,
-                            speed_.end, speed_.begin);
+      const std::string x = units(time_.at(one.ms));
+      if (x != last) path += fmt::format("M{} {}V{}", x, position_.end, speed_.begin);
       last = x;
     }
     out_.empty("path", {{"class", "mark"}, {"d", path}});
+    Labels labels;
     for (std::size_t i = 0, next = 0; i < marks_.size(); i = next) {
       const double x = time_.at(marks_[i].ms);
       for (next = i; next < marks_.size() && time_.at(marks_[next].ms) - x < label_room;) ++next;
-      const std::string first = std::to_string(i + 1);
-      write_label(out_, x, numbers_base, "x",
-                  next == i + 1 ? first : fmt::format("{}-{}", first, next));
+      labels.emplace_back(x,
+                          next == i + 1 ? std::to_string(next) : fmt::format("{}-{}", i + 1, next));
     }
+    write_row(out_, numbers_base, labels);
+  }
+
+  /// What this line alone needs.
+  static std::vector<Sample> drawn(std::vector<Sample> samples, double Sample::*what) {
+    for (Sample& one : samples) (what == &Sample::speed ? one.position : one.speed) = 0;
+    return thinned(samples, most_drawn, finest_drawn);
   }
 
   void write_lines(const Side& side, double Sample::*what) {
     for (const AxisTrace& axis : axes_) {
       std::string points;
-      for (const Sample& one : axis.samples) {
+      for (const Sample& one : drawn(axis.samples, what)) {
         const double x = std::clamp(time_.at(ms(one.time)), time_.begin, time_.end);
-        points +=
-            fmt::format("{}{},{}", points.empty() ? "" : " ", units(x), units(side.at(one.*what)));
+        points += fmt::format("{}{},{}", points.empty() ? "" : " ", units(std::round(x)),
+                              units(side.at(one.*what)));
       }
       out_.empty("polyline", {{"class", colour(axis)}, {"points", points}});
     }
@@ -266,7 +298,7 @@ class Motion {
       if (marks_.empty()) return;
       out_.element("ol", {}, [&] {
         for (std::size_t i = 0; i < std::min(marks_.size(), most_listed); ++i)
-          out_.element("li", {}, fmt::format("{:.1f} ms {}", marks_[i].ms, marks_[i].what));
+          out_.element("li", {}, fmt::format("{} ms {}", units(marks_[i].ms), marks_[i].what));
       });
       if (marks_.size() > most_listed)
         out_.text(fmt::format("... and {} more", text::grouped(marks_.size() - most_listed)));
@@ -278,7 +310,6 @@ class Motion {
   Time zero_;
   std::vector<Mark> marks_;
   Side time_, position_, speed_;
-  std::string what_;
 };
 
 // ---- token ----
@@ -315,15 +346,18 @@ void write_turns(HtmlWriter& out, const NetTrace& net, Time zero) {
   out.element("figure", {{"class", "trace"}}, [&] {
     write_picture(out, bottom + 24, what, [&] {
       write_times(out, time, top, bottom);
+      write_steps(out, [&] {
+        for (const auto& [station, band] : bands)
+          out.element("text", {{"y", units(middle(station))}}, std::to_string(station));
+      });
       for (const auto& [station, band] : bands) {
-        write_label(out, plot_left - 6, middle(station) + 4, "y", std::to_string(station));
         out.empty("path", {{"class", "had"}, {"d", band.had}});
         if (!band.carried.empty()) out.empty("path", {{"class", "carried"}, {"d", band.carried}});
       }
     });
     out.element(
         "figcaption", {},
-        fmt::format("net {}: the station that has the token, darker where it carries", net.net));
+        fmt::format("net {}: the station that has the token, stronger where it carries", net.net));
   });
 }
 

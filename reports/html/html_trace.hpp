@@ -8,7 +8,7 @@ namespace fieldproof::html {
 
 /// <figure>s: position above speed over one axis of time, one colour an axis of the motion bus,
 /// limits dashed, events as numbered marks that a list below explains; a band for each station of a
-/// net, darker where it carried. Times are those of the monitor. Nothing where there is no trace.
+/// net, stronger where it carried. Times are those of the monitor. Nothing where there is no trace.
 void write_trace(HtmlWriter& out, const results::CaseResult& result);
 
 }  // namespace fieldproof::html

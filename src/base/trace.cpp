@@ -11,8 +11,6 @@ namespace {
 
 using Sample = AxisTrace::Sample;
 
-constexpr double missed_at_most = 1e-3;  // of the range: less than a picture shows
-
 /// A stretch between two kept samples, and the one in it that the straight line misses most.
 struct Stretch {
   std::size_t first = 0, last = 0, worst = 0;
@@ -30,15 +28,15 @@ Stretch stretch(const std::vector<Sample>& all, std::size_t first, std::size_t l
   for (std::size_t i = first + 1; i < last; ++i)
     for (const auto what : {&Sample::position, &Sample::speed}) {
       const double line = line_at(all[i].time, all[first], all[last], what);
-      const double missed = range.*what > 0 ? std::abs(all[i].*what - line) / range.*what : 0;
-      if (missed > one.missed) one.worst = i, one.missed = missed;
+      const double off = range.*what > 0 ? std::abs(all[i].*what - line) / range.*what : 0;
+      if (off > one.missed) one.worst = i, one.missed = off;
     }
   return one;
 }
 
 }  // namespace
 
-std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t most) {
+std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t most, double missed) {
   if (samples.size() < 3) return samples;
   std::set<std::size_t> kept{0, samples.size() - 1};
   Sample range;
@@ -51,7 +49,7 @@ std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t most
   std::priority_queue<Stretch> open;
   for (auto at = kept.begin(); std::next(at) != kept.end(); ++at)
     open.push(stretch(samples, *at, *std::next(at), range));
-  while (kept.size() < most && !open.empty() && open.top().missed > missed_at_most) {
+  while (kept.size() < most && !open.empty() && open.top().missed > missed) {
     const Stretch worst = open.top();
     open.pop();
     kept.insert(worst.worst);

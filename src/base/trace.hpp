@@ -50,8 +50,8 @@ struct Trace {
 };
 
 /// First, last and extreme samples stay, then those that the straight lines between the kept ones
-/// miss most, until a thousandth of the range is missed nowhere, or `most` are kept (six at least).
+/// miss most, until `missed` of the range is missed nowhere, or `most` are kept (six at least).
 std::vector<AxisTrace::Sample> thinned(const std::vector<AxisTrace::Sample>& samples,
-                                       std::size_t most);
+                                       std::size_t most, double missed = 1e-3);
 
 }  // namespace fieldproof

@@ -121,9 +121,9 @@ class Axis {
   bool may_start();
   bool may_go(double target, double speed, double ms);
   double present_speed() const;
-  void publish();
+  void publish(double speed);
   void publish_pulses();
-  void record(Duration period);
+  void record(double speed, Duration period);
   void note_edges(const Signals& now);
   std::vector<AxisTrace::Limit> limits() const;
   void expect(const Register& setting, double value);

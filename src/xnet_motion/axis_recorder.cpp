@@ -7,6 +7,7 @@ namespace fieldproof::xnet {
 
 namespace {
 constexpr std::size_t most_kept = 1024, most_shown = 300, most_events = 100;
+constexpr double least_way = 1e-3;  // pulses
 }  // namespace
 
 void AxisRecorder::begin(const Sample& one) {
@@ -15,21 +16,29 @@ void AxisRecorder::begin(const Sample& one) {
   extremes_.fill(one);
 }
 
+/// Nor does a stretch of one speed cost more than its ends.
 void AxisRecorder::change(const Sample& one, Duration period) {
   if (samples_.empty()) samples_.push_back(last_);
   // A quiet axis is not looked at: it stood until the period before.
   const Time before = one.time - period;
-  if (before > last_.time) keep({before, last_.position, last_.speed});
-  keep(one);
+  const double due = last_.position + last_.speed * std::chrono::duration<double>(period).count();
+  const bool steady =
+      before <= last_.time && one.speed == last_.speed && std::abs(one.position - due) < least_way;
+  if (!steady) {
+    if (steady_) keep(last_);
+    if (before > last_.time) keep({before, last_.position, last_.speed});
+    keep(one);
+  }
+  steady_ = steady;
   last_ = one;
-  if (one.position < extremes_[0].position) extremes_[0] = one;
-  if (one.position > extremes_[1].position) extremes_[1] = one;
-  if (one.speed < extremes_[2].speed) extremes_[2] = one;
-  if (one.speed > extremes_[3].speed) extremes_[3] = one;
 }
 
 /// Each time that they are too many, every other one goes, and half as many come.
 void AxisRecorder::keep(const Sample& one) {
+  if (one.position < extremes_[0].position) extremes_[0] = one;
+  if (one.position > extremes_[1].position) extremes_[1] = one;
+  if (one.speed < extremes_[2].speed) extremes_[2] = one;
+  if (one.speed > extremes_[3].speed) extremes_[3] = one;
   if (changes_++ % stride_ != 0) return;
   samples_.push_back(one);
   if (samples_.size() < most_kept) return;

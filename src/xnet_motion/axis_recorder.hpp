@@ -35,7 +35,7 @@ class AxisRecorder {
   void change(const Sample& one, Duration period);
   void keep(const Sample& one);
 
-  bool begun_ = false;
+  bool begun_ = false, steady_ = false;
   Time now_{};
   Sample last_;                  // change
   std::vector<Sample> samples_;  // each stride_-th change

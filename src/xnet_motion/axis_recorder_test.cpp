@@ -22,6 +22,20 @@ TEST(AxisRecorder, StandingCostsNoSample) {
   EXPECT_EQ(samples[3].time, 1s);
 }
 
+TEST(AxisRecorder, OneSpeedCostsItsEndsAlone) {
+  AxisRecorder recorder;
+  for (int i = 0; i <= 4000; ++i) {  // far more than are kept
+    recorder.tell(i * refresh);
+    recorder.add(std::min(i, 3000) * 3.0, i > 0 && i < 3000 ? 1000 : 0, refresh);
+  }
+  recorder.tell(4001 * refresh);
+  recorder.add(12, 0, refresh);
+  std::vector<Time> times;
+  for (const AxisTrace::Sample& one : recorder.samples(13s))
+    times.push_back(one.time / refresh * 1ns);
+  EXPECT_THAT(times, testing::ElementsAre(0ns, 1ns, 2999ns, 3000ns, 4000ns, 4001ns, 4333ns));
+}
+
 TEST(AxisRecorder, WhoIsGivenAnotherPositionDidNotMove) {
   AxisRecorder recorder;
   recorder.add(0, 0, refresh);
@@ -36,7 +50,7 @@ TEST(AxisRecorder, AnHourStaysSmallAndKeepsExtremes) {
   double position = 0;
   constexpr int periods = 1'200'000;  // an hour
   for (int i = 0; i <= periods; ++i) {
-    const double speed = i == 777'777 ? 9000 : i / 2000 % 2 ? -1000 : 1000;
+    const double speed = i == 777'777 ? 9000 : (i / 2000 % 2 ? -1000 : 1000) + i % 7;
     position += speed * 0.003;
     recorder.tell(i * refresh);
     recorder.add(position, speed, refresh);

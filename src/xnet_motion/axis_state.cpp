@@ -29,8 +29,9 @@ void Axis::refresh(Time now, Duration period, bool run, unsigned slaves) {
   if (run) look_at_coils(now);
   look_at_settings(now);
   move_on(now);
-  publish();
-  record(period);
+  const double speed = present_speed();
+  publish(speed);
+  record(speed, period);
   const bool wants_more = registers_.on(reg::full_loop) != in_loop_ ||
                           (registers_.on(reg::enable) && !enabled_ && right_ && !refused_);
   quiet_ = doing_ == Doing::nothing && !bound_ && !in_loop_ && !loop_turns_ && changes_.empty() &&
@@ -285,14 +286,14 @@ double Axis::present_speed() const {
   return stands ? 0 : state_.speed;
 }
 
-void Axis::publish() {
+void Axis::publish(double speed) {
   registers_.set(reg::status, !right_ ? 0 : enabled_ ? 2 : 1);
   registers_.set(reg::enabled, enabled_);
   registers_.set(reg::running, is_moving());
   registers_.set(reg::bound, bound_);
   registers_.set(reg::position, feedback_);
   registers_.set(reg::offset, feedback_ - start_);
-  registers_.set(reg::speed, present_speed());
+  registers_.set(reg::speed, speed);
   registers_.set(reg::set_speed, state_.speed);
   if (doing_ == Doing::segments) registers_.set(reg::segment, static_cast<double>(segment_ + 1));
   const bool fed_back =
@@ -318,10 +319,9 @@ void Axis::note(Time now, std::string what) {
   recorder_.note(std::move(what));
 }
 
-void Axis::record(Duration period) {
-  const bool moved = recorder_.has_moved();
-  recorder_.add(feedback_, present_speed(), period);
-  if (!moved && recorder_.has_moved()) limits_ = limits();
+void Axis::record(double speed, Duration period) {
+  if (speed != 0 && !recorder_.has_moved()) limits_ = limits();
+  recorder_.add(feedback_, speed, period);
 }
 
 void Axis::note_edges(const Signals& now) {
@@ -347,8 +347,8 @@ std::vector<AxisTrace::Limit> Axis::limits() const {
     const Terminal where = terminal(role);
     for (const Switch& one : servo_.switches) {
       if (!where.input || one.terminal != *where.input) continue;
-      const auto [from, to] = std::minmax(sign * one.from - machine_, sign * one.to - machine_);
-      found.push_back({name, from, to});
+      const double one_end = sign * one.from - machine_, other = sign * one.to - machine_;
+      found.push_back({name, std::min(one_end, other), std::max(one_end, other)});
     }
   };
   add(reg::min_terminal, "min limit switch");
