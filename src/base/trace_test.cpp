@@ -50,6 +50,16 @@ TEST(Thinned, KeepsFirstLastAndExtremes) {
   }
 }
 
+TEST(Thinned, KeepsTheExtremeOfManyAlike) {
+  std::vector<Sample> all;
+  for (int i = 0; i < 100; ++i) all.push_back({i * 3ms, 0, i % 2 ? 100.0 : -100.0});
+  all[77].speed = 100.5;
+  all[42].speed = -100.5;
+  const std::vector<Sample> few = thinned(all, 6);
+  EXPECT_EQ(std::ranges::max(few, {}, &Sample::speed).speed, 100.5);
+  EXPECT_EQ(std::ranges::min(few, {}, &Sample::speed).speed, -100.5);
+}
+
 TEST(Thinned, NothingMovesInTwoSamples) {
   EXPECT_TRUE(thinned({}, 10).empty());
   EXPECT_EQ(thinned(std::vector<Sample>(500), 10).size(), 2u);
