@@ -81,6 +81,8 @@ TEST(HtmlTrace, ForeignTracesAreDrawnToo) {
   EXPECT_EQ(pictures(result).count("//figure"), 0u);
   result.trace.axes = {{"1", {}, {}, {}}, {"2", {{1ms, 7, 7}}, {}, {}}};
   result.trace.nets = {{1, {}}, {2, {{1, 5ms, 5ms, 0ns}}}};
+  result.trace.axes.push_back({"3", {{2ms, 1e308, -1e308}, {1ms, -1e308, 1e308}}, {}, {}});
+  result.trace.axes.push_back({"4", {{2ms, 1e17, 0}}, {}, {{"wide", -1e300, 1e300}}});
   EXPECT_EQ(pictures(result).count("//figure"), 2u);
 }
 
