@@ -101,6 +101,9 @@ void add_run(CLI::App& app, run::RunOptions& run) {
                  "HTML file, instead of OUT/report.html; with --qualify it holds a sheet to sign");
   app.add_option("--capture", run.capture,
                  "The traffic as pcapng for Wireshark; Modbus RTU: tshark -d rtacser.data,mbrtu");
+  app.add_option("--csv", run.csv,
+                 "Folder of tables of what a model did, a file a case: how axes moved, and who had "
+                 "the token");
   app.add_option("--waivers", run.waivers,
                  "JSON file of accepted failures: id, reason, owner, text, expires, firmware");
   app.add_option("--baseline", run.baseline,
@@ -335,12 +338,13 @@ int run_tool(int argc, char** argv) {
   cli::ReportOptions report;
   CLI::App* report_app = app.add_subcommand(
       "report",
-      "Derive JUnit, JSON, HTML and a capture from the results of a run, finished or killed");
+      "Derive JUnit, JSON, HTML, tables and a capture from the results of a run, finished or killed");
   report_app->add_option("results", report.ndjson, "OUT/results.ndjson")->required();
   report_app->add_option("--junit", report.junit);
   report_app->add_option("--json", report.json);
   report_app->add_option("--html", report.html);
   report_app->add_option("--capture", report.capture, "pcapng for Wireshark");
+  report_app->add_option("--csv", report.csv, "Folder of tables of what a model did");
 
   cli::CompareOptions compare;
   CLI::App* compare_app =

@@ -84,6 +84,7 @@ Rejudge::Outcome Rejudge::judge(const results::CaseResult& recorded) {
   result.seconds = recorded.seconds;
   result.exchange = recorded.exchange;
   result.recording = recorded.recording;
+  result.trace = recorded.trace;
   readings_.note(result);
   return outcome;
 }

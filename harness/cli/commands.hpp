@@ -68,7 +68,7 @@ struct ErrataOptions {
 int errata_command(const ErrataOptions& options, const harness::Protocols& protocols);
 
 struct ReportOptions {
-  std::string ndjson, junit, json, html, capture;
+  std::string ndjson, junit, json, html, capture, csv;
 };
 int report_command(const ReportOptions& options);
 

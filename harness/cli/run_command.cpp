@@ -397,6 +397,7 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
       run::make_report_paths(options.out, options.json, options.junit, options.html);
   if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
   if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
+  if (!options.csv.empty()) paths->emplace_back("csv", options.csv);
   if (const Status opened = run::open_journals(options, *plan); !opened)
     return run::complain(opened.error().message, run::exit_code::usage);
   const Result<std::vector<run::Fixtures>> fixtures = run::open_fixtures(*plan);
@@ -410,11 +411,13 @@ int report_command(const ReportOptions& options) {
   run::ReportPaths reports{{"junit", options.junit},
                            {"json", options.json},
                            {"html", options.html},
-                           {"capture", options.capture}};
+                           {"capture", options.capture},
+                           {"csv", options.csv}};
   std::erase_if(reports, [](const auto& one) { return one.second.empty(); });
   if (reports.empty())
     return run::complain(
-        "nothing to write; give --junit FILE, --json FILE, --html FILE, --capture FILE or several",
+        "nothing to write; give --junit FILE, --json FILE, --html FILE, --capture FILE, --csv "
+        "FOLDER or several",
         run::exit_code::usage);
   results::Sinks sinks = run::sinks_for(reports);
   if (const auto log = results::replay(options.ndjson, sinks); !log)

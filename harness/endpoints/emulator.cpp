@@ -204,6 +204,10 @@ Status EmulatorEndpoint::act(std::string_view action) {
   return devices_.front()->act(action);
 }
 
+Trace EmulatorEndpoint::trace() const {
+  return devices_.empty() ? Trace() : devices_.front()->trace();
+}
+
 std::string EmulatorEndpoint::line_errors() {
   const line::LineErrors errors = ways_.line().take_errors();
   std::string text;

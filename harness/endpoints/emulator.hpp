@@ -55,6 +55,7 @@ class EmulatorEndpoint : public Endpoint {
   Status set(std::string_view address, std::string_view hex) override;
   Result<std::string> get(std::string_view address, std::size_t digits) override;
   Status act(std::string_view action) override;
+  Trace trace() const override;
   /// "2 parity errors, 1 framing error" that the bench's receiver has counted.
   std::string line_errors() override;
 

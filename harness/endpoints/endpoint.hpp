@@ -10,6 +10,7 @@
 #include "src/base/bytes.hpp"
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
+#include "src/base/trace.hpp"
 #include "src/line/device.hpp"
 
 namespace fieldproof::harness {
@@ -74,6 +75,8 @@ class Endpoint {
   virtual Status set(std::string_view address, std::string_view hex);
   virtual Result<std::string> get(std::string_view address, std::size_t digits);
   virtual Status act(std::string_view action);
+  /// What moved since the case began, and who had the token (EmulatedDevice::trace).
+  virtual Trace trace() const { return {}; }
 
   /// A line to the standard input of the device under test, where the endpoint has started it
   /// (`--stimulus -`).

@@ -34,6 +34,7 @@ class Forwarding : public Endpoint {
     return to_.get(address, digits);
   }
   Status act(std::string_view action) override { return to_.act(action); }
+  Trace trace() const override { return to_.trace(); }
   Status tell(std::string_view line) override { return to_.tell(line); }
   std::string answer(Duration patience) override { return to_.answer(patience); }
   std::string line_errors() override { return to_.line_errors(); }

@@ -23,11 +23,20 @@ std::string why_dead(Sign sign) {
 }  // namespace
 
 void CaseRun::finish() {
+  take_trace();
   const bool heard = transcript_.trouble || prepared_.runs_by_clock();  // it goes on asking
   const bool alive = heard || hear_the_rest();
   if (!prepared_.runs_by_clock()) links_.leave_over();
   close_links();
   if (!alive && !transcript_.trouble) look_for_life();
+}
+
+/// Before what still belongs to the case is waited for. Who has the token matters to its timing.
+void CaseRun::take_trace() {
+  const std::string& kind = prepared_.source->on_model;
+  if (kind.empty()) return;
+  transcript_.trace = around_.device.endpoint->trace();
+  if (kind != "timing") transcript_.trace.nets.clear();
 }
 
 /// False: the device has not shown that it lives, although it was asked.

@@ -72,6 +72,7 @@ class CaseRun {
   void settle_before_look();
   void borrow_idle_link();
 
+  void take_trace();
   bool probe(Link& link, std::optional<int> step);
   bool hear_the_rest();
   bool probe_links();

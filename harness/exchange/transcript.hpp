@@ -27,9 +27,10 @@ struct Transcript {
   using Events = std::list<results::Event>;
   Events events;                  // frame monitor, in the order of time
   std::vector<StepRecord> steps;  // one a step as far as the case went
-  bool flooded = false;  // the device sends without end, be it fast or slowly
-  std::string dead;              // set when nothing answered after the case
-  std::optional<Error> trouble;  // the port failed, or Ctrl-C
+  Trace trace;                    // of a model
+  bool flooded = false;           // the device sends without end, be it fast or slowly
+  std::string dead;               // set when nothing answered after the case
+  std::optional<Error> trouble;   // the port failed, or Ctrl-C
 };
 
 /// Bytes with the moments at which they came.

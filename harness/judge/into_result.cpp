@@ -77,6 +77,7 @@ void take_exchange(const exchange::Transcript& transcript, std::size_t longest_f
       event.text = in_notation(event.bytes, event.extract);
     result.exchange.push_back(std::move(event));
   }
+  result.trace = transcript.trace;
 }
 
 }  // namespace fieldproof::judging

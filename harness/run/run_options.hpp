@@ -14,7 +14,7 @@ struct RunOptions {
   std::string vectors;   // empty: the tool's own
   std::string out = "fieldproof-out";
   std::string junit, json, html;  // empty: in `out`
-  std::string capture;            // empty: none
+  std::string capture, csv;       // empty: none
   std::string bench;              // bench file
   std::vector<std::string> duts;  // devices of it; several share the cases
   std::string journal;            // empty: in `out`

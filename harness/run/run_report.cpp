@@ -10,6 +10,7 @@
 #include "harness/run/exit_code.hpp"
 #include "harness/run/timestamp.hpp"
 #include "reports/capture.hpp"
+#include "reports/csv.hpp"
 #include "reports/html/html.hpp"
 #include "reports/json_report.hpp"
 #include "reports/junit.hpp"
@@ -51,6 +52,7 @@ Sinks sinks_for(const ReportPaths& paths) {
     if (kind == "json") sinks.attach(reports::json_report(path));
     if (kind == "html") sinks.attach(html::html_report(path));
     if (kind == "capture") sinks.attach(reports::capture_report(path));
+    if (kind == "csv") sinks.attach(reports::csv_report(path));
   }
   // The last, so that it tells which of the others could not be written: CI reads it as the gate.
   for (const auto& [kind, path] : paths)

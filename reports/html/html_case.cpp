@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reports/html/html_page.hpp"
+#include "reports/html/html_trace.hpp"
 #include "reports/text/case_text.hpp"
 #include "reports/text/frame_cells.hpp"
 #include "reports/text/tally.hpp"
@@ -136,8 +137,8 @@ class Monitor {
     // A large frame need not become a large table of cells before it is cut.
     const ByteView shown =
         ByteView(event.bytes).first(std::min(event.bytes.size(), block_frame_limit));
-    row(judged ? "judged" : direction(event.kind).word,
-        event.start - result_.exchange.front().start, gap, direction(event.kind), event.text,
+    row(judged ? "judged" : direction(event.kind).word, event.start - results::shown_from(result_),
+        gap, direction(event.kind), event.text,
         judged && judged_ ? judged_->received : text::cells_of(shown),
         whole(event.bytes.size(), event.extract));
     if (is_frame) last_end_ = event.end;
@@ -215,7 +216,7 @@ void write_remarks(HtmlWriter& out, const CaseResult& result) {
 
 }  // namespace
 
-void write_pass_line(HtmlWriter& out, const CaseResult& result) {
+void write_pass_line(HtmlWriter& out, const CaseResult& result, bool pictures) {
   out.element("tr", {}, [&] {
     out.element("th", {{"title", text::shorten(result.title, {.limit = line_bytes_limit})}},
                 text::case_label(result));
@@ -237,6 +238,11 @@ void write_pass_line(HtmlWriter& out, const CaseResult& result) {
       if (!result.dut.empty()) out.element("small", {{"class", "dut"}}, result.dut);
       for (const std::string& note : result.notes)
         out.element("small", {}, text::shorten(note, {.limit = line_bytes_limit}));
+      if (pictures && !result.trace.empty())
+        out.element("details", {}, [&] {
+          out.element("summary", {}, result.trace.axes.empty() ? "token" : "motion");
+          write_trace(out, result);
+        });
     });
     const auto& times = result.response_ms;
     out.element(
@@ -270,6 +276,7 @@ void write_case_block(HtmlWriter& out, const CaseResult& result, bool open, cons
     out.element("p", {{"class", "title"}}, text::shorten(result.title, limits));
     write_clause(out, result);
     write_differences(out, result);
+    write_trace(out, result);
     Monitor(out, result).write();
     write_remarks(out, result);
   };

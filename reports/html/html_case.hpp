@@ -15,8 +15,8 @@ inline constexpr std::size_t block_frame_limit = 2048;
 inline constexpr std::size_t line_bytes_limit = 128;
 
 /// A row of a table: label, the bytes as they went over the line, milliseconds. Titles are
-/// tooltips.
-void write_pass_line(HtmlWriter& out, const results::CaseResult& result);
+/// tooltips. `pictures`: of what a model did, behind a click.
+void write_pass_line(HtmlWriter& out, const results::CaseResult& result, bool pictures = true);
 
 /// A row of a table: verdict, label, and what is to be said of it in one line. `link` leads to its
 /// block.

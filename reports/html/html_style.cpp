@@ -108,6 +108,21 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .grid{stroke:var(--rule)}
 .limit{stroke:var(--bad);stroke-width:1.5;stroke-dasharray:4 3}
 
+.trace{max-width:760px;margin:10px 0}
+.trace svg{display:block;width:100%;overflow:visible}
+.trace text{fill:var(--ink);font:12px system-ui,"Segoe UI",Arial,sans-serif}
+.trace .x,.trace .y text,.trace .end{fill:var(--soft);text-anchor:end}
+.trace .x{text-anchor:middle}
+.trace polyline{fill:none;stroke:var(--a);stroke-width:1.8;stroke-linejoin:round}
+.trace .mark{stroke:var(--soft);stroke-dasharray:1 3}
+.trace .on{fill:var(--bad);opacity:.08}
+.trace figcaption{color:var(--soft);font:12.5px/1.5 system-ui,"Segoe UI",Arial,sans-serif}
+.trace figcaption b{margin-right:6px;padding-left:6px;border-left:12px solid var(--a);color:var(--ink)}
+.trace ol{columns:2 240px;column-gap:44px;margin:4px 0;padding-left:28px}
+.had,.carried{stroke:var(--link);stroke-width:16}
+.had{opacity:.3}
+.a0{--a:#3b82d6}.a1{--a:#d9822b}.a2{--a:#17988f}.a3{--a:#9a5fd0}.a4{--a:#d24d8a}.a5{--a:#84931f}
+
 .list td,.list th{border-bottom:1px solid var(--rule)}
 .list .num{padding-right:20px}
 .ids{color:var(--soft)}
@@ -144,6 +159,7 @@ h1{font-size:24px}
 .timing thead th:nth-child(n+3),.timing td:nth-child(n+4){display:none}
 .timing .plot{width:60%}
 .facts th{width:100px}
+.trace text{font-size:18px}
 }
 @media print{
 :root{--paper:#fff;--ink:#000;--soft:#444;--rule:#bbb;--tint:#f4f4f4;--good:#17703a;--good-tint:#eef7f0;--bad:#b3201b;--bad-tint:#fdf0ef;--warn:#8a5a00;--warn-tint:#fff8e6;--cool:#3b5b8c;--cool-tint:#eef2f9;--mark:#ffd9d6;--link:#0757b3}

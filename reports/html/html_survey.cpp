@@ -74,7 +74,9 @@ void HtmlSurveyor::add(const CaseResult& result) {
   SectionReport& section = survey_.sections[{result.manual, result.section}];
   section.tally.add(result.verdict);
   if (result.verdict == Verdict::pass)
-    add_line(section, section.passes, [&](HtmlWriter& out) { write_pass_line(out, result); });
+    add_line(section, section.passes, [&](HtmlWriter& out) {
+      write_pass_line(out, result, result.trace.empty() || fits(pictures_, html_picture_limit));
+    });
   else if (unexecuted(result.verdict))
     add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
   else if (gates(result.verdict, gate_) && !unjudged(result.verdict))

@@ -67,6 +67,8 @@ struct HtmlSurvey {
 /// Blocks and lines that one report holds; more are only counted.
 inline constexpr std::size_t html_block_limit = 500;
 inline constexpr std::size_t html_line_limit = 20'000;
+/// Pictures of lines; blocks have theirs.
+inline constexpr std::size_t html_picture_limit = 1000;
 
 /// Gathers it.
 class HtmlSurveyor {
@@ -87,7 +89,7 @@ class HtmlSurveyor {
   results::Gate gate_;
   HtmlSurvey survey_;
   std::map<std::string, text::Tally> by_id_;
-  std::size_t lines_ = 0, red_blocks_ = 0, other_blocks_ = 0;
+  std::size_t lines_ = 0, red_blocks_ = 0, other_blocks_ = 0, pictures_ = 0;
 };
 
 }  // namespace fieldproof::html

@@ -1,5 +1,8 @@
 #include "reports/results/case_result.hpp"
 
+#include <algorithm>
+#include <optional>
+
 namespace fieldproof::results {
 
 std::string_view to_string(Event::Kind kind) {
@@ -12,6 +15,17 @@ std::string_view to_string(Event::Kind kind) {
     case Event::Kind::note: break;
   }
   return "note";
+}
+
+Time shown_from(const CaseResult& result) {
+  std::optional<Time> first;
+  const auto consider = [&](Time at) { first = std::min(first.value_or(at), at); };
+  if (!result.exchange.empty()) consider(result.exchange.front().start);
+  for (const AxisTrace& axis : result.trace.axes)
+    if (!axis.samples.empty()) consider(axis.samples.front().time);
+  for (const NetTrace& net : result.trace.nets)
+    if (!net.turns.empty()) consider(net.turns.front().from);
+  return first.value_or(Time{});
 }
 
 Identity in_common(Identity a, const Identity& b) {

@@ -12,6 +12,7 @@
 #include "reports/results/verdict.hpp"
 #include "src/base/burst.hpp"
 #include "src/base/result.hpp"
+#include "src/base/trace.hpp"
 
 namespace fieldproof::results {
 
@@ -100,8 +101,8 @@ struct CaseResult {
   int rev = 1;
   std::string protocol;  // "xgt-cnet"
   std::string title;
-  std::string level;  // must, should, info
-  std::string basis;  // printed frame, printed rule, derived, decision
+  std::string level;     // must, should, info
+  std::string basis;     // printed frame, printed rule, derived, decision
   std::string on_model;  // not on a wire: instruction, register, configuration, timing; else empty
   std::string manual, section, quote;
 
@@ -117,11 +118,15 @@ struct CaseResult {
   std::vector<Difference> differences;
   std::vector<Event> exchange;
   Recording recording;
+  Trace trace;                                  // of a model; its times are those of the exchange
   std::map<std::string, std::string> readings;  // named alternatives taken: type_echo = upper
   std::vector<double> response_ms;              // request's last byte to reply's first, each expect
   double seconds = 0;                           // wall clock
   std::string replay;                           // command that runs just this case again
 };
+
+/// What its times are shown from: the beginning of its exchange.
+Time shown_from(const CaseResult& result);
 
 /// Which device it is, as the engineer entered it: no command of these protocols reads it from the
 /// device.

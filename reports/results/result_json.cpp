@@ -15,6 +15,55 @@ static void from_word(std::string_view word, Transport& transport) {
   transport = word == "udp" ? Transport::udp : Transport::tcp;
 }
 
+// ---- fields of a trace
+
+using results::Of;
+
+void fields(auto& json, Of<AxisTrace::Sample> auto& sample) {
+  json.must("ms", sample.time);
+  json.must("position", sample.position);
+  json.must("speed", sample.speed);
+}
+
+void fields(auto& json, Of<AxisTrace::Event> auto& event) {
+  json.must("ms", event.time);
+  json.must("what", event.what);
+}
+
+void fields(auto& json, Of<AxisTrace::Limit> auto& limit) {
+  json.must("from", limit.from);
+  json.must("name", limit.name);
+  json.must("to", limit.to);
+}
+
+void fields(auto& json, Of<AxisTrace> auto& axis) {
+  json.must("axis", axis.axis);
+  json.may("events", axis.events);
+  json.may("limits", axis.limits);
+  json.must("samples", axis.samples);
+}
+
+void fields(auto& json, Of<TokenTurn> auto& turn) {
+  json.may("busy_ms", turn.busy);
+  json.must("from_ms", turn.from);
+  json.must("station", turn.station);
+  json.must("to_ms", turn.to);
+}
+
+void fields(auto& json, Of<NetTrace> auto& net) {
+  json.must("net", net.net);
+  json.must("turns", net.turns);
+}
+
+void fields(auto& json, Of<Trace> auto& trace) {
+  json.may("axes", trace.axes);
+  json.may("nets", trace.nets);
+}
+
+template <typename T>
+requires requires(results::FieldReader& reader, T& value) { fields(reader, value); }
+void from_json(const nlohmann::json& json, T& value) { results::read_fields(json, value); }
+
 }  // namespace fieldproof
 
 namespace fieldproof::results {
@@ -119,6 +168,7 @@ void fields(auto& json, Of<CaseResult> auto& result) {
   json.always("seconds", result.seconds);
   json.may("section", result.section);
   json.always("title", result.title);
+  json.may("trace", result.trace);
   json.must("verdict", result.verdict);
 }
 

@@ -43,6 +43,11 @@ CaseResult full_result() {
                      {Event::Kind::note, 5ms, 5ms, {}, "silence until 1000.0 ms"}};
   result.exchange[1].extract = {2000, {0x07, 0x08}, std::string(64, 'b')};
   result.recording.stimulus = "0123456789abcdef";
+  result.trace.axes = {{"B:1",
+                        {{1ms, 0, 0}, {4ms, 12.5, -5000}},
+                        {{1ms, "MOTO 10000 5000 50"}},
+                        {{"min limit switch", -400, -300}}}};
+  result.trace.nets = {{1, {{2, 0ns, 10ms, 6ms}, {3, 10ms, 20ms, 0ns}}}};
   result.readings = {{"type_echo", "upper"}};
   result.response_ms = {0.765434, 12};
   result.seconds = 0.125;
@@ -70,6 +75,11 @@ TEST(CaseResultJson, EveryFieldComesBack) {
   EXPECT_EQ(result.exchange[0].bytes, again.exchange[0].bytes);
   EXPECT_EQ(result.exchange[1].extract, again.exchange[1].extract);
   EXPECT_EQ(result.received_extract, again.received_extract);
+  ASSERT_EQ(1u, again.trace.axes.size());
+  EXPECT_EQ("B:1", again.trace.axes[0].axis);
+  EXPECT_EQ(-5000, again.trace.axes[0].samples.at(1).speed);
+  EXPECT_EQ(4ms, again.trace.axes[0].samples[1].time);
+  EXPECT_EQ(6ms, again.trace.nets.at(0).turns.at(0).busy);
   EXPECT_EQ(result.readings, again.readings);
   EXPECT_EQ(result.response_ms, again.response_ms);
   EXPECT_EQ(0.125, again.seconds);
@@ -102,9 +112,9 @@ TEST(CaseResultJson, NoFieldIsForgotten) {
   // then extend it, full_result() and `fields`.
   const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, on_model, manual, section,
                quote, verdict, message, notes, expected, expected_bytes, expected_hex, received,
-               received_bytes, received_extract, differences, exchange, recording, readings,
+               received_bytes, received_extract, differences, exchange, recording, trace, readings,
                response_ms, seconds, replay] = full_result();
-  EXPECT_EQ(29u, as_json(full_result()).size());
+  EXPECT_EQ(30u, as_json(full_result()).size());
 }
 
 TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
@@ -137,6 +147,8 @@ TEST(CaseResultJson, ForeignShapesThrow) {
   EXPECT_THROW(
       read(R"({"id":"a/b","verdict":"PASS","exchange":[{"kind":"note","start_ms":1e300}]})"),
       json::exception);
+  EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","trace":{"axes":[{"axis":"1"}]}})"),
+               json::exception);
   EXPECT_THROW(read("[]"), json::exception);
   EXPECT_THROW(read("null"), json::exception);
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "src/base/result.hpp"
+#include "src/base/trace.hpp"
 #include "src/line/device.hpp"
 #include "src/net/host.hpp"
 #include "src/plc/bus_end.hpp"
@@ -36,6 +37,9 @@ class EmulatedDevice {
 
   /// "run", "stop" or "power_cycle".
   virtual Status act(std::string_view action) = 0;
+
+  /// What moved since it was made, and who had the token; of devices on a wire nothing.
+  virtual Trace trace() const { return {}; }
 };
 
 /// A device that is one serial line and nothing else.

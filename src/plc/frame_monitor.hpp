@@ -77,6 +77,7 @@ class FrameMonitor : public EmulatedDevice, public line::Device {
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   Status act(std::string_view action) override { return device_->act(action); }
+  Trace trace() const override { return device_->trace(); }
 
  private:
   Time silent_from() const { return last_end_ + rules_.silence; }

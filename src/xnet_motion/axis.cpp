@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace fieldproof::xnet {
 
@@ -22,6 +23,7 @@ Axis::Axis(Memory& memory, Servo servo)
 }
 
 void Axis::fail(AxisError error) {
+  recorder_.note("error " + std::to_string(static_cast<int>(error)));
   registers_.set(reg::error, static_cast<int>(error));
   registers_.set(reg::error_flag, 1);
 }
@@ -240,6 +242,7 @@ void Axis::enable() {
   if (servo_.enabled_by_hand) return fail(AxisError::enabled_already);
   refused_ = false;
   enabled_ = true;
+  recorder_.note("enabled");
   registers_.set(reg::jog_step, registers_.get(reg::first_jog_step));
   registers_.set(reg::jog_speed, registers_.get(reg::first_jog_speed));
   registers_.set(reg::width, registers_.get(reg::first_width));
@@ -253,6 +256,7 @@ void Axis::enable() {
 }
 
 void Axis::disable() {
+  if (enabled_) recorder_.note("disabled");
   stop_at_once();
   enabled_ = false;
   feedback_ = published_ = state_.position = servo_.stalled ? feedback_ : state_.position;
@@ -273,6 +277,7 @@ void Axis::arrive() {
   state_ = {goal_, 0};
   path_ = Path(goal_);
   registers_.set(reg::completed, 1);
+  recorder_.note("completed");
 }
 
 void Axis::move_on(Time now) {
@@ -283,6 +288,7 @@ void Axis::move_on(Time now) {
          segment_ + 1 < segments_.size()) {
     state_ = path_.end();
     ++segment_;
+    recorder_.note("segment " + std::to_string(segment_ + 1));
     next_segment(path_.ends_at());
     state_ = path_.at(now);
   }
@@ -312,6 +318,7 @@ void Axis::keep_speed(Time now) {
 // ---- return to origin ----
 
 void Axis::home(double sign, Time now) {
+  recorder_.note(sign > 0 ? "return to origin, forward" : "return to origin, reverse");
   if (!may_start()) return;
   const Terminal origin = terminal(reg::origin_terminal), close = terminal(reg::close_terminal);
   if (!origin.input || !close.exists) return fail(AxisError::home_terminal);
@@ -358,6 +365,7 @@ void Axis::end_homing() {
   write_position(registers_.get(reg::origin));
   start_ = state_.position;
   registers_.set(reg::completed, 1);
+  recorder_.note("origin found");
 }
 
 }  // namespace fieldproof::xnet

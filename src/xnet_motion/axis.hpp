@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "src/xnet_motion/axis_recorder.hpp"
 #include "src/xnet_motion/axis_registers.hpp"
 #include "src/xnet_motion/homing.hpp"
 #include "src/xnet_motion/path.hpp"
@@ -86,6 +87,11 @@ class Axis {
   /// Power is gone and back: what is not kept in flash is as at the start.
   void restart();
 
+  /// For its picture: something is done to it now.
+  void note(Time now, std::string what);
+  /// How it moved until `now`; nothing: it did not.
+  std::optional<AxisTrace> trace(Time now) const;
+
  private:
   enum class Doing { nothing, moving, segments, jogging, homing, finding_z, at_speed };
 
@@ -114,8 +120,12 @@ class Axis {
   void begin(Doing doing);
   bool may_start();
   bool may_go(double target, double speed, double ms);
-  void publish();
+  double present_speed() const;
+  void publish(double speed);
   void publish_pulses();
+  void record(double speed, Duration period);
+  void note_edges(const Signals& now);
+  std::vector<AxisTrace::Limit> limits() const;
   void expect(const Register& setting, double value);
   void clear_error();
   /// Urgent stop, and no enable until SM2010 was off.
@@ -186,6 +196,10 @@ class Axis {
   bool in_loop_ = false;
   double loop_shift_ = 0;
   std::optional<Time> loop_turns_;
+
+  AxisRecorder recorder_;
+  std::optional<Signals> noted_;          // as it was looked at last
+  std::vector<AxisTrace::Limit> limits_;  // when it began to move
 };
 
 }  // namespace fieldproof::xnet

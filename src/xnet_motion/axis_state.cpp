@@ -1,6 +1,7 @@
 // What an axis looks at in each refresh period, and what it shows in its registers.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "src/xnet_motion/axis.hpp"
 
@@ -18,6 +19,7 @@ constexpr int no_terminal = 0xFF, inverse_x0 = -30000;
 }  // namespace
 
 void Axis::refresh(Time now, Duration period, bool run, unsigned slaves) {
+  recorder_.tell(now);
   look_at_servo(run, slaves, period);
   if (doing_ != Doing::nothing) state_ = path_.at(now);
   move_feedback();
@@ -27,7 +29,9 @@ void Axis::refresh(Time now, Duration period, bool run, unsigned slaves) {
   if (run) look_at_coils(now);
   look_at_settings(now);
   move_on(now);
-  publish();
+  const double speed = present_speed();
+  publish(speed);
+  record(speed, period);
   const bool wants_more = registers_.on(reg::full_loop) != in_loop_ ||
                           (registers_.on(reg::enable) && !enabled_ && right_ && !refused_);
   quiet_ = doing_ == Doing::nothing && !bound_ && !in_loop_ && !loop_turns_ && changes_.empty() &&
@@ -50,7 +54,10 @@ void Axis::look_at_servo(bool run, unsigned slaves, Duration period) {
   if (!is_moving()) simulates_ = registers_.on(reg::simulation);
   right_ = servo_.connected ? checked_.right : simulates_;
   if (!run) {
-    if (is_moving()) stop_at_once();
+    if (is_moving()) {
+      recorder_.note("PLC in STOP");
+      stop_at_once();
+    }
     // 2-2-8: in STOP, who changes the feedback pulses changes the position.
     const double turn = pulses_of_a_turn(), ppr = registers_.get(reg::ppr);
     const double pulses = registers_.get(reg::feedback_pulses);
@@ -134,6 +141,7 @@ Signals Axis::signals() const {
 
 void Axis::look_at_limits() {
   const Signals now = signals();
+  note_edges(now);
   const bool below = feedback_ < registers_.get(reg::min_limit);
   const bool above = feedback_ > registers_.get(reg::max_limit);
   registers_.set(reg::at_min, below || now.min);
@@ -211,10 +219,14 @@ void Axis::look_at_coils(Time now) {
   if (registers_.take(reg::jog_reverse)) jog(-1, now);
   if (registers_.take(reg::home_forward)) home(1, now);
   if (registers_.take(reg::home_reverse)) home(-1, now);
-  if (registers_.take(reg::slow_stop)) stop(0, now);
+  if (registers_.take(reg::slow_stop)) {
+    recorder_.note("decelerate and stop");
+    stop(0, now);
+  }
 }
 
 void Axis::jog(double sign, Time now) {
+  recorder_.note(sign > 0 ? "jog forward" : "jog reverse");
   if (!enabled_ || bound_ || (is_moving() && doing_ != Doing::jogging))
     return fail(AxisError::not_ready);
   const double step = registers_.get(reg::jog_step);
@@ -242,6 +254,7 @@ void Axis::look_at_settings(Time now) {
 }
 
 void Axis::apply(const Register& setting, double value, Time now) {
+  recorder_.note(std::string(setting.name) + " " + std::to_string(std::llround(value)));
   const bool free = enabled_ && !bound_ && doing_ != Doing::homing && doing_ != Doing::finding_z &&
                     doing_ != Doing::at_speed && doing_ != Doing::jogging;
   const bool in_segments = doing_ == Doing::segments;
@@ -268,15 +281,19 @@ void Axis::apply(const Register& setting, double value, Time now) {
 
 // ---- what it shows ----
 
-void Axis::publish() {
+double Axis::present_speed() const {
   const bool stands = servo_.stalled || !enabled_ || is_held();
+  return stands ? 0 : state_.speed;
+}
+
+void Axis::publish(double speed) {
   registers_.set(reg::status, !right_ ? 0 : enabled_ ? 2 : 1);
   registers_.set(reg::enabled, enabled_);
   registers_.set(reg::running, is_moving());
   registers_.set(reg::bound, bound_);
   registers_.set(reg::position, feedback_);
   registers_.set(reg::offset, feedback_ - start_);
-  registers_.set(reg::speed, stands ? 0 : state_.speed);
+  registers_.set(reg::speed, speed);
   registers_.set(reg::set_speed, state_.speed);
   if (doing_ == Doing::segments) registers_.set(reg::segment, static_cast<double>(segment_ + 1));
   const bool fed_back =
@@ -293,6 +310,57 @@ void Axis::publish_pulses() {
   registers_.set(reg::feedback_pulses, feedback_ * scale);
   registers_.set(reg::offset_pulses, (feedback_ - start_) * scale);
   published_ = feedback_;
+}
+
+// ---- for its picture ----
+
+void Axis::note(Time now, std::string what) {
+  recorder_.tell(now);
+  recorder_.note(std::move(what));
+}
+
+void Axis::record(double speed, Duration period) {
+  if (speed != 0 && !recorder_.has_moved()) limits_ = limits();
+  recorder_.add(feedback_, speed, period);
+}
+
+void Axis::note_edges(const Signals& now) {
+  const Signals before = noted_.value_or(now);
+  noted_ = now;
+  const auto edge = [&](bool is, bool was, const char* name) {
+    if (is != was) recorder_.note(std::string(name) + (is ? " on" : " off"));
+  };
+  edge(now.min, before.min, "min limit switch");
+  edge(now.max, before.max, "max limit switch");
+  edge(now.close, before.close, "close signal");
+  edge(now.origin, before.origin, "origin switch");
+}
+
+/// As far as somebody has set them; a homing later on moves the switches, not the axis.
+std::vector<AxisTrace::Limit> Axis::limits() const {
+  std::vector<AxisTrace::Limit> found;
+  for (const Register& one : {reg::min_limit, reg::max_limit})
+    if (const double at = registers_.get(one); at != one.initial)
+      found.push_back({std::string(one.name), at, at});
+  const double sign = registers_.get(reg::direction) != 0 ? -1 : 1;
+  const auto add = [&](const Register& role, const char* name) {
+    const Terminal where = terminal(role);
+    for (const Switch& one : servo_.switches) {
+      if (!where.input || one.terminal != *where.input) continue;
+      const double one_end = sign * one.from - machine_, other = sign * one.to - machine_;
+      found.push_back({name, std::min(one_end, other), std::max(one_end, other)});
+    }
+  };
+  add(reg::min_terminal, "min limit switch");
+  add(reg::max_terminal, "max limit switch");
+  add(reg::close_terminal, "close signal");
+  add(reg::origin_terminal, "origin switch");
+  return found;
+}
+
+std::optional<AxisTrace> Axis::trace(Time now) const {
+  if (!recorder_.has_moved()) return std::nullopt;
+  return AxisTrace{std::to_string(number()), recorder_.samples(now), recorder_.events(), limits_};
 }
 
 void Axis::restart() {

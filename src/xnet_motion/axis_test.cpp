@@ -258,6 +258,17 @@ TEST_F(MotionTest, HomingForwardWithCloseSignal) {
   EXPECT_EQ(get(reg::position), 0);
   EXPECT_EQ(get(reg::error), 0);
   EXPECT_EQ(memory.read(*find_component("X7")), 0);
+  const std::vector<AxisTrace> traces = bus->trace(now);
+  ASSERT_EQ(traces.size(), 1u);
+  std::string told;
+  for (const AxisTrace::Event& event : traces[0].events) told += event.what + "; ";
+  EXPECT_THAT(told, testing::EndsWith("return to origin, forward; close signal on; close signal "
+                                      "off; origin switch on; origin switch off; origin found; "));
+  ASSERT_EQ(traces[0].limits.size(), 2u);
+  const AxisTrace::Limit& origin = traces[0].limits[1];
+  EXPECT_EQ(origin.name, "origin switch");
+  EXPECT_EQ(origin.from, 0);
+  EXPECT_EQ(origin.to, 2000);
 }
 
 }  // namespace

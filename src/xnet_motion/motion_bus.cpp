@@ -61,6 +61,7 @@ struct MotionBus::Order {
   std::array<std::string_view, 3> operands{};
   int master = 1;
   unsigned axis = 1;
+  std::string_view text;  // but for its own axis
 };
 
 MotionBus::MotionBus(Memory& memory, std::vector<Servo> servos, unsigned slaves)
@@ -140,6 +141,7 @@ Result<MotionBus::Order> MotionBus::read(std::string_view action) const {
   if (!form) return wrong(action, "it is no instruction of the motion bus");
   Order order;
   order.what = form->what;
+  order.text = action.substr(0, action.rfind(" axis "));
   for (unsigned i = 0; i < form->operands; ++i) {
     const std::string_view word = order.operands[i] = words.next();
     const bool is_number = form->what == Name::mosyn ? read_float(word).has_value()
@@ -186,6 +188,7 @@ double MotionBus::operand(std::string_view word, bool floating) const {
 
 void MotionBus::execute(const Order& order, Time now) {
   Axis& axis = *find(order.axis);
+  if (order.what != Name::moread) axis.note(now, std::string(order.text));
   const auto number = [&](std::size_t i) { return operand(order.operands[i], false); };
   switch (order.what) {
     case Name::moto: return axis.move(true, number(0), number(1), number(2), now);
@@ -244,6 +247,7 @@ Status MotionBus::act_on_servo(std::string_view action) {
   if (!axis) return wrong(action, "there is no such servo");
   Servo& servo = axis->servo();
   const std::string_view what = words.rest();
+  axis->note(next_, "servo " + std::string(what));
   constexpr std::string_view push = "push ";
   if (what == "off" || what == "on")
     servo.connected = what == "on";
@@ -263,6 +267,13 @@ Status MotionBus::act_on_servo(std::string_view action) {
                  "a servo can off, on, alarm, stuck alarm, well, stall, free, enable, disable, "
                  "push 500");
   return ok();
+}
+
+std::vector<AxisTrace> MotionBus::trace(Time now) const {
+  std::vector<AxisTrace> traces;
+  for (const auto& axis : axes_)
+    if (std::optional<AxisTrace> one = axis->trace(now)) traces.push_back(std::move(*one));
+  return traces;
 }
 
 void MotionBus::restart() {

@@ -37,6 +37,9 @@ class MotionBus {
   /// Power is gone and back.
   void restart();
 
+  /// Of the axes that moved.
+  std::vector<AxisTrace> trace(Time now) const;
+
  private:
   struct Binding {
     int master = 1;  // an axis; -1 to -4: HSC0, HSC2, HSC4, HSC6

@@ -185,7 +185,7 @@ Result<std::string> XnetNetwork::get(std::string_view address, std::size_t digit
   std::string turns;
   for (const Port& port : plc->config.ports)
     if (const auto bus = buses_.find(port.net); bus != buses_.end())
-      for (const TokenBus::Turn& turn : bus->second.turns()) turns += hex_number(turn.station, 2);
+      for (const TokenTurn& turn : bus->second.turns()) turns += hex_number(turn.station, 2);
   return turns.substr(turns.size() - std::min(turns.size(), digits));
 }
 
@@ -224,6 +224,21 @@ Status XnetNetwork::act(std::string_view action) {
         "BIT_READ, BIT_WRITE, REG_READ, REG_WRITE, hold one of them, release; 'B: off' is of B",
         action));
   return ok();
+}
+
+Trace XnetNetwork::trace() const {
+  Trace trace;
+  for (const auto& plc : plcs_) {
+    if (!plc->motion) continue;
+    for (AxisTrace& one : plc->motion->trace(now_)) {
+      if (plc != plcs_.front()) one.axis = plc->config.name + ":" + one.axis;
+      trace.axes.push_back(std::move(one));
+    }
+  }
+  for (const auto& [net, bus] : buses_)
+    if (std::vector<TokenTurn> turns = bus.shown_turns(now_); !turns.empty())
+      trace.nets.push_back({net, std::move(turns)});
+  return trace;
 }
 
 Status XnetNetwork::execute(Plc& plc, std::string_view text, bool held) {

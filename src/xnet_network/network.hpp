@@ -41,6 +41,7 @@ class XnetNetwork : public plc::SerialDevice, public plc::BusEnd {
   /// on, and "release"; "run", "stop", "power_cycle", "on", "off", "noise on", "noise off". "B:
   /// off" is done to B.
   Status act(std::string_view action) override;
+  Trace trace() const override;
 
   /// Of the first PLC: what a server of it reads and writes. Who writes calls `touch` of it.
   Memory& memory() { return plcs_.front()->memory; }

@@ -53,6 +53,35 @@ TEST_F(XnetTest, ReadsAndWritesRegistersAndCoils) {
   EXPECT_EQ(get("SD161"), "0000");
 }
 
+TEST_F(XnetTest, TraceTellsHowAxesMovedAndWhoHadTheToken) {
+  make("xdc", {{"ports", {{{"port", 2}, {"net", 1}, {"station", 1}}}},
+               {"stations", {{{"model", "xdc"}, {"ports", {{{"port", 2}, {"station", 2}}}}}}}});
+  wait(20ms);
+  EXPECT_TRUE(plc->trace().axes.empty()) << "nothing moved";
+  ASSERT_TRUE(plc->set("B:SM2010", "01"));
+  ASSERT_TRUE(plc->set("B:SFD3016", "0FA00000"));  // 4000, the low word first
+  wait(20ms);
+  act("B: MOTO 5000 5000 50 axis 1");
+  act("B: MOTO 3000 5000 50 axis 1");
+  wait(2s);
+  const Trace trace = plc->trace();
+  ASSERT_EQ(trace.axes.size(), 1u);
+  const AxisTrace& axis = trace.axes[0];
+  EXPECT_EQ(axis.axis, "B:1");
+  EXPECT_EQ(axis.samples.front().position, 0);
+  EXPECT_EQ(axis.samples.back().position, 3000);
+  EXPECT_EQ(std::ranges::max(axis.samples, {}, &AxisTrace::Sample::speed).speed, 5000);
+  ASSERT_EQ(axis.limits.size(), 1u);
+  EXPECT_EQ(axis.limits[0].name, "max position limit");
+  EXPECT_EQ(axis.limits[0].to, 4000);
+  std::string told;
+  for (const AxisTrace::Event& event : axis.events) told += event.what + "; ";
+  EXPECT_EQ(told, "enabled; MOTO 5000 5000 50; error 20020; MOTO 3000 5000 50; completed; ");
+  ASSERT_EQ(trace.nets.size(), 1u);
+  EXPECT_EQ(trace.nets[0].net, 1u);
+  EXPECT_EQ(trace.nets[0].turns.at(0).station + trace.nets[0].turns.at(1).station, 3u);
+}
+
 TEST_F(XnetTest, ResultsOfWhatCannotBe) {
   two();
   act("REG_READ net 1 station 3 D0 count 1 to D10");

@@ -7,6 +7,8 @@ namespace fieldproof::xnet {
 namespace {
 /// 200 words in 10 ms at 1 Mbit/s.
 constexpr std::uint64_t bit_times_of_a_word = 50;
+
+constexpr std::size_t most_shown = 200;  // turns of a picture
 }  // namespace
 
 Duration TokenBus::time_of(std::uint32_t words) const {
@@ -49,6 +51,21 @@ void TokenBus::advance(Time now) {
       break;
   }
   if (queues_.empty()) turn_ends_ = std::max(turn_ends_, now);
+}
+
+std::vector<TokenTurn> TokenBus::shown_turns(Time now) const {
+  const auto carried = [](const TokenTurn& one) { return one.busy > 0ns; };
+  const auto other = [&](const TokenTurn& one) { return one.station != turns_.front().station; };
+  if (std::ranges::none_of(turns_, other)) return {};
+  const std::size_t room = turns_.size() - std::min(turns_.size(), most_shown);
+  const auto first =
+      static_cast<std::size_t>(std::ranges::find_if(turns_, carried) - turns_.begin());
+  const std::size_t lead = std::min(first, queues_.size());
+  const auto from = turns_.begin() + static_cast<std::ptrdiff_t>(std::min(room, first - lead));
+  std::vector<TokenTurn> shown(
+      from, from + static_cast<std::ptrdiff_t>(std::min(turns_.size(), most_shown)));
+  shown.back().to = std::min(shown.back().to, now);
+  return shown;
 }
 
 /// The next station in the order of numbers; the cycle is shared by those that are there.

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/base/time.hpp"
+#include "src/base/trace.hpp"
 
 namespace fieldproof::xnet {
 
@@ -42,15 +42,12 @@ class TokenBus {
   std::optional<Time> wake_at() const;
   void advance(Time now);
 
-  /// One turn with the token, in the order of time.
-  struct Turn {
-    unsigned station = 0;
-    Time from{}, to{};
-    Duration busy{};  // of it, carrying
-  };
   /// The last turns, the newest at the end; at most so many are kept.
   static constexpr std::size_t kept_turns = 1000;
-  const std::deque<Turn>& turns() const { return turns_; }
+  const std::deque<TokenTurn>& turns() const { return turns_; }
+  /// Of them, as far as `now`, so many as a picture can show: from about the first that carried on,
+  /// else the last. None where one station has the token all the time.
+  std::vector<TokenTurn> shown_turns(Time now) const;
 
  private:
   void begin_turn(Time now);
@@ -63,7 +60,7 @@ class TokenBus {
   Duration cycle_;
   unsigned baud_;
   std::map<unsigned, std::deque<Waiting>> queues_;  // by station
-  std::deque<Turn> turns_;
+  std::deque<TokenTurn> turns_;
   unsigned holder_ = 0;
   Time turn_ends_{};
   std::optional<Time> carried_until_;  // of the transfer under way

@@ -16,7 +16,7 @@ TEST(TokenBus, EachStationHasItOnceInACycleAndAloneAtATime) {
   run(bus, 0ms, 320ms);
   Time end{};
   std::map<unsigned, int> turns;
-  for (const TokenBus::Turn& turn : bus.turns()) {
+  for (const TokenTurn& turn : bus.turns()) {
     EXPECT_EQ(turn.from, end) << "one after the other";
     end = turn.to;
     EXPECT_LE(turn.busy, turn.to - turn.from);
@@ -47,6 +47,24 @@ TEST(TokenBus, AHolderThatLeavesKeepsItsTurn) {
   EXPECT_EQ(bus.turns()[1].station, 2u);
   EXPECT_EQ(bus.turns()[1].from, 5ms);
   EXPECT_EQ(bus.turns()[2].station, 2u);
+}
+
+TEST(TokenBus, APictureShowsTheTurnsFromTheFirstThatCarried) {
+  TokenBus bus(10ms, 1'000'000);
+  bus.join(1);
+  run(bus, 0ms, 20ms);
+  EXPECT_TRUE(bus.shown_turns(20ms).empty()) << "one station alone";
+  bus.join(2);
+  run(bus, 20ms, 2002ms);
+  std::vector<TokenTurn> shown = bus.shown_turns(2002ms);
+  ASSERT_EQ(shown.size(), 200u);
+  EXPECT_EQ(shown.back().from, bus.turns().back().from) << "the last, where nothing was carried";
+  EXPECT_EQ(shown.back().to, 2002ms) << "a turn that goes on ends now";
+  bus.queue(1, {25, [](Time) {}}, 2002ms);
+  run(bus, 2002ms, 4000ms);
+  shown = bus.shown_turns(4000ms);
+  ASSERT_EQ(shown.size(), 200u);
+  EXPECT_GT(shown[2].busy, 0ns) << "a cycle before it";
 }
 
 }  // namespace

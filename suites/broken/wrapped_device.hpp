@@ -25,6 +25,7 @@ class WrappedDevice : public plc::SerialDevice {
     return right_->get(address, digits);
   }
   Status act(std::string_view action) override { return right_->act(action); }
+  Trace trace() const override { return right_->trace(); }
 
  protected:
   plc::EmulatedDevice& right() const { return *right_; }

@@ -80,6 +80,17 @@ const std::map<std::string, Special> specials{
      {.replaced = "2004 --udp 2005", .by = "0 --udp 0", .shows = "tcp 127.0.0.1:"}},
     {"./run.sh emulate suites/user_frames/examples/balance.json --tcp 127.0.0.1:2000",
      {.replaced = ":2000", .by = ":0", .shows = "127.0.0.1:"}},
+    {"./run.sh run --endpoint serial:/dev/ttyUSB0?baud=19200 --aux tcp:192.168.6.7 --profile "
+     "xinje-xd --filter 'xnet/*' --allow-write D,M,SD",
+     {.not_run = "it wants two PLCs; TwoPlcs runs it on emulated ones"}},
+    {"./run.sh emulate 'xd3?protocol=modbus-tcp' --config suites/xnet/examples/plc-a.json --tcp "
+     "1502 "
+     "--bus 7001 &",
+     {.replaced = "1502 --bus 7001", .by = "0 --bus 0", .shows = "bus 127.0.0.1"}},
+    {"./run.sh emulate 'xd5?protocol=modbus-rtu' --config suites/xnet/examples/plc-b.json --tcp "
+     "1503 "
+     "--bus 7001 &",
+     {.replaced = "1503 --bus 7001", .by = "0 --bus 0", .shows = "bus 127.0.0.1"}},
     {"fieldproof emulate xbc-h --tcp 127.0.0.1:2000",
      {.replaced = ":2000", .by = ":0", .shows = "127.0.0.1:"}},
     {"fieldproof run --endpoint 'exec:build/plain/xgt_cnet_broken_server 0011_for_1132 {tty}' "
