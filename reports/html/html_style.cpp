@@ -109,10 +109,10 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .limit{stroke:var(--bad);stroke-width:1.5;stroke-dasharray:4 3}
 
 .trace{max-width:760px;margin:10px 0}
-.trace svg{display:block;width:100%;overflow:visible}
-.trace text{fill:var(--ink);font:12px system-ui,"Segoe UI",Arial,sans-serif}
-.trace .x,.trace .y text,.trace .end{fill:var(--soft);text-anchor:end}
+.trace svg{display:block;width:100%;overflow:visible;fill:var(--ink);font:12px system-ui,"Segoe UI",Arial,sans-serif}
+.trace .x,.trace .y,.trace .at{fill:var(--soft)}
 .trace .x{text-anchor:middle}
+.trace .y{text-anchor:end}
 .trace polyline{fill:none;stroke:var(--a);stroke-width:1.8;stroke-linejoin:round}
 .trace .mark{stroke:var(--soft);stroke-dasharray:1 3}
 .trace .on{fill:var(--bad);opacity:.08}
@@ -159,7 +159,7 @@ h1{font-size:24px}
 .timing thead th:nth-child(n+3),.timing td:nth-child(n+4){display:none}
 .timing .plot{width:60%}
 .facts th{width:100px}
-.trace text{font-size:18px}
+.trace svg{font-size:18px}
 }
 @media print{
 :root{--paper:#fff;--ink:#000;--soft:#444;--rule:#bbb;--tint:#f4f4f4;--good:#17703a;--good-tint:#eef7f0;--bad:#b3201b;--bad-tint:#fdf0ef;--warn:#8a5a00;--warn-tint:#fff8e6;--cool:#3b5b8c;--cool-tint:#eef2f9;--mark:#ffd9d6;--link:#0757b3}

@@ -77,10 +77,6 @@ std::string brief(double value) {
   return fmt::format("{:.4g}", value);
 }
 
-void write_label(HtmlWriter& out, double x, double y, std::string_view css, std::string_view what) {
-  out.element("text", {{"class", css}, {"x", units(x)}, {"y", units(y)}}, what);
-}
-
 /// In a row: x, and the text.
 using Labels = std::vector<std::pair<double, std::string>>;
 
@@ -244,7 +240,10 @@ class Motion {
     for (const double other : labelled)
       if (std::abs(other - y) < 16) return;
     labelled.push_back(y);
-    write_label(out_, plot_right - 4, y > position_.end + 24 ? y - 3 : y + 13, "end", limit.name);
+    const double above = y > position_.end + 24 ? y - 3 : y + 13;
+    // At the left, where an axis has not yet come to it.
+    out_.element("text", {{"class", "at"}, {"x", units(plot_left + 5)}, {"y", units(above)}},
+                 limit.name);
   }
 
   /// Vertical lines; numbers where there is room, "2-4" where there is not.

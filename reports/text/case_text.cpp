@@ -269,7 +269,7 @@ std::string frame_monitor(const CaseResult& result, const CaseTextOptions& optio
   };
   constexpr std::size_t frame_column = 28;
   std::string text = row("time ms", "gap ms", "   ", "frame");
-  const Time zero = result.exchange.front().start;
+  const Time zero = results::shown_from(result);
   std::optional<Time> last_end;
   for (const Event& event : result.exchange) {
     const bool is_frame = event.kind != Event::Kind::note;
