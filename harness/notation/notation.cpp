@@ -339,7 +339,10 @@ std::string print(const Notation& notation) {
   for (const Item& item : notation) {
     if (!tight && item.kind != Item::Kind::close) text += ' ';
     text += print_item(item);
-    if (item.repeat != 1) text += fmt::format("*{}", item.repeat);
+    // Several bytes without quotes are a word only with their repetition.
+    const bool run = item.kind == Item::Kind::literal && item.bytes.size() > 1 &&
+                     !item.text.starts_with('\'');
+    if (item.repeat != 1 || run) text += fmt::format("*{}", item.repeat);
     tight = item.kind == Item::Kind::open;
   }
   return text;

@@ -17,7 +17,7 @@ TEST(Notation, PrintsWhatItParsed) {
        {"[ENQ st 'rSS' '02' name(%MW020) EOT BCC]", "[ACK st 'rSS' '01' '02' x:4 ETX BCC]",
         "'noise' [ENQ st+1 'X09' EOT]", "[ENQ ~1.6c 0D FF seq(60) '1234'*60 EOT BCC!]",
         "[?? {id:4} {id} ?? SUM CRC LRC]", "[STX (as_sent:'ss'|upper:'SS' 0D) CR LF]",
-        "~20ms [ENQ ~1s EOT]"})
+        "~20ms [ENQ ~1s EOT]", "[STX 3456*1 3456*123 ETX]"})
     EXPECT_EQ(reprinted(text), text);
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array every_target{
     Target{"frames", "codecs and stream splitters of all protocols", feed_frames,
            frames_of_vectors},
-    Target{"devices", "the emulated devices", feed_device, frames_of_vectors},
+    Target{"devices", "the emulated devices", feed_device, streams_of_vectors},
     Target{"notation", "the notation of frames", feed_notation, good_notation},
     Target{"vectors", "vector files", feed_vectors, good_vectors},
     Target{"profile", "profiles", feed_profile, good_profiles},

@@ -188,4 +188,15 @@ std::vector<Bytes> frames_of_vectors() {
   return frames;
 }
 
+std::vector<Bytes> streams_of_vectors() {
+  constexpr Byte pause = 250;  // a frame has ended by then
+  std::vector<Bytes> all = frames_of_vectors();
+  std::erase_if(all, [](const Bytes& one) { return one.size() > 256; });
+  for (Bytes& one : all) {
+    const Bytes head{static_cast<Byte>(one.size() - 2), pause};
+    one.insert(one.begin() + 1, head.begin(), head.end());
+  }
+  return all;
+}
+
 }  // namespace fieldproof::fuzz

@@ -12,5 +12,7 @@ void feed_frames(ByteView input);
 void feed_device(ByteView input);
 /// The frames of the vectors, behind the number of their protocol.
 std::vector<Bytes> frames_of_vectors();
+/// The same as pieces for feed_device.
+std::vector<Bytes> streams_of_vectors();
 
 }  // namespace fieldproof::fuzz
