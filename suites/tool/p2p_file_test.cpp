@@ -29,7 +29,7 @@ TEST(EmulateP2p, ErrorsNameFileAndKey) {
   };
   EXPECT_THAT(refused("{\"p2p\": [}"), HasSubstr("it is no JSON: "));
   EXPECT_THAT(refused("{}"), HasSubstr("there is no \"p2p\""));
-  EXPECT_THAT(refused("[]"), HasSubstr("there is no \"p2p\""));
+  EXPECT_THAT(refused("[]"), HasSubstr("it is no object"));
   EXPECT_THAT(refused(R"({"role": "server", "p2p": {}})"),
               HasSubstr("role is \"server\"; P2P is of role client"));
   EXPECT_THAT(refused(R"({"time_out": 51, "p2p": {}})"),

@@ -15,7 +15,8 @@ using testing::HasSubstr;
 
 std::vector<std::string> read(std::string_view address, std::size_t digits) {
   std::vector<std::string> hex;
-  for (const Bytes& one : *over_modbus_rtu().read_requests(1, address, digits))
+  const std::vector<Bytes> requests = *over_modbus_rtu().read_requests(1, address, digits);
+  for (const Bytes& one : requests)
     hex.push_back(to_hex(ByteView(one).first(one.size() - 2)));  // but for the CRC
   return hex;
 }
