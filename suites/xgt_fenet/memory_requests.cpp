@@ -203,6 +203,7 @@ Status write_reply(ByteView reply) {
 
 Result<std::string> read_reply(ByteView reply) {
   if (const std::optional<std::string> why = refusal(reply)) return fail(*why);
+  if (reply.size() < header_size + 4) return fail("the answer is cut short");
   const bool run = word_at(reply, header_size + 2) == continuous_type;
   std::string digits;
   for (Bytes& block : data_of(reply)) {

@@ -169,6 +169,8 @@ TEST(FenetMemory, RepliesAreReadMostSignificantFirst) {
   EXPECT_EQ(*protocol().read_reply(reply), "12345678");
   EXPECT_EQ(*protocol().read_reply(bytes_reply), "0000");
   EXPECT_FALSE(protocol().read_reply(read_word));
+  for (std::size_t size = 0; size < 24; ++size)
+    EXPECT_FALSE(protocol().read_reply(Bytes(reply.begin(), reply.begin() + std::ptrdiff_t(size))));
   EXPECT_TRUE(protocol().memory()->answers(read_word, word_reply));
   EXPECT_FALSE(protocol().memory()->answers(read_word, bytes_reply));
   EXPECT_FALSE(protocol().memory()->answers(read_word, reply)) << "two words, and one was asked";
