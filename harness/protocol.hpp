@@ -158,6 +158,11 @@ class Protocol {
   virtual Result<std::vector<Setting>> set_off_by([[maybe_unused]] std::string_view action) const {
     return std::vector<Setting>{};
   }
+  /// What such an action writes by itself, in the device or in a partner of it ("B:D0"): addresses,
+  /// and as many digits.
+  virtual std::vector<Setting> written_by_action([[maybe_unused]] std::string_view action) const {
+    return {};
+  }
   /// What must be so on the device before such a case begins: addresses and values. `axis` is one
   /// that it moves.
   virtual std::vector<Setting> premises([[maybe_unused]] std::string_view axis) const { return {}; }

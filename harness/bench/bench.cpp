@@ -296,7 +296,6 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   return false;
 }
 
-/// Sets the given memory; whatever makes a real client ask is told of the case.
 /// What is not as it must be before the case; empty: all is.
 Result<std::string> Bench::unmet_premise(const PreparedCase& prepared) {
   const exchange::Leaving leaving(memory_);
@@ -325,6 +324,7 @@ bool Bench::meets_premises(const PreparedCase& prepared, CaseResult& result) {
   return false;
 }
 
+/// Sets the given memory; whatever makes a real client ask is told of the case.
 bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   const auto give_up = [&](Verdict verdict, const Error& error) {
     result.verdict = verdict;

@@ -113,6 +113,7 @@ class Bench {
   std::vector<harness::Protocol::Setting> settings_of(const exchange::PreparedCase& prepared) const;
   std::string fence_objection(const exchange::PreparedCase& prepared) const;
   std::vector<std::string> moved_axes(const exchange::PreparedCase& prepared) const;
+  std::string axis_moved_by(const harness::Protocol::Setting& setting) const;
   std::string motion_objection(const exchange::PreparedCase& prepared) const;
   Result<std::string> unmet_premise(const exchange::PreparedCase& prepared);
   bool meets_premises(const exchange::PreparedCase& prepared, results::CaseResult& result);

@@ -110,16 +110,18 @@ std::string Bench::undeclared(const json& config) const {
   return {};
 }
 
-/// All that the bench sets for a case, in its order: what is given, what its steps set, and what
-/// sets its actions off.
+/// All that a case writes, in its order: what is given, what its steps set, what sets its actions
+/// off, and what these write.
 std::vector<Protocol::Setting> Bench::settings_of(const PreparedCase& prepared) const {
   std::vector<Protocol::Setting> settings = prepared.source->memory;
+  const auto add = [&](const std::vector<Protocol::Setting>& more) {
+    settings.insert(settings.end(), more.begin(), more.end());
+  };
   for (const exchange::PreparedStep& step : prepared.steps) {
-    if (step.step->kind == vectors::Step::Kind::set)
-      settings.insert(settings.end(), step.step->memory.begin(), step.step->memory.end());
-    if (step.step->kind == vectors::Step::Kind::act && !prepared.is_client())
-      if (const auto off = protocol_.set_off_by(step.step->action))
-        settings.insert(settings.end(), off->begin(), off->end());
+    if (step.step->kind == vectors::Step::Kind::set) add(step.step->memory);
+    if (step.step->kind != vectors::Step::Kind::act || prepared.is_client()) continue;
+    if (const auto off = protocol_.set_off_by(step.step->action)) add(*off);
+    add(protocol_.written_by_action(step.step->action));
   }
   return settings;
 }
@@ -156,8 +158,21 @@ std::vector<std::string> Bench::moved_axes(const PreparedCase& prepared) const {
   };
   for (const exchange::PreparedStep& step : prepared.steps)
     if (step.step->kind == vectors::Step::Kind::act) add(protocol_.moves(step.step->action));
-  for (const auto& [address, hex] : settings_of(prepared)) add(protocol_.moved_by(address));
+  for (const Protocol::Setting& one : settings_of(prepared))
+    if (exchange::place_name(one.first).partner.empty()) add(axis_moved_by(one));
   return axes;
+}
+
+/// Of all that a setting covers; of the device, or of its partner.
+std::string Bench::axis_moved_by(const Protocol::Setting& setting) const {
+  const exchange::PlaceName name = exchange::place_name(setting.first);
+  const Protocol* const owner = name.partner.empty() ? &protocol_ : options_.aux.protocol;
+  const auto covers = owner ? owner->named(name.address, setting.second.size()) : std::nullopt;
+  if (!covers || covers->unknown()) return {};
+  for (std::uint32_t word = covers->first_word; word <= covers->last_word; ++word)
+    if (std::string axis = owner->moved_by(owner->spell(covers->area, word)); !axis.empty())
+      return axis;
+  return {};
 }
 
 /// Nothing that moves is set in motion unless it is named.
@@ -168,9 +183,8 @@ std::string Bench::motion_objection(const PreparedCase& prepared) const {
                                                             step.step->action);
           !why.empty())
         return why;
-  for (const auto& [address, hex] : settings_of(prepared))
-    if (std::string why = options_.fence.motion_objection(
-            protocol_.moved_by(exchange::place_name(address).address), "sets " + address);
+  for (const Protocol::Setting& one : settings_of(prepared))
+    if (std::string why = options_.fence.motion_objection(axis_moved_by(one), "sets " + one.first);
         !why.empty())
       return why;
   return {};

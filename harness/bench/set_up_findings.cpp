@@ -35,12 +35,12 @@ std::vector<results::CaseResult> SetUpFindings::results() const {
     result.level = "must";
     result.basis = "derived";
     result.verdict = results::Verdict::fail;
-    result.message =
-        fmt::format("{}; {} BLOCKED by it, first {}. Correct the device, or the profile where it "
-                    "declares memory that the device does not have",
-                    finding.first.message.substr(set_up_failure.size()),
-                    finding.cases == 1 ? "1 case is" : fmt::format("{} cases are", finding.cases),
-                    finding.first.id);
+    result.message = fmt::format(
+        "{}; {} BLOCKED by it, first {}. Correct the device, or the profile where it "
+        "declares memory that the device does not have",
+        finding.first.message.substr(set_up_failure.size()),
+        finding.cases == 1 ? "1 case is" : fmt::format("{} cases are", finding.cases),
+        finding.first.id);
     result.exchange = finding.first.exchange;
     result.replay = finding.first.replay;
     all.push_back(std::move(result));

@@ -84,6 +84,21 @@ TEST_F(TwoPlcs, WhatDoesNotArriveFails) {
   EXPECT_EQ(results.verdict("xnet/instruction_data/read_d0_to_d0"), "FAIL");
 }
 
+/// What an instruction writes, in either PLC, is allowed by name, and put back.
+TEST_F(TwoPlcs, WhatAnInstructionWritesIsPutBack) {
+  start();
+  const std::string id = "xnet/instruction_data/read_d0_to_d0";
+  run(id, {"--aux", "serial:" + (folder / "b"), "--profile", "xinje-xd", "--allow-write",
+           "D6000-D6999,M,SD"});
+  EXPECT_THAT(message(id), HasSubstr("--allow-write D0"));
+  EXPECT_EQ(run(id, {"--aux", "serial:" + (folder / "b"), "--profile", "xinje-xd", "--allow-write",
+                     "D,M,SD"})
+                .code,
+            0);
+  const std::string journal = read_text(folder / "out/journal.ndjson");
+  EXPECT_THAT(journal, testing::Not(HasSubstr("\"save\""))) << "nothing is open";
+}
+
 TEST_F(TwoPlcs, WithoutASecondPortItSaysWhatIsMissing) {
   start();
   run("xnet/instruction_data/read_d0_to_d0", {"--profile", "xinje-xd", "--allow-write", "D,M,SD"});

@@ -6,14 +6,15 @@
 
 #include "src/xnet/words.hpp"
 #include "src/xnet_motion/axis_registers.hpp"
+#include "suites/xnet/instruction_text.hpp"
 
 namespace fieldproof::xnet_suite {
 
 std::string axis_of_action(std::string_view action) {
   constexpr std::array<std::string_view, 9> moving{"MOTO",  "MOTOA",  "MOTOS",   "MOSTOP", "MOGOON",
                                                    "MOSYN", "MOUSYN", "MOWRITE", "MOREAD"};
-  if (action.starts_with("hold ")) action.remove_prefix(5);
-  xnet::Words words(action);
+  take_plc(action);
+  xnet::Words words(without_hold(action));
   const std::string_view name = words.next();
   if (std::ranges::count(moving, name) == 0) return {};
   const std::string_view key = name == "MOSYN" ? "slave" : "axis";

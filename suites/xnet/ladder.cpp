@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "src/xnet_motion/motion_bus.hpp"
 #include "src/xnet_network/instruction.hpp"
 #include "suites/xnet/axes.hpp"
+#include "suites/xnet/instruction_text.hpp"
 
 namespace fieldproof::xnet_suite {
 
@@ -20,12 +22,6 @@ namespace {
 
 using nlohmann::json;
 using Setting = harness::Protocol::Setting;
-
-constexpr std::string_view hold = "hold ";
-
-std::string_view without_hold(std::string_view text) {
-  return text.starts_with(hold) ? text.substr(hold.size()) : text;
-}
 
 bool is_of_a_program(std::string_view text) {
   return xnet::is_instruction(without_hold(text)) || !axis_of_action(text).empty();
@@ -97,9 +93,27 @@ std::optional<std::vector<Setting>> operands(std::string_view program, std::stri
   return settings;
 }
 
+/// Has it operands in registers? Nobody can tell what it would write.
+bool is_open(std::string_view instruction) {
+  constexpr std::array<std::string_view, 5> keys{"net", "station", "type", "address", "count"};
+  if (!xnet::is_instruction(without_hold(instruction))) return false;
+  const std::vector<std::string> words = words_of(instruction);
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    if (std::ranges::count(keys, words[i]) > 0 && is_register(words[i + 1])) return true;
+  return false;
+}
+
 }  // namespace
 
-Status Ladder::add(const json& program, const std::string& of) {
+/// Its program, and the stations that it is.
+Status Ladder::add(const json& plc, const std::string& of) {
+  const json program = plc.value("program", json::object());
+  const auto number = [](const json& port, const char* key) {
+    const auto found = port.find(key);
+    return found != port.end() && found->is_number_unsigned() ? found->get<std::uint32_t>() : 1;
+  };
+  for (const json& port : plc.value("ports", json::array()))
+    if (port.is_object()) stations_.push_back({of, number(port, "net"), number(port, "station")});
   if (!program.is_object())
     return fail(R"(config.program is no object; write {"M100": "REG_READ ..."})");
   for (const auto& [relay, text] : program.items()) {
@@ -116,24 +130,20 @@ Status Ladder::add(const json& program, const std::string& of) {
 
 Result<Ladder> Ladder::read(const json& config) {
   Ladder ladder;
-  if (const Status own = ladder.add(config.value("program", json::object()), ""); !own)
-    return own.error();
+  if (const Status own = ladder.add(config, ""); !own) return own.error();
   const json stations = config.value("stations", json::array());
   for (std::size_t i = 0; stations.is_array() && i < stations.size(); ++i) {
     if (!stations[i].is_object()) continue;
     const std::string of = std::string(1, static_cast<char>('B' + i % 25)) + ":";
-    if (const Status added = ladder.add(stations[i].value("program", json::object()), of); !added)
-      return added.error();
+    if (const Status added = ladder.add(stations[i], of); !added) return added.error();
   }
   return ladder;
 }
 
 Result<std::vector<Setting>> Ladder::set_off(std::string_view action) const {
   if (action == "run" || action == "stop" || action == "power_cycle") return std::vector<Setting>{};
-  const bool of_another = action.size() > 2 && action[1] == ':';
-  const std::string of(of_another ? action.substr(0, 2) : "");
-  std::string_view text = of_another ? action.substr(2) : action;
-  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  std::string_view text = action;
+  const std::string of = take_plc(text);
   if (text == "release") {
     std::vector<Setting> settings;
     for (const Rung& one : rungs_)
@@ -144,6 +154,10 @@ Result<std::vector<Setting>> Ladder::set_off(std::string_view action) const {
   if (!is_of_a_program(text))
     return fail(fmt::format(
         "'{}' is done to the model alone; nobody can do it to this PLC from here", action));
+  if (is_open(text))
+    return fail(fmt::format(
+        "'{}' has operands in registers: nobody can tell what it would write, and put it back",
+        text));
   for (const Rung& one : rungs_) {
     if (one.of != of) continue;
     std::optional<std::vector<Setting>> settings = operands(one.instruction, text);
@@ -157,6 +171,31 @@ Result<std::vector<Setting>> Ladder::set_off(std::string_view action) const {
       "needs '{0}' in the program of {1}, at a relay; name it in the profile: {2}\"program\": "
       "{{\"M100\": \"{0}\"}}",
       text, of.empty() ? "the PLC" : "PLC " + of.substr(0, 1), of.empty() ? "" : "its station's "));
+}
+
+std::vector<Setting> Ladder::written_by(std::string_view action, xnet::Series series) const {
+  std::string_view text = action;
+  const std::string of = take_plc(text);
+  const xnet::Memory nothing(series);
+  const auto read = xnet::read_instruction(without_hold(text), nothing);
+  if (!read || read->count == 0) return {};
+  const auto place = [&](const std::string& plc, const xnet::Component& first) {
+    const std::size_t count = std::min(read->count, xnet::room_from(first, series));
+    return Setting{plc + to_string(first), std::string(count * (read->bits ? 2 : 4), '0')};
+  };
+  if (read->reads) return {place(of, read->local)};
+  const auto first = xnet::component_of(read->type, read->address, series);
+  const auto there = std::ranges::find_if(stations_, [&](const Station& one) {
+    return one.net == read->net && one.station == read->station;
+  });
+  if (!first || there == stations_.end()) return {};
+  return {place(there->of, *first)};
+}
+
+std::string Ladder::axis_behind(std::string_view relay) const {
+  for (const Rung& one : rungs_)
+    if (one.of.empty() && one.relay == relay) return axis_of_action(one.instruction);
+  return {};
 }
 
 }  // namespace fieldproof::xnet_suite

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/protocol.hpp"
+#include "src/xnet/areas.hpp"
 
 namespace fieldproof::xnet_suite {
 
@@ -20,15 +21,26 @@ class Ladder {
   /// stand in registers, then the relay, off and on. None: no instruction ("run"). Errors say what
   /// the program lacks.
   Result<std::vector<harness::Protocol::Setting>> set_off(std::string_view action) const;
+  /// Where the data instruction `action` writes, as far as that lies in a PLC of `series`: in the
+  /// one that executes it, or in the station that it names. Values are zeros.
+  std::vector<harness::Protocol::Setting> written_by(std::string_view action,
+                                                     xnet::Series series) const;
+  /// The axis that the instruction behind a relay of the PLC itself moves, or empty.
+  std::string axis_behind(std::string_view relay) const;
 
  private:
   struct Rung {
     std::string of;                  // "", "B:"
     std::string relay, instruction;  // "M100", "REG_READ net 1 station D0 D0 count 10 to D10"
   };
-  Status add(const nlohmann::json& program, const std::string& of);
+  struct Station {
+    std::string of;
+    std::uint32_t net = 0, station = 0;
+  };
+  Status add(const nlohmann::json& plc, const std::string& of);
 
   std::vector<Rung> rungs_;
+  std::vector<Station> stations_;
 };
 
 }  // namespace fieldproof::xnet_suite

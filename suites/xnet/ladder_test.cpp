@@ -69,6 +69,38 @@ TEST(Ladder, WhatTheProgramLacksIsToldAsItIsWritten) {
   EXPECT_THAT(*ladder().set_off("stop"), IsEmpty());
 }
 
+TEST(Ladder, WhatAnInstructionWritesIsKnownBefore) {
+  json config = json::parse(R"({"ports": [{"net": 1, "station": 1}],
+                               "stations": [{"ports": [{"net": 1, "station": 2}]}]})");
+  config["program"] = program;
+  const Ladder both = ladder(config);
+  const auto written = [&](std::string_view action) {
+    return both.written_by(action, xnet::Series::xd3);
+  };
+  EXPECT_THAT(written("REG_READ net 1 station 2 D0 count 2 to D10"),
+              ElementsAre(Pair("D10", "00000000")));
+  EXPECT_THAT(written("hold BIT_WRITE net 1 station 2 Y7 count 2 from M0"),
+              ElementsAre(Pair("B:Y7", "0000")));
+  EXPECT_THAT(written("B: REG_WRITE net 1 station 1 D5 count 1 from D0"),
+              ElementsAre(Pair("D5", "0000")));
+  EXPECT_THAT(written("B: REG_READ net 1 station 1 D5 count 1 to D7"),
+              ElementsAre(Pair("B:D7", "0000")));
+  EXPECT_THAT(written("REG_WRITE net 1 station 2 D7999 count 9 from D0"),
+              ElementsAre(Pair("B:D7999", "0000")))
+      << "a PLC may write as far as it goes";
+  EXPECT_THAT(written("REG_WRITE net 1 station 7 D0 count 1 from D0"), IsEmpty()) << "nobody";
+  EXPECT_THAT(written("REG_READ net 1 station 2 D0 count 0 to D10"), IsEmpty());
+  EXPECT_THAT(written("MOTO 1 2 3 axis 1"), IsEmpty());
+  EXPECT_THAT(both.set_off("REG_READ net 1 station 2 D0 count D9 to D10").error().message,
+              HasSubstr("nobody can tell what it would write"));
+}
+
+TEST(Ladder, ARelayMovesWhatItsInstructionMoves) {
+  EXPECT_EQ(ladder().axis_behind("M103"), "1");
+  EXPECT_EQ(ladder().axis_behind("M104"), "2");
+  EXPECT_EQ(ladder().axis_behind("M100"), "");
+}
+
 TEST(Ladder, BadProgramsAreNamed) {
   const auto wrong = [](const json& bad) {
     const Result<Ladder> read = Ladder::read({{"program", bad}});

@@ -113,12 +113,17 @@ class OverModbus : public Protocol, public harness::Probing, public harness::Mem
   Result<std::vector<Setting>> set_off_by(std::string_view action) const override {
     return ladder_.set_off(action);
   }
+  std::vector<Setting> written_by_action(std::string_view action) const override {
+    return ladder_.written_by(action, series_);
+  }
   std::vector<Setting> premises(std::string_view axis) const override { return at_rest(axis); }
   bool wants_moments(const std::vector<std::vector<Setting>>& looks) const override;
   std::string moves(std::string_view action) const override { return axis_of_action(action); }
   std::string moved_by(std::string_view address) const override {
     const std::optional<Component> one = xnet::find_component(address, series_);
-    return one ? axis_of(*one) : "";
+    if (!one) return {};
+    const std::string axis = axis_of(*one);
+    return axis.empty() ? ladder_.axis_behind(to_string(*one)) : axis;
   }
 
  private:
