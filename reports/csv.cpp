@@ -9,6 +9,7 @@
 
 #include "reports/text/case_text.hpp"
 #include "reports/text/report_file.hpp"
+#include "src/base/csv.hpp"
 
 namespace fieldproof::reports {
 
@@ -102,9 +103,7 @@ std::unique_ptr<results::Sink> csv_report(const std::string& folder) {
 
 std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  return in_csv_quotes(text);
 }
 
 }  // namespace fieldproof::reports

@@ -12,12 +12,20 @@ namespace {
 
 constexpr std::uint32_t whole_area = std::numeric_limits<std::uint32_t>::max();
 
+/// What stands between commas.
+std::vector<std::string_view> parts_of(std::string_view list) {
+  std::vector<std::string_view> parts;
+  while (!list.empty()) {
+    parts.push_back(list.substr(0, list.find(',')));
+    list.remove_prefix(std::min(parts.back().size() + 1, list.size()));
+  }
+  return parts;
+}
+
 }  // namespace
 
 Status WriteFence::allow(const std::string& ranges, const WordReader& words) {
-  for (std::string_view rest = ranges; !rest.empty();) {
-    const std::string_view part = rest.substr(0, rest.find(','));
-    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+  for (const std::string_view part : parts_of(ranges)) {
     if (part == "all") {
       ranges_.push_back({"all", 0, whole_area});
       continue;
@@ -42,9 +50,7 @@ Status WriteFence::allow_motion(const std::string& axes) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() ? value : 0;
   };
-  for (std::string_view rest = axes; !rest.empty();) {
-    const std::string_view part = rest.substr(0, rest.find(','));
-    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+  for (const std::string_view part : parts_of(axes)) {
     const std::size_t dash = part.find('-');
     const std::uint32_t first = part == "all" ? 1 : number(part.substr(0, dash));
     const std::uint32_t last = part == "all"                    ? whole_area

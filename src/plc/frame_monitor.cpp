@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "src/base/csv.hpp"
+
 namespace fieldproof::plc {
 
 namespace {
@@ -25,12 +27,6 @@ std::string shown(Byte b) {
   return plain ? std::string(1, static_cast<char>(b)) : fmt::format("<{:02X}>", b);
 }
 
-std::string in_quotes(std::string_view text) {
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + '"';
-}
-
 }  // namespace
 
 std::string hex_view(const MonitoredFrame& frame) { return to_hex(frame.data); }
@@ -46,7 +42,7 @@ std::string csv_header() { return "Form,Result,Size,Time,Frame data (HEX),Frame 
 std::string csv_row(const MonitoredFrame& frame, std::string_view time) {
   return fmt::format("{},{},{},{},{},{}\r\n", frame.sent ? "Transmission" : "Reception",
                      frame.result.text, frame.data.size(), time, hex_view(frame),
-                     in_quotes(ascii_view(frame)));
+                     in_csv_quotes(ascii_view(frame)));
 }
 
 void FrameMonitor::receive(const Burst& burst) {
