@@ -153,6 +153,42 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.prefix_command(false);
 }
 
+void add_explore(CLI::App& app, cli::ExploreOptions& explore) {
+  run::RunOptions& run = explore.run;
+  app.add_option("--endpoint", run.endpoint, "As `run` takes it")->default_str("emulator:");
+  app.add_option("--protocol", run.protocol, "Which protocol of the profile (default the first)");
+  app.add_option("--profile", run.profile,
+                 "What the device declares: a name from the profiles folder, or a JSON file");
+  app.add_option("--bench", run.bench, "JSON file of the devices on this bench");
+  app.add_option("--dut", run.duts, "Device of the bench file")->expected(1);
+  app.add_option("--seed", run.seed, "The same seed sends the same requests")
+      ->check(CLI::Range(0, 99'999));
+  app.add_option("--requests", explore.requests, "How many (100000)")
+      ->check(CLI::Range(1, 1'000'000'000));
+  app.add_option("--duration", run.duration, "Instead, or at most so long: 90s, 10m, 8h");
+  app.add_option("--vectors", run.vectors, "Another folder of vectors, whose requests it begins with");
+  app.add_option("--out", run.out, "Folder of the reports; findings/ in it has a vector each")
+      ->capture_default_str();
+  app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");
+  app.add_option("--json", run.json, "JSON file, instead of OUT/results.json");
+  app.add_option("--html", run.html, "HTML file, instead of OUT/report.html");
+  app.add_option("--allow-write", run.allow_write, "Real devices: what may be written, as `run`");
+  app.add_flag("--read-only", run.read_only, "Write nothing, to exec: neither");
+  app.add_option("--journal", run.journal, "Real devices: what they held before, as `run`");
+  app.add_flag("--discard-journal", run.discard_journal,
+               "Forget what an earlier run on this device did not put back");
+  app.add_option("--power-cycle", run.power_cycle,
+                 "Command that switches a real device off and on");
+  app.add_option("--max-restarts", run.max_restarts,
+                 "How often a device that exec: has started is started again after it died (20)")
+      ->check(CLI::Range(0, 1'000'000));
+  app.add_option("--floor", run.floor, "The link's own uncertainty, instead of measuring it: 2ms");
+  add_gate(app, run);
+  app.add_flag("--fail-fast", run.fail_fast, "Stop at the first finding");
+  app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
+  app.add_flag("-v,--verbose", run.verbose, "Show every result with its exchange");
+}
+
 /// "; did you mean '--filter'?" for "--filer=x"; empty for what is an option, or like none. Those
 /// that help does not show are not meant.
 std::string meant_option(const CLI::App& app, std::string_view word) {
@@ -221,6 +257,13 @@ int run_tool(int argc, char** argv) {
   add_run(*run_app, run);
   run_app->footer(exit_codes);
   run.command = command_line(argc, argv);
+
+  cli::ExploreOptions explore;
+  CLI::App* explore_app = app.add_subcommand(
+      "explore", "Requests that no vector has, against the device and our own model of it");
+  add_explore(*explore_app, explore);
+  explore_app->footer(exit_codes);
+  explore.run.command = command_line(argc, argv);
 
   cli::ListOptions list;
   CLI::App* list_app = app.add_subcommand("list", "List the cases");
@@ -397,6 +440,8 @@ int run_tool(int argc, char** argv) {
                            : run::complain(wrong, run::exit_code::usage);
     };
   });
+  explore_app->callback(
+      [&] { chosen = [&] { return cli::explore_command(explore, suites::protocols()); }; });
   list_app->callback(
       [&] { chosen = [&] { return cli::list_command(list, suites::protocols()); }; });
   lint_app->callback(

@@ -106,6 +106,7 @@ class Bench {
   Eligibility outside_profile(const vectors::Case& source) const;
   Eligibility blocked(const vectors::Case& source, const exchange::PreparedCase& prepared) const;
   Eligibility below_floor(const exchange::PreparedCase& prepared) const;
+  std::string not_carried(const exchange::PreparedCase& prepared) const;
   std::string undeclared(const nlohmann::json& config) const;
   std::string not_of_the_case(const vectors::Case& source) const;
   Result<std::vector<harness::Protocol::Written>> written_over_aux(

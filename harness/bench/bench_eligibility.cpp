@@ -250,9 +250,26 @@ std::string Bench::unreadable(const std::string& address, std::size_t digits) co
   return requests ? "" : requests.error().message;
 }
 
+/// A network device that is not reached by what the case opens: connections, or datagrams.
+std::string Bench::not_carried(const PreparedCase& prepared) const {
+  const endpoints::Capabilities& can = endpoint_.capabilities();
+  if (!can.connections && !can.datagrams) return {};
+  for (const exchange::PreparedStep& step : prepared.steps) {
+    if (step.step->kind != vectors::Step::Kind::open || !step.network) continue;
+    const bool udp = step.step->link.transport == Transport::udp;
+    if (udp && !can.datagrams)
+      return "needs datagrams; say where the device takes them: {udp_port} in the command of exec:, "
+             "udp=PORT behind tcp:HOST:PORT";
+    if (!udp && !can.connections)
+      return "needs connections; name the endpoint tcp:HOST:PORT?udp=PORT";
+  }
+  return {};
+}
+
 Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepared) const {
   const endpoints::Capabilities& can = endpoint_.capabilities();
   if (!can.real_device) return {};
+  if (std::string why = not_carried(prepared); !why.empty()) return {Verdict::blocked, why};
   if (prepared.is_client()) {
     if (std::string why = arming_.undeclared(source, options_.profile.config); !why.empty())
       return {Verdict::skip, why};

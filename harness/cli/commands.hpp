@@ -2,6 +2,7 @@
 // table.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,13 @@
 namespace fieldproof::cli {
 
 int run_command(const run::RunOptions& options, const harness::Protocols& protocols);
+
+struct ExploreOptions {
+  run::RunOptions run;             // device, fence, gate and reports; `seed` -1: by the clock
+  std::uint64_t requests = 0;      // then it ends; 0: by `run.duration`, or 100,000
+};
+/// Requests that no vector has, against the device and our own model of it.
+int explore_command(const ExploreOptions& options, const harness::Protocols& protocols);
 
 struct ListOptions {
   std::string filter, vectors;

@@ -6,12 +6,12 @@
 #include <functional>
 
 #include "harness/exchange/prepared_case.hpp"
+#include "harness/safety/brackets.hpp"
 
 namespace fieldproof::safety {
 
 using harness::Protocol;
 using notation::Fields;
-using notation::Item;
 using notation::Notation;
 using results::Move;
 using vectors::Case;
@@ -26,71 +26,6 @@ using Memory = std::vector<std::pair<std::string, std::string>>;
 
 constexpr int alignment = 4;  // words: a long word stays a long word, a bit its place
 constexpr std::uint32_t last_word_of_any = 0xFFFF;
-
-/// The first of its alternatives; open places are 0.
-Result<Bytes> bytes_of(const Notation& notation, const Fields& stations) {
-  const Result<std::vector<notation::FrameTemplate>> templates =
-      notation::make_templates(notation, stations);
-  if (!templates) return templates.error();
-  return templates->front().bytes;
-}
-
-/// A bracket of a notation: its items, and the addresses in it.
-struct Bracket {
-  std::size_t begin = 0, end = 0;
-  Bytes bytes;
-  std::vector<Protocol::AddressField> fields;
-};
-
-std::vector<Bracket> brackets_of(const Notation& notation, bool reply, const Fields& stations,
-                                 const Protocol& protocol) {
-  std::vector<Bracket> brackets;
-  for (std::size_t i = 0; i < notation.size(); ++i) {
-    if (notation[i].kind != Item::Kind::open) continue;
-    Bracket bracket{i, i, {}, {}};
-    while (bracket.end < notation.size() && notation[bracket.end].kind != Item::Kind::close)
-      ++bracket.end;
-    const auto at = [&](std::size_t index) {
-      return notation.begin() + static_cast<std::ptrdiff_t>(index);
-    };
-    const std::size_t closed = std::min(bracket.end + 1, notation.size());
-    const Result<Bytes> bytes = bytes_of(Notation(at(bracket.begin), at(closed)), stations);
-    if (!bytes) continue;
-    bracket.bytes = *bytes;
-    bracket.fields = protocol.address_fields(bracket.bytes, reply);
-    brackets.push_back(std::move(bracket));
-  }
-  return brackets;
-}
-
-/// Puts `bytes` at `offset` of a bracket; false where that is not all literal bytes or a name.
-bool patch(Notation& notation, const Bracket& bracket, std::size_t offset, ByteView bytes,
-           const Fields& stations) {
-  const Notation original = notation;
-  std::size_t patched = 0;
-  for (std::size_t i = bracket.begin; i < bracket.end; ++i) {
-    Item& item = notation[i];
-    const bool literal = item.kind == Item::Kind::literal, name = item.kind == Item::Kind::name;
-    if ((!literal && !name) || item.repeat != 1) continue;
-    const auto at = [&](std::size_t index) {
-      return original.begin() + static_cast<std::ptrdiff_t>(index);
-    };
-    const Result<Bytes> before = bytes_of(Notation(at(bracket.begin), at(i)), stations);
-    if (!before) return false;
-    const std::size_t size = name ? item.text.size() : item.bytes.size();
-    const std::size_t start = before->size() + (name ? stations.name_head(size).size() : 0);
-    const std::size_t from = std::max(start, offset),
-                      to = std::min(start + size, offset + bytes.size());
-    for (std::size_t b = from; b < to; ++b, ++patched) {
-      if (name)
-        item.text[b - start] = static_cast<char>(bytes[b - offset]);
-      else
-        item.bytes[b - start] = bytes[b - offset];
-    }
-    if (literal && from < to) item.text = notation::print_bytes(item.bytes);
-  }
-  return patched == bytes.size();
-}
 
 /// An address of the case, wherever it stands.
 struct Spot {

@@ -15,6 +15,9 @@
 #include "suites/p2p/broken/faults.hpp"
 #include "suites/user_frames/broken/faults.hpp"
 #include "suites/xgt_cnet/broken/broken_server.hpp"
+#include "suites/xgt_fenet/broken/broken_server.hpp"
+#include "suites/xgt_fenet/broken/faults.hpp"
+#include "suites/xnet/broken/broken_xnet.hpp"
 
 namespace fieldproof::faults {
 
@@ -160,6 +163,9 @@ std::vector<Kit> kits() {
           modbus_server("ascii"),
           by_behaviour("modbus-tcp", "modbus_tcp", modbus_tcp_broken::faults(),
                        modbus_tcp_broken::make_broken_server),
+          by_behaviour("xgt-fenet", "xgt_fenet", xgt_fenet_broken::faults(),
+                       xgt_fenet_broken::make_broken_server),
+          by_behaviour("xnet", "xnet", xnet_broken::faults(), xnet_broken::make_broken_xnet),
           by_behaviour("hs-link", "hs_link", hs_link_broken::faults(),
                        hs_link_broken::make_broken_network),
           inverter(),

@@ -2,6 +2,7 @@
 // one of them, in process.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -27,5 +28,9 @@ struct Kit {
 };
 
 std::vector<Kit> kits();
+
+/// Which of its faults `explore` finds with so many requests each, on a device of that fault.
+std::vector<bool> found_by_exploring(const Kit& kit, const std::vector<vectors::Case>& cases,
+                                     std::uint64_t requests);
 
 }  // namespace fieldproof::faults

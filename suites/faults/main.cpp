@@ -34,6 +34,23 @@ std::vector<vectors::Case> cases_in(const std::string& folder, const faults::Kit
   return vectors::load_vectors(folder, {suites::protocols(), kit.folder + "/*"}).cases;
 }
 
+/// `explore` against each fault of these devices, or of all: a line a device, and what it missed.
+int explore_all(const std::string& folder, const std::vector<std::string>& devices) {
+  constexpr std::uint64_t requests = 20'000;
+  for (const faults::Kit& kit : faults::kits()) {
+    if (!devices.empty() && std::ranges::find(devices, kit.name, {}) == devices.end()) continue;
+    const std::vector<bool> found =
+        faults::found_by_exploring(kit, cases_in(folder, kit), requests);
+    const auto count = std::ranges::count(found, true);
+    if (count == 0) continue;  // nothing answers there
+    fmt::print("{}: {} of {} faults within {} requests\n", kit.name, count, found.size(), requests);
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (!found[i]) fmt::print("  not {}\n", kit.faults[i].name);
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -42,9 +59,13 @@ int main(int count, char** arguments) {
     fmt::print(
         stderr,
         "usage: fieldproof_faults FOLDER-OF-VECTORS [DEVICE...]\n"
-        "Writes faults.json there, anew or for these devices (\"modbus-rtu client\") alone.\n");
+        "Writes faults.json there, anew or for these devices (\"modbus-rtu client\") alone.\n"
+        "       fieldproof_faults --explore FOLDER-OF-VECTORS [DEVICE...]\n"
+        "Prints which faults `explore` finds.\n");
     return 2;
   }
+  if (given.front() == "--explore" && given.size() > 1)
+    return explore_all(given[1], {given.begin() + 2, given.end()});
   const std::string& folder = given.front();
   const Result<vectors::FaultMatrix> known = vectors::load_fault_matrix(folder);
   if (!known && given.size() > 1) return fmt::print(stderr, "{}\n", known.error().message), 2;

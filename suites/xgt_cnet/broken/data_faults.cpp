@@ -145,7 +145,7 @@ Bytes write_up_to_the_end(const Bytes& frame, GoodPlc& plc) {
   if (refusal(reply) != xgt_cnet::xgt_error::range || request.service != XgtService::write_run)
     return reply;
   const std::size_t digits = 2 * plc::type_bytes(type_of(request));
-  while (--request.count > 0) {
+  while (--request.count > 0 && request.block[0].data.size() > digits) {
     request.block[0].data.remove_suffix(digits);
     Bytes shorter;
     xgt_cnet::encode_request(request, shorter);

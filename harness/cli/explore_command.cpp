@@ -1,0 +1,248 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "harness/bench/benches.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/endpoints/kinds.hpp"
+#include "harness/explore/explorer.hpp"
+#include "harness/judge/judge.hpp"
+#include "harness/run/long_texts.hpp"
+#include "harness/run/look_on.hpp"
+#include "harness/run/ports.hpp"
+#include "harness/run/run_info.hpp"
+#include "harness/run/run_plan.hpp"
+#include "harness/run/run_report.hpp"
+#include "harness/system/interrupt.hpp"
+#include "reports/text/report_file.hpp"
+#include "src/base/duration.hpp"
+
+namespace fieldproof::cli {
+
+using bench::Benches;
+using explore::Explorer;
+using results::CaseResult;
+using results::Verdict;
+using run::RunPlan;
+using run::RunReport;
+
+namespace {
+
+constexpr std::uint64_t usual_requests = 100'000;
+using Clock = std::chrono::steady_clock;
+
+std::string folder_of(const harness::Protocol& protocol) {
+  std::string folder(protocol.name());
+  std::ranges::replace(folder, '-', '_');
+  return folder;
+}
+
+/// The model that the device is held against.
+std::string model_of(const RunPlan& plan) {
+  const harness::Protocol& protocol = *plan.protocols.front();
+  const std::string& model = plan.bench.profile.model;
+  return protocol.has_model(model) ? model : protocol.models().front();
+}
+
+explore::Device device_of(const RunPlan& plan, Benches& bench, const harness::Protocol& configured) {
+  return {&configured, plan.bench.station, !endpoints::capabilities_of(plan.endpoint).back_door,
+          [&bench](const vectors::Case& one) { return bench.run(one); },
+          [&bench] { return bench.stopped().empty() && !bench.interrupted(); }};
+}
+
+/// What is known of one kind of request: how it was answered.
+CaseResult seen_result(const harness::Protocol& protocol, const std::string& topic,
+                       const std::string& kind,
+                       const std::map<std::string, std::uint64_t>& answers) {
+  CaseResult result;
+  result.id = fmt::format("{}/explore/{}/{}", folder_of(protocol), topic, kind);
+  result.protocol = protocol.name();
+  result.level = "must";
+  result.basis = "decision";
+  result.verdict = Verdict::pass;
+  std::uint64_t all = 0;
+  std::string sorts;
+  for (const auto& [sort, times] : answers) {
+    all += times;
+    sorts += fmt::format("{}{} {}", sorts.empty() ? "" : ", ", sort, times);
+  }
+  result.title = fmt::format("{} {} requests are answered as the model answers them", topic, kind);
+  result.notes.push_back(fmt::format("{} requests: {}", all, sorts));
+  return result;
+}
+
+/// One exploration: sequences to results.
+class Exploration {
+ public:
+  Exploration(const ExploreOptions& options, RunPlan& plan, std::vector<Benches>& ports,
+              RunReport& report, Explorer& explorer)
+      : options_(options), plan_(plan), ports_(ports), report_(report), explorer_(explorer) {}
+
+  RunReport::End execute(const Status& started) {
+    if (!started) {
+      end_.interrupted = started.error().interrupted;
+      if (!end_.interrupted) end_.trouble = started.error().message;
+    } else {
+      explore_it();
+      report_what_was_found();
+    }
+    put_back();
+    return end_;
+  }
+
+ private:
+  bool goes_on() const {
+    if (os::interrupted()) return false;
+    if (plan_.soak > 0ns && Clock::now() - started_ >= plan_.soak) return false;
+    const std::uint64_t most =
+        options_.requests > 0 ? options_.requests : plan_.soak > 0ns ? 0 : usual_requests;
+    return most == 0 || explorer_.requests_sent() < most;
+  }
+
+  void explore_it() {
+    while (goes_on() && ports_.front().stopped().empty()) {
+      report_.show_progress(0, fmt::format("{} requests, {} findings", explorer_.requests_sent(),
+                                           explorer_.findings().size()));
+      explorer_.step();
+      if (options_.run.fail_fast && !explorer_.findings().empty()) break;
+    }
+    end_.interrupted = os::interrupted();
+    if (!end_.interrupted) end_.trouble = ports_.front().stopped();
+  }
+
+  void report_what_was_found() {
+    const harness::Protocol& protocol = *plan_.protocols.front();
+    report_.say(fmt::format("{} requests of {} in {} sequences, seed {}: {} findings",
+                            explorer_.requests_sent(), protocol.name(), explorer_.sequences(),
+                            options_.run.seed, explorer_.findings().size()));
+    for (const auto& [what, answers] : explorer_.seen())
+      report_.add(seen_result(protocol, what.first, what.second, answers));
+    int number = 0;
+    for (const auto& [reason, times] : explorer_.unjudged()) {
+      CaseResult result;
+      result.id = fmt::format("{}/explore/not_judged/{}", folder_of(protocol), ++number);
+      result.protocol = protocol.name();
+      result.verdict = Verdict::blocked;
+      result.message = run::bounded(fmt::format("{} sequences: {}", times, reason));
+      report_.add(result);
+    }
+    for (const auto& [mark, finding] : explorer_.findings()) report_.add(result_of(finding));
+  }
+
+  CaseResult result_of(const explore::Finding& finding) {
+    CaseResult result = finding.result;
+    const std::filesystem::path file =
+        std::filesystem::path(options_.run.out) / "findings" /
+        (finding.shortest.id.substr(finding.shortest.id.rfind('/') + 1) + ".json");
+    result.notes.push_back(finding.confirmed ? "shown again three times in a row"
+                                             : "seen once, not again: it depends on what was before");
+    result.notes.push_back(fmt::format("shown by {} sequences", finding.times));
+    if (const Status written = write(file, explore::vector_text(finding.shortest)); !written)
+      end_.trouble = written.error().message;
+    result.replay = fmt::format("{} --vectors {}", base_command(), run::shell_word(file.string()));
+    long_texts_.shorten(result);
+    return result;
+  }
+
+  std::string base_command() const {
+    const std::string& replay = plan_.bench.replay;
+    return replay.substr(0, replay.rfind(" --filter"));
+  }
+
+  static Status write(const std::filesystem::path& file, const std::string& text) {
+    std::error_code error;
+    std::filesystem::create_directories(file.parent_path(), error);
+    Result<text::ReportFile> report = text::ReportFile::create(file.string());
+    if (!report) return report.error();
+    report->out() << text;
+    return report->commit();
+  }
+
+  void put_back() {
+    if (end_.interrupted) os::clear_interrupt();
+    if (const std::string open = ports_.front().put_back();
+        !open.empty() && !plan_.ends_with_run)
+      end_.not_restored = fmt::format("NOT RESTORED: {}; type: fieldproof restore {}",
+                                      run::bounded(open), run::shell_word(plan_.journal));
+  }
+
+  const ExploreOptions& options_;
+  RunPlan& plan_;
+  std::vector<Benches>& ports_;
+  RunReport& report_;
+  Explorer& explorer_;
+  run::LongTexts long_texts_;
+  RunReport::End end_;
+  Clock::time_point started_ = Clock::now();
+};
+
+int execute(const ExploreOptions& options, RunPlan& plan, std::vector<Benches>& ports,
+            RunReport& report, Explorer& explorer) {
+  std::vector<std::string> floors;
+  Status started = ports.front().start();
+  if (!started) {
+    started = run::looked_on(started.error(), ports.front(), plan);
+  } else if (Result<std::string> floor = plan.floor
+                                             ? Result<std::string>(ports.front().use_floor(*plan.floor))
+                                             : ports.front().measure_floor();
+             floor) {
+    floors.push_back(*floor);
+  } else {
+    started = floor.error();
+  }
+  results::RunInfo info = run::run_info(options.run, plan, ports, floors);
+  info.properties["seed"] = std::to_string(options.run.seed);
+  if (const Status begun = report.begin(info); !begun)
+    return run::complain(begun.error().message, run::exit_code::trouble);
+  Exploration exploration(options, plan, ports, report, explorer);
+  return report.finish(exploration.execute(started));
+}
+
+}  // namespace
+
+int explore_command(const ExploreOptions& given, const harness::Protocols& protocols) {
+  ExploreOptions options = given;
+  if (options.run.seed < 0)
+    options.run.seed =
+        static_cast<int>(std::chrono::system_clock::now().time_since_epoch().count() % 100'000);
+  Result<RunPlan> plan = run::make_run_plan(options.run, protocols);
+  if (!plan) return run::complain(plan.error().message, run::exit_code::usage);
+  const harness::Protocol& protocol = *plan->protocols.front();
+  const std::string model = model_of(*plan);
+  const Result<std::unique_ptr<harness::Protocol>> configured =
+      protocol.configured(model, nlohmann::json::object());
+  if (!configured) return run::complain(configured.error().message, run::exit_code::usage);
+  std::vector<explore::Request> requests =
+      explore::requests_of(plan->vectors.cases, protocol, model);
+  if (requests.empty() || !protocol.memory())
+    return run::complain(fmt::format("{} cannot be explored: {}", protocol.name(),
+                                     protocol.has_frames()
+                                         ? "no vector has a request for such a server"
+                                         : "no manual prints its frames"),
+                         run::exit_code::nothing);
+  Result<explore::Oracle> oracle =
+      explore::Oracle::open(protocol, model, plan->bench.station);
+  if (!oracle) return run::complain(oracle.error().message, run::exit_code::usage);
+  os::catch_interrupts();
+  Result<run::ReportPaths> paths = run::make_report_paths(options.run.out, options.run.json,
+                                                          options.run.junit, options.run.html);
+  if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
+  if (!options.run.capture.empty()) paths->emplace_back("capture", options.run.capture);
+  if (const Status opened = run::open_journals(options.run, *plan); !opened)
+    return run::complain(opened.error().message, run::exit_code::usage);
+  Result<std::vector<Benches>> ports = run::open_ports(*plan);
+  if (!ports)
+    return run::complain(ports.error().message, options.run.skip_absent && ports.error().absent
+                                                    ? run::exit_code::absent
+                                                    : run::exit_code::trouble);
+  Result<RunReport> report = RunReport::create(
+      std::move(*paths), run::console_options(run::gate_of(options.run), options.run.verbose));
+  if (!report) return run::complain(report.error().message, run::exit_code::trouble);
+  Explorer explorer(device_of(*plan, ports->front(), *configured ? **configured : protocol),
+                    std::move(*oracle), std::move(requests),
+                    static_cast<std::uint64_t>(options.run.seed));
+  return execute(options, *plan, *ports, *report, explorer);
+}
+
+}  // namespace fieldproof::cli

@@ -1,0 +1,254 @@
+#include "harness/explore/changes.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace fieldproof::explore {
+
+using harness::Field;
+using harness::Protocol;
+using notation::Item;
+using notation::Notation;
+using safety::Bracket;
+
+namespace {
+
+constexpr std::string_view digits = "0123456789ABCDEF";
+
+bool is_digit(Byte byte) { return digits.find(static_cast<char>(byte)) != std::string_view::npos; }
+
+Byte any_digit(Random& random) { return static_cast<Byte>(digits[random.below(digits.size())]); }
+
+/// Digits stay digits.
+Bytes any_data(ByteView old, bool text, Random& random) {
+  Bytes bytes(old.begin(), old.end());
+  for (Byte& byte : bytes)
+    if (!text)
+      byte = static_cast<Byte>(random.below(256));
+    else if (is_digit(byte))
+      byte = any_digit(random);
+  return bytes;
+}
+
+/// A number of hex digits, or of bytes with the low one in front or behind, `by` further.
+Bytes counted(ByteView old, bool text, bool low_first, int by) {
+  Bytes bytes(old.begin(), old.end());
+  const auto at = [&](std::size_t i) -> Byte& {
+    return bytes[low_first ? i : bytes.size() - 1 - i];
+  };
+  int carry = by;
+  for (std::size_t i = 0; i < bytes.size() && carry != 0; ++i) {
+    const int base = text ? 16 : 256;
+    const std::size_t digit = text ? digits.find(static_cast<char>(at(i))) : at(i);
+    if (digit == std::string_view::npos) return bytes;
+    const int sum = static_cast<int>(digit) + carry;
+    const int value = (sum % base + base) % base;
+    carry = (sum - value) / base;
+    at(i) = text ? static_cast<Byte>(digits[static_cast<std::size_t>(value)])
+                 : static_cast<Byte>(value);
+  }
+  return bytes;
+}
+
+Item pause_of(double milliseconds) {
+  Item item;
+  item.kind = Item::Kind::pause;
+  item.pause = {milliseconds, false};
+  item.text = fmt::format("~{:g}ms", milliseconds);
+  return item;
+}
+
+}  // namespace
+
+std::uint32_t HotWords::word(const std::string& area, std::uint32_t words, Random& random) {
+  const auto any = [&] { return static_cast<std::uint32_t>(random.below(words)); };
+  const auto [hot, fresh] = words_.try_emplace(area, 0);
+  if (fresh) hot->second = any();
+  switch (random.below(10)) {
+    case 0: return any();
+    case 1: return words - 1 - static_cast<std::uint32_t>(random.below(std::min(words, 4u)));
+    case 2: return (hot->second ^ (1u << random.below(16))) % words;
+    default: return (hot->second + static_cast<std::uint32_t>(random.below(4))) % words;
+  }
+}
+
+bool Changes::make(std::string_view kind, Request& request, HotWords& hot, Random& random) const {
+  bool done = false;
+  if (kind == "elsewhere") done = elsewhere(request, hot, random);
+  if (kind == "field") done = field(request, random);
+  if (kind == "damage") done = damage(request, random);
+  if (kind == "pause") done = pause(request, random);
+  if (done) request.kind = kind;
+  return done;
+}
+
+bool Changes::move(Request& request, const Bracket& bracket, HotWords& hot, Random& random) const {
+  bool moved = false;
+  for (const Protocol::AddressField& address : bracket.fields) {
+    const Protocol::Written& names = address.names;
+    if (address.size == 0 || names.unknown()) continue;
+    const std::uint32_t words = protocol_.words_of(names.area);
+    if (words == 0) continue;
+    std::optional<Bytes> bytes;  // of as many digits as there are
+    for (int trial = 0; trial < 4 && !bytes; ++trial) {
+      const std::uint32_t to = hot.word(names.area, words, random);
+      const int by = static_cast<int>(to) - static_cast<int>(names.first_word);
+      bytes = protocol_.moved_field(bracket.bytes, address, by);
+    }
+    moved |= bytes && safety::patch(request.notation, bracket, address.offset, *bytes, fields_);
+  }
+  return moved;
+}
+
+bool Changes::elsewhere(Request& request, HotWords& hot, Random& random) const {
+  bool changed = false;
+  for (const Bracket& bracket : safety::brackets_of(request.notation, false, fields_, protocol_)) {
+    changed |= move(request, bracket, hot, random);
+    for (const Field& field : protocol_.explain_as(bracket.bytes, true))
+      if (field.name.find("data") != std::string::npos &&
+          field.name.find("count") == std::string::npos && field.size > 0) {
+        const ByteView old = ByteView(bracket.bytes).subspan(field.offset, field.size);
+        changed |= safety::patch(request.notation, bracket, field.offset,
+                                 any_data(old, protocol_.is_text(), random), fields_);
+      }
+  }
+  return changed;
+}
+
+bool Changes::put(Request& request, const Bracket& bracket, const Field& field,
+                  ByteView bytes) const {
+  const ByteView old = ByteView(bracket.bytes).subspan(field.offset, field.size);
+  if (std::ranges::equal(old, bytes) ||
+      !safety::patch(request.notation, bracket, field.offset, bytes, fields_))
+    return false;
+  request.change = fmt::format("{}: {} becomes {}", field.name, notation::print_bytes(old),
+                               notation::print_bytes(bytes));
+  return true;
+}
+
+bool Changes::field(Request& request, Random& random) const {
+  const std::vector<Bracket> brackets =
+      safety::brackets_of(request.notation, false, fields_, protocol_);
+  if (brackets.empty()) return false;
+  const Bracket& bracket = random.of(brackets);
+  std::vector<Field> fields = protocol_.explain_as(bracket.bytes, true);
+  std::erase_if(fields, [&](const Field& one) {
+    return one.size == 0 || one.offset + one.size > bracket.bytes.size();
+  });
+  if (fields.empty()) return false;
+  const Field& field = random.of(fields);
+  const ByteView old = ByteView(bracket.bytes).subspan(field.offset, field.size);
+  const bool text = protocol_.is_text(), low_first = random.chance(50);
+  switch (random.below(6)) {
+    case 0: return put(request, bracket, field, counted(old, text, low_first, 1));
+    case 1: return put(request, bracket, field, counted(old, text, low_first, -1));
+    case 2: return put(request, bracket, field, Bytes(old.size(), text ? Byte{'0'} : Byte{0}));
+    case 3: return put(request, bracket, field, Bytes(old.size(), text ? Byte{'F'} : Byte{0xFF}));
+    case 4: {  // one byte of it
+      Bytes bytes(old.begin(), old.end());
+      random.of(bytes) = static_cast<Byte>(text ? 0x20 + random.below(0x5F) : random.below(256));
+      return put(request, bracket, field, bytes);
+    }
+    default: return put(request, bracket, field, any_data(old, text, random));
+  }
+}
+
+bool Changes::damage(Request& request, Random& random) const {
+  const Result<Bytes> made = safety::bytes_of(request.notation, fields_);
+  if (!made || made->empty()) return false;
+  Bytes bytes = *made;
+  const std::size_t at = random.below(bytes.size());
+  const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+  switch (random.below(6)) {
+    case 0: {
+      const std::size_t bit = random.below(protocol_.is_text() ? 7 : 8);
+      bytes[at] = static_cast<Byte>(bytes[at] ^ (1u << bit));
+      request.change = fmt::format("bit {} of byte {} flipped", bit, at);
+      break;
+    }
+    case 1:
+      bytes.erase(place);
+      request.change = fmt::format("byte {} dropped", at);
+      break;
+    case 2:
+      bytes.insert(place, bytes[at]);
+      request.change = fmt::format("byte {} doubled", at);
+      break;
+    case 3:
+      bytes.resize(at);
+      request.change = fmt::format("cut after {} bytes", at);
+      break;
+    case 4:
+      bytes.push_back(static_cast<Byte>(random.below(protocol_.is_text() ? 128 : 256)));
+      request.change = "a byte behind it";
+      break;
+    default:
+      bytes.insert(bytes.begin(), static_cast<Byte>(random.below(protocol_.is_text() ? 128 : 256)));
+      request.change = "a byte before it";
+  }
+  request.notation = raw_notation(bytes);
+  return !bytes.empty();
+}
+
+bool Changes::pause(Request& request, Random& random) const {
+  static constexpr std::array<double, 6> pauses{200, 1000, 1, 3, 5, 10};
+  const Result<Bytes> made = safety::bytes_of(request.notation, fields_);
+  if (!made || made->size() < 2) return false;
+  const std::size_t at = 1 + random.below(made->size() - 1);
+  const double long_one = pauses[random.below(line_ ? pauses.size() : 2)];
+  request.notation = raw_notation(ByteView(*made).first(at));
+  request.notation.push_back(pause_of(long_one));
+  std::ranges::move(raw_notation(ByteView(*made).subspan(at)), std::back_inserter(request.notation));
+  request.change = fmt::format("{:g} ms of silence before byte {}", long_one, at);
+  return true;
+}
+
+std::vector<Protocol::Written> Changes::named_by(const Request& request) const {
+  std::vector<Protocol::Written> names;
+  const auto add = [&](const std::vector<Protocol::AddressField>& fields) {
+    for (const Protocol::AddressField& field : fields)
+      if (!field.names.unknown()) names.push_back(field.names);
+  };
+  const std::vector<Bracket> brackets =
+      safety::brackets_of(request.notation, false, fields_, protocol_);
+  for (const Bracket& bracket : brackets) add(bracket.fields);
+  const Result<Bytes> bytes = safety::bytes_of(request.notation, fields_);
+  if (brackets.empty() && bytes) add(protocol_.address_fields(*bytes, false));
+  return names;
+}
+
+std::optional<Request> Changes::look_at(const Request& request, Random& random) const {
+  if (request.names.empty()) return std::nullopt;
+  const Protocol::Written& names = random.of(request.names);
+  const std::uint32_t words = protocol_.words_of(names.area);
+  const std::uint32_t beside = random.chance(25) ? 1 : 0;
+  const std::uint32_t word =
+      names.first_word +
+      static_cast<std::uint32_t>(random.below(names.last_word - names.first_word + 1)) + beside;
+  if (words != 0 && word >= words) return std::nullopt;
+  return read(request, {names.area, word, word, "", names.contacts});
+}
+
+std::optional<Request> Changes::look_anywhere(Request like, HotWords& hot, Random& random) const {
+  std::vector<Protocol::Area> areas = protocol_.areas();
+  std::erase_if(areas, [&](const auto& one) { return protocol_.words_of(one.name) == 0; });
+  if (areas.empty()) return std::nullopt;
+  const std::string& area = random.of(areas).name;
+  const std::uint32_t word = hot.word(area, protocol_.words_of(area), random);
+  return read(std::move(like), {area, word, word, ""});
+}
+
+std::optional<Request> Changes::read(Request like, const Protocol::Written& names) const {
+  const std::optional<Protocol::Place> place = place_of(names, protocol_);
+  if (!place || !place->declared) return std::nullopt;
+  const Result<std::vector<Bytes>> reads =
+      protocol_.read_requests(station_, place->address, place->digits);
+  if (!reads || reads->empty()) return std::nullopt;
+  like.notation = notation_of(reads->front(), true, protocol_, station_);
+  like.kind = "look";
+  like.change.clear();
+  like.names = {names};
+  return like;
+}
+
+}  // namespace fieldproof::explore

@@ -1,0 +1,69 @@
+// What can be done to a request so that it asks something else, or is wrong in one place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/explore/random.hpp"
+#include "harness/explore/request.hpp"
+#include "harness/safety/brackets.hpp"
+
+namespace fieldproof::explore {
+
+/// Words of memory that the requests of one sequence come back to, so that one sees what another
+/// did: by area.
+class HotWords {
+ public:
+  /// A word near one of them, or as far from one as a lost address bit takes it, or anywhere.
+  std::uint32_t word(const std::string& area, std::uint32_t words, Random& random);
+
+ private:
+  std::map<std::string, std::uint32_t> words_;
+};
+
+/// Refers to the protocol.
+class Changes {
+ public:
+  static constexpr std::array<std::string_view, 4> kinds{"elsewhere", "field", "damage", "pause"};
+
+  /// `line`: pauses in a frame can be kept to the millisecond.
+  Changes(const harness::Protocol& protocol, int station, bool line)
+      : protocol_(protocol), station_(station), line_(line), fields_(protocol.fields_at(station)) {}
+
+  /// Does one of `kinds` to a request, and says so in it. False: it cannot be done to this one.
+  bool make(std::string_view kind, Request& request, HotWords& hot, Random& random) const;
+
+  /// Other memory, and other data: its checks and lengths follow.
+  bool elsewhere(Request& request, HotWords& hot, Random& random) const;
+  /// Another value of one field: one more, one less, none, all, any.
+  bool field(Request& request, Random& random) const;
+  /// As a bad line makes it: a bit, a byte, two frames in one. No check follows.
+  bool damage(Request& request, Random& random) const;
+  /// A pause within the frame.
+  bool pause(Request& request, Random& random) const;
+
+  /// A request that reads what this one names, or what lies beside it; nothing where nobody can.
+  std::optional<Request> look_at(const Request& request, Random& random) const;
+  /// The same of any memory that the device has.
+  std::optional<Request> look_anywhere(Request like, HotWords& hot, Random& random) const;
+  /// The memory that it names.
+  std::vector<harness::Protocol::Written> named_by(const Request& request) const;
+
+ private:
+  std::optional<Request> read(Request like, const harness::Protocol::Written& names) const;
+  bool move(Request& request, const safety::Bracket& bracket, HotWords& hot, Random& random) const;
+  bool put(Request& request, const safety::Bracket& bracket, const harness::Field& field,
+           ByteView bytes) const;
+
+  const harness::Protocol& protocol_;
+  int station_;
+  bool line_;
+  notation::Fields fields_;
+};
+
+}  // namespace fieldproof::explore

@@ -1,0 +1,298 @@
+// Requests, what becomes of them, and sequences that are held against our own device.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "harness/bench/bench.hpp"
+#include "harness/endpoints/emulator.hpp"
+#include "harness/explore/explorer.hpp"
+#include "harness/vectors/loader.hpp"
+#include "suites/protocols.hpp"
+
+namespace fieldproof::explore {
+namespace {
+
+using harness::Protocol;
+using results::CaseResult;
+using results::Verdict;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using vectors::Case;
+
+const Protocol& protocol(const char* name) { return *suites::protocols().find(name); }
+
+Request request(const std::string& text) {
+  return {"rss", {}, *notation::parse_notation(text)};
+}
+
+constexpr const char* read_word = "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]";
+
+std::vector<Case> cases(const char* folder) {
+  return vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors",
+                               {suites::protocols(), std::string(folder) + "/*"})
+      .cases;
+}
+
+Bytes bytes_of(const Request& one, const Protocol& own) {
+  return *safety::bytes_of(one.notation, own.fields_at(1));
+}
+
+/// A device of the protocol, in process; `make` may make a broken one.
+class InProcess {
+ public:
+  explicit InProcess(const Protocol& own, endpoints::DeviceFactory make = {})
+      : endpoint_({"emulator", own.models().front(), {}},
+                  make ? std::move(make)
+                       : [&own](std::string_view model, const nlohmann::json& config) {
+                           return own.make_device(model, config);
+                         },
+                  {}, own.default_port()),
+        bench_(endpoint_, own, options(own)) {}
+
+  CaseResult run(const Case& one) { return bench_.run(one); }
+
+ private:
+  static bench::BenchOptions options(const Protocol& own) {
+    bench::BenchOptions options;
+    options.profile.name = "emulator";
+    options.profile.protocols = {std::string(own.name())};
+    options.known = suites::protocols();
+    return options;
+  }
+  endpoints::EmulatorEndpoint endpoint_;
+  bench::Bench bench_;
+};
+
+Explorer explorer(const Protocol& own, InProcess& device, const std::vector<Case>& from,
+                  std::uint64_t seed = 1) {
+  const std::string model = own.models().front();
+  return Explorer({&own, 1, false, [&device](const Case& one) { return device.run(one); }},
+                  std::move(*Oracle::open(own, model, 1)), requests_of(from, own, model), seed);
+}
+
+TEST(RequestsOf, AreThoseThatSayAllOfTheirBytes) {
+  const std::vector<Request> all =
+      requests_of(cases("xgt_cnet"), protocol("xgt-cnet"), "xbc-h");
+  EXPECT_GT(all.size(), 500u);
+  for (const Request& one : all) {
+    EXPECT_TRUE(safety::bytes_of(one.notation, protocol("xgt-cnet").fields_at(1)));
+    EXPECT_FALSE(one.topic.empty());
+  }
+}
+
+TEST(NotationOf, HasStationAndCheckAsWords) {
+  const Bytes nak = *from_hex("15 30 31 72 53 53 30 30 31 31 03 35 33");
+  const Protocol& cnet = protocol("xgt-cnet");
+  const std::string text = notation::print(notation_of(nak, false, cnet, 1));
+  EXPECT_THAT(text, AllOf(HasSubstr(" st "), HasSubstr("BCC")));
+  EXPECT_EQ(*safety::bytes_of(*notation::parse_notation(text), cnet.fields_at(1)), nak);
+}
+
+/// The check stays wrong, and nothing moves.
+TEST(NotationOf, LeavesWhatIsWrong) {
+  const Bytes nak = *from_hex("15 30 31 72 53 53 30 30 31 31 03 30 30");
+  const Protocol& cnet = protocol("xgt-cnet");
+  EXPECT_THAT(notation::print(notation_of(nak, false, cnet, 1)), Not(HasSubstr("BCC")));
+}
+
+TEST(Changes, ElsewhereIsARightRequest) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  const Changes changes(cnet, 1, true);
+  Random random(1);
+  HotWords hot;
+  std::set<Bytes> seen;
+  for (int i = 0; i < 50; ++i) {
+    Request one = request(read_word);
+    changes.make("elsewhere", one, hot, random);  // not where it would be as it is
+    const Bytes bytes = bytes_of(one, cnet);
+    EXPECT_TRUE(harness::faultless(cnet.explain_as(bytes, true))) << to_text(bytes);
+    seen.insert(bytes);
+  }
+  EXPECT_GT(seen.size(), 8u);
+}
+
+TEST(Changes, AFieldChangesAndItsCheckFollows) {
+  const Protocol& rtu = protocol("modbus-rtu");
+  const Changes changes(rtu, 1, true);
+  Random random(2);
+  HotWords hot;
+  int right = 0;
+  for (int i = 0; i < 50; ++i) {
+    Request one = request("[st 03 00 63 00 01 CRC]");
+    if (!changes.make("field", one, hot, random)) continue;
+    EXPECT_THAT(one.change, HasSubstr(" becomes "));
+    const Bytes bytes = bytes_of(one, rtu);
+    for (const harness::Field& field : rtu.explain_as(bytes, true))
+      if (field.name == "CRC") right += field.problem.empty();
+  }
+  EXPECT_GT(right, 30);
+}
+
+TEST(Changes, DamageChangesTheBytesAlone) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  const Changes changes(cnet, 1, true);
+  Random random(3);
+  HotWords hot;
+  const Bytes whole = bytes_of(request(read_word), cnet);
+  for (int i = 0; i < 50; ++i) {
+    Request one = request(read_word);
+    if (changes.make("damage", one, hot, random)) {
+      EXPECT_NE(bytes_of(one, cnet), whole) << one.change;
+    }
+  }
+}
+
+/// What a line without a wire cannot keep is not asked of it.
+TEST(Changes, PausesBehindASocketAreLong) {
+  const Changes changes(protocol("xgt-cnet"), 1, false);
+  Random random(4);
+  HotWords hot;
+  for (int i = 0; i < 30; ++i) {
+    Request one = request(read_word);
+    ASSERT_TRUE(changes.make("pause", one, hot, random));
+    EXPECT_THAT(one.change, testing::AnyOf(HasSubstr("200 ms"), HasSubstr("1000 ms")));
+  }
+}
+
+TEST(Sequence, ExpectsWhatOurOwnDeviceAnswers) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  Oracle oracle = std::move(*Oracle::open(cnet, "xbc-h", 1));
+  const std::vector<Request> asked{request(read_word), request("'noise'"),
+                                   request("[ENQ st 'rSS' '17' EOT BCC]")};
+  const Memory memory{{"%MW100", "12AB"}};
+  const auto answers = oracle.ask(asked, memory, true);
+  ASSERT_TRUE(answers && answers->size() == 3);
+  EXPECT_EQ(sort_of(answers->at(0), cnet), "answered");
+  EXPECT_EQ(sort_of(answers->at(1), cnet), "silence");
+  EXPECT_THAT(sort_of(answers->at(2), cnet), HasSubstr("0003"));
+  const Case one = case_of(asked, *answers, memory, cnet, 1, "xgt_cnet/explore/test");
+  EXPECT_EQ(one.basis, "decision");
+  EXPECT_THAT(one.steps[1].frames.front().text, HasSubstr("12AB"));
+  EXPECT_EQ(one.steps[3].kind, vectors::Step::Kind::silence);
+  InProcess device(cnet);
+  EXPECT_EQ(device.run(one).verdict, Verdict::pass) << device.run(one).message;
+}
+
+/// All that is granted follows from what is printed.
+TEST(Sequence, OfWhatIsGrantedIsDerived) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  Oracle oracle = std::move(*Oracle::open(cnet, "xbc-h", 1));
+  const auto answers = oracle.ask({request(read_word)}, {}, true);
+  ASSERT_TRUE(answers);
+  EXPECT_EQ(case_of({request(read_word)}, *answers, {}, cnet, 1, "x").basis, "derived");
+}
+
+/// The file says the same as the case.
+TEST(Sequence, AsAFileIsTheSameCase) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  Oracle oracle = std::move(*Oracle::open(cnet, "xbc-h", 1));
+  Request asked = request(read_word);
+  asked.source = {"m", "1", "a quote of five good words", {}};
+  const Memory memory{{"%MW100", "12AB"}};
+  const auto answers = oracle.ask({asked}, memory, true);
+  ASSERT_TRUE(answers);
+  const Case one = case_of({asked}, *answers, memory, cnet, 1, "xgt_cnet/explore/test");
+  vectors::VectorSet set;
+  vectors::load_vector_text(vector_text(one), "finding.json", set, {suites::protocols()});
+  EXPECT_THAT(set.problems, IsEmpty());
+  ASSERT_EQ(set.cases.size(), 1u);
+  EXPECT_EQ(set.cases.front().memory, one.memory);
+  ASSERT_EQ(set.cases.front().steps.size(), one.steps.size());
+  for (std::size_t i = 0; i < one.steps.size(); ++i)
+    EXPECT_EQ(set.cases.front().steps[i].frames.front().text, one.steps[i].frames.front().text);
+}
+
+class HealthyDevices : public testing::TestWithParam<const char*> {};
+
+TEST_P(HealthyDevices, ShowNothing) {
+  const Protocol& own = protocol(GetParam());
+  std::string folder = GetParam();
+  std::ranges::replace(folder, '-', '_');
+  InProcess device(own);
+  Explorer one = explorer(own, device, cases(folder.c_str()), 77);
+  while (one.requests_sent() < 1500) one.step();
+  EXPECT_THAT(one.findings(), IsEmpty()) << one.findings().begin()->second.result.message;
+  EXPECT_GT(one.seen().size(), 15u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Explorer, HealthyDevices,
+                         testing::Values("xgt-cnet", "modbus-rtu", "modbus-ascii", "modbus-tcp",
+                                         "xgt-fenet", "ls-bus"),
+                         [](const auto& one) {
+                           std::string name = one.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+/// The same seed sends the same requests.
+TEST(Explorer, IsRepeatable) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  const std::vector<Case> from = cases("xgt_cnet");
+  std::vector<std::string> first, second;
+  for (std::vector<std::string>* sent : {&first, &second}) {
+    InProcess device(cnet);
+    const std::string model = cnet.models().front();
+    const auto run = [&](const Case& one) {
+      for (const vectors::Step& step : one.steps)
+        if (!step.frames.empty()) sent->push_back(step.frames.front().text);
+      return device.run(one);
+    };
+    Explorer one({&cnet, 1, false, run}, std::move(*Oracle::open(cnet, model, 1)),
+                 requests_of(from, cnet, model), 5);
+    while (one.requests_sent() < 200) one.step();
+  }
+  EXPECT_EQ(first, second);
+}
+
+/// Loses each sixth frame.
+class Forgetful : public plc::SerialDevice {
+ public:
+  explicit Forgetful(std::unique_ptr<plc::EmulatedDevice> good) : good_(std::move(good)) {}
+  void receive(const Burst& burst) override {
+    if (++count_ % 6 == 0) return;
+    good_->line()->receive(burst);
+  }
+  std::optional<Time> wake_at() const override { return good_->line()->wake_at(); }
+  Bytes advance(Time now) override { return good_->line()->advance(now); }
+  Status set(std::string_view address, std::string_view hex) override {
+    return good_->set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    return good_->get(address, digits);
+  }
+  Status act(std::string_view action) override { return good_->act(action); }
+
+ private:
+  std::unique_ptr<plc::EmulatedDevice> good_;
+  int count_ = 0;
+};
+
+/// What takes six frames is shown by six, however long the sequence was in which it was seen.
+TEST(Explorer, AFindingIsAsShortAsItShows) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, [&](std::string_view model, const nlohmann::json& config)
+                             -> Result<std::unique_ptr<plc::EmulatedDevice>> {
+    auto good = cnet.make_device(model, config);
+    if (!good) return good.error();
+    return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Forgetful>(std::move(*good)));
+  });
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"));
+  while (one.findings().empty() && one.requests_sent() < 5000) one.step();
+  ASSERT_THAT(one.findings(), Not(IsEmpty()));
+  const Finding& finding = one.findings().begin()->second;
+  EXPECT_TRUE(finding.confirmed);
+  EXPECT_EQ(finding.result.verdict, Verdict::fail);
+  const auto sends = std::ranges::count(finding.shortest.steps, vectors::Step::Kind::send,
+                                        &vectors::Step::kind);
+  EXPECT_LE(sends, 6);
+  InProcess good(cnet);
+  EXPECT_EQ(good.run(finding.shortest).verdict, Verdict::pass);
+}
+
+}  // namespace
+}  // namespace fieldproof::explore

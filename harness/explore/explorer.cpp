@@ -1,0 +1,230 @@
+#include "harness/explore/explorer.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cctype>
+
+#include "harness/vectors/fingerprint.hpp"
+
+namespace fieldproof::explore {
+
+using results::CaseResult;
+using results::Verdict;
+
+namespace {
+
+constexpr std::size_t first_weight = 4, news_weight = 16, least_weight = 1;
+constexpr std::size_t most_findings = 50;    // more are counted
+constexpr int most_trials = 200;             // of shortening one finding
+constexpr int confirmations = 3;
+
+bool differs(Verdict verdict) { return verdict == Verdict::fail || verdict == Verdict::non_strict; }
+
+Byte upper(Byte byte) { return static_cast<Byte>(std::toupper(byte)); }
+
+/// The same fault shows in many sequences: by what was asked, and what was wrong, without numbers.
+std::string mark_of(const Request& request, const CaseResult& result) {
+  std::string words;
+  for (const char c : result.message)
+    if (!std::isdigit(static_cast<unsigned char>(c)) && !std::isupper(static_cast<unsigned char>(c)))
+      words += c;
+  return fmt::format("{}/{}: {}", request.topic, request.kind, words);
+}
+
+/// The same answer in other letters: which ones a device writes is open in many places, and vectors
+/// ask where it is not.
+bool differs_in_letters_alone(const CaseResult& result) {
+  return !result.received_bytes.empty() &&
+         std::ranges::equal(result.expected_bytes, result.received_bytes, {}, upper, upper);
+}
+
+/// The request that the failing step answers; the last where nobody says.
+std::size_t failing_request(const CaseResult& result, std::size_t requests) {
+  std::size_t sent = 0;
+  for (const results::Event& event : result.exchange)
+    if (event.kind == results::Event::Kind::sent && event.step >= 0) ++sent;
+  return std::min(sent == 0 ? 0 : sent - 1, requests - 1);
+}
+
+}  // namespace
+
+Explorer::Explorer(Device device, Oracle oracle, std::vector<Request> requests,
+                   std::uint64_t seed)
+    : device_(std::move(device)),
+      oracle_(std::move(oracle)),
+      requests_(std::move(requests)),
+      changes_(*device_.protocol, device_.station, !device_.over_the_wire),
+      random_(seed) {
+  for (std::size_t i = 0; i < requests_.size(); ++i) {
+    by_topic_[requests_[i].topic].push_back(i);
+    weights_[requests_[i].topic] = first_weight;
+  }
+}
+
+/// A topic by its weight, then one of its requests.
+const Request& Explorer::chosen() {
+  std::size_t sum = 0;
+  for (const auto& [topic, weight] : weights_) sum += weight;
+  std::size_t at = random_.below(sum);
+  for (const auto& [topic, weight] : weights_) {
+    if (at < weight) return requests_[random_.of(by_topic_[topic])];
+    at -= weight;
+  }
+  return requests_.front();
+}
+
+/// Mostly short, sometimes long; many have nothing wrong in them.
+std::vector<Request> Explorer::invent() {
+  const std::size_t sort = random_.below(100);
+  const std::size_t length = sort < 50   ? 1 + random_.below(4)
+                             : sort < 90 ? 4 + random_.below(12)
+                             : sort < 99 ? 16 + random_.below(45)
+                                         : 60 + random_.below(200);
+  const bool faultless = random_.chance(40);
+  HotWords hot;
+  std::vector<Request> requests;
+  while (requests.size() < length) {
+    if (!requests.empty() && random_.chance(20)) {  // what works once may not work often
+      requests.push_back(Request(random_.of(requests)));
+      continue;
+    }
+    if (!requests.empty() && random_.chance(30))  // what did it do?
+      if (std::optional<Request> look =
+              random_.chance(80) ? changes_.look_at(random_.of(requests), random_)
+                                 : changes_.look_anywhere(random_.of(requests), hot, random_)) {
+        requests.push_back(std::move(*look));
+        continue;
+      }
+    Request one = chosen();
+    if (random_.chance(85)) changes_.make("elsewhere", one, hot, random_);
+    one.names = changes_.named_by(one);
+    if (!faultless && random_.chance(50))
+      changes_.make(Changes::kinds[1 + random_.below(Changes::kinds.size() - 1)], one, hot,
+                    random_);
+    std::ranges::move(changes_.named_by(one), std::back_inserter(one.names));
+    requests.push_back(std::move(one));
+  }
+  return requests;
+}
+
+/// Nothing: the model refuses to be asked so, or what it answers depends on what was before, which
+/// nobody knows of a real device.
+std::optional<Explorer::Sequence> Explorer::answered(std::vector<Request> requests,
+                                                     const Memory* memory) {
+  Sequence sequence{std::move(requests), {}, {}};
+  bool unsettable = false;
+  sequence.memory = memory ? *memory
+                           : memory_of(sequence.requests, *device_.protocol, device_.station,
+                                       device_.over_the_wire, random_, unsettable);
+  Result<std::vector<Answer>> answers = oracle_.ask(sequence.requests, sequence.memory, true);
+  if (!answers || answers->empty()) return std::nullopt;
+  if (device_.over_the_wire) {
+    const Result<std::vector<Answer>> again =
+        oracle_.ask(sequence.requests, sequence.memory, false);
+    if (!again || again->size() != answers->size()) return std::nullopt;
+    for (std::size_t i = 0; i < answers->size(); ++i)
+      if ((*again)[i].bytes != (*answers)[i].bytes) return std::nullopt;
+  }
+  if (unsettable) return std::nullopt;
+  sequence.answers = std::move(*answers);
+  sequence.requests.resize(sequence.answers.size());
+  return sequence;
+}
+
+CaseResult Explorer::run(const Sequence& sequence, const std::string& id) {
+  vectors::Case& one = running_[turn_ ^= 1];
+  one = case_of(sequence.requests, sequence.answers, sequence.memory, *device_.protocol,
+                device_.station, id);
+  sent_ += sequence.answers.size();
+  return device_.run(one);
+}
+
+void Explorer::step() {
+  const std::optional<Sequence> sequence = answered(invent(), nullptr);
+  if (!sequence) return;
+  ++sequences_;
+  note(*sequence, run(*sequence, fmt::format("explore/{}", sequences_)));
+}
+
+void Explorer::weigh(const Request& request, const std::string& sort) {
+  std::map<std::string, std::uint64_t>& seen = seen_[{request.topic, request.kind}];
+  std::size_t& weight = weights_[request.topic];
+  if (seen[sort]++ == 0)
+    weight = news_weight;
+  else if (seen[sort] % 64 == 0)
+    weight = std::max(least_weight, weight / 2);
+}
+
+void Explorer::note(const Sequence& sequence, const CaseResult& result) {
+  if (differs(result.verdict) && differs_in_letters_alone(result)) {
+    ++unjudged_["the same answers, in other letters"];
+    return;
+  }
+  if (differs(result.verdict)) return note_finding(sequence, result);
+  if (result.verdict != Verdict::pass && result.verdict != Verdict::marginal) {
+    ++unjudged_[result.message];
+    return;
+  }
+  for (std::size_t i = 0; i < sequence.answers.size(); ++i)
+    weigh(sequence.requests[i], sort_of(sequence.answers[i], *device_.protocol));
+}
+
+bool Explorer::shows(const Sequence& sequence, Verdict verdict) {
+  return run(sequence, "explore/shorter").verdict == verdict;
+}
+
+/// Leaves out what it still shows without: halves, quarters, single requests.
+Explorer::Sequence Explorer::shortened(Sequence sequence, Verdict verdict) {
+  int trials = 0;
+  for (std::size_t size = std::max<std::size_t>(1, sequence.requests.size() / 2); size > 0;
+       size /= 2)
+    for (std::size_t at = 0; at < sequence.requests.size() && trials < most_trials && device_.alive();) {
+      if (sequence.requests.size() <= size) break;
+      std::vector<Request> fewer = sequence.requests;
+      const auto from = fewer.begin() + static_cast<std::ptrdiff_t>(at);
+      fewer.erase(from, from + static_cast<std::ptrdiff_t>(std::min(size, fewer.size() - at)));
+      std::optional<Sequence> shorter = answered(std::move(fewer), &sequence.memory);
+      ++trials;
+      if (shorter && shows(*shorter, verdict))
+        sequence = std::move(*shorter);
+      else
+        at += size;
+    }
+  return sequence;
+}
+
+void Explorer::note_finding(const Sequence& sequence, const CaseResult& result) {
+  const std::size_t failing = failing_request(result, sequence.requests.size());
+  const std::string mark = mark_of(sequence.requests[failing], result);
+  if (const auto known = findings_.find(mark); known != findings_.end()) {
+    ++known->second.times;
+    return;
+  }
+  if (findings_.size() >= most_findings) {
+    ++unjudged_["more than 50 findings: not looked into"];
+    return;
+  }
+  std::vector<Request> until(sequence.requests.begin(),
+                             sequence.requests.begin() + static_cast<std::ptrdiff_t>(failing) + 1);
+  std::optional<Sequence> cut = answered(std::move(until), &sequence.memory);
+  Sequence shortest = cut && shows(*cut, result.verdict) ? std::move(*cut) : sequence;
+  shortest = shortened(std::move(shortest), result.verdict);
+  Finding finding;
+  std::string folder(device_.protocol->name());
+  std::ranges::replace(folder, '-', '_');
+  const std::string id = fmt::format(
+      "{}/explore/f{:08x}", folder,
+      static_cast<std::uint32_t>(vectors::extend_fingerprint(vectors::empty_fingerprint, mark)));
+  int shown = 0;
+  while (shown < confirmations && device_.alive() && shows(shortest, result.verdict))
+    ++shown;
+  finding.confirmed = shown == confirmations;
+  if (!finding.confirmed) shortest = sequence;
+  finding.shortest = case_of(shortest.requests, shortest.answers, shortest.memory,
+                             *device_.protocol, device_.station, id);
+  finding.result = finding.confirmed ? device_.run(finding.shortest) : result;
+  finding.result.id = id;
+  findings_.emplace(mark, std::move(finding));
+}
+
+}  // namespace fieldproof::explore

@@ -1,0 +1,140 @@
+#include "harness/explore/request.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <set>
+
+#include "harness/notation/check.hpp"
+#include "harness/safety/brackets.hpp"
+
+namespace fieldproof::explore {
+
+using harness::Field;
+using harness::Protocol;
+using notation::Item;
+using notation::Notation;
+using vectors::Case;
+using vectors::Step;
+
+namespace {
+
+/// "rss" of "xgt_cnet/rss/two_words".
+std::string topic_of(const std::string& id) {
+  const std::size_t begin = id.find('/') + 1;
+  return id.substr(begin, id.find('/', begin) - begin);
+}
+
+/// Of a server of this protocol, set up as any device is.
+bool is_for(const Case& one, const Protocol& protocol, std::string_view model) {
+  if (one.protocol != protocol.name() || vectors::is_client_case(one) || !one.on_model.empty())
+    return false;
+  if (!one.models.empty() && std::ranges::find(one.models, model) == one.models.end()) return false;
+  return std::ranges::all_of(one.config.items(),
+                             [](const auto& item) { return item.key() == "station"; });
+}
+
+/// Is more than one answer to it right? Then our own device's is but one of them.
+bool allows_several(const Case& one, const Step& send) {
+  const auto next = &send - one.steps.data() + 1;
+  return static_cast<std::size_t>(next) < one.steps.size() &&
+         one.steps[static_cast<std::size_t>(next)].frames.size() > 1;
+}
+
+bool says_all(const Notation& notation) {
+  return std::ranges::none_of(notation, [](const Item& item) {
+    return item.kind == Item::Kind::reuse || item.kind == Item::Kind::alternatives;
+  });
+}
+
+Item item_of(Item::Kind kind, std::string text) {
+  Item item;
+  item.kind = kind;
+  item.text = std::move(text);
+  return item;
+}
+
+void append(Notation& notation, ByteView bytes) {
+  Result<Notation> words = notation::parse_notation(notation::print_bytes(bytes));
+  if (words && !bytes.empty()) std::ranges::move(*words, std::back_inserter(notation));
+}
+
+/// The bytes that a check covers, of a frame that stands in one bracket.
+ByteView covered_by(const notation::Check& check, const Field& field, ByteView frame) {
+  return check.behind ? frame.subspan(field.offset + field.size) : frame.first(field.offset);
+}
+
+/// The word for a field that moves with the station, or follows from the others; empty: its bytes.
+Notation word_for(const Field& field, ByteView frame, const Protocol& protocol, int station) {
+  const ByteView bytes = frame.subspan(field.offset, field.size);
+  if (field.name == "station" && std::ranges::equal(bytes, protocol.station_bytes(station)))
+    return {item_of(Item::Kind::station, "st")};
+  const notation::Checks checks = protocol.checks();
+  const notation::Check* check = notation::find_check(checks, field.name);
+  if (check && check->size == field.size && !(check->absent && check->absent(frame)) &&
+      check->compute && std::ranges::equal(check->over(covered_by(*check, field, frame)), bytes))
+    return {item_of(Item::Kind::check, std::string(check->name))};
+  return {};
+}
+
+/// One bracket, with what moves in it as words.
+Notation bracketed(ByteView frame, bool request, const Protocol& protocol, int station) {
+  Notation notation{item_of(Item::Kind::open, "[")};
+  std::size_t at = 0;
+  for (const Field& field : protocol.explain_as(frame, request)) {
+    if (field.offset < at || field.size == 0 || field.offset + field.size > frame.size()) continue;
+    const Notation word = word_for(field, frame, protocol, station);
+    if (word.empty()) continue;
+    append(notation, frame.subspan(at, field.offset - at));
+    notation.push_back(word.front());
+    at = field.offset + field.size;
+  }
+  append(notation, frame.subspan(at));
+  notation.push_back(item_of(Item::Kind::close, "]"));
+  return notation;
+}
+
+}  // namespace
+
+std::optional<Protocol::Place> place_of(const Protocol::Written& word, const Protocol& protocol) {
+  if (const std::vector<Protocol::Place> places = protocol.places(word); !places.empty())
+    return places.front();
+  const std::vector<Protocol::Area> areas = protocol.areas();
+  const auto area = std::ranges::find(areas, word.area, &Protocol::Area::name);
+  if (area == areas.end() || word.contacts) return std::nullopt;
+  return Protocol::Place{fmt::format("%{}W{}", word.area, word.first_word), 4,
+                         word.first_word < protocol.words_of(word.area)};
+}
+
+Notation raw_notation(ByteView bytes) {
+  Notation notation;
+  append(notation, bytes);
+  return notation;
+}
+
+Notation notation_of(ByteView frame, bool request, const Protocol& protocol, int station) {
+  const std::optional<std::size_t> length = protocol.frame_length(frame);
+  if (!length || *length != frame.size()) return raw_notation(frame);
+  Notation notation = bracketed(frame, request, protocol, station);
+  const Result<Bytes> made = safety::bytes_of(notation, protocol.fields_at(station));
+  return made && std::ranges::equal(*made, frame) ? notation : raw_notation(frame);
+}
+
+std::vector<Request> requests_of(const std::vector<Case>& cases, const Protocol& protocol,
+                                 std::string_view model) {
+  std::vector<Request> requests;
+  std::set<std::string> seen;
+  for (const Case& one : cases) {
+    if (!is_for(one, protocol, model)) continue;
+    for (const Step& step : one.steps) {
+      if (step.kind != Step::Kind::send || !step.link.protocol.empty()) continue;
+      if (allows_several(one, step)) continue;
+      const vectors::Frame& frame = step.frames.front();
+      if (!says_all(frame.notation) || !seen.insert(notation::print(frame.notation)).second)
+        continue;
+      requests.push_back({topic_of(one.id), one.source, frame.notation});
+    }
+  }
+  return requests;
+}
+
+}  // namespace fieldproof::explore

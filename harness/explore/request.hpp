@@ -1,0 +1,41 @@
+// What `explore` sends: requests of the vectors, and what becomes of them by a change.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/notation/notation.hpp"
+#include "harness/protocol.hpp"
+#include "harness/vectors/case.hpp"
+
+namespace fieldproof::explore {
+
+struct Request {
+  std::string topic;             // of its vector: "rss"
+  vectors::Source source;        // the sentence that its vector rests on
+  notation::Notation notation;
+  std::string kind = "printed";  // of the change: one of Changes::kinds; "printed": there is none
+  std::string change{};          // in words: "block count 01 becomes 02"
+  std::vector<harness::Protocol::Written> names{};  // memory that it named before it was damaged
+};
+
+/// The requests of these cases that go to a server of `protocol` on a device of `model`, each once:
+/// those that say all of their bytes.
+std::vector<Request> requests_of(const std::vector<vectors::Case>& cases,
+                                 const harness::Protocol& protocol, std::string_view model);
+
+/// One word as vectors name it, of memory that no request can write too; nothing where there are no
+/// words.
+std::optional<harness::Protocol::Place> place_of(const harness::Protocol::Written& word,
+                                                 const harness::Protocol& protocol);
+
+/// Bytes as they are: no check follows them.
+notation::Notation raw_notation(ByteView bytes);
+
+/// A frame as a bracket in which station and checks are words, so that it can be moved; where that
+/// would not be the same bytes, those.
+notation::Notation notation_of(ByteView frame, bool request, const harness::Protocol& protocol,
+                               int station);
+
+}  // namespace fieldproof::explore
