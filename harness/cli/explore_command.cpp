@@ -46,9 +46,30 @@ std::string model_of(const RunPlan& plan) {
 }
 
 explore::Device device_of(const RunPlan& plan, Benches& bench, const harness::Protocol& configured) {
-  return {&configured, plan.bench.station, !endpoints::capabilities_of(plan.endpoint).back_door,
-          [&bench](const vectors::Case& one) { return bench.run(one); },
-          [&bench] { return bench.stopped().empty() && !bench.interrupted(); }};
+  explore::Device device{.protocol = &configured,
+                         .station = plan.bench.station,
+                         .over_the_wire = !endpoints::capabilities_of(plan.endpoint).back_door,
+                         .run = [&bench](const vectors::Case& one) { return bench.run(one); },
+                         .room = {},
+                         .allowed = [&plan, &configured](ByteView request) {
+                           return endpoints::kind_of(plan.endpoint).emulated ||
+                                  plan.bench.fence
+                                      .objection(configured.written_by(request), configured)
+                                      .empty();
+                         },
+                         .alive = [&bench] {
+                           return bench.stopped().empty() && !bench.interrupted();
+                         }};
+  if (!endpoints::kind_of(plan.endpoint).emulated)
+    device.room = [&plan, &configured](const std::string& area) {
+      std::vector<safety::WriteFence::Words> room =
+          plan.bench.fence.allowed(area, configured.output_areas());
+      const std::uint32_t words = configured.words_of(area);
+      for (safety::WriteFence::Words& one : room) one.last = std::min(one.last, words - 1);
+      std::erase_if(room, [&](const auto& one) { return words == 0 || one.first > one.last; });
+      return room;
+    };
+  return device;
 }
 
 /// What is known of one kind of request: how it was answered.
@@ -113,9 +134,10 @@ class Exploration {
 
   void report_what_was_found() {
     const harness::Protocol& protocol = *plan_.protocols.front();
-    report_.say(fmt::format("{} requests of {} in {} sequences, seed {}: {} findings",
+    report_.say(fmt::format("{} requests of {} in {} sequences, {} of them judged, seed {}: "
+                            "{} findings",
                             explorer_.requests_sent(), protocol.name(), explorer_.sequences(),
-                            options_.run.seed, explorer_.findings().size()));
+                            explorer_.judged(), options_.run.seed, explorer_.findings().size()));
     for (const auto& [what, answers] : explorer_.seen())
       report_.add(seen_result(protocol, what.first, what.second, answers));
     int number = 0;
@@ -242,6 +264,11 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
   Explorer explorer(device_of(*plan, ports->front(), *configured ? **configured : protocol),
                     std::move(*oracle), std::move(requests),
                     static_cast<std::uint64_t>(options.run.seed));
+  if (!explorer.can_explore())
+    return run::complain(
+        "nothing can be explored: each request names memory that it may not set up; give "
+        "--allow-write RANGES",
+        run::exit_code::nothing);
   return execute(options, *plan, *ports, *report, explorer);
 }
 

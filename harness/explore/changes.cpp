@@ -60,15 +60,24 @@ Item pause_of(double milliseconds) {
 
 }  // namespace
 
-std::uint32_t HotWords::word(const std::string& area, std::uint32_t words, Random& random) {
-  const auto any = [&] { return static_cast<std::uint32_t>(random.below(words)); };
+std::optional<std::uint32_t> HotWords::word(const std::string& area, Random& random) {
+  const std::vector<safety::WriteFence::Words> room = room_(area);
+  if (room.empty()) return std::nullopt;
+  const safety::WriteFence::Words& range = random.of(room);
+  const std::uint32_t size = range.last - range.first + 1;
+  const auto any = [&] { return range.first + static_cast<std::uint32_t>(random.below(size)); };
+  const auto inside = [&](std::uint32_t word) {
+    const bool there = std::ranges::any_of(
+        room, [&](const auto& one) { return one.first <= word && word <= one.last; });
+    return there ? word : any();
+  };
   const auto [hot, fresh] = words_.try_emplace(area, 0);
   if (fresh) hot->second = any();
   switch (random.below(10)) {
     case 0: return any();
-    case 1: return words - 1 - static_cast<std::uint32_t>(random.below(std::min(words, 4u)));
-    case 2: return (hot->second ^ (1u << random.below(16))) % words;
-    default: return (hot->second + static_cast<std::uint32_t>(random.below(4))) % words;
+    case 1: return range.last - static_cast<std::uint32_t>(random.below(std::min(size, 4u)));
+    case 2: return inside(hot->second ^ (1u << random.below(16)));
+    default: return inside(hot->second + static_cast<std::uint32_t>(random.below(4)));
   }
 }
 
@@ -87,12 +96,11 @@ bool Changes::move(Request& request, const Bracket& bracket, HotWords& hot, Rand
   for (const Protocol::AddressField& address : bracket.fields) {
     const Protocol::Written& names = address.names;
     if (address.size == 0 || names.unknown()) continue;
-    const std::uint32_t words = protocol_.words_of(names.area);
-    if (words == 0) continue;
     std::optional<Bytes> bytes;  // of as many digits as there are
     for (int trial = 0; trial < 4 && !bytes; ++trial) {
-      const std::uint32_t to = hot.word(names.area, words, random);
-      const int by = static_cast<int>(to) - static_cast<int>(names.first_word);
+      const std::optional<std::uint32_t> to = hot.word(names.area, random);
+      if (!to) break;
+      const int by = static_cast<int>(*to) - static_cast<int>(names.first_word);
       bytes = protocol_.moved_field(bracket.bytes, address, by);
     }
     moved |= bytes && safety::patch(request.notation, bracket, address.offset, *bytes, fields_);
@@ -234,8 +242,9 @@ std::optional<Request> Changes::look_anywhere(Request like, HotWords& hot, Rando
   std::erase_if(areas, [&](const auto& one) { return protocol_.words_of(one.name) == 0; });
   if (areas.empty()) return std::nullopt;
   const std::string& area = random.of(areas).name;
-  const std::uint32_t word = hot.word(area, protocol_.words_of(area), random);
-  return read(std::move(like), {area, word, word, ""});
+  const std::optional<std::uint32_t> word = hot.word(area, random);
+  if (!word) return std::nullopt;
+  return read(std::move(like), {area, *word, *word, ""});
 }
 
 std::optional<Request> Changes::read(Request like, const Protocol::Written& names) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,17 +13,26 @@
 #include "harness/explore/random.hpp"
 #include "harness/explore/request.hpp"
 #include "harness/safety/brackets.hpp"
+#include "harness/safety/fence.hpp"
 
 namespace fieldproof::explore {
+
+/// The words of an area that requests may name; empty: none.
+using Room = std::function<std::vector<safety::WriteFence::Words>(const std::string& area)>;
 
 /// Words of memory that the requests of one sequence come back to, so that one sees what another
 /// did: by area.
 class HotWords {
  public:
-  /// A word near one of them, or as far from one as a lost address bit takes it, or anywhere.
-  std::uint32_t word(const std::string& area, std::uint32_t words, Random& random);
+  /// `room`: where requests may go to.
+  explicit HotWords(Room room) : room_(std::move(room)) {}
+
+  /// A word near one of them, or as far from one as a lost address bit takes it, or anywhere there
+  /// is room; nothing where there is none.
+  std::optional<std::uint32_t> word(const std::string& area, Random& random);
 
  private:
+  Room room_;
   std::map<std::string, std::uint32_t> words_;
 };
 

@@ -55,10 +55,24 @@ Explorer::Explorer(Device device, Oracle oracle, std::vector<Request> requests,
       requests_(std::move(requests)),
       changes_(*device_.protocol, device_.station, !device_.over_the_wire),
       random_(seed) {
+  if (!device_.room)
+    device_.room = [own = device_.protocol](const std::string& area) {
+      const std::uint32_t words = own->words_of(area);
+      return words == 0 ? std::vector<safety::WriteFence::Words>()
+                        : std::vector<safety::WriteFence::Words>{{0, words - 1}};
+    };
+  std::erase_if(requests_, [&](const Request& one) { return !can_be_sent(one); });
   for (std::size_t i = 0; i < requests_.size(); ++i) {
     by_topic_[requests_[i].topic].push_back(i);
     weights_[requests_[i].topic] = first_weight;
   }
+}
+
+/// There is some room in each area that it names.
+bool Explorer::can_be_sent(const Request& request) const {
+  return std::ranges::all_of(changes_.named_by(request), [&](const auto& one) {
+    return !device_.over_the_wire || !device_.room(one.area).empty();
+  });
 }
 
 /// A topic by its weight, then one of its requests.
@@ -81,7 +95,7 @@ std::vector<Request> Explorer::invent() {
                              : sort < 99 ? 16 + random_.below(45)
                                          : 60 + random_.below(200);
   const bool faultless = random_.chance(40);
-  HotWords hot;
+  HotWords hot(device_.room);
   std::vector<Request> requests;
   while (requests.size() < length) {
     if (!requests.empty() && random_.chance(20)) {  // what works once may not work often
@@ -91,20 +105,40 @@ std::vector<Request> Explorer::invent() {
     if (!requests.empty() && random_.chance(30))  // what did it do?
       if (std::optional<Request> look =
               random_.chance(80) ? changes_.look_at(random_.of(requests), random_)
-                                 : changes_.look_anywhere(random_.of(requests), hot, random_)) {
+                                 : changes_.look_anywhere(random_.of(requests), hot, random_);
+          look && has_room(*look)) {
         requests.push_back(std::move(*look));
         continue;
       }
-    Request one = chosen();
-    if (random_.chance(85)) changes_.make("elsewhere", one, hot, random_);
-    one.names = changes_.named_by(one);
-    if (!faultless && random_.chance(50))
-      changes_.make(Changes::kinds[1 + random_.below(Changes::kinds.size() - 1)], one, hot,
-                    random_);
-    std::ranges::move(changes_.named_by(one), std::back_inserter(one.names));
-    requests.push_back(std::move(one));
+    if (std::optional<Request> one = invent_one(faultless, hot)) requests.push_back(std::move(*one));
   }
   return requests;
+}
+
+/// Nothing: it would go where no request may.
+std::optional<Request> Explorer::invent_one(bool faultless, HotWords& hot) {
+  Request one = chosen();
+  if (random_.chance(85) || !has_room(one)) changes_.make("elsewhere", one, hot, random_);
+  one.names = changes_.named_by(one);
+  if (!faultless && random_.chance(50))
+    changes_.make(Changes::kinds[1 + random_.below(Changes::kinds.size() - 1)], one, hot, random_);
+  std::ranges::move(changes_.named_by(one), std::back_inserter(one.names));
+  return has_room(one) ? std::optional(std::move(one)) : std::nullopt;
+}
+
+/// All that it names lies where requests may go.
+bool Explorer::has_room(const Request& request) const {
+  const Result<Bytes> bytes =
+      safety::bytes_of(request.notation, device_.protocol->fields_at(device_.station));
+  if (!bytes || !device_.allowed(*bytes)) return false;
+  std::vector<harness::Protocol::Written> names = request.names;
+  if (names.empty()) names = changes_.named_by(request);
+  return std::ranges::all_of(names, [&](const harness::Protocol::Written& one) {
+    return !device_.over_the_wire ||
+           std::ranges::any_of(device_.room(one.area), [&](const auto& words) {
+             return words.first <= one.first_word && one.last_word <= words.last;
+           });
+  });
 }
 
 /// Nothing: the model refuses to be asked so, or what it answers depends on what was before, which
@@ -156,6 +190,9 @@ void Explorer::weigh(const Request& request, const std::string& sort) {
 }
 
 void Explorer::note(const Sequence& sequence, const CaseResult& result) {
+  if (differs(result.verdict) || result.verdict == Verdict::pass ||
+      result.verdict == Verdict::marginal)
+    ++judged_;
   if (differs(result.verdict) && differs_in_letters_alone(result)) {
     ++unjudged_["the same answers, in other letters"];
     return;

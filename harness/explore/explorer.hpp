@@ -22,6 +22,8 @@ struct Device {
   int station = 1;
   bool over_the_wire = false;  // memory is set by requests; what it did before, it remembers
   std::function<results::CaseResult(const vectors::Case&)> run;
+  Room room;  // where requests may go to; none: to all of the memory
+  std::function<bool(ByteView request)> allowed = [](ByteView) { return true; };
   std::function<bool()> alive = [] { return true; };  // false: no further case can run
 };
 
@@ -35,9 +37,11 @@ struct Finding {
 
 class Explorer {
  public:
-  /// `requests` are not empty.
+  /// Requests that name memory where there is no room are left out; `can_explore` tells whether any
+  /// is left.
   Explorer(Device device, Oracle oracle, std::vector<Request> requests, std::uint64_t seed);
 
+  bool can_explore() const { return !requests_.empty(); }
   /// One more sequence.
   void step();
 
@@ -45,6 +49,8 @@ class Explorer {
   std::uint64_t sequences() const { return sequences_; }
   const std::map<std::string, Finding>& findings() const { return findings_; }
 
+  /// How many of the sequences could be judged.
+  std::uint64_t judged() const { return judged_; }
   /// What the device was seen to do: by topic and kind of change, how often which sort of answer.
   using Seen = std::map<std::pair<std::string, std::string>, std::map<std::string, std::uint64_t>>;
   const Seen& seen() const { return seen_; }
@@ -58,6 +64,9 @@ class Explorer {
     std::vector<Answer> answers;
   };
   std::vector<Request> invent();
+  std::optional<Request> invent_one(bool faultless, HotWords& hot);
+  bool has_room(const Request& request) const;
+  bool can_be_sent(const Request& request) const;
   const Request& chosen();
   std::optional<Sequence> answered(std::vector<Request> requests, const Memory* memory);
   results::CaseResult run(const Sequence& sequence, const std::string& id);
@@ -74,7 +83,7 @@ class Explorer {
   std::map<std::string, std::size_t> weights_;  // of topics: what showed something new weighs more
   Changes changes_;
   Random random_;
-  std::uint64_t sent_ = 0, sequences_ = 0;
+  std::uint64_t sent_ = 0, sequences_ = 0, judged_ = 0;
   Seen seen_;
   std::map<std::string, std::uint64_t> unjudged_;
   std::map<std::string, Finding> findings_;

@@ -16,7 +16,7 @@ bool finds(const Kit& kit, std::optional<std::size_t> fault, const harness::Prot
   Result<explore::Oracle> oracle = explore::Oracle::open(protocol, model, 1);
   if (!oracle) return false;
   const auto run = [&](const vectors::Case& one) { return kit.run(fault, one); };
-  explore::Explorer explorer({&configured, 1, false, run}, std::move(*oracle), requests, 1);
+  explore::Explorer explorer({&configured, 1, false, run, {}}, std::move(*oracle), requests, 1);
   try {
     while (explorer.requests_sent() < most && explorer.findings().empty()) explorer.step();
   } catch (const std::exception&) {

@@ -1,0 +1,103 @@
+// `fieldproof explore` by the built tool: healthy devices, broken ones, what it leaves behind.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "suites/tool/network_runs.hpp"
+
+namespace fieldproof::tool_tests {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ExploreCommand : public testing::Test {
+ protected:
+  Finished explore(std::vector<std::string> more) {
+    more.insert(more.begin(), {"explore", "--seed", "1", "--out", folder / "out"});
+    const Finished finished = run_tool(more);
+    if (std::filesystem::exists(folder / "out/results.ndjson"))
+      results = read_results(folder / "out/results.ndjson");
+    return finished;
+  }
+  /// The vectors that it wrote.
+  std::vector<std::string> findings() const {
+    std::vector<std::string> files;
+    if (std::filesystem::exists(folder / "out/findings"))
+      for (const auto& entry : std::filesystem::directory_iterator(folder / "out/findings"))
+        files.push_back(entry.path().string());
+    return files;
+  }
+  int verdict_of(const std::string& vectors, const std::string& endpoint) {
+    return run_tool({"run", "--protocol", "xgt-cnet", "--vectors", vectors, "--endpoint", endpoint,
+                     "--out", folder / "again"})
+        .code;
+  }
+  static std::string broken(const std::string& fault) {
+    return std::string("exec:") + BROKEN_SERVER + " " + fault + " {tty}";
+  }
+
+  const TestFolder folder;
+  Results results;
+};
+
+TEST_F(ExploreCommand, HealthyDevicesShowNothing) {
+  const Finished finished = explore({"--requests", "1000"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("requests of xgt-cnet in "), HasSubstr("seed 1: 0 findings")));
+  EXPECT_EQ(findings().size(), 0u);
+  EXPECT_GT(results.counts()["PASS"], 30u);
+  EXPECT_THAT(results.of("xgt_cnet/explore/rss/elsewhere")["notes"].dump(), HasSubstr("answered"));
+}
+
+/// Red on the device that showed it, green on a healthy one.
+TEST_F(ExploreCommand, AFindingIsAVector) {
+  const Finished finished =
+      explore({"--requests", "600", "--fail-fast", "--endpoint", broken("bytes_swapped")});
+  EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("shown again three times"), HasSubstr("--vectors")));
+  ASSERT_EQ(findings().size(), 1u);
+  EXPECT_EQ(verdict_of(findings().front(), broken("bytes_swapped")), 1);
+  EXPECT_EQ(verdict_of(findings().front(), broken("none")), 0);
+  EXPECT_EQ(verdict_of(findings().front(), "emulator:xbc-h"), 0);
+}
+
+/// A device's own process remembers what was before: only what does not depend on it is sent.
+TEST_F(ExploreCommand, AHealthyProcessShowsNothing) {
+  const Finished finished = explore({"--requests", "60", "--endpoint", broken("none")});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("0 findings"));
+}
+
+/// Nothing is written outside the fence, and what was there is there again.
+TEST_F(ExploreCommand, StaysInsideTheFence) {
+  const Finished finished = explore(
+      {"--requests", "60", "--allow-write", "M100-M119", "--endpoint", broken("none"), "-v"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("0 findings"));
+  for (const auto& one : results.cases) EXPECT_NE(one["verdict"], "FAIL");
+}
+
+TEST_F(ExploreCommand, SaysWhatCannotBeExplored) {
+  const Finished udata = explore({"--protocol", "udata"});
+  EXPECT_EQ(udata.code, 4);
+  EXPECT_THAT(udata.err, HasSubstr("udata cannot be explored: no vector has a request"));
+  EXPECT_EQ(explore({"--requests", "0"}).code, 2);
+  EXPECT_EQ(explore({"--duration", "soon"}).code, 2);
+  EXPECT_THAT(explore({"--sed", "1"}).err, HasSubstr("did you mean '--seed'?"));
+}
+
+/// Ctrl-C reports what was found so far.
+TEST_F(ExploreCommand, AnInterruptReports) {
+  Process process(tool_arguments({"explore", "--seed", "1", "--duration", "1h", "--protocol",
+                                  "modbus-rtu", "--out", folder / "out"}));
+  EXPECT_TRUE(process.wait_for("fieldproof 0"));
+  process.signal(SIGINT);
+  const Finished finished = process.wait();
+  EXPECT_EQ(finished.code, 130) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("requests of modbus-rtu"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/junit.xml"));
+}
+
+}  // namespace
+}  // namespace fieldproof::tool_tests
