@@ -93,6 +93,9 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.add_option("--aux", run.aux,
                  "A second port of the same PLC, as server: serial:PATH?station=3; for memory that "
                  "--endpoint cannot reach");
+  app.add_flag("--derived", run.derived,
+               "Also what a bad line makes of each request: bits flipped, bytes lost, doubled, cut, "
+               "paused, noise, frames joined");
   app.add_option("--vectors", run.vectors, "Another folder of vectors");
   app.add_option("--out", run.out, "Folder of the reports")->capture_default_str();
   app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");

@@ -255,6 +255,8 @@ class Run {
     }
     if (hung)
       result.message = "the bench hung in this case for more than a minute; " + result.message;
+    if (source.by_rule && !results::gates(result.verdict, {true, true}))
+      run::LongTexts::shorten_exchange(result);
     settle(result);
     note(source, result);
     result.repeat = soak ? round : round % options_.repeat;

@@ -33,4 +33,17 @@ void LongTexts::shorten(results::CaseResult& result) {
   }
 }
 
+void LongTexts::shorten_exchange(results::CaseResult& result) {
+  constexpr std::size_t kept = 8;
+  std::vector<results::Event>& events = result.exchange;
+  if (events.size() <= 2 * kept) return;
+  results::Event left_out = events[kept];
+  left_out = {results::Event::Kind::note, left_out.start, left_out.end, {}, ""};
+  left_out.text = fmt::format("{} frames and silences left out", events.size() - 2 * kept);
+  events.erase(events.begin() + kept, events.end() - kept);
+  events.insert(events.begin() + kept, std::move(left_out));
+  result.recording = {};  // it can no longer be judged again
+  if (result.response_ms.size() > 2 * kept) result.response_ms.resize(2 * kept);
+}
+
 }  // namespace fieldproof::run

@@ -18,6 +18,8 @@ class LongTexts {
   /// Message, differences and notes are bounded. A long note that an earlier case had is told by
   /// its beginning, and where it stands.
   void shorten(results::CaseResult& result);
+  /// Of hundreds of frames that were as they should be the first and the last stay.
+  static void shorten_exchange(results::CaseResult& result);
 
  private:
   std::map<std::string, std::string> seen_;  // bounded note: id of its first case

@@ -27,6 +27,7 @@ struct RunOptions {
   std::string aux;       // a second channel of the PLC under test
   std::vector<std::string> allow_write;
   std::vector<std::string> allow_motion;  // axes
+  bool derived = false;                   // what follows from the cases by rule, too
   bool read_only = false;                 // nothing is written, to no device
   std::vector<std::string> gtest_arguments;
   std::string floor;        // the link's own uncertainty: "2ms"; empty: measured

@@ -8,6 +8,7 @@
 
 #include "harness/bench/bench_file.hpp"
 #include "harness/endpoints/kinds.hpp"
+#include "harness/explore/derived.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/exit_code.hpp"
 #include "harness/run/line_matrix.hpp"
@@ -114,6 +115,7 @@ std::string replay_command(const RunOptions& options) {
     command += " --allow-write " + shell_word(range);
   for (const std::string& axes : options.allow_motion)
     command += " --allow-motion " + shell_word(axes);
+  if (options.derived) command += " --derived";
   if (options.read_only) command += " --read-only";
   if (!options.protocol.empty()) command += " --protocol " + shell_word(options.protocol);
   if (!options.journal.empty()) command += " --journal " + shell_word(options.journal);
@@ -418,6 +420,21 @@ Status check_alike(const DutPlan& first, const DutPlan& other,
   return ok();
 }
 
+/// A real line takes a second for each silence: there a few of each derivation are enough.
+Status derive(const RunOptions& options, const harness::Protocols& known,
+              vectors::VectorSet& set) {
+  constexpr std::size_t few = 6;
+  const Result<EndpointName> endpoint =
+      endpoints::parse_endpoint(options.endpoint.empty() ? "emulator:" : options.endpoint);
+  const bool all = endpoint && endpoints::kind_of(*endpoint).simulated;
+  Result<std::vector<Case>> derived =
+      explore::derived_cases(set.cases, known, all ? 0 : few,
+                             static_cast<std::uint64_t>(std::max(0, options.seed)));
+  if (!derived) return fail("--derived: " + derived.error().message);
+  std::ranges::move(*derived, std::back_inserter(set.cases));
+  return ok();
+}
+
 Status check_duts(const RunOptions& options) {
   if (options.bench.empty() != options.duts.empty())
     return fail("--bench FILE and --dut NAME go together; give both");
@@ -444,9 +461,13 @@ Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocol
   plan.waivers = std::move(*waivers);
   // A waiver may name any case.
   Result<vectors::VectorSet> loaded = load_sound_vectors(
-      options.vectors, known, plan.waivers.empty() ? options.filter : std::string());
+      options.vectors, known,
+      plan.waivers.empty() && !options.derived ? options.filter : std::string());
   if (!loaded) return loaded.error();
   plan.vectors = std::move(*loaded);
+  if (options.derived)
+    if (const Status derived = derive(options, known, plan.vectors); !derived)
+      return derived.error();
   for (const Case& one : plan.vectors.cases)
     if (vectors::matches_filter(one.id, options.filter) && vectors::has_role(one, options.role))
       plan.selected.push_back(&one);

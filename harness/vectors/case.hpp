@@ -108,6 +108,7 @@ struct Case {
   bool fresh = false;
   bool transpose = true;
   std::vector<Step> steps;
+  bool by_rule = false;  // made from another case (explore::derived_cases)
   nlohmann::json facts;  // kind table: not null
   std::string file;      // for messages
 };
