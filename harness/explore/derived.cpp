@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 
 #include "harness/safety/brackets.hpp"
@@ -145,41 +146,65 @@ void sample(List& list, std::size_t at_most, std::uint64_t seed) {
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(random.below(list.size())));
 }
 
-/// Those that the model answers in an order that a case can tell; the last one is the right request.
-Result<std::vector<Case>> cases_of(const Case& source, const std::string& derivation,
-                                   const Request& right, std::vector<Request> wrong,
-                                   const Protocol& protocol, int station, Oracle& oracle) {
-  std::vector<Case> cases;
-  while (!wrong.empty()) {
-    std::vector<Request> asked = wrong;
+/// Those that the model answers so that a case can tell it, whatever stands before them.
+Result<std::vector<Request>> tellable(std::vector<Request> rest, const Request& right,
+                                      const Memory& memory, Oracle& oracle) {
+  std::vector<Request> told;
+  while (!rest.empty()) {
+    std::vector<Request> asked = rest;
     asked.push_back(right);
-    Result<std::vector<Answer>> answers = oracle.ask(asked, source.memory, true);
+    const Result<std::vector<Answer>> answers = oracle.ask(asked, memory, true);
     if (!answers) return answers.error();
-    const std::size_t told = std::min(answers->size(), wrong.size());
-    if (told == wrong.size() && answers->size() <= told) break;  // not even the right one
-    if (told > 0) {
-      if (told < wrong.size()) {  // a case of its own, which ends with the right request
-        asked.assign(wrong.begin(), wrong.begin() + static_cast<std::ptrdiff_t>(told));
-        asked.push_back(right);
-        answers = oracle.ask(asked, source.memory, true);
-        if (!answers) return answers.error();
-      }
-      Case one = case_of(asked, *answers, source.memory, protocol, station,
-                         fmt::format("{}/derived/{}{}", source.id, derivation,
-                                     cases.empty() ? "" : fmt::format("_{}", cases.size() + 1)));
-      one.title = fmt::format("{} requests {}, answered as our own device does, then the right one",
-                              answers->size() - 1, derivation);
-      one.by_rule = true;
-      one.models = source.models;
-      one.config = source.config;
-      one.why = "made by rule from " + source.id;
-      cases.push_back(std::move(one));
-    }
-    // The next one after what was told cannot be told.
-    wrong.erase(wrong.begin(),
-                wrong.begin() + static_cast<std::ptrdiff_t>(std::min(wrong.size(), told + 1)));
+    const auto end =
+        rest.begin() + static_cast<std::ptrdiff_t>(std::min(answers->size(), rest.size()));
+    std::move(rest.begin(), end, std::back_inserter(told));
+    rest.erase(rest.begin(), end == rest.end() ? end : end + 1);
   }
-  return cases;
+  return told;
+}
+
+/// These and the right request behind them; nothing where the model does not answer all of it.
+Result<std::optional<Case>> case_of(const Case& source, std::vector<Request> wrong,
+                                    const Request& right, const Protocol& protocol, int station,
+                                    Oracle& oracle, std::string id) {
+  wrong.push_back(right);
+  const Result<std::vector<Answer>> answers = oracle.ask(wrong, source.memory, true);
+  if (!answers) return answers.error();
+  if (answers->size() < wrong.size()) return std::optional<Case>();
+  Case one =
+      explore::case_of(wrong, *answers, source.memory, protocol, station, std::move(id));
+  one.title = fmt::format("{} requests are {}: answered as by our own device, then the right one",
+                          wrong.size() - 1, wrong.front().kind);
+  one.by_rule = true;
+  one.models = source.models;
+  one.config = source.config;
+  one.why = "made by rule from " + source.id;
+  return std::optional(std::move(one));
+}
+
+/// A case for so many of them: a server ends a connection that rests for long.
+Status add_cases(const Case& source, const Request& right, const std::vector<Request>& wrong,
+                 const Protocol& protocol, int station, Oracle& oracle,
+                 const std::function<bool(const std::string& id)>& wanted,
+                 std::vector<Case>& cases) {
+  constexpr std::size_t in_one_case = 48;
+  for (std::size_t from = 0; from < wrong.size(); from += in_one_case) {
+    const std::string id =
+        fmt::format("{}/derived/{}{}", source.id, wrong.front().kind,
+                    from == 0 ? "" : fmt::format("_{}", from / in_one_case + 1));
+    if (!wanted(id)) continue;
+    const auto begin = wrong.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto end = wrong.begin() + static_cast<std::ptrdiff_t>(
+                                         std::min(from + in_one_case, wrong.size()));
+    Result<std::vector<Request>> told = tellable({begin, end}, right, source.memory, oracle);
+    if (!told) return told.error();
+    if (told->empty()) continue;
+    Result<std::optional<Case>> one =
+        case_of(source, std::move(*told), right, protocol, station, oracle, id);
+    if (!one) return one.error();
+    if (*one) cases.push_back(std::move(**one));
+  }
+  return ok();
 }
 
 }  // namespace
@@ -201,9 +226,9 @@ std::vector<Request> derived_from(const Request& request, const std::string& der
   return derived;
 }
 
-Result<std::vector<Case>> derived_cases(const std::vector<Case>& cases,
-                                        const harness::Protocols& protocols, std::size_t at_most,
-                                        std::uint64_t seed) {
+Result<std::vector<Case>> derived_cases(
+    const std::vector<Case>& cases, const harness::Protocols& protocols, std::size_t at_most,
+    std::uint64_t seed, const std::function<bool(const std::string& id)>& wanted) {
   std::vector<Case> derived;
   std::map<std::string, Oracle> oracles;  // by protocol and model
   std::set<std::string> seen;
@@ -224,14 +249,13 @@ Result<std::vector<Case>> derived_cases(const std::vector<Case>& cases,
       oracle = oracles.emplace(device, std::move(*made)).first;
     }
     const Request right{"", source.source, send.frames.front().notation};
-    for (const std::string& derivation : derivations(*protocol)) {
-      Result<std::vector<Case>> made =
-          cases_of(source, derivation, right,
-                   derived_from(right, derivation, *protocol, station, at_most, seed), *protocol,
-                   station, oracle->second);
-      if (!made) return made.error();
-      std::ranges::move(*made, std::back_inserter(derived));
-    }
+    for (const std::string& derivation : derivations(*protocol))
+      if (const Status added =
+              add_cases(source, right,
+                        derived_from(right, derivation, *protocol, station, at_most, seed),
+                        *protocol, station, oracle->second, wanted, derived);
+          !added)
+        return added.error();
   }
   return derived;
 }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,10 +25,12 @@ std::vector<Request> derived_from(const Request& request, const std::string& der
                                   std::size_t at_most, std::uint64_t seed);
 
 /// The cases that follow from these, in their order, a case for each vector and derivation:
-/// "xgt_cnet/rss/two_words/derived/flipped". Of requests that several vectors send the first counts.
-/// Errors: a model cannot be made.
-Result<std::vector<vectors::Case>> derived_cases(const std::vector<vectors::Case>& cases,
-                                                 const harness::Protocols& protocols,
-                                                 std::size_t at_most, std::uint64_t seed);
+/// "xgt_cnet/rss/two_words/derived/flipped" (and flipped_2, where they are many); only those whose
+/// id is `wanted`. Of requests that differ in numbers alone the first counts. Errors: a model cannot
+/// be made.
+Result<std::vector<vectors::Case>> derived_cases(
+    const std::vector<vectors::Case>& cases, const harness::Protocols& protocols,
+    std::size_t at_most, std::uint64_t seed,
+    const std::function<bool(const std::string& id)>& wanted);
 
 }  // namespace fieldproof::explore

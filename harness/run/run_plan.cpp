@@ -429,7 +429,10 @@ Status derive(const RunOptions& options, const harness::Protocols& known,
   const bool all = endpoint && endpoints::kind_of(*endpoint).simulated;
   Result<std::vector<Case>> derived =
       explore::derived_cases(set.cases, known, all ? 0 : few,
-                             static_cast<std::uint64_t>(std::max(0, options.seed)));
+                             static_cast<std::uint64_t>(std::max(0, options.seed)),
+                             [&](const std::string& id) {
+                               return vectors::matches_filter(id, options.filter);
+                             });
   if (!derived) return fail("--derived: " + derived.error().message);
   std::ranges::move(*derived, std::back_inserter(set.cases));
   return ok();

@@ -99,5 +99,30 @@ TEST_F(ExploreCommand, AnInterruptReports) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/junit.xml"));
 }
 
+/// What a bad line makes of requests: our own devices answer as they do, a device that looks at half
+/// of its check is caught.
+TEST(DerivedRun, HealthyDevicesPass) {
+  const TestFolder folder;
+  const Finished finished =
+      run_tool({"run", "--derived", "--filter",
+                "modbus_*/examples/*/derived/*:ls_bus/read/*/derived/*:xgt_cnet/rss/*/derived/*:"
+                "modbus_tcp/*/derived/*:xgt_fenet/read/*/derived/*",
+                "--out", folder.path()});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  Results results = read_results(folder / "results.ndjson");
+  EXPECT_GT(results.counts()["PASS"], 500u);
+  EXPECT_EQ(results.counts().size(), 1u);
+}
+
+TEST(DerivedRun, HalfACheckIsNotEnough) {
+  const TestFolder folder;
+  const Finished finished = run_tool(
+      {"run", "--derived", "--filter", "xgt_cnet/rss/*/derived/flipped", "--max-failures", "1",
+       "--endpoint", std::string("exec:") + BROKEN_SERVER + " bcc_first_digit_alone {tty}", "--out",
+       folder.path()});
+  EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("/derived/flipped"), HasSubstr("--derived")));
+}
+
 }  // namespace
 }  // namespace fieldproof::tool_tests
