@@ -102,7 +102,7 @@ class BlockReader {
     std::string flag;
     reader_.text("flag", flag);
     if (reader_.error()) return *reader_.error();
-    if (block_.function == Function::ereceive && flag.empty()) return ok();  // it does nothing
+    if (block_.function == Function::ereceive && flag.empty()) return ok();
     if (block_.function == Function::receive)
       return flag.empty()
                  ? ok()
@@ -195,7 +195,9 @@ class BlockReader {
         return wrong(fmt::format("'{}' is not of an {} block; remove it", key,
                                  sends ? "esend" : "ereceive"));
     block_.channel = 0;
-    return sends ? read_esend() : ok();
+    if (sends) return read_esend();
+    block_.condition = {};  // it never fires
+    return ok();
   }
 
   Status read_esend() {
