@@ -129,7 +129,7 @@ Status read_address(const json& object, const std::string& what, std::size_t pla
 /// The number of a person whose address there is.
 Result<unsigned> read_member(const json& member, const ObjectReader& entry,
                              const std::vector<Group>& groups, const EmailSettings& settings) {
-  if (!member.is_number_unsigned() || member > highest_mail_number)
+  if (!member.is_number_integer() || member < 0 || member > highest_mail_number)
     return entry.wrong(fmt::format("group has {}, which is no number of an address; numbers are 0 "
                                    "to {}",
                                    member.dump(), highest_mail_number));
