@@ -166,7 +166,9 @@ std::set<std::string> needs_of(const vectors::Case& source, bool on_a_line,
       needs.insert("names");
     if (function == "send" || function == "receive") needs.insert("frames");
     if (block.contains("data")) needs.insert("memory");
-    if (on_a_line && block["channel"] != number_of(p2p, "channel", 1)) needs.insert("channel");
+    if (on_a_line && block.contains("channel") &&
+        block["channel"] != number_of(p2p, "channel", 1))
+      needs.insert("channel");
   }
   if (has_mail(p2p)) needs.insert("mail");
   if (asks_by_datagrams(source.config)) needs.insert("transport");

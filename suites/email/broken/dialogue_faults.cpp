@@ -8,6 +8,11 @@ namespace fieldproof::email_broken {
 
 namespace {
 
+/// The same words behind another code; a piece of a reply stays as it is.
+std::string with_code(std::string text, std::string_view code) {
+  return text.size() < code.size() ? text : text.replace(0, code.size(), code);
+}
+
 /// `then` instead of QUIT.
 MakeBehaviour at_quit(LinkEvent then) {
   return acts([then](Bursts& does, Module&) {
@@ -51,7 +56,7 @@ MakeBehaviour does_not_wait() {
 MakeBehaviour takes_no_for_yes(std::string command, std::string yes) {
   return hears([=](std::string text, Module& module) {
     const bool no = text.starts_with('4') || text.starts_with('5');
-    return no && module.last_said.starts_with(command) ? yes + text.substr(3) : text;
+    return no && module.last_said.starts_with(command) ? with_code(text, yes) : text;
   });
 }
 
@@ -113,7 +118,7 @@ std::vector<Fault> reply_faults() {
        hears([](std::string text, Module&) { return text.ends_with('\n') ? text : text + "\r\n"; }),
        "email/dialogue/replies_in_pieces", ""},
       {"only_250", "251 is taken for a refusal", hears([](std::string text, Module&) {
-         return text.starts_with("251") ? "551" + text.substr(3) : text;
+         return text.starts_with("251") ? with_code(text, "551") : text;
        }),
        "email/dialogue/first_digit/c251", "QUIT"},
       {"needs_words", "a code without words is no reply", hears([](std::string text, Module&) {
@@ -122,7 +127,7 @@ std::vector<Fault> reply_faults() {
        "email/dialogue/code_alone", ""},
       {"no_greeting_is_good", "a greeting that says no is none",
        hears([](std::string text, Module&) {
-         return text.starts_with("554") ? "220" + text.substr(3) : text;
+         return text.starts_with("554") ? with_code(text, "220") : text;
        }),
        "email/status/refused_greeting/c5", "command"},
       {"hello_is_good", "a refusal of HELO is overlooked", takes_no_for_yes("HELO", "250"),
@@ -137,7 +142,7 @@ std::vector<Fault> reply_faults() {
        "email/status/refused_text/c4", "0002"},
       {"text_after_250", "the text is sent after 250", hears([](std::string text, Module& module) {
          return module.last_said.starts_with("DATA") && text.starts_with("250")
-                    ? "354" + text.substr(3)
+                    ? with_code(text, "354")
                     : text;
        }),
        "email/status/data_without_354", ""},
