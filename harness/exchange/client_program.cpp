@@ -19,10 +19,9 @@ using vectors::Step;
 
 /// In the order of the README.
 constexpr std::array<std::string_view, 16> abilities{
-    "clock",          "memory",      "busy",     "mode",  "link",
-    "power_cycle",    "channel",     "time_out", "delay", "frames",
-    "character_time", "write_order", "line",     "names", "transport",
-    "mail"};
+    "clock",   "memory",   "busy",      "mode",   "link",           "power_cycle",
+    "channel", "time_out", "delay",     "frames", "character_time", "write_order",
+    "line",    "names",    "transport", "mail"};
 
 struct Told {
   std::string_view key, as;
@@ -166,8 +165,7 @@ std::set<std::string> needs_of(const vectors::Case& source, bool on_a_line,
       needs.insert("names");
     if (function == "send" || function == "receive") needs.insert("frames");
     if (block.contains("data")) needs.insert("memory");
-    if (on_a_line && block.contains("channel") &&
-        block["channel"] != number_of(p2p, "channel", 1))
+    if (on_a_line && block.contains("channel") && block["channel"] != number_of(p2p, "channel", 1))
       needs.insert("channel");
   }
   if (has_mail(p2p)) needs.insert("mail");

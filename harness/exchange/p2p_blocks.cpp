@@ -103,8 +103,8 @@ std::string in_words(const json& block, std::string_view protocol) {
   }
   if (block.contains("flag")) text += ", on " + flag_of(block);
   if (block.contains("to"))
-    text += fmt::format(", message {} to address {}", text_of(block, "message"),
-                        text_of(block, "to"));
+    text +=
+        fmt::format(", message {} to address {}", text_of(block, "message"), text_of(block, "to"));
   if (block.contains("data")) text += ", data " + list_of(block, "data");
   const std::string station = " of station " + text_of(block, "station");
   if (function == "read")

@@ -65,8 +65,8 @@ TEST(P2pBlocks, WhatIsPreparedOtherwiseIsNamedByItsKeys) {
 }
 
 TEST(P2pBlocks, AMailInWordsHasNoChannel) {
-  const auto blocks = complete_blocks(
-      json::parse(R"([{"function": "esend", "flag": "%MX0", "message": 1, "to": 2, "data": "%MB9"}])"));
+  const auto blocks = complete_blocks(json::parse(
+      R"([{"function": "esend", "flag": "%MX0", "message": 1, "to": 2, "data": "%MB9"}])"));
   EXPECT_EQ(in_words(blocks.at(0), "smtp"),
             "P2P 1 block 0: smtp client, esend, on %MX0, message 1 to address 2, data %MB9");
 }

@@ -11,8 +11,7 @@ namespace fieldproof::email {
 
 namespace {
 
-Status add_service(plc::Plc& plc, const nlohmann::json& p2p,
-                   const p2p::P2pParameters& parameters) {
+Status add_service(plc::Plc& plc, const nlohmann::json& p2p, const p2p::P2pParameters& parameters) {
   Result<EmailSettings> settings = parse_email_settings(p2p.at("email"));
   if (!settings) return settings.error();
   const Status checked =
@@ -30,9 +29,10 @@ Status check_alone(const p2p::P2pParameters& parameters) {
         "channels, such as xgt-fenet");
   for (const p2p::P2pBlock& block : parameters.blocks)
     if (!block.is_mail())
-      return fail(fmt::format("cannot set up P2P block {}: it asks over a channel; set function "
-                              "esend, or take the protocol of the channels, such as xgt-fenet",
-                              block.number));
+      return fail(
+          fmt::format("cannot set up P2P block {}: it asks over a channel; set function "
+                      "esend, or take the protocol of the channels, such as xgt-fenet",
+                      block.number));
   return ok();
 }
 
@@ -40,8 +40,8 @@ Status check_alone(const p2p::P2pParameters& parameters) {
 
 Status add_email(plc::Plc& plc, const nlohmann::json& config) {
   if (!config.contains("p2p") || !config["p2p"].contains("email")) return ok();
-  const Result<p2p::P2pParameters> parameters = p2p::parse_p2p_parameters(
-      config["p2p"], plc.memory().model(), p2p::network_p2p_rules());
+  const Result<p2p::P2pParameters> parameters =
+      p2p::parse_p2p_parameters(config["p2p"], plc.memory().model(), p2p::network_p2p_rules());
   return parameters ? add_service(plc, config["p2p"], *parameters) : Status(parameters.error());
 }
 

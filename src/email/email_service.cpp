@@ -6,6 +6,9 @@
 namespace fieldproof::email {
 
 namespace {
+/// That a server leaves open: the oldest is reset then.
+constexpr std::size_t most_old_links = 8;
+
 /// The dialogue has time-outs of its own, and always comes to an end.
 constexpr p2p::P2pClient::Timing no_time_out{.time_out = 24h};
 
@@ -25,8 +28,8 @@ EmailService::EmailService(EmailSettings settings, plc::PlcMemory& memory,
       watch_(settings_.period) {}
 
 bool EmailService::watches() const {
-  return settings_.use && std::ranges::any_of(settings_.events,
-                                              [](const auto& event) { return event.has_value(); });
+  return settings_.use &&
+         std::ranges::any_of(settings_.events, [](const auto& event) { return event.has_value(); });
 }
 
 void EmailService::receive(const Burst& burst) {
@@ -46,15 +49,14 @@ void EmailService::receive(const Burst& burst) {
 void EmailService::receive_of_old(const Burst& burst) {
   const auto found = old_.find(burst.link);
   if (found == old_.end()) return;
-  const bool over = burst.event == LinkEvent::reset ||
-                    (burst.event == LinkEvent::closed && found->second);
+  const bool over =
+      burst.event == LinkEvent::reset || (burst.event == LinkEvent::closed && found->second);
   old_.erase(found);
   if (!over) event(burst.link, LinkEvent::reset);
 }
 
 std::optional<Time> EmailService::wake_at() const {
-  if (!doings_.empty() || (!powered_ && watches()) || (!sending_ && !waiting_.empty()))
-    return now_;
+  if (!doings_.empty() || (!powered_ && watches()) || (!sending_ && !waiting_.empty())) return now_;
   std::optional<Time> wake = blocks_.wake_at();
   const auto earlier = [&wake](Time at) { wake = wake ? std::min(*wake, at) : at; };
   if (watches()) earlier(watch_.next());
@@ -116,6 +118,9 @@ void EmailService::end_connection(LinkEvent how) {
   if (link == line_link) return;
   event(link, how);
   if (how == LinkEvent::closed) old_[link] = true;
+  if (old_.size() <= most_old_links) return;
+  event(old_.begin()->first, LinkEvent::reset);
+  old_.erase(old_.begin());
 }
 
 void EmailService::event(LinkId link, LinkEvent what) {

@@ -31,8 +31,8 @@ class EmailService : public plc::NetworkService {
  public:
   /// The esend blocks of `parameters`, which EsendDriver::check has passed; `memory` and `links`
   /// outlive the service.
-  EmailService(EmailSettings settings, plc::PlcMemory& memory,
-               const p2p::P2pParameters& parameters, net::OwnLinks& links);
+  EmailService(EmailSettings settings, plc::PlcMemory& memory, const p2p::P2pParameters& parameters,
+               net::OwnLinks& links);
 
   std::vector<Port> ports() const override { return {}; }
   void receive(const Burst& burst) override;

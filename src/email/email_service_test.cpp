@@ -52,8 +52,8 @@ class Mailing : public testing::Test {
   std::string result() { return *plc->get("%LW512", 0) + ' ' + *plc->get("%LW513", 0); }
   /// Up to the reply to the text.
   void mail_over(unsigned link) {
-    for (const char* one : {"220 a\r\n", "250 b\r\n", "250 c\r\n", "250 d\r\n", "354 e\r\n",
-                            "250 f\r\n"}) {
+    for (const char* one :
+         {"220 a\r\n", "250 b\r\n", "250 c\r\n", "250 d\r\n", "354 e\r\n", "250 f\r\n"}) {
       reply(link, one);
       (void)heard();
     }
@@ -95,6 +95,18 @@ TEST_F(Mailing, WhatComesBehindItsEndIsAnsweredByRst) {
   reply(0, "250 more\r\n");
   EXPECT_EQ(heard(), "0:reset");
   EXPECT_EQ(result(), "0001 0000");
+}
+
+TEST_F(Mailing, OfWhatAServerLeavesOpenTheOldestIsReset) {
+  std::string last;
+  for (unsigned mail = 0; mail < 9; ++mail) {
+    pulse();
+    (void)heard();
+    mail_over(mail);
+    reply(mail, "221 bye\r\n");
+    last = heard();
+  }
+  EXPECT_EQ(last, "8:closed 0:reset");
 }
 
 TEST_F(Mailing, AServerThatEndsFirstIsAnsweredByFin) {

@@ -15,9 +15,10 @@ Status EsendDriver::check(const p2p::P2pBlock& block, const plc::PlcModel& model
     return numbers;
   const Message& message = settings_.messages.at(block.message);
   if (block.variables.size() != message.memory_parts())
-    return fail(fmt::format("data has {} addresses, and message {} has {} parts of the form mb; "
-                            "give an address for each",
-                            block.variables.size(), block.message, message.memory_parts()));
+    return fail(
+        fmt::format("data has {} addresses, and message {} has {} parts of the form mb; "
+                    "give an address for each",
+                    block.variables.size(), block.message, message.memory_parts()));
   auto area = block.variables.begin();
   for (const MessagePart& part : message.parts) {
     if (part.memory_bytes == 0) continue;

@@ -28,8 +28,8 @@ std::string written(const Mailbox& one) {
 
 std::string header(const EmailSettings& settings, const std::vector<Mailbox>& to,
                    const std::string& title) {
-  std::string text = "From: " + written(settings.sender) +
-                     "\r\nReply-To: " + settings.sender.address + "\r\nTo: ";
+  std::string text =
+      "From: " + written(settings.sender) + "\r\nReply-To: " + settings.sender.address + "\r\nTo: ";
   for (const Mailbox& one : to) text += (&one == &to.front() ? "" : ",\r\n ") + written(one);
   return text + "\r\nSubject: " + title + "\r\n\r\n";
 }

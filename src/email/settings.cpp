@@ -15,10 +15,10 @@ namespace {
 using nlohmann::json;
 using p2p::highest_mail_number;
 
-constexpr std::size_t longest_line = 998;      // RFC 5321 4.5.3.1.6, without CR LF
-constexpr std::size_t longest_address = 254;   // RFC 5321 4.5.3.1.3, without < and >
-constexpr std::size_t longest_name = 64;       // of a user, and of an entry of the address book
-constexpr unsigned shortest_period = 10;       // seconds
+constexpr std::size_t longest_line = 998;     // RFC 5321 4.5.3.1.6, without CR LF
+constexpr std::size_t longest_address = 254;  // RFC 5321 4.5.3.1.3, without < and >
+constexpr std::size_t longest_name = 64;      // of a user, and of an entry of the address book
+constexpr unsigned shortest_period = 10;      // seconds
 constexpr unsigned longest_period = 24 * 3600;
 constexpr const char* whose = "p2p.email";
 
@@ -52,9 +52,10 @@ struct ObjectReader {
     reader.text(key, to);
     if (reader.error()) return *reader.error();
     if (!std::ranges::all_of(to, is_printable))
-      return wrong(fmt::format("{} has a character that is no printable ASCII; e-mail supports "
-                               "ASCII alone (FEnet EN 7.4.1)",
-                               key));
+      return wrong(
+          fmt::format("{} has a character that is no printable ASCII; e-mail supports "
+                      "ASCII alone (FEnet EN 7.4.1)",
+                      key));
     if (to.size() > longest)
       return wrong(fmt::format("{} has {} characters; give at most {}", key, to.size(), longest));
     return ok();
@@ -63,9 +64,9 @@ struct ObjectReader {
     reader.text("address", to);
     if (reader.error()) return *reader.error();
     if (is_address(to)) return ok();
-    return wrong(fmt::format(
-        "address is '{}'; give one such as plc@plant.example, of at most {} characters", to,
-        longest_address));
+    return wrong(
+        fmt::format("address is '{}'; give one such as plc@plant.example, of at most {} characters",
+                    to, longest_address));
   }
 
   const json& object;
@@ -79,6 +80,9 @@ Result<unsigned> number_of(ObjectReader& entry, std::size_t place, const Table& 
   auto number = static_cast<unsigned>(place);
   entry.reader.whole("number", highest_mail_number, number);
   if (const Status read = entry.done(); !read) return read.error();
+  if (number > highest_mail_number)
+    return entry.wrong(fmt::format("it has the number {} by its place; numbers are 0 to {}", number,
+                                   highest_mail_number));
   if (known.contains(number))
     return entry.wrong(
         fmt::format("number {} is there twice; give each entry a number of its own", number));
@@ -130,9 +134,10 @@ Status read_address(const json& object, const std::string& what, std::size_t pla
 Result<unsigned> read_member(const json& member, const ObjectReader& entry,
                              const std::vector<Group>& groups, const EmailSettings& settings) {
   if (!member.is_number_integer() || member < 0 || member > highest_mail_number)
-    return entry.wrong(fmt::format("group has {}, which is no number of an address; numbers are 0 "
-                                   "to {}",
-                                   member.dump(), highest_mail_number));
+    return entry.wrong(
+        fmt::format("group has {}, which is no number of an address; numbers are 0 "
+                    "to {}",
+                    member.dump(), highest_mail_number));
   const auto number = member.get<unsigned>();
   if (std::ranges::find(groups, number, &Group::number) != groups.end())
     return entry.wrong(
@@ -164,8 +169,8 @@ Status read_group(const Group& group, const std::vector<Group>& groups, EmailSet
 
 Status read_addresses(const json& email, EmailSettings& settings) {
   std::vector<Group> groups;
-  const Status read = each_of(
-      email, "addresses", [&](const json& one, const std::string& what, std::size_t place) {
+  const Status read =
+      each_of(email, "addresses", [&](const json& one, const std::string& what, std::size_t place) {
         return read_address(one, what, place, settings, groups);
       });
   if (!read) return read;
@@ -286,8 +291,8 @@ std::size_t Message::memory_parts() const {
 
 Result<EmailSettings> parse_email_settings(const json& email) {
   constexpr std::array<std::string_view, 13> keys{
-      "account",     "address", "addresses", "events", "interval_s", "messages", "password",
-      "period_s", "pop3_server", "port",    "server",    "use",    "user"};
+      "account",  "address",     "addresses", "events", "interval_s", "messages", "password",
+      "period_s", "pop3_server", "port",      "server", "use",        "user"};
   ObjectReader entry(email, whose);
   if (const Status known = entry.known(keys); !known) return known.error();
   EmailSettings settings;
@@ -298,8 +303,8 @@ Result<EmailSettings> parse_email_settings(const json& email) {
   if (const Status own = entry.address(settings.sender.address); !own) return own.error();
   if (const Status addresses = read_addresses(email, settings); !addresses)
     return addresses.error();
-  const Status messages = each_of(
-      email, "messages", [&](const json& one, const std::string& what, std::size_t place) {
+  const Status messages =
+      each_of(email, "messages", [&](const json& one, const std::string& what, std::size_t place) {
         return read_message(one, what, place, settings);
       });
   if (!messages) return messages.error();
@@ -309,9 +314,10 @@ Result<EmailSettings> parse_email_settings(const json& email) {
 
 Status check_numbers(const EmailSettings& settings, unsigned message, unsigned address) {
   if (!settings.messages.contains(message))
-    return fail(fmt::format("message is {}, and p2p.email.messages has none of that number; it "
-                            "has {}",
-                            message, numbers_of(settings.messages)));
+    return fail(
+        fmt::format("message is {}, and p2p.email.messages has none of that number; it "
+                    "has {}",
+                    message, numbers_of(settings.messages)));
   if (!settings.addresses.contains(address))
     return fail(fmt::format("to is {}, and p2p.email.addresses has none of that number; it has {}",
                             address, numbers_of(settings.addresses)));

@@ -71,8 +71,8 @@ TEST(EmailSettings, EventsHaveNumbersOfTheirOwn) {
 
 TEST(EmailSettings, AGroupMayStandBeforeItsMembers) {
   const EmailSettings email = parsed(with(
-      settings(), {{"addresses", {{{"number", 7}, {"group", {3}}},
-                                  {{"number", 3}, {"address", "a@b"}}}}}));
+      settings(),
+      {{"addresses", {{{"number", 7}, {"group", {3}}}, {{"number", 3}, {"address", "a@b"}}}}}));
   EXPECT_THAT(email.addresses.at(7), ElementsAre(Field(&Mailbox::address, "a@b")));
 }
 
@@ -105,11 +105,18 @@ TEST(EmailSettings, ErrorsOfTheAddressBookNameTheEntry) {
       {{{"group", {0, 9}}}, "group has 9, which is a group itself"},
       {{{"group", {0, 0}}}, "group has 0 twice"},
       {{{"group", {-1}}}, "group has -1, which is no number"},
-      {{{"group", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}}, "group has 11 members; a group has at most "
-                                                        "10 (FEnet EN 7.4.3)"},
+      {{{"group", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}},
+       "group has 11 members; a group has at most "
+       "10 (FEnet EN 7.4.3)"},
       {{{"adress", "a@b"}}, "did you mean 'address'"}};
   for (const auto& [entry, error] : errors)
     EXPECT_THAT(error_of(and_one("addresses", entry)), HasSubstr(error));
+}
+
+TEST(EmailSettings, APlaceBehindTheNumbersIsNone) {
+  json email = settings();
+  email["messages"] = json(257, json{{"title", "T"}});
+  EXPECT_THAT(error_of(email), HasSubstr("it has the number 256 by its place"));
 }
 
 TEST(EmailSettings, ErrorsOfMessagesNameTheEntry) {
@@ -134,8 +141,9 @@ TEST(EmailSettings, ErrorsOfEventsNameTheEvent) {
               HasSubstr("cannot read p2p.email.events.error: there is no to"));
   EXPECT_THAT(error_of(event("error", {{"message", 2}, {"to", 0}})),
               HasSubstr("events.error: message is 2, and p2p.email.messages has none"));
-  EXPECT_THAT(error_of(event("error", {{"message", 0}, {"to", 3}})),
-              HasSubstr("to is 3, and p2p.email.addresses has none of that number; it has 0, 1, 9"));
+  EXPECT_THAT(
+      error_of(event("error", {{"message", 0}, {"to", 3}})),
+      HasSubstr("to is 3, and p2p.email.addresses has none of that number; it has 0, 1, 9"));
   EXPECT_THAT(error_of(event("error", {{"message", 4}, {"to", 0}})),
               HasSubstr("message 4 has parts of the form mb, and an event has no data"));
 }

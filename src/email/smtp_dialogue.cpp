@@ -42,8 +42,7 @@ void SmtpDialogue::give_up() {
 }
 
 void SmtpDialogue::break_off() {
-  if (!result_)
-    result_ = stage_ <= Stage::hello ? email_status::server : email_status::transfer;
+  if (!result_) result_ = stage_ <= Stage::hello ? email_status::server : email_status::transfer;
   stage_ = Stage::over;
 }
 
@@ -76,8 +75,7 @@ std::string SmtpDialogue::answer(unsigned code) {
     case Stage::content:
       if (!done) return finish(email_status::transfer);
       // Who is not among those that it was taken for shows.
-      return finish(taken_ < mail_.recipients.size() ? email_status::address
-                                                      : email_status::none);
+      return finish(taken_ < mail_.recipients.size() ? email_status::address : email_status::none);
     case Stage::quit:
     case Stage::over: break;
   }

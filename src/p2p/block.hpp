@@ -14,9 +14,9 @@ namespace fieldproof::p2p {
 
 constexpr unsigned p2p_parameters =
     3;  // 1: built-in channels, 2 and 3: communication modules (Cnet KO 6.2.1)
-constexpr unsigned p2p_blocks = 32;           // of a parameter
-constexpr std::size_t p2p_max_variables = 4;  // of a block (Cnet EN table 6.2.3)
-constexpr std::size_t p2p_max_bytes = 120;    // of continuous data
+constexpr unsigned p2p_blocks = 32;            // of a parameter
+constexpr std::size_t p2p_max_variables = 4;   // of a block (Cnet EN table 6.2.3)
+constexpr std::size_t p2p_max_bytes = 120;     // of continuous data
 constexpr unsigned highest_mail_number = 255;  // of a message, of an address
 
 /// Error codes of a block's STATUS (Cnet EN and KO Appendix 3.3).
@@ -53,7 +53,7 @@ struct P2pBlock {
   unsigned size = 1;     // elements of a run; bytes of a user frame's variable
   unsigned station = 0;  // of the partner
   std::vector<P2pVariable> variables{};
-  std::string frame{};  // send and receive: "GROUP.FRAME" of the user frames
+  std::string frame{};                // send and receive: "GROUP.FRAME" of the user frames
   unsigned message = 0, address = 0;  // esend: their numbers in the e-mail settings
   P2pCondition condition{};
 

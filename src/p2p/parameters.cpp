@@ -25,8 +25,8 @@ struct Word {
   int meaning;
 };
 constexpr std::array functions{
-    Word{"read", int(Function::read)}, Word{"write", int(Function::write)},
-    Word{"send", int(Function::send)}, Word{"receive", int(Function::receive)},
+    Word{"read", int(Function::read)},   Word{"write", int(Function::write)},
+    Word{"send", int(Function::send)},   Word{"receive", int(Function::receive)},
     Word{"esend", int(Function::esend)}, Word{"ereceive", int(Function::ereceive)}};
 constexpr std::array commands{Word{"single", 0}, Word{"continuous", 1}};
 constexpr std::array types{Word{"bit", 'X'}, Word{"byte", 'B'}, Word{"word", 'W'},
@@ -188,9 +188,9 @@ class BlockReader {
     const bool sends = block_.function == Function::esend;
     if (!rules_.network)
       return wrong("e-mail is sent by an Ethernet module alone; use function send, or read");
-    for (const char* key : {"channel", "command", "frame", "read", "size", "station", "type",
-                            sends ? "save" : "data", sends ? "info" : "message",
-                            sends ? "info" : "to"})
+    for (const char* key :
+         {"channel", "command", "frame", "read", "size", "station", "type", sends ? "save" : "data",
+          sends ? "info" : "message", sends ? "info" : "to"})
       if (object_.contains(key))
         return wrong(fmt::format("'{}' is not of an {} block; remove it", key,
                                  sends ? "esend" : "ereceive"));
@@ -214,9 +214,10 @@ class BlockReader {
       const Result<plc::DeviceAddress> address = own_address("data", name, 1);
       if (!address) return address.error();
       if (address->type != 'B')
-        return wrong(fmt::format("data '{}' is of type {}; a mail takes bytes: give one such as "
-                                 "%MB100",
-                                 name, type_name(address->type)));
+        return wrong(
+            fmt::format("data '{}' is of type {}; a mail takes bytes: give one such as "
+                        "%MB100",
+                        name, type_name(address->type)));
       block_.variables.push_back({"", *address});
     }
     return ok();

@@ -22,8 +22,8 @@ namespace {
 Status check_parameter(const json& facts) {
   constexpr std::array<std::string_view, 3> keys{"accepted", "parameter", "says"};
   if (const Status known = plc::known_keys(facts, "facts", keys); !known) return known;
-  const auto made = email::make_email_plc(
-      "xbc-h", {{"role", "client"}, {"p2p", facts.at("parameter")}});
+  const auto made =
+      email::make_email_plc("xbc-h", {{"role", "client"}, {"p2p", facts.at("parameter")}});
   if (bool(made) != facts.value("accepted", true))
     return fail(made ? "the parameter is accepted" : "it is refused: " + made.error().message);
   const std::string says = facts.value("says", "");

@@ -46,9 +46,8 @@ class BrokenModule : public plc::EmulatedDevice, public net::Host {
     module_.now = now;
     Bursts does = good_->network()->advance(now);
     for (Burst& one : does) spoil(one);
-    std::erase_if(does, [](const Burst& one) {
-      return one.event == LinkEvent::data && one.bytes.empty();
-    });
+    std::erase_if(
+        does, [](const Burst& one) { return one.event == LinkEvent::data && one.bytes.empty(); });
     if (behaviour_.acts) behaviour_.acts(does, module_);
     show();
     return does;

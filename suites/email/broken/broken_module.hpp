@@ -19,8 +19,8 @@ using Bursts = std::vector<Burst>;
 
 /// What a fault may look at and do.
 struct Module {
-  plc::EmulatedDevice& plc;   // the good one: memory and actions
-  std::string last_said{};    // before what is looked at: "DATA\r\n"
+  plc::EmulatedDevice& plc;  // the good one: memory and actions
+  std::string last_said{};   // before what is looked at: "DATA\r\n"
   bool run = true, link = true;
   Time now{};
 };

@@ -85,8 +85,7 @@ std::vector<Fault> command_faults() {
        "did not close"},
       {"does_not_wait", "says HELO before the greeting", does_not_wait(),
        "email/dialogue/nothing_before_the_flag", ""},
-      {"login", "logs in where the server offers it",
-       says([](std::string text, Module& module) {
+      {"login", "logs in where the server offers it", says([](std::string text, Module& module) {
          return module.last_said.starts_with("HELO") && text.starts_with("MAIL")
                     ? std::string("AUTH LOGIN\r\n")
                     : text;
@@ -110,9 +109,7 @@ std::vector<Fault> reply_faults() {
        }),
        "email/dialogue/replies_of_lines", ""},
       {"pieces_are_lost", "a piece without an end of line is lost",
-       hears([](std::string text, Module&) {
-         return text.ends_with('\n') ? text : std::string();
-       }),
+       hears([](std::string text, Module&) { return text.ends_with('\n') ? text : std::string(); }),
        "email/dialogue/replies_in_pieces", ""},
       {"pieces_are_replies", "each piece is taken for a reply",
        hears([](std::string text, Module&) { return text.ends_with('\n') ? text : text + "\r\n"; }),

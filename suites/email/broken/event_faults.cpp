@@ -75,8 +75,8 @@ std::vector<Fault> event_faults() {
       {"error_once", "an error that comes again is not mailed",
        ignores([](std::string_view action, const Module&) { return action == "error off"; }),
        "email/events/error/run", "did not open"},
-      {"sees_all", "a change that is undone is mailed", undone_is_seen(),
-       "email/events/undone", "before it had a reason"},
+      {"sees_all", "a change that is undone is mailed", undone_is_seen(), "email/events/undone",
+       "before it had a reason"},
       {"looks_too_early", "a longer period is 10 s",
        email([](json& email) { email["period_s"] = 10; }), "email/events/period/s60", ""},
       {"looks_too_late", "10 s are 20 s", email([](json& email) {

@@ -39,16 +39,14 @@ MakeBehaviour body(std::string from, std::string to) {
 }
 
 MakeBehaviour exchanges_numbers(const char* list) {
-  return email([list](json& email) {
-    std::swap(email[list][0]["number"], email[list][1]["number"]);
-  });
+  return email(
+      [list](json& email) { std::swap(email[list][0]["number"], email[list][1]["number"]); });
 }
 
 std::vector<Fault> header_faults() {
   return {
-      {"no_reply_to", "there is no Reply-To",
-       says_instead("Reply-To: plc@plant.example\r\n", ""), "email/dialogue/one_address",
-       "Reply-To"},
+      {"no_reply_to", "there is no Reply-To", says_instead("Reply-To: plc@plant.example\r\n", ""),
+       "email/dialogue/one_address", "Reply-To"},
       {"from_without_name", "the user name is left out", says_instead("From: PLC ", "From: "),
        "email/dialogue/one_address", "From"},
       {"from_is_plc", "the user name is always PLC", email([](json& one) { one["user"] = "PLC"; }),
@@ -59,18 +57,15 @@ std::vector<Fault> header_faults() {
        says_instead(",\r\n Peter <peter@plant.example>", ""), "email/address/group_of_two", "To"},
       {"no_subject", "the title is left out", says_instead("Subject: Pump 3", "Subject: "),
        "email/dialogue/one_address", "Subject"},
-      {"title_is_text", "the title stands as text", says_instead("Subject: Pump 3\r\n\r\n",
-                                                                 "\r\nPump 3\r\n"),
-       "email/dialogue/one_address", ""},
+      {"title_is_text", "the title stands as text",
+       says_instead("Subject: Pump 3\r\n\r\n", "\r\nPump 3\r\n"), "email/dialogue/one_address", ""},
       {"first_member", "a group is its first member", groups_of(1), "email/address/group_of_two",
        "command"},
       {"nine_members", "a group has nine members at most", groups_of(9),
        "email/address/group_of_ten", "command"},
-      {"group_upside_down", "a group is mailed to from its last member on",
-       email([](json& one) {
+      {"group_upside_down", "a group is mailed to from its last member on", email([](json& one) {
          for (json& entry : one["addresses"])
-           if (entry.contains("group"))
-             std::reverse(entry["group"].begin(), entry["group"].end());
+           if (entry.contains("group")) std::reverse(entry["group"].begin(), entry["group"].end());
        }),
        "email/address/group_of_ten", ""},
       {"other_address", "the number is that of the next address", exchanges_numbers("addresses"),
@@ -82,8 +77,7 @@ std::vector<Fault> header_faults() {
 
 std::vector<Fault> text_faults() {
   return {
-      {"dots_alone", "a dot that begins a line is sent once",
-       says([](std::string text, Module&) {
+      {"dots_alone", "a dot that begins a line is sent once", says([](std::string text, Module&) {
          return is_content(text) ? replaced(std::move(text), "\r\n..", "\r\n.") : text;
        }),
        "email/text/dot_line", ""},
@@ -122,8 +116,8 @@ std::vector<Fault> text_faults() {
              for (json& area : block["data"]) area = block["data"][0];
        }),
        "email/text/two_areas", "line"},
-      {"bytes_swapped", "the bytes of a word change places",
-       body("ABCDEFGHIJ", "BADCFEHGJI"), "email/text/ten_bytes", "line"},
+      {"bytes_swapped", "the bytes of a word change places", body("ABCDEFGHIJ", "BADCFEHGJI"),
+       "email/text/ten_bytes", "line"},
   };
 }
 

@@ -56,7 +56,8 @@ std::vector<Fault> result_faults() {
        "email/status/switched_off", "0007"},
       {"mails_when_off", "mails although e-mail is switched off",
        email([](json& email) { email["use"] = true; }), "email/status/switched_off", ""},
-      {"error_stays", "a mail that is taken leaves STATUS as it was", [] {
+      {"error_stays", "a mail that is taken leaves STATUS as it was",
+       [] {
          auto last = std::make_shared<std::string>();
          return Behaviour{.shows = [last](Module& module) {
            const std::string now = *module.plc.get("%LW513", 0);
@@ -88,9 +89,8 @@ std::vector<Fault> result_faults() {
       {"deaf_to_stop", "STOP does not end a mail",
        ignores([](std::string_view action, const Module&) { return action == "stop"; }),
        "email/block/stop_gives_up", "did not close"},
-      {"mails_in_stop", "blocks mail in STOP", [] {
-         return Behaviour{.works_with = [](json& config) { config["mode"] = "run"; }};
-       },
+      {"mails_in_stop", "blocks mail in STOP",
+       [] { return Behaviour{.works_with = [](json& config) { config["mode"] = "run"; }}; },
        "email/block/edge_in_stop", ""},
       {"deaf_to_link", "the link enable changes nothing",
        ignores([](std::string_view action, const Module&) { return action.starts_with("link"); }),

@@ -71,18 +71,18 @@ class MailingPlc {
  private:
   std::vector<std::string> arguments(const std::string& protocol, std::uint16_t port,
                                      json blocks) const {
-    blocks.push_back({{"function", "esend"},
-                      {"flag", "F93"},
-                      {"message", 0},
-                      {"to", 2},
-                      {"data", "%MB100"}});
+    blocks.push_back(
+        {{"function", "esend"}, {"flag", "F93"}, {"message", 0}, {"to", 2}, {"data", "%MB100"}});
     const json p2p{{"partner", "127.0.0.1"},
                    {"port", modbus_peers::free_port()},
                    {"email", settings(port)},
                    {"blocks", blocks}};
-    return {FIELDPROOF_TOOL, "emulate",
+    return {FIELDPROOF_TOOL,
+            "emulate",
             "xbc-h?protocol=" + protocol,
-            "--p2p", folder_.write("p2p.json", json{{"p2p", p2p}}.dump()), "-v"};
+            "--p2p",
+            folder_.write("p2p.json", json{{"p2p", p2p}}.dump()),
+            "-v"};
   }
 
   tool_tests::TestFolder folder_;
@@ -141,15 +141,15 @@ TEST(EmailFile, ErrorsNameFileAndKey) {
     json email = settings(25);
     email[list].push_back(entry);
     const json p2p{{"email", email}, {"blocks", json::array({block})}};
-    const tool_tests::Finished tool = tool_tests::run_tool(
-        {"emulate", "xbc-h?protocol=xgt-fenet", "--p2p",
-         folder.write("p2p.json", json{{"p2p", p2p}}.dump())});
+    const tool_tests::Finished tool =
+        tool_tests::run_tool({"emulate", "xbc-h?protocol=xgt-fenet", "--p2p",
+                              folder.write("p2p.json", json{{"p2p", p2p}}.dump())});
     EXPECT_EQ(tool.code, 2);
     EXPECT_THAT(tool.err, HasSubstr(folder / "p2p.json"));
     return tool.err;
   };
-  const json mails{{"function", "esend"}, {"flag", "%MX0"}, {"message", 0}, {"to", 7},
-                   {"data", "%MB0"}};
+  const json mails{
+      {"function", "esend"}, {"flag", "%MX0"}, {"message", 0}, {"to", 7}, {"data", "%MB0"}};
   const json good{{"address", "ann@plant.example"}};
   EXPECT_THAT(refused("addresses", good, mails),
               HasSubstr("as xgt-fenet (MODEL?protocol=... for another): cannot set up P2P block 0: "
