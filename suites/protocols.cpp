@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "suites/email/protocol.hpp"
 #include "suites/hs_link/protocol.hpp"
 #include "suites/ls_bus/protocol.hpp"
 #include "suites/modbus/protocol.hpp"
@@ -25,7 +26,8 @@ harness::Protocols protocols() {
                                 &xgt_fenet_suite::protocol(),
                                 &hs_link_suite::protocol(),
                                 &xnet_suite::protocol(),
-                                &user_frames_suite::protocol(user_frames_suite::Way::network)};
+                                &user_frames_suite::protocol(user_frames_suite::Way::network),
+                                &email_suite::protocol()};
   return std::span<const harness::Protocol* const>(table);
 }
 

@@ -128,6 +128,7 @@ bool Arming::follows(std::string_view action) const {
                               : action.starts_with("send ")         ? "frames"
                               : action == "stop" || action == "run" ? "mode"
                               : action == "power_cycle"             ? "power_cycle"
+                              : action.starts_with("error")         ? "mail"
                                                                     : "";
   return ways_.stimulus && declared_.answered && declared_.follows.contains(std::string(as));
 }

@@ -18,10 +18,10 @@ using nlohmann::json;
 using vectors::Step;
 
 /// In the order of the README.
-constexpr std::array<std::string_view, 15> abilities{
-    "clock",          "memory",      "busy",     "mode",  "link",
-    "power_cycle",    "channel",     "time_out", "delay", "frames",
-    "character_time", "write_order", "line",     "names", "transport"};
+constexpr std::array<std::string_view, 16> abilities{
+    "clock",   "memory",   "busy",      "mode",   "link",           "power_cycle",
+    "channel", "time_out", "delay",     "frames", "character_time", "write_order",
+    "line",    "names",    "transport", "mail"};
 
 struct Told {
   std::string_view key, as;
@@ -34,6 +34,10 @@ constexpr std::array<Told, 8> told{{{"mode", "mode"},
                                     {"write_order", "write_order"},
                                     {"line", "line"},
                                     {"bench_line", "line"}}};
+
+/// The settings of mails in `p2p`, of whatever protocol the blocks are.
+constexpr const char* mail_key = "email";
+bool has_mail(const json& p2p) { return p2p.contains(mail_key); }
 
 bool sets_flag(const Step& step, const std::string& flag) {
   return step.kind == Step::Kind::set &&
@@ -160,13 +164,17 @@ std::set<std::string> needs_of(const vectors::Case& source, bool on_a_line,
     if (std::ranges::any_of(texts(block, function == "write" ? "save" : "read"), is_padded))
       needs.insert("names");
     if (function == "send" || function == "receive") needs.insert("frames");
-    if (on_a_line && block["channel"] != number_of(p2p, "channel", 1)) needs.insert("channel");
+    if (block.contains("data")) needs.insert("memory");
+    if (on_a_line && block.contains("channel") && block["channel"] != number_of(p2p, "channel", 1))
+      needs.insert("channel");
   }
+  if (has_mail(p2p)) needs.insert("mail");
   if (asks_by_datagrams(source.config)) needs.insert("transport");
   if (!p2p.value("link", true)) needs.insert("link");
   if (source.config.value("mode", "run") != "run") needs.insert("mode");
   for (const Step& step : source.steps) {
     if (step.action.starts_with("link")) needs.insert("link");
+    if (step.action.starts_with("error")) needs.insert("mail");
     if (step.action == "stop" || step.action == "run") needs.insert("mode");
     if (step.action == "power_cycle") needs.insert("power_cycle");
     if (step.action.starts_with("send ")) needs.insert("frames");
@@ -202,6 +210,7 @@ json set_up_of(const vectors::Case& source, bool on_a_line) {
              {"memory", json::object()}};
   for (const char* key : {"write_order", "line"})
     if (config.contains(key)) begin[key] = config[key];
+  if (has_mail(p2p)) begin["mail"] = p2p[mail_key];
   for (const auto& [address, hex] : source.memory) begin["memory"][address] = hex;
   return begin;
 }

@@ -138,5 +138,21 @@ TEST(ClientProgram, DatagramsAreSaidOfEachBlockAndMustBeFollowed) {
   EXPECT_EQ(set_up_of(source, false).at("blocks").at(0).at("transport"), "udp");
 }
 
+TEST(ClientProgram, MailsAreForWhoFollowsThem) {
+  constexpr const char* p2p =
+      R"({"email": {"user": "PLC"}, "blocks": [{"function": "esend", "flag": "%MX0", "message": 1, "to": "2"}]})";
+  EXPECT_THAT(needs(p2p, {}), ElementsAre("mail"));
+  EXPECT_THAT(
+      needs(R"({"email": {}, "blocks": [{"function": "esend", "flag": "F93", "data": "%MB0"}]})",
+            {}),
+      ElementsAre("clock", "mail", "memory"));
+  vectors::Case source;
+  source.config = {{"p2p", json::parse(p2p)}};
+  const json begin = set_up_of(source, false);
+  EXPECT_EQ(begin.at("mail"), json::parse(R"({"user": "PLC"})"));
+  EXPECT_EQ(begin.at("blocks").at(0), json::parse(R"({"parameter": 1, "block": 0,
+    "function": "esend", "flag": "%MX0", "message": 1, "to": 2})"));
+}
+
 }  // namespace
 }  // namespace fieldproof::exchange

@@ -45,18 +45,20 @@ std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
   for (const json& given : blocks) {
     json block{{"parameter", p2p.value("parameter", json(1))},
                {"block", result.size()},
-               {"channel", p2p.value("channel", json(1))},
                {"function", "read"}};
     const std::string function = given.is_object() ? given.value("function", "read") : "";
+    const bool mail = function == "esend" || function == "ereceive";  // they need no channel
+    if (!mail) block["channel"] = p2p.value("channel", json(1));
     if (function == "read" || function == "write")
       block.update({{"command", "single"}, {"type", "word"}, {"size", 1}});
-    if (p2p.value("transport", "tcp") != "tcp") block["transport"] = p2p["transport"];
+    if (!mail && p2p.value("transport", "tcp") != "tcp") block["transport"] = p2p["transport"];
     block.update(given);
-    for (const char* key : {"parameter", "block", "channel", "size", "station"})
+    for (const char* key : {"parameter", "block", "channel", "message", "size", "station", "to"})
       if (block.contains(key)) block[key] = plain_value(block[key]);
     if (block.contains("flag")) block["flag"] = upper(block["flag"].get<std::string>());
     make_list(block, "read");
     make_list(block, "save");
+    make_list(block, "data");
     result.push_back(std::move(block));
   }
   return result;
@@ -87,9 +89,10 @@ std::vector<std::string> sent_addresses(const json& block) {
 
 std::string in_words(const json& block, std::string_view protocol) {
   const std::string function = block.value("function", "read");
-  std::string text =
-      fmt::format("P2P {} block {}: {} client, channel {}, {}", text_of(block, "parameter"),
-                  text_of(block, "block"), protocol, text_of(block, "channel"), function);
+  std::string text = fmt::format("P2P {} block {}: {} client, ", text_of(block, "parameter"),
+                                 text_of(block, "block"), protocol);
+  if (block.contains("channel")) text += fmt::format("channel {}, ", text_of(block, "channel"));
+  text += function;
   if (block.contains("transport")) text += ", " + text_of(block, "transport");
   if (block.contains("frame")) text += " " + text_of(block, "frame");
   if (block.contains("command")) {
@@ -99,6 +102,10 @@ std::string in_words(const json& block, std::string_view protocol) {
                 : ", " + text_of(block, "type");
   }
   if (block.contains("flag")) text += ", on " + flag_of(block);
+  if (block.contains("to"))
+    text +=
+        fmt::format(", message {} to address {}", text_of(block, "message"), text_of(block, "to"));
+  if (block.contains("data")) text += ", data " + list_of(block, "data");
   const std::string station = " of station " + text_of(block, "station");
   if (function == "read")
     text += fmt::format(", from {}{}, into {}", list_of(block, "read"), station,

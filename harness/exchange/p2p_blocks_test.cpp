@@ -64,5 +64,12 @@ TEST(P2pBlocks, WhatIsPreparedOtherwiseIsNamedByItsKeys) {
   EXPECT_THAT(not_prepared(blocks, {}, "xgt-cnet"), testing::EndsWith("of station 2, into ?"));
 }
 
+TEST(P2pBlocks, AMailInWordsHasNoChannel) {
+  const auto blocks = complete_blocks(json::parse(
+      R"([{"function": "esend", "flag": "%MX0", "message": 1, "to": 2, "data": "%MB9"}])"));
+  EXPECT_EQ(in_words(blocks.at(0), "smtp"),
+            "P2P 1 block 0: smtp client, esend, on %MX0, message 1 to address 2, data %MB9");
+}
+
 }  // namespace
 }  // namespace fieldproof::exchange

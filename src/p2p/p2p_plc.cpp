@@ -23,7 +23,7 @@ Error no_blocks() {
 std::vector<unsigned> channels_in_use(const P2pParameters& parameters) {
   std::vector<unsigned> channels{parameters.channel};
   for (const P2pBlock& block : parameters.blocks)
-    if (std::ranges::find(channels, block.channel) == channels.end())
+    if (!block.is_mail() && std::ranges::find(channels, block.channel) == channels.end())
       channels.push_back(block.channel);
   return channels;
 }
@@ -91,7 +91,8 @@ namespace {
 /// The server's connections, and the channels that are used, are no more than the module has.
 Status check_channels(const P2pParameters& parameters, unsigned dedicated) {
   std::set<unsigned> channels;
-  for (const P2pBlock& block : parameters.blocks) channels.insert(block.channel);
+  for (const P2pBlock& block : parameters.blocks)
+    if (!block.is_mail()) channels.insert(block.channel);
   const std::size_t used = channels.size();
   if (used + dedicated <= most_connections) return ok();
   return fail(

@@ -25,8 +25,9 @@ struct Word {
   int meaning;
 };
 constexpr std::array functions{
-    Word{"read", int(Function::read)}, Word{"write", int(Function::write)},
-    Word{"send", int(Function::send)}, Word{"receive", int(Function::receive)}};
+    Word{"read", int(Function::read)},   Word{"write", int(Function::write)},
+    Word{"send", int(Function::send)},   Word{"receive", int(Function::receive)},
+    Word{"esend", int(Function::esend)}, Word{"ereceive", int(Function::ereceive)}};
 constexpr std::array commands{Word{"single", 0}, Word{"continuous", 1}};
 constexpr std::array types{Word{"bit", 'X'}, Word{"byte", 'B'}, Word{"word", 'W'},
                            Word{"dword", 'D'}, Word{"lword", 'L'}};
@@ -52,9 +53,9 @@ class BlockReader {
         what_(std::move(what)) {}
 
   Status read() {
-    constexpr std::array<std::string_view, 11> keys{"block", "channel",  "command", "flag",
-                                                    "frame", "function", "read",    "save",
-                                                    "size",  "station",  "type"};
+    constexpr std::array<std::string_view, 15> keys{
+        "block",   "channel", "command", "data", "flag",    "frame", "function", "info",
+        "message", "read",    "save",    "size", "station", "to",    "type"};
     if (const Status known = plc::known_keys(object_, what_, keys); !known) return known;
     int function = int(block_.function), continuous = block_.continuous, type = block_.type;
     reader_.whole("channel", rules_.channels, block_.channel);
@@ -70,6 +71,10 @@ class BlockReader {
     if (block_.channel == 0) return wrong("channel is 0; use " + channel_numbers(rules_));
     if (block_.size == 0) return wrong("size is 0; give at least 1");
     if (const Status status = read_condition(); !status) return status;
+    if (block_.is_mail()) return read_mail();
+    for (const char* key : {"data", "info", "message", "to"})
+      if (object_.contains(key))
+        return wrong(fmt::format("'{}' is of e-mail blocks; remove it, or set function", key));
     return block_.is_user_frame() ? read_user_frame() : read_variables();
   }
 
@@ -97,6 +102,7 @@ class BlockReader {
     std::string flag;
     reader_.text("flag", flag);
     if (reader_.error()) return *reader_.error();
+    if (block_.function == Function::ereceive && flag.empty()) return ok();
     if (block_.function == Function::receive)
       return flag.empty()
                  ? ok()
@@ -176,6 +182,47 @@ class BlockReader {
     return ok();
   }
 
+  /// ESEND has the numbers of a message and of an address; ERECEIVE has areas, and does nothing
+  /// (FEnet EN 7.4.3).
+  Status read_mail() {
+    const bool sends = block_.function == Function::esend;
+    if (!rules_.network)
+      return wrong("e-mail is sent by an Ethernet module alone; use function send, or read");
+    for (const char* key :
+         {"channel", "command", "frame", "read", "size", "station", "type", sends ? "save" : "data",
+          sends ? "info" : "message", sends ? "info" : "to"})
+      if (object_.contains(key))
+        return wrong(fmt::format("'{}' is not of an {} block; remove it", key,
+                                 sends ? "esend" : "ereceive"));
+    block_.channel = 0;
+    if (sends) return read_esend();
+    block_.condition = {};  // it never fires
+    return ok();
+  }
+
+  Status read_esend() {
+    for (const char* key : {"message", "to"})
+      if (!object_.contains(key))
+        return wrong(fmt::format("there is no {}; give the number of {} in p2p.email", key,
+                                 std::string_view(key) == "to" ? "an address" : "a message"));
+    reader_.whole("message", highest_mail_number, block_.message);
+    reader_.whole("to", highest_mail_number, block_.address);
+    if (reader_.error()) return *reader_.error();
+    const auto own = names("data");
+    if (!own) return own.error();
+    for (const std::string& name : *own) {
+      const Result<plc::DeviceAddress> address = own_address("data", name, 1);
+      if (!address) return address.error();
+      if (address->type != 'B')
+        return wrong(
+            fmt::format("data '{}' is of type {}; a mail takes bytes: give one such as "
+                        "%MB100",
+                        name, type_name(address->type)));
+      block_.variables.push_back({"", *address});
+    }
+    return ok();
+  }
+
   Result<plc::DeviceAddress> own_address(const char* key, const std::string& name,
                                          unsigned elements) const {
     const plc::ParsedAddress parsed = plc::parse_address(model_, name);
@@ -219,6 +266,8 @@ Status check_together(const P2pParameters& parameters) {
           fmt::format(
               "frame {} has a receive block already; one block receives a frame (Cnet EN 6.2.4)",
               block.frame));
+    if (block.is_mail() && !parameters.email)
+      return wrong_block(block.number, "there are no e-mail settings; give 'email' in p2p");
     if (!parameters.network && parameters.parameter != 1 && block.channel != first_channel)
       return wrong_block(
           block.number,
@@ -232,9 +281,9 @@ Status check_together(const P2pParameters& parameters) {
 
 Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel& model,
                                            const P2pRules& rules) {
-  constexpr std::array<std::string_view, 7> keys{"blocks",  "channel", "link",     "parameter",
-                                                 "partner", "port",    "transport"};
-  const auto own_keys = std::span(keys).first(rules.network ? keys.size() : keys.size() - 3);
+  constexpr std::array<std::string_view, 8> keys{"blocks", "channel", "link", "parameter",
+                                                 "email",  "partner", "port", "transport"};
+  const auto own_keys = std::span(keys).first(rules.network ? keys.size() : keys.size() - 4);
   if (const Status known = plc::known_keys(p2p, "p2p", own_keys); !known) return known.error();
   P2pParameters parameters;
   parameters.network = rules.network;
@@ -250,7 +299,10 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel&
   if (reader.error()) return *reader.error();
   if (parameters.parameter == 0 || parameters.channel == 0)
     return fail("cannot read p2p: parameter is 1 to 3, and channel " + channel_numbers(rules));
+  parameters.email = p2p.contains("email");
   const auto list = p2p.find("blocks");
+  // The events of the CPU are mailed without any block.
+  if (list == p2p.end() && parameters.email) return parameters;
   if (list == p2p.end() || !list->is_array() || list->empty())
     return fail("cannot read p2p: there are no blocks; give a list of them");
   if (list->size() > p2p_blocks)

@@ -26,8 +26,8 @@ class P2pDriver;
 
 /// What differs between the Cnet channels and those of an Ethernet module.
 struct P2pRules {
-  bool network = false;   // parameters 1 to 3 each have all channels; `partner`, `port` and
-                          // `transport` are keys of p2p
+  bool network = false;   // parameters 1 to 3 each have all channels; `email`, `partner`, `port`
+                          // and `transport` are keys of p2p
   unsigned channels = 2;  // 1 to so many
   unsigned station = 0;   // of a block that gives none
 };
@@ -43,6 +43,7 @@ struct P2pParameters {
   std::string partner{};                 // its address; empty: whoever is there
   unsigned port = 0;                     // where it listens; 0: where the service has its port
   Transport transport = Transport::tcp;  // FEnet EN table 7-3
+  bool email = false;                    // p2p has e-mail settings (src/email/settings.hpp)
 };
 
 /// What holds whatever the driver is. Errors name the block and the key: "cannot set up P2P block

@@ -146,7 +146,8 @@ TEST(P2pParameters, ErrorsNameBlockAndKey) {
               HasSubstr("P2P block 0: station is 256, which is not a number from 0 to 255"));
   EXPECT_THAT(
       error_of_block(with(read, {{"function", "raed"}})),
-      HasSubstr("function is 'raed'; use one of read, write, send, receive; did you mean 'read'?"));
+      HasSubstr("function is 'raed'; use one of read, write, send, receive, esend, ereceive; did "
+                "you mean 'read'?"));
   EXPECT_THAT(error_of_block(with(read, {{"command", "run"}})),
               HasSubstr("use one of single, continuous"));
   EXPECT_THAT(error_of_block(with(read, {{"type", "int"}})),
@@ -239,6 +240,59 @@ TEST(P2pParameters, DriversHaveRulesOfTheirOwn) {
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().message,
             "cannot set up P2P block 1: station is 99, which this driver has not");
+}
+
+const json mail{{"function", "esend"}, {"flag", "%MX0"}, {"message", 1}, {"to", 200}};
+
+/// Of an Ethernet module, with e-mail settings.
+Result<P2pParameters> mails(const json& block, bool settings = true) {
+  json p2p{{"blocks", json::array({block})}};
+  if (settings) p2p["email"] = json::object();
+  return parse_p2p_parameters(p2p, model(), network_p2p_rules());
+}
+std::string mail_error(const json& block) {
+  const Result<P2pParameters> parameters = mails(block);
+  return parameters ? "" : parameters.error().message;
+}
+
+TEST(P2pMailBlocks, HaveNumbersAndBytesAndNoChannel) {
+  const auto p2p = mails(with(mail, {{"data", {"%MB100", "%DB7"}}}));
+  ASSERT_TRUE(p2p) << p2p.error().message;
+  EXPECT_TRUE(p2p->email);
+  const P2pBlock& block = p2p->blocks.at(0);
+  EXPECT_TRUE(block.is_mail());
+  EXPECT_EQ(block.channel, 0u);
+  EXPECT_EQ(block.message, 1u);
+  EXPECT_EQ(block.address, 200u);
+  ASSERT_EQ(block.variables.size(), 2u);
+  EXPECT_EQ(block.variables[1].own, address("%DB7"));
+  EXPECT_EQ(block.condition.flag, address("%MX0"));
+}
+
+TEST(P2pMailBlocks, EreceiveNeverFires) {
+  const auto p2p = mails({{"function", "ereceive"}, {"flag", "F93"}, {"info", "%MW1"}});
+  ASSERT_TRUE(p2p) << p2p.error().message;
+  EXPECT_FALSE(p2p->blocks.at(0).condition.flag);
+  EXPECT_EQ(p2p->blocks.at(0).condition.period, 0ns);
+}
+
+TEST(P2pMailBlocks, ErrorsNameBlockAndKey) {
+  EXPECT_THAT(mail_error(without(mail, "to")),
+              HasSubstr("cannot read P2P block 0: there is no to; give the number of an address"));
+  EXPECT_THAT(mail_error(without(mail, "message")), HasSubstr("there is no message"));
+  EXPECT_THAT(mail_error(with(mail, {{"to", 256}})), HasSubstr("to is 256"));
+  EXPECT_THAT(mail_error(with(mail, {{"channel", 1}})), HasSubstr("'channel' is not of an esend"));
+  EXPECT_THAT(mail_error(with(mail, {{"read", "%MW1"}})), HasSubstr("'read' is not of an esend"));
+  EXPECT_THAT(mail_error(with(mail, {{"data", "%MW1"}})), HasSubstr("a mail takes bytes"));
+  EXPECT_THAT(mail_error(with(mail, {{"data", "%MB999999"}})), HasSubstr("data '%MB999999'"));
+  EXPECT_THAT(mail_error({{"function", "ereceive"}, {"to", 1}}),
+              HasSubstr("'to' is not of an ereceive block"));
+  EXPECT_THAT(mail_error(with(read, {{"message", 1}})), HasSubstr("'message' is of e-mail blocks"));
+  EXPECT_THAT(mails(mail, false).error().message,
+              HasSubstr("cannot set up P2P block 0: there are no e-mail settings"));
+  EXPECT_THAT(error_of_block(mail), HasSubstr("e-mail is sent by an Ethernet module alone"));
+  EXPECT_THAT(error_of({{"email", json::object()}, {"blocks", json::array({read})}}),
+              HasSubstr("there is no key 'email'"));
 }
 
 }  // namespace

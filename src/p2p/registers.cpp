@@ -30,7 +30,7 @@ void write_block(plc::PlcMemory& memory, const P2pParameters& parameters, const 
   const unsigned bytes =
       block.is_user_frame() ? block.size : block.elements() * plc::type_bytes(block.type);
   for (std::size_t i = 0; i < p2p_max_variables; ++i) {
-    const bool used = i < block.variables.size();
+    const bool used = i < block.variables.size() && !block.is_mail();
     const std::string own = used ? device_name(memory.model(), block.variables[i].own) : "";
     const std::string partner = used ? block.variables[i].partner : "";
     const auto show = [&](const P2pRegisters::Area& area, const std::string& name) {

@@ -6,6 +6,7 @@
 
 #include "src/xgt_cnet/plc_config.hpp"
 #include "suites/broken/run_in_process.hpp"
+#include "suites/email/broken/faults.hpp"
 #include "suites/hs_link/broken/broken_network.hpp"
 #include "suites/ls_bus/broken/broken_inverter.hpp"
 #include "suites/ls_bus/broken/faults.hpp"
@@ -134,6 +135,18 @@ Kit user_frames_port() {
   return {"user-frames", "user_frames", names(user_frames_broken::faults()), concerns, run_one};
 }
 
+/// A module that mails: each of its cases is one of a client.
+Kit mailing_module() {
+  const std::vector<email_broken::Fault>& table = email_broken::faults();
+  const auto run_one = [&table](std::optional<std::size_t> fault, const Case& source) {
+    const auto behaviour = fault ? table[*fault].make() : email_broken::Behaviour{};
+    return run(source, model_of(source, "xbc-h"), [=](std::string_view model, const json& config) {
+      return email_broken::make_broken_module(behaviour, model, config);
+    });
+  };
+  return {"email", "email", names(table), [](const Case&) { return true; }, run_one};
+}
+
 /// Clients, and the port with UDATA instructions.
 Kit client(const std::string& name, const std::string& folder) {
   std::vector<const p2p_broken::Fault*> own;
@@ -175,7 +188,8 @@ std::vector<Kit> kits() {
           client("modbus-ascii client", "modbus_ascii"),
           client("ls-bus client", "ls_bus"),
           client("user-frames client", "user_frames"),
-          client("udata", "udata")};
+          client("udata", "udata"),
+          mailing_module()};
 }
 
 }  // namespace fieldproof::faults

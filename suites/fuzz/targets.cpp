@@ -4,6 +4,7 @@
 #include <array>
 
 #include "suites/fuzz/file_targets.hpp"
+#include "suites/fuzz/mail_targets.hpp"
 #include "suites/fuzz/wire_targets.hpp"
 
 namespace fieldproof::fuzz {
@@ -13,6 +14,9 @@ constexpr std::array every_target{
     Target{"frames", "codecs and stream splitters of all protocols", feed_frames,
            frames_of_vectors},
     Target{"devices", "the emulated devices", feed_device, streams_of_vectors},
+    Target{"replies", "what an SMTP server says to a module that mails", feed_replies,
+           good_replies},
+    Target{"mails", "e-mail settings", feed_mail_settings, good_mail_settings},
     Target{"notation", "the notation of frames", feed_notation, good_notation},
     Target{"vectors", "vector files", feed_vectors, good_vectors},
     Target{"profile", "profiles", feed_profile, good_profiles},

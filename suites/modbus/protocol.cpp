@@ -7,6 +7,7 @@
 
 #include "harness/plc_protocol.hpp"
 #include "src/base/letters.hpp"
+#include "src/email/email_plc.hpp"
 #include "src/modbus/modbus_plc.hpp"
 #include "src/modbus/p2p_driver.hpp"
 #include "src/p2p/p2p_plc.hpp"
@@ -190,10 +191,12 @@ class Modbus : public harness::PlcProtocol,
 
  private:
   Status add_clients(plc::Plc& plc, const nlohmann::json& config) const {
-    if (mode_ == modbus::ModbusMode::tcp)
-      return p2p::add_network_clients(plc, config, {.tcp = default_port()}, [] {
+    if (mode_ == modbus::ModbusMode::tcp) {
+      const Status added = p2p::add_network_clients(plc, config, {.tcp = default_port()}, [] {
         return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp);
       });
+      return added ? email::add_email(plc, config) : added;
+    }
     return p2p::add_p2p_clients(plc, config, [mode = mode_](const plc::PortConfig& port) {
       return modbus::make_modbus_p2p_driver(mode, port.gap());
     });

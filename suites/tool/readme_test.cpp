@@ -91,6 +91,8 @@ const std::map<std::string, Special> specials{
      "1503 "
      "--bus 7001 &",
      {.replaced = "1503 --bus 7001", .by = "0 --bus 0", .shows = "bus 127.0.0.1"}},
+    {"./run.sh emulate 'xbc-h?protocol=email' --p2p suites/email/examples/mail.json -v",
+     {.shows = "a network, where it connects to others"}},
     {"fieldproof emulate xbc-h --tcp 127.0.0.1:2000",
      {.replaced = ":2000", .by = ":0", .shows = "127.0.0.1:"}},
     {"fieldproof run --endpoint 'exec:build/plain/xgt_cnet_broken_server 0011_for_1132 {tty}' "

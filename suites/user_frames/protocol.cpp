@@ -7,6 +7,7 @@
 
 #include "harness/device_names.hpp"
 #include "src/base/spelling.hpp"
+#include "src/email/email_plc.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/p2p/parameters.hpp"
 #include "src/plc/config_reader.hpp"
@@ -183,6 +184,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> UserFrames::make_client(
         definition, blocks_of(own, model, p2p::network_p2p_rules()), user_frames::network_gap);
   });
   if (!added) return added.error();
+  if (const Status mails = email::add_email(**plc, own); !mails) return mails.error();
   return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));
 }
 

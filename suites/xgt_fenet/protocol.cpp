@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/plc_protocol.hpp"
+#include "src/email/email_plc.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
 #include "src/xgt_fenet/p2p_driver.hpp"
@@ -126,8 +127,9 @@ class XgtFenet : public harness::PlcProtocol,
  private:
   static Status add_clients(plc::Plc& plc, const nlohmann::json& config) {
     constexpr p2p::PartnerPorts ports{xgt_fenet::tcp_port, xgt_fenet::udp_port};
-    return p2p::add_network_clients(plc, config, ports,
-                                    [] { return std::make_unique<xgt_fenet::FenetP2pDriver>(); });
+    const Status added = p2p::add_network_clients(
+        plc, config, ports, [] { return std::make_unique<xgt_fenet::FenetP2pDriver>(); });
+    return added ? email::add_email(plc, config) : added;
   }
 };
 

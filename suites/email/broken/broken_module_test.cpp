@@ -1,0 +1,53 @@
+// The suite against broken modules that mail: each fault must turn its case red, with a message
+// that names it, and the healthy module must pass. All in process, in simulated time.
+#include "suites/email/broken/broken_module.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "suites/broken/in_process.hpp"
+#include "suites/email/broken/faults.hpp"
+
+namespace fieldproof::email_broken {
+
+using vectors::Case;
+
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+
+namespace {
+
+constexpr const char* model = "xbc-h";
+
+bool concerns(const Case& one) {
+  return one.models.empty() || std::ranges::find(one.models, model) != one.models.end();
+}
+
+const broken::Cases& cases() {
+  static const broken::Cases all = broken::cases_of("email/*", concerns);
+  return all;
+}
+
+auto against(const Behaviour& behaviour) {
+  return [behaviour](const Case& source) {
+    const auto make = [&](std::string_view of, const nlohmann::json& config) {
+      return make_broken_module(behaviour, of, config);
+    };
+    return broken::run_in_process(source, model, make, broken::bare_profile(source));
+  };
+}
+
+class TheSuite : public testing::TestWithParam<Fault> {};
+
+TEST_P(TheSuite, Catches) {
+  broken::expect_caught(GetParam(), cases(),
+                        [](const Case& source) { return against(GetParam().make())(source); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(HealthyModule, PassesTheWholeSuite) { broken::expect_healthy(cases(), 100, against({})); }
+
+TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 60); }
+
+}  // namespace
+}  // namespace fieldproof::email_broken
