@@ -106,5 +106,16 @@ INSTANTIATE_TEST_SUITE_P(All, Faults, testing::ValuesIn(kits()), [](const auto& 
   return name;
 });
 
+/// Without a case that was written for them.
+TEST(Exploring, FindsMostFaultsOfAServer) {
+  const std::vector<Kit> all = kits();
+  const auto kit = std::ranges::find(all, "modbus-ascii", &Kit::name);
+  ASSERT_NE(kit, all.end());
+  const std::vector<vectors::Case> cases =
+      vectors::load_vectors(folder, {suites::protocols(), kit->folder + "/*"}).cases;
+  const std::vector<bool> found = found_by_exploring(*kit, cases, 1000);
+  EXPECT_GE(std::ranges::count(found, true), static_cast<std::ptrdiff_t>(found.size() * 6 / 10));
+}
+
 }  // namespace
 }  // namespace fieldproof::faults

@@ -32,7 +32,6 @@ std::vector<Fault> connection_faults();
 std::vector<Fault> datagram_faults();
 
 constexpr auto edits = Makes::edits;
-constexpr auto misreads = Makes::misreads;
 constexpr auto hears = Makes::hears;
 constexpr auto acts = Makes::acts;
 constexpr auto set_up = Makes::set_up;
@@ -47,6 +46,13 @@ constexpr std::size_t plc_info_at = 10, cpu_at = 12, source_at = 13, invoke_at =
                       reply_blocks_at = 28, name_length_at = 28, name_at = 30, data_size_at = 30,
                       data_at = 32;
 constexpr unsigned continuous = 0x14;
+
+/// What is no whole header is read as it is.
+inline MakeBehaviour misreads(const std::function<Bytes(Bytes request)>& misread) {
+  return Makes::misreads([=](Bytes request) {
+    return request.size() < body_at ? request : misread(std::move(request));
+  });
+}
 
 inline unsigned word_at(const Bytes& frame, std::size_t at) {
   return at + 1 < frame.size() ? frame[at] | frame[at + 1] << 8u : 0;

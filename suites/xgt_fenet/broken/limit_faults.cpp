@@ -125,7 +125,7 @@ std::vector<Fault> limit_faults() {
        }),
        "xgt_fenet/continuous/block_counts/read_2", ""},
       {"words_in_a_run", "a continuous read takes a name of words", takes([](Bytes& request) {
-         if (is_continuous(request) && !names_of(request).empty())
+         if (is_continuous(request) && !names_of(request).empty() && request.size() > name_at + 2)
            if (Byte& letter = request[names_of(request)[0].at + 2]; letter == 'W') letter = 'B';
        }),
        "xgt_fenet/continuous/other_types/read_w", ""},
