@@ -199,7 +199,8 @@ bool Changes::damage(Request& request, Random& random) const {
 }
 
 bool Changes::pause(Request& request, Random& random) const {
-  static constexpr std::array<double, 6> pauses{200, 1000, 1, 3, 5, 10};
+  // On real time none that is as long as what a protocol waits for.
+  static constexpr std::array<double, 7> pauses{200, 1500, 1, 3, 5, 10, 1000};
   const Result<Bytes> made = safety::bytes_of(request.notation, fields_);
   if (!made || made->size() < 2) return false;
   const std::size_t at = 1 + random.below(made->size() - 1);
