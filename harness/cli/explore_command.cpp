@@ -45,21 +45,20 @@ std::string model_of(const RunPlan& plan) {
   return protocol.has_model(model) ? model : protocol.models().front();
 }
 
-explore::Device device_of(const RunPlan& plan, Benches& bench, const harness::Protocol& configured) {
-  explore::Device device{.protocol = &configured,
-                         .station = plan.bench.station,
-                         .over_the_wire = !endpoints::capabilities_of(plan.endpoint).back_door,
-                         .run = [&bench](const vectors::Case& one) { return bench.run(one); },
-                         .room = {},
-                         .allowed = [&plan, &configured](ByteView request) {
-                           return endpoints::kind_of(plan.endpoint).emulated ||
-                                  plan.bench.fence
-                                      .objection(configured.written_by(request), configured)
-                                      .empty();
-                         },
-                         .alive = [&bench] {
-                           return bench.stopped().empty() && !bench.interrupted();
-                         }};
+explore::Device device_of(const RunPlan& plan, Benches& bench,
+                          const harness::Protocol& configured) {
+  explore::Device device{
+      .protocol = &configured,
+      .station = plan.bench.station,
+      .over_the_wire = !endpoints::capabilities_of(plan.endpoint).back_door,
+      .run = [&bench](const vectors::Case& one) { return bench.run(one); },
+      .room = {},
+      .allowed =
+          [&plan, &configured](ByteView request) {
+            return endpoints::kind_of(plan.endpoint).emulated ||
+                   plan.bench.fence.objection(configured.written_by(request), configured).empty();
+          },
+      .alive = [&bench] { return bench.stopped().empty() && !bench.interrupted(); }};
   if (!endpoints::kind_of(plan.endpoint).emulated)
     device.room = [&plan, &configured](const std::string& area) {
       std::vector<safety::WriteFence::Words> room =
@@ -116,8 +115,9 @@ class Exploration {
   bool goes_on() const {
     if (os::interrupted()) return false;
     if (plan_.soak > 0ns && Clock::now() - started_ >= plan_.soak) return false;
-    const std::uint64_t most =
-        options_.requests > 0 ? options_.requests : plan_.soak > 0ns ? 0 : usual_requests;
+    const std::uint64_t most = options_.requests > 0 ? options_.requests
+                               : plan_.soak > 0ns    ? 0
+                                                     : usual_requests;
     return most == 0 || explorer_.requests_sent() < most;
   }
 
@@ -134,10 +134,11 @@ class Exploration {
 
   void report_what_was_found() {
     const harness::Protocol& protocol = *plan_.protocols.front();
-    report_.say(fmt::format("{} requests of {} in {} sequences, {} of them judged, seed {}: "
-                            "{} findings",
-                            explorer_.requests_sent(), protocol.name(), explorer_.sequences(),
-                            explorer_.judged(), options_.run.seed, explorer_.findings().size()));
+    report_.say(
+        fmt::format("{} requests of {} in {} sequences, {} of them judged, seed {}: "
+                    "{} findings",
+                    explorer_.requests_sent(), protocol.name(), explorer_.sequences(),
+                    explorer_.judged(), options_.run.seed, explorer_.findings().size()));
     for (const auto& [what, answers] : explorer_.seen())
       report_.add(seen_result(protocol, what.first, what.second, answers));
     int number = 0;
@@ -157,8 +158,9 @@ class Exploration {
     const std::filesystem::path file =
         std::filesystem::path(options_.run.out) / "findings" /
         (finding.shortest.id.substr(finding.shortest.id.rfind('/') + 1) + ".json");
-    result.notes.push_back(finding.confirmed ? "shown again three times in a row"
-                                             : "seen once, not again: it depends on what was before");
+    result.notes.push_back(finding.confirmed
+                               ? "shown again three times in a row"
+                               : "seen once, not again: it depends on what was before");
     result.notes.push_back(fmt::format("shown by {} sequences", finding.times));
     if (const Status written = write(file, explore::vector_text(finding.shortest)); !written)
       end_.trouble = written.error().message;
@@ -183,8 +185,7 @@ class Exploration {
 
   void put_back() {
     if (end_.interrupted) os::clear_interrupt();
-    if (const std::string open = ports_.front().put_back();
-        !open.empty() && !plan_.ends_with_run)
+    if (const std::string open = ports_.front().put_back(); !open.empty() && !plan_.ends_with_run)
       end_.not_restored = fmt::format("NOT RESTORED: {}; type: fieldproof restore {}",
                                       run::bounded(open), run::shell_word(plan_.journal));
   }
@@ -205,9 +206,9 @@ int execute(const ExploreOptions& options, RunPlan& plan, std::vector<Benches>& 
   Status started = ports.front().start();
   if (!started) {
     started = run::looked_on(started.error(), ports.front(), plan);
-  } else if (Result<std::string> floor = plan.floor
-                                             ? Result<std::string>(ports.front().use_floor(*plan.floor))
-                                             : ports.front().measure_floor();
+  } else if (Result<std::string> floor =
+                 plan.floor ? Result<std::string>(ports.front().use_floor(*plan.floor))
+                            : ports.front().measure_floor();
              floor) {
     floors.push_back(*floor);
   } else {
@@ -238,13 +239,12 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
   std::vector<explore::Request> requests =
       explore::requests_of(plan->vectors.cases, protocol, model);
   if (requests.empty() || !protocol.memory())
-    return run::complain(fmt::format("{} cannot be explored: {}", protocol.name(),
-                                     protocol.has_frames()
-                                         ? "no vector has a request for such a server"
-                                         : "no manual prints its frames"),
-                         run::exit_code::nothing);
-  Result<explore::Oracle> oracle =
-      explore::Oracle::open(protocol, model, plan->bench.station);
+    return run::complain(
+        fmt::format("{} cannot be explored: {}", protocol.name(),
+                    protocol.has_frames() ? "no vector has a request for such a server"
+                                          : "no manual prints its frames"),
+        run::exit_code::nothing);
+  Result<explore::Oracle> oracle = explore::Oracle::open(protocol, model, plan->bench.station);
   if (!oracle) return run::complain(oracle.error().message, run::exit_code::usage);
   os::catch_interrupts();
   Result<run::ReportPaths> paths = run::make_report_paths(options.run.out, options.run.json,

@@ -207,7 +207,8 @@ bool Changes::pause(Request& request, Random& random) const {
   const double long_one = pauses[random.below(line_ ? pauses.size() : 2)];
   request.notation = raw_notation(ByteView(*made).first(at));
   request.notation.push_back(pause_of(long_one));
-  std::ranges::move(raw_notation(ByteView(*made).subspan(at)), std::back_inserter(request.notation));
+  std::ranges::move(raw_notation(ByteView(*made).subspan(at)),
+                    std::back_inserter(request.notation));
   request.change = fmt::format("{:g} ms of silence before byte {}", long_one, at);
   return true;
 }

@@ -171,8 +171,7 @@ Result<std::optional<Case>> case_of(const Case& source, std::vector<Request> wro
   const Result<std::vector<Answer>> answers = oracle.ask(wrong, source.memory, true);
   if (!answers) return answers.error();
   if (answers->size() < wrong.size()) return std::optional<Case>();
-  Case one =
-      explore::case_of(wrong, *answers, source.memory, protocol, station, std::move(id));
+  Case one = explore::case_of(wrong, *answers, source.memory, protocol, station, std::move(id));
   one.title = fmt::format("{} requests are {}: answered as by our own device, then the right one",
                           wrong.size() - 1, wrong.front().kind);
   one.by_rule = true;
@@ -189,13 +188,12 @@ Status add_cases(const Case& source, const Request& right, const std::vector<Req
                  std::vector<Case>& cases) {
   constexpr std::size_t in_one_case = 48;
   for (std::size_t from = 0; from < wrong.size(); from += in_one_case) {
-    const std::string id =
-        fmt::format("{}/derived/{}{}", source.id, wrong.front().kind,
-                    from == 0 ? "" : fmt::format("_{}", from / in_one_case + 1));
+    const std::string id = fmt::format("{}/derived/{}{}", source.id, wrong.front().kind,
+                                       from == 0 ? "" : fmt::format("_{}", from / in_one_case + 1));
     if (!wanted(id)) continue;
     const auto begin = wrong.begin() + static_cast<std::ptrdiff_t>(from);
-    const auto end = wrong.begin() + static_cast<std::ptrdiff_t>(
-                                         std::min(from + in_one_case, wrong.size()));
+    const auto end =
+        wrong.begin() + static_cast<std::ptrdiff_t>(std::min(from + in_one_case, wrong.size()));
     Result<std::vector<Request>> told = tellable({begin, end}, right, source.memory, oracle);
     if (!told) return told.error();
     if (told->empty()) continue;
@@ -221,14 +219,15 @@ std::vector<Request> derived_from(const Request& request, const std::string& der
   std::vector<Request> derived;
   if (!bytes) return derived;
   for (auto& [notation, change] : Derivation(*bytes, protocol.is_text()).make(derivation))
-    derived.push_back({request.topic, request.source, std::move(notation), derivation, change, {}});
+    derived.push_back({request.topic, request.vector, std::move(notation), derivation, change, {}});
   sample(derived, at_most, seed);
   return derived;
 }
 
-Result<std::vector<Case>> derived_cases(
-    const std::vector<Case>& cases, const harness::Protocols& protocols, std::size_t at_most,
-    std::uint64_t seed, const std::function<bool(const std::string& id)>& wanted) {
+Result<std::vector<Case>> derived_cases(const std::vector<Case>& cases,
+                                        const harness::Protocols& protocols, std::size_t at_most,
+                                        std::uint64_t seed,
+                                        const std::function<bool(const std::string& id)>& wanted) {
   std::vector<Case> derived;
   std::map<std::string, Oracle> oracles;  // by protocol and model
   std::set<std::string> seen;
@@ -240,7 +239,8 @@ Result<std::vector<Case>> derived_cases(
         source.models.empty() ? protocol->models().front() : source.models.front();
     const int station = vectors::config_station(source.config, 1).value_or(1);
     const std::string device = fmt::format("{} {} {}", source.protocol, model, station);
-    if (!seen.insert(source.protocol + shape_of(notation::print(send.frames.front().notation))).second)
+    if (!seen.insert(source.protocol + shape_of(notation::print(send.frames.front().notation)))
+             .second)
       continue;
     auto oracle = oracles.find(device);
     if (oracle == oracles.end()) {
@@ -248,12 +248,11 @@ Result<std::vector<Case>> derived_cases(
       if (!made) return made.error();
       oracle = oracles.emplace(device, std::move(*made)).first;
     }
-    const Request right{"", source.source, send.frames.front().notation};
+    const Request right{"", source.id, send.frames.front().notation};
     for (const std::string& derivation : derivations(*protocol))
-      if (const Status added =
-              add_cases(source, right,
-                        derived_from(right, derivation, *protocol, station, at_most, seed),
-                        *protocol, station, oracle->second, wanted, derived);
+      if (const Status added = add_cases(
+              source, right, derived_from(right, derivation, *protocol, station, at_most, seed),
+              *protocol, station, oracle->second, wanted, derived);
           !added)
         return added.error();
   }

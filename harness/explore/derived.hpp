@@ -26,8 +26,8 @@ std::vector<Request> derived_from(const Request& request, const std::string& der
 
 /// The cases that follow from these, in their order, a case for each vector and derivation:
 /// "xgt_cnet/rss/two_words/derived/flipped" (and flipped_2, where they are many); only those whose
-/// id is `wanted`. Of requests that differ in numbers alone the first counts. Errors: a model cannot
-/// be made.
+/// id is `wanted`. Of requests that differ in numbers alone the first counts. Errors: a model
+/// cannot be made.
 Result<std::vector<vectors::Case>> derived_cases(
     const std::vector<vectors::Case>& cases, const harness::Protocols& protocols,
     std::size_t at_most, std::uint64_t seed,

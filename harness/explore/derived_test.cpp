@@ -34,7 +34,7 @@ std::ptrdiff_t count(const Case& one, Step::Kind kind) {
 const harness::Protocol& rtu() { return *suites::protocols().find("modbus-rtu"); }
 
 std::vector<Request> all_of(const std::string& derivation, std::size_t at_most = 0) {
-  const Request read{"", {}, *notation::parse_notation("[st 03 00 63 00 01 CRC]")};
+  const Request read{"", "", *notation::parse_notation("[st 03 00 63 00 01 CRC]")};
   return derived_from(read, derivation, rtu(), 1, at_most, 1);
 }
 

@@ -27,7 +27,7 @@ using vectors::Case;
 const Protocol& protocol(const char* name) { return *suites::protocols().find(name); }
 
 Request request(const std::string& text) {
-  return {"rss", {}, *notation::parse_notation(text)};
+  return {"rss", "xgt_cnet/rss/one", *notation::parse_notation(text)};
 }
 
 std::vector<safety::WriteFence::Words> all_of_it(const std::string&) { return {{0, 999}}; }
@@ -48,12 +48,12 @@ Bytes bytes_of(const Request& one, const Protocol& own) {
 class InProcess {
  public:
   explicit InProcess(const Protocol& own, endpoints::DeviceFactory make = {})
-      : endpoint_({"emulator", own.models().front(), {}},
-                  make ? std::move(make)
-                       : [&own](std::string_view model, const nlohmann::json& config) {
-                           return own.make_device(model, config);
-                         },
-                  {}, own.default_port()),
+      : endpoint_(
+            {"emulator", own.models().front(), {}},
+            make ? std::move(make)
+                 : [&own](std::string_view model,
+                          const nlohmann::json& config) { return own.make_device(model, config); },
+            {}, own.default_port()),
         bench_(endpoint_, own, options(own)) {}
 
   CaseResult run(const Case& one) { return bench_.run(one); }
@@ -78,8 +78,7 @@ Explorer explorer(const Protocol& own, InProcess& device, const std::vector<Case
 }
 
 TEST(RequestsOf, AreThoseThatSayAllOfTheirBytes) {
-  const std::vector<Request> all =
-      requests_of(cases("xgt_cnet"), protocol("xgt-cnet"), "xbc-h");
+  const std::vector<Request> all = requests_of(cases("xgt_cnet"), protocol("xgt-cnet"), "xbc-h");
   EXPECT_GT(all.size(), 500u);
   for (const Request& one : all) {
     EXPECT_TRUE(safety::bytes_of(one.notation, protocol("xgt-cnet").fields_at(1)));
@@ -193,8 +192,7 @@ TEST(Sequence, OfWhatIsGrantedIsDerived) {
 TEST(Sequence, AsAFileIsTheSameCase) {
   const Protocol& cnet = protocol("xgt-cnet");
   Oracle oracle = std::move(*Oracle::open(cnet, "xbc-h", 1));
-  Request asked = request(read_word);
-  asked.source = {"m", "1", "a quote of five good words", {}};
+  const Request asked = request(read_word);
   const Memory memory{{"%MW100", "12AB"}};
   const auto answers = oracle.ask({asked}, memory, true);
   ASSERT_TRUE(answers);
@@ -277,20 +275,22 @@ class Forgetful : public plc::SerialDevice {
 /// What takes six frames is shown by six, however long the sequence was in which it was seen.
 TEST(Explorer, AFindingIsAsShortAsItShows) {
   const Protocol& cnet = protocol("xgt-cnet");
-  InProcess device(cnet, [&](std::string_view model, const nlohmann::json& config)
-                             -> Result<std::unique_ptr<plc::EmulatedDevice>> {
-    auto good = cnet.make_device(model, config);
-    if (!good) return good.error();
-    return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Forgetful>(std::move(*good)));
-  });
+  InProcess device(
+      cnet,
+      [&](std::string_view model,
+          const nlohmann::json& config) -> Result<std::unique_ptr<plc::EmulatedDevice>> {
+        auto good = cnet.make_device(model, config);
+        if (!good) return good.error();
+        return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Forgetful>(std::move(*good)));
+      });
   Explorer one = explorer(cnet, device, cases("xgt_cnet"));
   while (one.findings().empty() && one.requests_sent() < 5000) one.step();
   ASSERT_THAT(one.findings(), Not(IsEmpty()));
   const Finding& finding = one.findings().begin()->second;
   EXPECT_TRUE(finding.confirmed);
   EXPECT_EQ(finding.result.verdict, Verdict::fail);
-  const auto sends = std::ranges::count(finding.shortest.steps, vectors::Step::Kind::send,
-                                        &vectors::Step::kind);
+  const auto sends =
+      std::ranges::count(finding.shortest.steps, vectors::Step::Kind::send, &vectors::Step::kind);
   EXPECT_LE(sends, 6);
   InProcess good(cnet);
   EXPECT_EQ(good.run(finding.shortest).verdict, Verdict::pass);

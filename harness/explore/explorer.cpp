@@ -14,8 +14,8 @@ using results::Verdict;
 namespace {
 
 constexpr std::size_t first_weight = 4, news_weight = 16, least_weight = 1;
-constexpr std::size_t most_findings = 50;    // more are counted
-constexpr int most_trials = 200;             // of shortening one finding
+constexpr std::size_t most_findings = 50;  // more are counted
+constexpr int most_trials = 200;           // of shortening one finding
 constexpr int confirmations = 3;
 
 bool differs(Verdict verdict) { return verdict == Verdict::fail || verdict == Verdict::non_strict; }
@@ -26,7 +26,8 @@ Byte upper(Byte byte) { return static_cast<Byte>(std::toupper(byte)); }
 std::string mark_of(const Request& request, const CaseResult& result) {
   std::string words;
   for (const char c : result.message)
-    if (!std::isdigit(static_cast<unsigned char>(c)) && !std::isupper(static_cast<unsigned char>(c)))
+    if (!std::isdigit(static_cast<unsigned char>(c)) &&
+        !std::isupper(static_cast<unsigned char>(c)))
       words += c;
   return fmt::format("{}/{}: {}", request.topic, request.kind, words);
 }
@@ -48,8 +49,7 @@ std::size_t failing_request(const CaseResult& result, std::size_t requests) {
 
 }  // namespace
 
-Explorer::Explorer(Device device, Oracle oracle, std::vector<Request> requests,
-                   std::uint64_t seed)
+Explorer::Explorer(Device device, Oracle oracle, std::vector<Request> requests, std::uint64_t seed)
     : device_(std::move(device)),
       oracle_(std::move(oracle)),
       requests_(std::move(requests)),
@@ -110,7 +110,8 @@ std::vector<Request> Explorer::invent() {
         requests.push_back(std::move(*look));
         continue;
       }
-    if (std::optional<Request> one = invent_one(faultless, hot)) requests.push_back(std::move(*one));
+    if (std::optional<Request> one = invent_one(faultless, hot))
+      requests.push_back(std::move(*one));
   }
   return requests;
 }
@@ -215,7 +216,8 @@ Explorer::Sequence Explorer::shortened(Sequence sequence, Verdict verdict) {
   int trials = 0;
   for (std::size_t size = std::max<std::size_t>(1, sequence.requests.size() / 2); size > 0;
        size /= 2)
-    for (std::size_t at = 0; at < sequence.requests.size() && trials < most_trials && device_.alive();) {
+    for (std::size_t at = 0;
+         at < sequence.requests.size() && trials < most_trials && device_.alive();) {
       if (sequence.requests.size() <= size) break;
       std::vector<Request> fewer = sequence.requests;
       const auto from = fewer.begin() + static_cast<std::ptrdiff_t>(at);
@@ -227,6 +229,20 @@ Explorer::Sequence Explorer::shortened(Sequence sequence, Verdict verdict) {
       else
         at += size;
     }
+  // A real device holds something everywhere: there all that is named is given.
+  return device_.over_the_wire ? sequence : without_needless_memory(std::move(sequence), verdict);
+}
+
+Explorer::Sequence Explorer::without_needless_memory(Sequence sequence, results::Verdict verdict) {
+  for (std::size_t at = 0; at < sequence.memory.size() && device_.alive();) {
+    Memory fewer = sequence.memory;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(at));
+    std::optional<Sequence> lean = answered(sequence.requests, &fewer);
+    if (lean && lean->answers.size() == sequence.answers.size() && shows(*lean, verdict))
+      sequence = std::move(*lean);
+    else
+      ++at;
+  }
   return sequence;
 }
 
@@ -253,8 +269,7 @@ void Explorer::note_finding(const Sequence& sequence, const CaseResult& result) 
       "{}/explore/f{:08x}", folder,
       static_cast<std::uint32_t>(vectors::extend_fingerprint(vectors::empty_fingerprint, mark)));
   int shown = 0;
-  while (shown < confirmations && device_.alive() && shows(shortest, result.verdict))
-    ++shown;
+  while (shown < confirmations && device_.alive() && shows(shortest, result.verdict)) ++shown;
   finding.confirmed = shown == confirmations;
   if (!finding.confirmed) shortest = sequence;
   finding.shortest = case_of(shortest.requests, shortest.answers, shortest.memory,

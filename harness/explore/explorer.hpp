@@ -73,6 +73,7 @@ class Explorer {
   void note(const Sequence& sequence, const results::CaseResult& result);
   void note_finding(const Sequence& sequence, const results::CaseResult& result);
   Sequence shortened(Sequence sequence, results::Verdict verdict);
+  Sequence without_needless_memory(Sequence sequence, results::Verdict verdict);
   bool shows(const Sequence& sequence, results::Verdict verdict);
   void weigh(const Request& request, const std::string& sort);
 
@@ -87,7 +88,8 @@ class Explorer {
   Seen seen_;
   std::map<std::string, std::uint64_t> unjudged_;
   std::map<std::string, Finding> findings_;
-  std::array<vectors::Case, 2> running_;  // a bench knows a case by where it is: never the same place twice
+  std::array<vectors::Case, 2>
+      running_;  // a bench knows a case by where it is: never the same place twice
   std::size_t turn_ = 0;
 };
 

@@ -131,7 +131,7 @@ std::vector<Request> requests_of(const std::vector<Case>& cases, const Protocol&
       const vectors::Frame& frame = step.frames.front();
       if (!says_all(frame.notation) || !seen.insert(notation::print(frame.notation)).second)
         continue;
-      requests.push_back({topic_of(one.id), one.source, frame.notation});
+      requests.push_back({topic_of(one.id), one.id, frame.notation});
     }
   }
   return requests;

@@ -12,8 +12,8 @@
 namespace fieldproof::explore {
 
 struct Request {
-  std::string topic;             // of its vector: "rss"
-  vectors::Source source;        // the sentence that its vector rests on
+  std::string topic;   // of its vector: "rss"
+  std::string vector;  // its id
   notation::Notation notation;
   std::string kind = "printed";  // of the change: one of Changes::kinds; "printed": there is none
   std::string change{};          // in words: "block count 01 becomes 02"

@@ -19,8 +19,10 @@ using vectors::Step;
 
 namespace {
 
+constexpr const char* decision = "explore/own-model";
 constexpr const char* own_model =
-    "`explore` holds a device to what fieldproof's own device answers, also where no manual prints it.";
+    "`explore` holds a device to what fieldproof's own device answers, also where no manual prints "
+    "it.";
 
 Step step_of(Step::Kind kind) {
   Step step;
@@ -30,7 +32,6 @@ Step step_of(Step::Kind kind) {
 
 Step send_of(const Request& request) {
   Step step = step_of(Step::Kind::send);
-  step.source = request.source;
   step.frames.push_back({"", notation::print(request.notation), request.notation, std::nullopt});
   return step;
 }
@@ -141,12 +142,13 @@ std::string sort_of(const Answer& answer, const Protocol& protocol) {
 
 Result<Oracle> Oracle::open(const Protocol& protocol, const std::string& model, int station) {
   Oracle oracle(protocol, model, station);
-  const endpoints::EndpointName name{"emulator",
-                                     model,
-                                     {{"protocol", std::string(protocol.name())},
-                                      {"station", std::to_string(station)}}};
+  const endpoints::EndpointName name{
+      "emulator",
+      model,
+      {{"protocol", std::string(protocol.name())}, {"station", std::to_string(station)}}};
   for (auto* one : {&oracle.fresh_, &oracle.used_}) {
-    Result<std::unique_ptr<endpoints::Endpoint>> endpoint = endpoints::open_endpoint(name, protocol);
+    Result<std::unique_ptr<endpoints::Endpoint>> endpoint =
+        endpoints::open_endpoint(name, protocol);
     if (!endpoint) return endpoint.error();
     *one = std::move(*endpoint);
   }
@@ -185,7 +187,7 @@ Case case_of(const std::vector<Request>& requests, const std::vector<Answer>& an
   one.protocol = protocol.name();
   one.level = "must";
   one.memory = memory;
-  one.source = requests.front().source;
+  one.source = {"fieldproof, DECISIONS.md", decision, own_model, {}};
   bool all_granted = true;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const Answer& answer = answers[i];
@@ -196,15 +198,15 @@ Case case_of(const std::vector<Request>& requests, const std::vector<Answer>& an
       one.steps.push_back(step_of(Step::Kind::expect_close));
     else if (answer.bytes.empty())
       one.steps.push_back(step_of(Step::Kind::silence));
-    if (i + 1 == answers.size()) one.source = requests[i].source;
   }
   one.basis = all_granted ? "derived" : "decision";
-  if (!all_granted) one.decisions = {{"explore/own-model", own_model}};
-  one.title = fmt::format("{} after {} requests before it", requests[answers.size() - 1].topic,
-                          answers.size() - 1);
-  one.why = "what fieldproof's own device answers; found by explore";
-  if (!requests[answers.size() - 1].change.empty())
-    one.why += ": " + requests[answers.size() - 1].change;
+  if (!all_granted) one.decisions = {{decision, own_model}};
+  const Request& last = requests[answers.size() - 1];
+  one.title = answers.size() == 1 ? fmt::format("A request of {} ({})", last.topic, last.kind)
+                                  : fmt::format("A request of {} ({}) behind {} others", last.topic,
+                                                last.kind, answers.size() - 1);
+  one.why = "what fieldproof's own device answers; the last request comes from " + last.vector;
+  if (!last.change.empty()) one.why += ": " + last.change;
   return one;
 }
 
@@ -222,15 +224,12 @@ std::string vector_text(const Case& source) {
   ordered_json memory = ordered_json::object();
   for (const auto& [address, hex] : source.memory) memory[address] = hex;
   ordered_json vector{{"id", source.id}, {"title", source.title}};
-  if (source.source.statements.empty())
-    vector["source"] = {{"manual", source.source.manual},
-                        {"section", source.source.section},
-                        {"quote", source.source.quote}};
-  else
-    vector["statement"] = source.source.statements.front();
+  vector["source"] = {{"manual", source.source.manual},
+                      {"section", source.source.section},
+                      {"quote", source.source.quote}};
   vector["level"] = source.level;
   vector["basis"] = source.basis;
-  if (source.basis == "decision") vector["decision"] = ordered_json::array({"explore/own-model"});
+  if (source.basis == "decision") vector["decision"] = ordered_json::array({decision});
   vector["why"] = source.why;
   if (!memory.empty()) vector["given"] = {{"memory", memory}};
   vector["steps"] = std::move(steps);

@@ -113,10 +113,12 @@ Kit inverter() {
 /// A device that is made by the behaviour of its fault; without one it does the right thing.
 template <typename Fault, typename Behaviour>
 Kit by_behaviour(std::string name, std::string folder, const std::vector<Fault>& table,
-                 Device (*make)(const Behaviour&, std::string_view model, const json&)) {
-  const auto run_one = [&table, make](std::optional<std::size_t> fault, const Case& source) {
+                 Device (*make)(const Behaviour&, std::string_view model, const json&),
+                 const std::string& usual = "xbc-h") {
+  const auto run_one = [&table, make, usual](std::optional<std::size_t> fault,
+                                             const Case& source) {
     const Behaviour behaviour = fault ? table[*fault].make() : Behaviour{};
-    return run(source, model_of(source, "xbc-h"), [=](std::string_view model, const json& config) {
+    return run(source, model_of(source, usual), [=](std::string_view model, const json& config) {
       return make(behaviour, model, config);
     });
   };
@@ -178,7 +180,8 @@ std::vector<Kit> kits() {
                        modbus_tcp_broken::make_broken_server),
           by_behaviour("xgt-fenet", "xgt_fenet", xgt_fenet_broken::faults(),
                        xgt_fenet_broken::make_broken_server),
-          by_behaviour("xnet", "xnet", xnet_broken::faults(), xnet_broken::make_broken_xnet),
+          by_behaviour("xnet", "xnet", xnet_broken::faults(), xnet_broken::make_broken_xnet,
+                       "xd3"),
           by_behaviour("hs-link", "hs_link", hs_link_broken::faults(),
                        hs_link_broken::make_broken_network),
           inverter(),

@@ -1,4 +1,4 @@
-"""XBC-H memory (000 7.1.4, 001 A.1.1) and device names, used by every protocol."""
+"""XBC-H memory (Cnet EN 7.1.4, FEnet EN A.1.1) and device names, used by every protocol."""
 from faults import fault
 
 AREAS = {'P': 1024, 'M': 1024, 'K': 4096, 'F': 1024, 'T': 1024, 'C': 1024, 'L': 2048,

@@ -1,4 +1,4 @@
-"""Modbus: the functions (000 chapter 9, 001 5.3) and the RTU, ASCII and TCP framings."""
+"""Modbus: the functions (Cnet EN 9, FEnet EN 5.3) and the RTU, ASCII and TCP framings."""
 from faults import fault
 from memory import READ_ONLY, index_of, split_name
 

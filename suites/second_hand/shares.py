@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 DEVICE = pathlib.Path(__file__).parent / 'device.py'
-FILTER = '*:-*/line/*:-xgt_fenet/names/no_area_letter/*'
+FILTER = '*:-xgt_cnet/line/*:-xgt_fenet/names/no_area_letter/*'
 
 
 def faults():

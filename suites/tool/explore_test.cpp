@@ -44,7 +44,8 @@ class ExploreCommand : public testing::Test {
 TEST_F(ExploreCommand, HealthyDevicesShowNothing) {
   const Finished finished = explore({"--requests", "1000"});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
-  EXPECT_THAT(finished.out, AllOf(HasSubstr("requests of xgt-cnet in "), HasSubstr("seed 1: 0 findings")));
+  EXPECT_THAT(finished.out,
+              AllOf(HasSubstr("requests of xgt-cnet in "), HasSubstr("seed 1: 0 findings")));
   EXPECT_EQ(findings().size(), 0u);
   EXPECT_GT(results.counts()["PASS"], 30u);
   EXPECT_THAT(results.of("xgt_cnet/explore/rss/elsewhere")["notes"].dump(), HasSubstr("answered"));
@@ -99,8 +100,8 @@ TEST_F(ExploreCommand, AnInterruptReports) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/junit.xml"));
 }
 
-/// What a bad line makes of requests: our own devices answer as they do, a device that looks at half
-/// of its check is caught.
+/// What a bad line makes of requests: our own devices answer as they do, a device that looks at
+/// half of its check is caught.
 TEST(DerivedRun, HealthyDevicesPass) {
   const TestFolder folder;
   const Finished finished =
