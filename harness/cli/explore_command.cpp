@@ -113,7 +113,7 @@ class Exploration {
 
  private:
   bool goes_on() const {
-    if (os::interrupted()) return false;
+    if (os::interrupted() || explorer_.exhausted()) return false;
     if (plan_.soak > 0ns && Clock::now() - started_ >= plan_.soak) return false;
     const std::uint64_t most = options_.requests > 0 ? options_.requests
                                : plan_.soak > 0ns    ? 0
@@ -130,6 +130,8 @@ class Exploration {
     }
     end_.interrupted = os::interrupted();
     if (!end_.interrupted) end_.trouble = ports_.front().stopped();
+    if (explorer_.exhausted())
+      report_.say("no more requests fit into what may be written; give --allow-write more words");
   }
 
   void report_what_was_found() {

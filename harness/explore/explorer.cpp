@@ -97,7 +97,8 @@ std::vector<Request> Explorer::invent() {
   const bool faultless = random_.chance(40);
   HotWords hot(device_.room);
   std::vector<Request> requests;
-  while (requests.size() < length) {
+  // Where there is little room, most requests have none.
+  for (std::size_t trial = 0; requests.size() < length && trial < 50 * length; ++trial) {
     if (!requests.empty() && random_.chance(20)) {  // what works once may not work often
       requests.push_back(Request(random_.of(requests)));
       continue;
@@ -151,6 +152,7 @@ std::optional<Explorer::Sequence> Explorer::answered(std::vector<Request> reques
   sequence.memory = memory ? *memory
                            : memory_of(sequence.requests, *device_.protocol, device_.station,
                                        device_.over_the_wire, random_, unsettable);
+  if (sequence.requests.empty()) return std::nullopt;
   Result<std::vector<Answer>> answers = oracle_.ask(sequence.requests, sequence.memory, true);
   if (!answers || answers->empty()) return std::nullopt;
   if (device_.over_the_wire) {
@@ -176,6 +178,7 @@ CaseResult Explorer::run(const Sequence& sequence, const std::string& id) {
 
 void Explorer::step() {
   const std::optional<Sequence> sequence = answered(invent(), nullptr);
+  barren_ = sequence ? 0 : barren_ + 1;
   if (!sequence) return;
   ++sequences_;
   note(*sequence, run(*sequence, fmt::format("explore/{}", sequences_)));

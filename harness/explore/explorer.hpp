@@ -45,6 +45,8 @@ class Explorer {
   /// One more sequence.
   void step();
 
+  /// Nothing that may be sent has come to mind for long: there is too little room.
+  bool exhausted() const { return barren_ >= 1000; }
   std::uint64_t requests_sent() const { return sent_; }
   std::uint64_t sequences() const { return sequences_; }
   const std::map<std::string, Finding>& findings() const { return findings_; }
@@ -84,7 +86,7 @@ class Explorer {
   std::map<std::string, std::size_t> weights_;  // of topics: what showed something new weighs more
   Changes changes_;
   Random random_;
-  std::uint64_t sent_ = 0, sequences_ = 0, judged_ = 0;
+  std::uint64_t sent_ = 0, sequences_ = 0, judged_ = 0, barren_ = 0;
   Seen seen_;
   std::map<std::string, std::uint64_t> unjudged_;
   std::map<std::string, Finding> findings_;

@@ -62,9 +62,11 @@ const std::map<std::string, Special> specials{
     {"fieldproof emulate", {.not_run = "the name of a command, in a sentence"}},
     {"./run.sh ARGUMENTS", {.replaced = "ARGUMENTS", .by = "list"}},
     {"./run.sh explore --endpoint 'exec:./my_plc {tty}' --profile xbc-dxxxh --requests 500 --seed 7",
-     {.replaced = "--requests 500", .by = "--requests 50"}},
+     {.replaced = "--requests 500", .by = "--requests 30"}},
+    {"./run.sh run --derived --filter 'modbus_rtu/*/derived/*'",
+     {.replaced = "modbus_rtu/*/derived/*", .by = "modbus_rtu/examples/*/derived/cut"}},
     {"./run.sh explore --protocol modbus-rtu --seed 7 --requests 20000",
-     {.replaced = "20000", .by = "2000"}},
+     {.replaced = "20000", .by = "500"}},
     {"./run.sh run --filter 'YOUR/ID'", {.replaced = "YOUR/ID", .by = "xgt_cnet/rss/two_words/*"}},
     {"./run.sh run --endpoint 'serial:/dev/serial/by-id/usb-FTDI...?baud=38400&frame=8N1&rs485=1"
      "&station=1' --profile xbc-dxxxh --allow-write M100-M199,D0-D99",
