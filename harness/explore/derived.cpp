@@ -34,11 +34,20 @@ const Step* only_request(const Case& one) {
   return answered && request->times == 1 && request->on.empty() ? request : nullptr;
 }
 
+/// From its first byte to its last one frame: what a bad line leaves of it is ended by the next
+/// one.
+bool is_one_frame(const Notation& notation) {
+  return !notation.empty() && notation.front().kind == Item::Kind::open &&
+         notation.back().kind == Item::Kind::close &&
+         std::ranges::count(notation, Item::Kind::open, &Item::kind) == 1;
+}
+
 bool derives(const Case& one) {
   return one.level == "must" && one.on_model.empty() && !vectors::is_client_case(one) &&
          std::ranges::all_of(one.config.items(),
                              [](const auto& item) { return item.key() == "station"; }) &&
-         !one.fresh && only_request(one) != nullptr;
+         !one.fresh && only_request(one) != nullptr &&
+         is_one_frame(only_request(one)->frames.front().notation);
 }
 
 /// Requests that differ in numbers alone are damaged alike.

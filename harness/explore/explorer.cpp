@@ -111,8 +111,13 @@ std::vector<Request> Explorer::invent() {
         requests.push_back(std::move(*look));
         continue;
       }
-    if (std::optional<Request> one = invent_one(faultless, hot))
-      requests.push_back(std::move(*one));
+    std::optional<Request> one = invent_one(faultless, hot);
+    if (!one) continue;
+    const bool pieces = one->kind == "damage" || one->kind == "pause";
+    requests.push_back(std::move(*one));
+    // What is left of a frame waits for more as long as its protocol says, a bench no longer than
+    // it must: on real time nothing of the same sequence comes behind it.
+    if (pieces && device_.over_the_wire) break;
   }
   return requests;
 }
