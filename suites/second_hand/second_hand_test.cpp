@@ -42,7 +42,7 @@ TEST_P(SecondHand, AHealthyDeviceHasNoFalseAlarm) {
   const Finished finished = judged(GetParam(), "", folder);
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   tool_tests::Results results = tool_tests::read_results(folder / "results.ndjson");
-  EXPECT_GT(results.counts()["PASS"], 40u) << finished.out;
+  EXPECT_GT(results.counts()["PASS"], 10u) << finished.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(

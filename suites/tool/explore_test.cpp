@@ -106,12 +106,12 @@ TEST(DerivedRun, HealthyDevicesPass) {
   const TestFolder folder;
   const Finished finished =
       run_tool({"run", "--derived", "--filter",
-                "modbus_*/examples/*/derived/*:ls_bus/read/*/derived/*:xgt_cnet/rss/*/derived/*:"
-                "modbus_tcp/*/derived/*:xgt_fenet/read/*/derived/*",
+                "modbus_rtu/examples/*/derived/*:ls_bus/read/*/derived/*:"
+                "xgt_fenet/read/*/derived/split",
                 "--out", folder.path()});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   Results results = read_results(folder / "results.ndjson");
-  EXPECT_GT(results.counts()["PASS"], 500u);
+  EXPECT_GT(results.counts()["PASS"], 50u);
   EXPECT_EQ(results.counts().size(), 1u);
 }
 
