@@ -168,5 +168,26 @@ TEST(XgtFenetReadme, a_client_of_four_lines_reads_a_word) {
   EXPECT_EQ(client.out, "4660\n") << client.err;
 }
 
+/// A program that is asked by connections alone is not to blame for datagrams.
+TEST(XgtFenetBench, WithoutAPortForDatagramsTheirCasesAreBlocked) {
+  const TestFolder folder;
+  const Finished finished = run_tool(
+      {"run", "--endpoint",
+       std::string("exec:") + FIELDPROOF_TOOL +
+           " emulate 'xbc-h?protocol=xgt-fenet' --tcp 127.0.0.1:{port}?protocol=xgt-fenet",
+       "--profile", "xbc-h", "--filter", "xgt_fenet/udp/read/*:xgt_fenet/examples/*", "--out",
+       folder.path()});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  Results results = read_results(folder / "results.ndjson");
+  EXPECT_EQ(results.counts()["FAIL"], 0u);
+  EXPECT_GT(results.counts()["PASS"], 0u);
+  EXPECT_GT(results.counts()["BLOCKED"], 0u);
+  for (const auto& one : results.cases)
+    if (one.at("id").get<std::string>().starts_with("xgt_fenet/udp/")) {
+      EXPECT_EQ(one.at("verdict"), "BLOCKED");
+      EXPECT_THAT(one.value("message", ""), HasSubstr("{udp_port}"));
+    }
+}
+
 }  // namespace
 }  // namespace fieldproof::tool_tests::fenet
