@@ -15,6 +15,7 @@
 #include "harness/run/run_plan.hpp"
 #include "harness/run/run_report.hpp"
 #include "harness/system/interrupt.hpp"
+#include "harness/vectors/loader.hpp"
 #include "reports/text/report_file.hpp"
 #include "src/base/duration.hpp"
 
@@ -31,12 +32,6 @@ namespace {
 
 constexpr std::uint64_t usual_requests = 100'000;
 using Clock = std::chrono::steady_clock;
-
-std::string folder_of(const harness::Protocol& protocol) {
-  std::string folder(protocol.name());
-  std::ranges::replace(folder, '-', '_');
-  return folder;
-}
 
 /// The model that the device is held against.
 std::string model_of(const RunPlan& plan) {
@@ -76,7 +71,7 @@ CaseResult seen_result(const harness::Protocol& protocol, const std::string& top
                        const std::string& kind,
                        const std::map<std::string, std::uint64_t>& answers) {
   CaseResult result;
-  result.id = fmt::format("{}/explore/{}/{}", folder_of(protocol), topic, kind);
+  result.id = fmt::format("{}/explore/{}/{}", vectors::folder_of(protocol), topic, kind);
   result.protocol = protocol.name();
   result.level = "must";
   result.basis = "decision";
@@ -144,12 +139,12 @@ class Exploration {
     for (const auto& [what, answers] : explorer_.seen())
       report_.add(seen_result(protocol, what.first, what.second, answers));
     int number = 0;
-    for (const auto& [reason, times] : explorer_.unjudged()) {
+    for (const auto& [why, times] : explorer_.unjudged()) {
       CaseResult result;
-      result.id = fmt::format("{}/explore/not_judged/{}", folder_of(protocol), ++number);
+      result.id = fmt::format("{}/explore/not_judged/{}", vectors::folder_of(protocol), ++number);
       result.protocol = protocol.name();
-      result.verdict = Verdict::blocked;
-      result.message = run::bounded(fmt::format("{} sequences: {}", times, reason));
+      result.verdict = why.first;
+      result.message = run::bounded(fmt::format("{} sequences: {}", times, why.second));
       report_.add(result);
     }
     for (const auto& [mark, finding] : explorer_.findings()) report_.add(result_of(finding));

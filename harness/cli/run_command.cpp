@@ -187,6 +187,7 @@ class Run {
     run::SharedRun shared(
         std::move(ports), std::move(tasks), [&](const Case& source, CaseResult result) {
           report_.show_progress(total, source.id);
+          shorten_what_passed(source, result);
           settle(result);
           note(source, result);
           return report_.add(result) && !too_many_failures() &&
@@ -255,8 +256,7 @@ class Run {
     }
     if (hung)
       result.message = "the bench hung in this case for more than a minute; " + result.message;
-    if (source.by_rule && !results::gates(result.verdict, {true, true}))
-      run::LongTexts::shorten_exchange(result);
+    shorten_what_passed(source, result);
     settle(result);
     note(source, result);
     result.repeat = soak ? round : round % options_.repeat;
@@ -285,6 +285,12 @@ class Run {
         settle(result);
         report_.add(result);
       }
+  }
+
+  /// What was made by rule has hundreds of frames.
+  static void shorten_what_passed(const Case& source, CaseResult& result) {
+    if (source.by_rule && !results::gates(result.verdict, {true, true}))
+      run::LongTexts::shorten_exchange(result);
   }
 
   /// As it goes to the reports.

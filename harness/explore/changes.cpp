@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "harness/explore/damage.hpp"
+
 namespace fieldproof::explore {
 
 using harness::Field;
 using harness::Protocol;
-using notation::Item;
-using notation::Notation;
 using safety::Bracket;
 
 namespace {
@@ -48,14 +48,6 @@ Bytes counted(ByteView old, bool text, bool low_first, int by) {
                  : static_cast<Byte>(value);
   }
   return bytes;
-}
-
-Item pause_of(double milliseconds) {
-  Item item;
-  item.kind = Item::Kind::pause;
-  item.pause = {milliseconds, false};
-  item.text = fmt::format("~{:g}ms", milliseconds);
-  return item;
 }
 
 }  // namespace
@@ -162,54 +154,35 @@ bool Changes::field(Request& request, Random& random) const {
 }
 
 bool Changes::damage(Request& request, Random& random) const {
-  const Result<Bytes> made = safety::bytes_of(request.notation, fields_);
-  if (!made || made->empty()) return false;
-  Bytes bytes = *made;
-  const std::size_t at = random.below(bytes.size());
-  const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+  const Result<Bytes> bytes = safety::bytes_of(request.notation, fields_);
+  if (!bytes || bytes->empty()) return false;
+  const std::size_t bits = protocol_.is_text() ? 7 : 8;
+  const auto any_byte = [&] { return static_cast<Byte>(random.below(std::size_t{1} << bits)); };
+  const std::size_t at = random.below(bytes->size());
+  Damaged damaged;
   switch (random.below(6)) {
-    case 0: {
-      const std::size_t bit = random.below(protocol_.is_text() ? 7 : 8);
-      bytes[at] = static_cast<Byte>(bytes[at] ^ (1u << bit));
-      request.change = fmt::format("bit {} of byte {} flipped", bit, at);
-      break;
-    }
-    case 1:
-      bytes.erase(place);
-      request.change = fmt::format("byte {} dropped", at);
-      break;
-    case 2:
-      bytes.insert(place, bytes[at]);
-      request.change = fmt::format("byte {} doubled", at);
-      break;
-    case 3:
-      bytes.resize(at);
-      request.change = fmt::format("cut after {} bytes", at);
-      break;
-    case 4:
-      bytes.push_back(static_cast<Byte>(random.below(protocol_.is_text() ? 128 : 256)));
-      request.change = "a byte behind it";
-      break;
-    default:
-      bytes.insert(bytes.begin(), static_cast<Byte>(random.below(protocol_.is_text() ? 128 : 256)));
-      request.change = "a byte before it";
+    case 0: damaged = flipped(*bytes, at, static_cast<unsigned>(random.below(bits))); break;
+    case 1: damaged = dropped(*bytes, at); break;
+    case 2: damaged = doubled(*bytes, at); break;
+    case 3: damaged = cut(*bytes, at); break;
+    case 4: damaged = with_byte_behind(*bytes, any_byte()); break;
+    default: damaged = with_byte_before(*bytes, any_byte());
   }
-  request.notation = raw_notation(bytes);
-  return !bytes.empty();
+  request.notation = std::move(damaged.notation);
+  request.change = std::move(damaged.change);
+  return !request.notation.empty();
 }
 
 bool Changes::pause(Request& request, Random& random) const {
   // On real time none that is as long as what a protocol waits for.
   static constexpr std::array<double, 7> pauses{200, 1500, 1, 3, 5, 10, 1000};
-  const Result<Bytes> made = safety::bytes_of(request.notation, fields_);
-  if (!made || made->size() < 2) return false;
-  const std::size_t at = 1 + random.below(made->size() - 1);
+  const Result<Bytes> bytes = safety::bytes_of(request.notation, fields_);
+  if (!bytes || bytes->size() < 2) return false;
+  const std::size_t at = 1 + random.below(bytes->size() - 1);
   const double long_one = pauses[random.below(line_ ? pauses.size() : 2)];
-  request.notation = raw_notation(ByteView(*made).first(at));
-  request.notation.push_back(pause_of(long_one));
-  std::ranges::move(raw_notation(ByteView(*made).subspan(at)),
-                    std::back_inserter(request.notation));
-  request.change = fmt::format("{:g} ms of silence before byte {}", long_one, at);
+  Damaged damaged = paused(*bytes, at, {long_one, false});
+  request.notation = std::move(damaged.notation);
+  request.change = std::move(damaged.change);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "harness/explore/damage.hpp"
 #include "harness/safety/brackets.hpp"
 
 namespace fieldproof::explore {
@@ -44,9 +45,7 @@ bool is_one_frame(const Notation& notation) {
 
 bool derives(const Case& one) {
   return one.level == "must" && one.on_model.empty() && !vectors::is_client_case(one) &&
-         std::ranges::all_of(one.config.items(),
-                             [](const auto& item) { return item.key() == "station"; }) &&
-         !one.fresh && only_request(one) != nullptr &&
+         is_of_any_set_up(one) && !one.fresh && only_request(one) != nullptr &&
          is_one_frame(only_request(one)->frames.front().notation);
 }
 
@@ -57,96 +56,34 @@ std::string shape_of(std::string notation) {
   return notation;
 }
 
-Item pause(double amount, bool characters) {
-  Item item;
-  item.kind = Item::Kind::pause;
-  item.pause = {amount, characters};
-  item.text = fmt::format("~{:g}{}", amount, characters ? "c" : "ms");
-  return item;
-}
-
-Notation in_two(ByteView bytes, std::size_t at, Item between) {
-  Notation notation = raw_notation(bytes.first(at));
-  notation.push_back(std::move(between));
-  std::ranges::move(raw_notation(bytes.subspan(at)), std::back_inserter(notation));
-  return notation;
-}
-
-/// Notations of a derivation, and what was done in words.
-class Derivation {
- public:
-  Derivation(const Bytes& bytes, bool text) : bytes_(bytes), text_(text) {}
-
-  using Made = std::vector<std::pair<Notation, std::string>>;
-  Made make(const std::string& derivation) {
-    for (std::size_t at = 0; at < bytes_.size(); ++at) {
-      if (derivation == "flipped") flip(at);
-      if (derivation == "dropped") drop(at);
-      if (derivation == "doubled") repeat(at);
-      if (derivation == "cut" && at > 0) cut(at);
-      if (derivation == "paused" && at > 0) rest(at);
-      if (derivation == "split" && at > 0)
-        made_.emplace_back(in_two(bytes_, at, pause(0, false)),
-                           fmt::format("a segment ends before byte {}", at));
-    }
-    if (derivation == "noise") noise();
-    if (derivation == "joined") join();
-    return std::move(made_);
+/// All of one derivation from these bytes, in their order.
+std::vector<Damaged> made_of(const Bytes& bytes, const std::string& derivation, bool text) {
+  std::vector<Damaged> made;
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    for (unsigned bit = 0; derivation == "flipped" && bit < (text ? 7u : 8u); ++bit)
+      made.push_back(flipped(bytes, at, bit));
+    if (derivation == "dropped") made.push_back(dropped(bytes, at));
+    if (derivation == "doubled") made.push_back(doubled(bytes, at));
+    if (at == 0) continue;
+    if (derivation == "cut") made.push_back(cut(bytes, at));
+    if (derivation == "split") made.push_back(paused(bytes, at, {0, false}));
+    // Around 3.5 characters, by which Modbus RTU and the manuals' inter-character time end a frame.
+    if (derivation == "paused")
+      for (const double characters : {1.0, 3.0, 5.0, 20.0})
+        made.push_back(paused(bytes, at, {characters, true}));
   }
-
- private:
-  Bytes::iterator place(Bytes& bytes, std::size_t at) const {
-    return bytes.begin() + static_cast<std::ptrdiff_t>(at);
-  }
-  void add(const Bytes& bytes, std::string change) {
-    made_.emplace_back(raw_notation(bytes), std::move(change));
-  }
-  void flip(std::size_t at) {
-    for (unsigned bit = 0; bit < (text_ ? 7u : 8u); ++bit) {
-      Bytes bytes = bytes_;
-      bytes[at] = static_cast<Byte>(bytes[at] ^ (1u << bit));
-      add(bytes, fmt::format("bit {} of byte {} flipped", bit, at));
-    }
-  }
-  void drop(std::size_t at) {
-    Bytes bytes = bytes_;
-    bytes.erase(place(bytes, at));
-    if (!bytes.empty()) add(bytes, fmt::format("byte {} dropped", at));
-  }
-  void repeat(std::size_t at) {
-    Bytes bytes = bytes_;
-    bytes.insert(place(bytes, at), bytes_[at]);
-    add(bytes, fmt::format("byte {} doubled", at));
-  }
-  void cut(std::size_t at) {
-    add(Bytes(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at)),
-        fmt::format("cut after {} bytes", at));
-  }
-  /// Around 3.5 characters, by which Modbus RTU and the manuals' inter-character time end a frame.
-  void rest(std::size_t at) {
-    for (const double characters : {1.0, 3.0, 5.0, 20.0})
-      made_.emplace_back(in_two(bytes_, at, pause(characters, true)),
-                         fmt::format("{:g} characters of silence before byte {}", characters, at));
-  }
-  void noise() {
+  if (derivation == "noise")
     for (const Byte byte : {Byte{0x00}, Byte{0x2A}, Byte{0x7F}}) {
-      Bytes before = bytes_, behind = bytes_;
-      before.insert(before.begin(), byte);
-      behind.push_back(byte);
-      add(before, fmt::format("{:02X} before it", byte));
-      add(behind, fmt::format("{:02X} behind it", byte));
+      made.push_back(with_byte_before(bytes, byte));
+      made.push_back(with_byte_behind(bytes, byte));
     }
+  if (derivation == "joined") {
+    Bytes twice = bytes;
+    twice.insert(twice.end(), bytes.begin(), bytes.end());
+    made.push_back({raw_notation(twice), "twice without a pause"});
   }
-  void join() {
-    Bytes bytes = bytes_;
-    bytes.insert(bytes.end(), bytes_.begin(), bytes_.end());
-    add(bytes, "twice without a pause");
-  }
-
-  const Bytes& bytes_;
-  bool text_;
-  Made made_;
-};
+  return made;
+}
 
 template <typename List>
 void sample(List& list, std::size_t at_most, std::uint64_t seed) {
@@ -227,8 +164,13 @@ std::vector<Request> derived_from(const Request& request, const std::string& der
   const Result<Bytes> bytes = safety::bytes_of(request.notation, protocol.fields_at(station));
   std::vector<Request> derived;
   if (!bytes) return derived;
-  for (auto& [notation, change] : Derivation(*bytes, protocol.is_text()).make(derivation))
-    derived.push_back({request.topic, request.vector, std::move(notation), derivation, change, {}});
+  for (Damaged& one : made_of(*bytes, derivation, protocol.is_text()))
+    derived.push_back({request.topic,
+                       request.vector,
+                       std::move(one.notation),
+                       derivation,
+                       std::move(one.change),
+                       {}});
   sample(derived, at_most, seed);
   return derived;
 }

@@ -9,6 +9,7 @@
 #include "harness/endpoints/emulator.hpp"
 #include "harness/explore/explorer.hpp"
 #include "harness/vectors/loader.hpp"
+#include "suites/broken/wrapped_device.hpp"
 #include "suites/protocols.hpp"
 
 namespace fieldproof::explore {
@@ -250,25 +251,14 @@ TEST(Explorer, IsRepeatable) {
 }
 
 /// Loses each sixth frame.
-class Forgetful : public plc::SerialDevice {
+class Forgetful : public broken::WrappedDevice {
  public:
-  explicit Forgetful(std::unique_ptr<plc::EmulatedDevice> good) : good_(std::move(good)) {}
+  using WrappedDevice::WrappedDevice;
   void receive(const Burst& burst) override {
-    if (++count_ % 6 == 0) return;
-    good_->line()->receive(burst);
+    if (++count_ % 6 != 0) WrappedDevice::receive(burst);
   }
-  std::optional<Time> wake_at() const override { return good_->line()->wake_at(); }
-  Bytes advance(Time now) override { return good_->line()->advance(now); }
-  Status set(std::string_view address, std::string_view hex) override {
-    return good_->set(address, hex);
-  }
-  Result<std::string> get(std::string_view address, std::size_t digits) const override {
-    return good_->get(address, digits);
-  }
-  Status act(std::string_view action) override { return good_->act(action); }
 
  private:
-  std::unique_ptr<plc::EmulatedDevice> good_;
   int count_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "harness/vectors/fingerprint.hpp"
+#include "harness/vectors/loader.hpp"
 
 namespace fieldproof::explore {
 
@@ -157,7 +158,7 @@ std::optional<Explorer::Sequence> Explorer::answered(std::vector<Request> reques
   sequence.memory = memory ? *memory
                            : memory_of(sequence.requests, *device_.protocol, device_.station,
                                        device_.over_the_wire, random_, unsettable);
-  if (sequence.requests.empty()) return std::nullopt;
+  if (sequence.requests.empty() || unsettable) return std::nullopt;
   Result<std::vector<Answer>> answers = oracle_.ask(sequence.requests, sequence.memory, true);
   if (!answers || answers->empty()) return std::nullopt;
   if (device_.over_the_wire) {
@@ -167,7 +168,6 @@ std::optional<Explorer::Sequence> Explorer::answered(std::vector<Request> reques
     for (std::size_t i = 0; i < answers->size(); ++i)
       if ((*again)[i].bytes != (*answers)[i].bytes) return std::nullopt;
   }
-  if (unsettable) return std::nullopt;
   sequence.answers = std::move(*answers);
   sequence.requests.resize(sequence.answers.size());
   return sequence;
@@ -199,18 +199,17 @@ void Explorer::weigh(const Request& request, const std::string& sort) {
 }
 
 void Explorer::note(const Sequence& sequence, const CaseResult& result) {
-  if (differs(result.verdict) || result.verdict == Verdict::pass ||
-      result.verdict == Verdict::marginal)
-    ++judged_;
   if (differs(result.verdict) && differs_in_letters_alone(result)) {
-    ++unjudged_["the same answers, in other letters"];
+    ++unjudged_[{Verdict::blocked, "the same answers, in other letters"}];
     return;
   }
-  if (differs(result.verdict)) return note_finding(sequence, result);
-  if (result.verdict != Verdict::pass && result.verdict != Verdict::marginal) {
-    ++unjudged_[result.message];
+  const bool as_the_model = result.verdict == Verdict::pass || result.verdict == Verdict::marginal;
+  if (!differs(result.verdict) && !as_the_model) {
+    ++unjudged_[{result.verdict, result.message}];
     return;
   }
+  ++judged_;
+  if (!as_the_model) return note_finding(sequence, result);
   for (std::size_t i = 0; i < sequence.answers.size(); ++i)
     weigh(sequence.requests[i], sort_of(sequence.answers[i], *device_.protocol));
 }
@@ -254,6 +253,16 @@ Explorer::Sequence Explorer::without_needless_memory(Sequence sequence, results:
   return sequence;
 }
 
+/// Up to what failed, then less and less of it.
+Explorer::Sequence Explorer::shortest(const Sequence& sequence, std::size_t failing,
+                                      Verdict verdict) {
+  std::vector<Request> until(sequence.requests.begin(),
+                             sequence.requests.begin() + static_cast<std::ptrdiff_t>(failing) + 1);
+  std::optional<Sequence> begun = answered(std::move(until), &sequence.memory);
+  const bool enough = begun && shows(*begun, verdict);
+  return shortened(enough ? std::move(*begun) : sequence, verdict);
+}
+
 void Explorer::note_finding(const Sequence& sequence, const CaseResult& result) {
   const std::size_t failing = failing_request(result, sequence.requests.size());
   const std::string mark = mark_of(sequence.requests[failing], result);
@@ -262,26 +271,20 @@ void Explorer::note_finding(const Sequence& sequence, const CaseResult& result) 
     return;
   }
   if (findings_.size() >= most_findings) {
-    ++unjudged_["more than 50 findings: not looked into"];
+    ++unjudged_[{result.verdict, "differs, not looked into: there are 50 findings"}];
     return;
   }
-  std::vector<Request> until(sequence.requests.begin(),
-                             sequence.requests.begin() + static_cast<std::ptrdiff_t>(failing) + 1);
-  std::optional<Sequence> cut = answered(std::move(until), &sequence.memory);
-  Sequence shortest = cut && shows(*cut, result.verdict) ? std::move(*cut) : sequence;
-  shortest = shortened(std::move(shortest), result.verdict);
-  Finding finding;
-  std::string folder(device_.protocol->name());
-  std::ranges::replace(folder, '-', '_');
-  const std::string id = fmt::format(
-      "{}/explore/f{:08x}", folder,
-      static_cast<std::uint32_t>(vectors::extend_fingerprint(vectors::empty_fingerprint, mark)));
+  Sequence found = shortest(sequence, failing, result.verdict);
   int shown = 0;
-  while (shown < confirmations && device_.alive() && shows(shortest, result.verdict)) ++shown;
+  while (shown < confirmations && device_.alive() && shows(found, result.verdict)) ++shown;
+  Finding finding;
   finding.confirmed = shown == confirmations;
-  if (!finding.confirmed) shortest = sequence;
-  finding.shortest = case_of(shortest.requests, shortest.answers, shortest.memory,
-                             *device_.protocol, device_.station, id);
+  if (!finding.confirmed) found = sequence;
+  const std::string id = fmt::format(
+      "{}/explore/f{:08x}", vectors::folder_of(*device_.protocol),
+      static_cast<std::uint32_t>(vectors::extend_fingerprint(vectors::empty_fingerprint, mark)));
+  finding.shortest =
+      case_of(found.requests, found.answers, found.memory, *device_.protocol, device_.station, id);
   finding.result = finding.confirmed ? device_.run(finding.shortest) : result;
   finding.result.id = id;
   findings_.emplace(mark, std::move(finding));

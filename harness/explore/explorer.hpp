@@ -56,8 +56,9 @@ class Explorer {
   /// What the device was seen to do: by topic and kind of change, how often which sort of answer.
   using Seen = std::map<std::pair<std::string, std::string>, std::map<std::string, std::uint64_t>>;
   const Seen& seen() const { return seen_; }
-  /// Sequences that were not judged, by the reason.
-  const std::map<std::string, std::uint64_t>& unjudged() const { return unjudged_; }
+  /// Sequences that were not judged, by verdict and reason.
+  using Unjudged = std::map<std::pair<results::Verdict, std::string>, std::uint64_t>;
+  const Unjudged& unjudged() const { return unjudged_; }
 
  private:
   struct Sequence {
@@ -73,6 +74,7 @@ class Explorer {
   std::optional<Sequence> answered(std::vector<Request> requests, const Memory* memory);
   results::CaseResult run(const Sequence& sequence, const std::string& id);
   void note(const Sequence& sequence, const results::CaseResult& result);
+  Sequence shortest(const Sequence& sequence, std::size_t failing, results::Verdict verdict);
   void note_finding(const Sequence& sequence, const results::CaseResult& result);
   Sequence shortened(Sequence sequence, results::Verdict verdict);
   Sequence without_needless_memory(Sequence sequence, results::Verdict verdict);
@@ -88,7 +90,7 @@ class Explorer {
   Random random_;
   std::uint64_t sent_ = 0, sequences_ = 0, judged_ = 0, barren_ = 0;
   Seen seen_;
-  std::map<std::string, std::uint64_t> unjudged_;
+  Unjudged unjudged_;
   std::map<std::string, Finding> findings_;
   std::array<vectors::Case, 2>
       running_;  // a bench knows a case by where it is: never the same place twice

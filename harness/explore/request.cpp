@@ -29,8 +29,7 @@ bool is_for(const Case& one, const Protocol& protocol, std::string_view model) {
   if (one.protocol != protocol.name() || vectors::is_client_case(one) || !one.on_model.empty())
     return false;
   if (!one.models.empty() && std::ranges::find(one.models, model) == one.models.end()) return false;
-  return std::ranges::all_of(one.config.items(),
-                             [](const auto& item) { return item.key() == "station"; });
+  return is_of_any_set_up(one);
 }
 
 /// Is more than one answer to it right? Then our own device's is but one of them.
@@ -94,6 +93,11 @@ Notation bracketed(ByteView frame, bool request, const Protocol& protocol, int s
 }
 
 }  // namespace
+
+bool is_of_any_set_up(const Case& one) {
+  return std::ranges::all_of(one.config.items(),
+                             [](const auto& item) { return item.key() == "station"; });
+}
 
 std::optional<Protocol::Place> place_of(const Protocol::Written& word, const Protocol& protocol) {
   if (const std::vector<Protocol::Place> places = protocol.places(word); !places.empty())

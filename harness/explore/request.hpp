@@ -25,6 +25,9 @@ struct Request {
 std::vector<Request> requests_of(const std::vector<vectors::Case>& cases,
                                  const harness::Protocol& protocol, std::string_view model);
 
+/// Does it say no more of its device than the station?
+bool is_of_any_set_up(const vectors::Case& one);
+
 /// One word as vectors name it, of memory that no request can write too; nothing where there are no
 /// words.
 std::optional<harness::Protocol::Place> place_of(const harness::Protocol::Written& word,

@@ -421,18 +421,15 @@ Status check_alike(const DutPlan& first, const DutPlan& other,
 }
 
 /// A real line takes a second for each silence: there a few of each derivation are enough.
-Status derive(const RunOptions& options, const harness::Protocols& known,
-              vectors::VectorSet& set) {
+Status derive(const RunOptions& options, const harness::Protocols& known, vectors::VectorSet& set) {
   constexpr std::size_t few = 6;
   const Result<EndpointName> endpoint =
       endpoints::parse_endpoint(options.endpoint.empty() ? "emulator:" : options.endpoint);
-  const bool all = endpoint && endpoints::kind_of(*endpoint).simulated;
-  Result<std::vector<Case>> derived =
-      explore::derived_cases(set.cases, known, all ? 0 : few,
-                             static_cast<std::uint64_t>(std::max(0, options.seed)),
-                             [&](const std::string& id) {
-                               return vectors::matches_filter(id, options.filter);
-                             });
+  // A bench file's device may be on any line.
+  const bool all = options.duts.empty() && endpoint && endpoints::kind_of(*endpoint).simulated;
+  Result<std::vector<Case>> derived = explore::derived_cases(
+      set.cases, known, all ? 0 : few, static_cast<std::uint64_t>(std::max(0, options.seed)),
+      [&](const std::string& id) { return vectors::matches_filter(id, options.filter); });
   if (!derived) return fail("--derived: " + derived.error().message);
   std::ranges::move(*derived, std::back_inserter(set.cases));
   return ok();
@@ -463,9 +460,9 @@ Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocol
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);
   // A waiver may name any case.
-  Result<vectors::VectorSet> loaded = load_sound_vectors(
-      options.vectors, known,
-      plan.waivers.empty() && !options.derived ? options.filter : std::string());
+  Result<vectors::VectorSet> loaded =
+      load_sound_vectors(options.vectors, known,
+                         plan.waivers.empty() && !options.derived ? options.filter : std::string());
   if (!loaded) return loaded.error();
   plan.vectors = std::move(*loaded);
   if (options.derived)

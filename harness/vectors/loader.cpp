@@ -62,12 +62,6 @@ class FileLoader {
     });
   }
 
-  static std::string folder_of(const harness::Protocol& protocol) {
-    std::string folder(protocol.name());
-    std::ranges::replace(folder, '-', '_');
-    return folder;
-  }
-
   void load(const Piece& piece) {
     const json vector = parse_piece(piece, text_);
     const std::vector<std::string> problems = shape_problems(vector, vector_shape());
@@ -244,6 +238,12 @@ void report_duplicates(VectorSet& set) {
 }
 
 }  // namespace
+
+std::string folder_of(const harness::Protocol& protocol) {
+  std::string folder(protocol.name());
+  std::ranges::replace(folder, '-', '_');
+  return folder;
+}
 
 void load_vector_text(std::string_view text, const std::string& file, VectorSet& set,
                       const LoadOptions& options) {

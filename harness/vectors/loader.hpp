@@ -52,6 +52,9 @@ struct VectorSet {
   std::string hash;  // of all files, to tell vector sets apart
 };
 
+/// The folder of its vectors, with which their ids begin: "xgt_cnet".
+std::string folder_of(const harness::Protocol& protocol);
+
 /// What to load. The protocols dress pdu(...), and say which framings there are.
 struct LoadOptions {
   harness::Protocols protocols{{}};

@@ -29,6 +29,17 @@ inline Cases cases_of(const std::string& filter, bool (*concerns)(const vectors:
   return std::move(set.cases);
 }
 
+/// A case against a new device of `model` that `make` makes of this behaviour.
+template <typename Behaviour, typename Make>
+auto against(const char* model, Make make, const Behaviour& behaviour) {
+  return [=](const vectors::Case& source) {
+    const auto of_behaviour = [&](std::string_view of, const nlohmann::json& config) {
+      return make(behaviour, of, config);
+    };
+    return run_in_process(source, model, of_behaviour, bare_profile(source));
+  };
+}
+
 /// The message, and the fields that differ.
 inline std::string report(const results::CaseResult& result) {
   std::string text = result.id + ": " + result.message;

@@ -27,12 +27,7 @@ const broken::Cases& cases() {
 }
 
 auto against(const Behaviour& behaviour) {
-  return [behaviour](const Case& source) {
-    const auto make = [&](std::string_view of, const nlohmann::json& config) {
-      return make_broken_module(behaviour, of, config);
-    };
-    return broken::run_in_process(source, model, make, broken::bare_profile(source));
-  };
+  return broken::against(model, make_broken_module, behaviour);
 }
 
 class TheSuite : public testing::TestWithParam<Fault> {};
