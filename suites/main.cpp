@@ -90,12 +90,16 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.add_option("--stimulus", run.stimulus,
                  "Client role: command that makes the device ask, told by lines of JSON; -: the "
                  "program of exec: itself");
+  app.add_option("--control", run.control,
+                 "Command that sets the device up as each case needs it (configuration, inputs, "
+                 "stop), told by lines of JSON; -: the program of exec: itself");
   app.add_option("--aux", run.aux,
                  "A second port of the same PLC, as server: serial:PATH?station=3; for memory that "
                  "--endpoint cannot reach");
-  app.add_flag("--derived", run.derived,
-               "Also what a bad line makes of each request: bits flipped, bytes lost, doubled, cut, "
-               "paused, noise, frames joined");
+  app.add_flag(
+      "--derived", run.derived,
+      "Also what a bad line makes of each request: bits flipped, bytes lost, doubled, cut, "
+      "paused, noise, frames joined");
   app.add_option("--vectors", run.vectors, "Another folder of vectors");
   app.add_option("--out", run.out, "Folder of the reports")->capture_default_str();
   app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");
@@ -169,7 +173,8 @@ void add_explore(CLI::App& app, cli::ExploreOptions& explore) {
   app.add_option("--requests", explore.requests, "How many (100000)")
       ->check(CLI::Range(1, 1'000'000'000));
   app.add_option("--duration", run.duration, "Instead, or at most so long: 90s, 10m, 8h");
-  app.add_option("--vectors", run.vectors, "Another folder of vectors, whose requests it begins with");
+  app.add_option("--vectors", run.vectors,
+                 "Another folder of vectors, whose requests it begins with");
   app.add_option("--out", run.out, "Folder of the reports; findings/ in it has a vector each")
       ->capture_default_str();
   app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");
@@ -322,7 +327,10 @@ int run_tool(int argc, char** argv) {
   emulate_app->add_option(
       "--monitor", emulate.monitor,
       "CSV file of the frame monitor: each frame with its result, time and data");
-  emulate_app->add_option("--control", emulate.control, "Back door of the harness")->group("");
+  emulate_app
+      ->add_option("--control", emulate.control,
+                   "-: set up by lines of JSON on standard input, as by the bench's --control")
+      ->transform([](std::string text) { return text == "-" ? std::string("0") : text; });
   emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
   emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");
 
@@ -382,9 +390,9 @@ int run_tool(int argc, char** argv) {
   errata_app->add_flag("--markdown", errata.markdown)->excludes(errata_json);
 
   cli::ReportOptions report;
-  CLI::App* report_app = app.add_subcommand(
-      "report",
-      "Derive JUnit, JSON, HTML, tables and a capture from the results of a run, finished or killed");
+  CLI::App* report_app = app.add_subcommand("report",
+                                            "Derive JUnit, JSON, HTML, tables and a capture from "
+                                            "the results of a run, finished or killed");
   report_app->add_option("results", report.ndjson, "OUT/results.ndjson")->required();
   report_app->add_option("--junit", report.junit);
   report_app->add_option("--json", report.json);

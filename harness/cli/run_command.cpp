@@ -412,6 +412,7 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
   if (!fixtures) return trouble(fixtures.error());
   Result<std::vector<Benches>> ports = run::open_ports(*plan);
   if (!ports) return trouble(ports.error());
+  plan->selected = ports->front().grouped(plan->selected);
   return execute(options, *plan, *ports, std::move(*paths), *baseline);
 }
 

@@ -24,6 +24,7 @@ struct RunOptions {
   std::string power_cycle;
   std::string role;      // "client", "server"; empty: both
   std::string stimulus;  // what makes a device ask: a command, or "-": the program of exec:
+  std::string control;   // what sets a device up: a command, or "-": the program of exec:
   std::string aux;       // a second channel of the PLC under test
   std::vector<std::string> allow_write;
   std::vector<std::string> allow_motion;  // axes
