@@ -159,7 +159,7 @@ class Process {
     for (char** one = environ; *one; ++one) {
       const std::string text = *one;
       if (text.starts_with("GTEST_") || text.starts_with("FIELDPROOF_") ||
-          text.starts_with("XML_OUTPUT_FILE"))
+          text.starts_with("XML_OUTPUT_FILE") || text.starts_with("COLUMNS="))
         continue;
       result.push_back(text);
     }
