@@ -88,7 +88,7 @@ class Folded {
   Folded(std::string_view line, std::size_t width) : width_(width) {
     const std::size_t begin = text_begin(line, width);
     const std::string_view text = line.substr(begin);
-    command_ = text.starts_with("fieldproof ") && !text.starts_with("fieldproof proves");
+    command_ = begin > 0 && text.starts_with("fieldproof ");
     out_ = line.substr(0, begin);
     used_ = hang_ = columns_of(out_);
     for (const std::string_view word : words_of(text, command_)) add(word);
