@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "reports/text/case_text.hpp"
+#include "reports/text/fold.hpp"
 #include "reports/text/run_text.hpp"
 #include "reports/text/xml_text.hpp"
 
@@ -22,7 +23,7 @@ namespace {
 
 constexpr std::size_t verdict_width = 14;   // INCONCLUSIVE and two spaces
 constexpr std::size_t console_limit = 256;  // bytes of a frame; the reports have them all
-constexpr std::size_t red_limit = 20;       // red cases named again in the summary
+constexpr std::size_t red_limit = 20;       // red cases in full, by a line, and in the summary
 constexpr int widest_head = 100;
 constexpr Duration shortest_display = 20ms;
 const std::string erase_line = "\r\x1b[K";
@@ -62,18 +63,26 @@ std::string counts(const text::Tally& tally, const ConsoleOptions& options) {
   return text;
 }
 
-std::string red_cases(const text::Failures& failures) {
+std::string red_cases(const text::Failures& failures, const std::string& rest) {
   std::string text;
   const std::vector<const text::Finding*> repeated = failures.repeated();
   for (std::size_t i = 0; i < std::min(repeated.size(), red_limit); ++i)
     text += fmt::format("  {}\n", text::xml_line(text::to_string(*repeated[i])));
   if (repeated.size() > red_limit)
-    text += fmt::format("  ... and {} more findings\n", repeated.size() - red_limit);
+    text += fmt::format("  ... and {} more findings{}\n", repeated.size() - red_limit, rest);
   const std::vector<std::string> red = failures.single();
   for (std::size_t i = 0; i < std::min(red.size(), red_limit); ++i)
     text += fmt::format("  {}\n", red[i]);
-  if (red.size() > red_limit) text += fmt::format("  ... and {} more\n", red.size() - red_limit);
+  if (red.size() > red_limit)
+    text += fmt::format("  ... and {} more{}\n", red.size() - red_limit, rest);
   return text.empty() ? "" : "\nred:\n" + text;
+}
+
+/// Where each case is told in full.
+std::string place_of_all(const Summary& summary) {
+  for (const auto& [kind, path] : summary.reports)
+    if (kind == "html") return ", each in full in " + path;
+  return "";
 }
 
 /// "45 s", "3 min", "2 h".
@@ -128,7 +137,7 @@ std::string run_head(const RunInfo& run, const ConsoleOptions& options) {
   std::vector<std::string> items{"fieldproof " + run.tool_version, run.endpoint};
   if (!run.profile.empty()) items.push_back("profile " + run.profile);
   for (const auto& [name, value] : run.properties) items.push_back(name + '=' + value);
-  const int width = options.terminal ? std::min(options.width, widest_head) : widest_head;
+  const int width = options.width > 0 ? std::min(options.width, widest_head) : widest_head;
   Lines lines(static_cast<std::size_t>(width));
   for (const std::string& item : items) lines.add(text::xml_line(item));
   for (const results::DutInfo& dut : run.duts) {
@@ -139,7 +148,7 @@ std::string run_head(const RunInfo& run, const ConsoleOptions& options) {
 }
 
 std::string case_report(const results::CaseResult& result, const ConsoleOptions& options,
-                        const text::Finding* again) {
+                        const text::Finding* again, bool in_full) {
   const bool red = results::gates(result.verdict, options.gate);
   if (!red && !options.verbose) return "";
   std::string text =
@@ -148,13 +157,16 @@ std::string case_report(const results::CaseResult& result, const ConsoleOptions&
   const bool told = again && again->is_again() && !options.verbose;
   const std::string clause = result.section.empty() ? "" : result.section + ", ";
   text += told ? fmt::format("  ({}as {})\n", clause, again->first.front()) : "\n";
+  if (!in_full) return text;
   // A case that never started has nothing but its message.
   const bool executed = red || !result.exchange.empty();
+  const auto room = static_cast<std::size_t>(std::max(options.width - 2, 0));
   if (executed && !told)
-    text +=
-        text::indent(
-            text::case_block(result, {.limit = console_limit, .exchange = options.verbose}), 2) +
-        '\n';
+    text += text::indent(
+                text::case_block(
+                    result, {.limit = console_limit, .exchange = options.verbose, .width = room}),
+                2) +
+            '\n';
   return text;
 }
 
@@ -190,7 +202,7 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   if (const std::string timing = text::timing_text(summary.timing); !timing.empty())
     text += '\n' + timing;
   if (summary.soak) text += '\n' + results::soak_text(*summary.soak);
-  text += red_cases(summary.red);
+  text += red_cases(summary.red, place_of_all(summary));
   std::size_t width = 0;
   for (const auto& [kind, path] : summary.reports) width = std::max(width, kind.size());
   if (!summary.reports.empty()) text += '\n';
@@ -199,7 +211,13 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   return text + '\n' + outcome(summary, options);
 }
 
-Status ConsoleReport::begin(const RunInfo& run) { return print_(run_head(run, options_)), ok(); }
+std::string ConsoleReport::folded(const std::string& text) const {
+  return text::fold(text, static_cast<std::size_t>(options_.width));
+}
+
+Status ConsoleReport::begin(const RunInfo& run) {
+  return print_(folded(run_head(run, options_))), ok();
+}
 
 const text::Finding* ConsoleReport::count(const CaseResult& result) {
   summary_.tally.add(result);
@@ -207,10 +225,20 @@ const text::Finding* ConsoleReport::count(const CaseResult& result) {
   return gates(result.verdict, options_.gate) ? &summary_.red.add(result) : nullptr;
 }
 
+std::string ConsoleReport::red_case(const CaseResult& result, const text::Finding& finding) {
+  const bool in_full = !finding.is_again() && in_full_ < red_limit;
+  if (!in_full && in_lines_ > red_limit) return "";
+  ++(in_full ? in_full_ : in_lines_);
+  return in_lines_ > red_limit && !in_full
+             ? "further failures are counted; the reports have each in full\n"
+             : case_report(result, options_, &finding, in_full);
+}
+
 Status ConsoleReport::add(const Delivery& one) {
   const text::Finding* finding = count(*one);
-  if (const std::string text = case_report(*one, options_, finding); !text.empty())
-    print_(progress_.erase() + text);
+  const std::string text = finding && !options_.verbose ? red_case(*one, *finding)
+                                                        : case_report(*one, options_, finding);
+  if (!text.empty()) print_(progress_.erase() + folded(text));
   return ok();
 }
 
@@ -218,7 +246,7 @@ Status ConsoleReport::end(const RunLog& log) {
   if (log.end) summary_.end = *log.end;
   summary_.timing = timing_.rows();
   summary_.soak = log.soak;
-  print_(run_summary(summary_, options_));
+  print_(folded(run_summary(summary_, options_)));
   return ok();
 }
 

@@ -19,17 +19,18 @@ struct ConsoleOptions {
   bool verbose = false;   // -v: every case, with its exchange
   bool terminal = false;  // a moving progress line, and colour
   bool colour = true;     // on a terminal; false where NO_COLOR is set
-  int width = 80;         // of the terminal
+  int width = 0;          // of the terminal: no line is wider; 0: a log, whose lines stay whole
 };
 
-/// What a run is about, before its first case: in lines of at most 100 columns, or of the
+/// What a run is about, before its first case: in lines of at most 100 columns, and of the
 /// terminal's width.
 std::string run_head(const results::RunInfo& run, const ConsoleOptions& options = {});
 
 /// A case as it happens: one line, and the block of case_text.hpp, when it turns the gate red or
-/// with -v; else nothing. Without the block where `again` is the finding that tells it in full.
+/// with -v; else nothing. Without the block where `again` is the finding that tells it in full, or
+/// where it shall be a line.
 std::string case_report(const results::CaseResult& result, const ConsoleOptions& options,
-                        const text::Finding* again = nullptr);
+                        const text::Finding* again = nullptr, bool in_full = true);
 
 /// The one line that moves. Only on a terminal: a log gets the cases that turn the gate red, and
 /// the summary.
@@ -78,7 +79,7 @@ class ConsoleReport final : public results::Sink {
     print_(progress_.line(summary_.tally, total, next_id, elapsed));
   }
   /// A line for the engineer between the cases.
-  void say(const std::string& line) { print_(progress_.erase() + line + '\n'); }
+  void say(const std::string& line) { print_(progress_.erase() + folded(line + '\n')); }
   void erase_progress() { print_(progress_.erase()); }
 
   Status begin(const results::RunInfo& run) override;
@@ -94,11 +95,16 @@ class ConsoleReport final : public results::Sink {
   const text::Tally& tally() const { return summary_.tally; }
 
  private:
+  /// What is told of one more red case: of a flood the first alone.
+  std::string red_case(const results::CaseResult& result, const text::Finding& finding);
+  std::string folded(const std::string& text) const;
+
   ConsoleOptions options_;
   Progress progress_;
   Print print_;
   Summary summary_;
   text::TimingTable timing_;
+  std::size_t in_full_ = 0, in_lines_ = 0;  // red cases that were told so
 };
 
 }  // namespace fieldproof::reports

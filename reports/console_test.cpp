@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const ConsoleOptions terminal{.terminal = true};
+const ConsoleOptions terminal{.terminal = true, .width = 80};
 
 TEST(RunHead, SaysWhatIsTested) {
   EXPECT_EQ(
@@ -250,7 +250,58 @@ TEST(RunSummary, TellsTheSameFailureOnce) {
                         "  b/other\n"));
 }
 
+TEST(CaseReport, ALineOfItsOwnWhereItShallBeOne) {
+  text::Failures failures;
+  EXPECT_EQ(case_report(samples::failure(), {}, &failures.add(samples::failure()), false),
+            "FAIL          xgt_cnet/rss/one_word  " + samples::failure().message + "\n");
+}
+
+TEST(RunSummary, SaysWhereTheRestIs) {
+  Summary summary;
+  for (int i = 0; i < 25; ++i)
+    summary.red.add(samples::with(Verdict::fail, "a/" + std::to_string(i + 1),
+                                  std::string(1, static_cast<char>('k' + i % 10)) + " is wrong"));
+  summary.reports = {{"html", "out/report.html"}};
+  EXPECT_THAT(run_summary(summary, {}),
+              HasSubstr("  ... and 5 more, each in full in out/report.html\n"));
+}
+
 std::string printed;
+
+std::size_t count_in_printed(const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = printed.find(text, at)) != printed.npos; ++at) ++count;
+  return count;
+}
+
+/// 60 failures of 30 kinds.
+void print_many(const ConsoleOptions& options) {
+  printed.clear();
+  ConsoleReport report(options, [](const std::string& text) { printed += text; });
+  for (int i = 0; i < 60; ++i) {
+    results::CaseResult result = samples::failure();
+    result.id = "a/" + std::to_string(i);
+    result.message = std::string(1 + static_cast<std::size_t>(i % 30), 'k') + " is wrong";
+    [[maybe_unused]] const Status done = report.add(results::Delivery(result));
+  }
+}
+
+TEST(ConsoleReport, OfAFloodOnlyTheFirstAreTold) {
+  print_many({});
+  EXPECT_EQ(count_in_printed("\n  clause  "), 20u) << "in full";
+  EXPECT_EQ(count_in_printed("FAIL "), 40u) << "and as many by a line";
+  EXPECT_EQ(count_in_printed("further failures are counted; the reports have each in full\n"), 1u);
+  print_many({.verbose = true});
+  EXPECT_EQ(count_in_printed("\n  clause  "), 60u);
+}
+
+TEST(ConsoleReport, KeepsToTheTerminal) {
+  print_many({.width = 60});
+  for (std::size_t at = 0, end = 0; (end = printed.find('\n', at)) != printed.npos; at = end + 1)
+    EXPECT_LE(end - at, 60u) << printed.substr(at, end - at);
+  EXPECT_THAT(printed, HasSubstr("  replay    fieldproof run --filter xgt_cnet/rss/one_word \\\n"
+                                 "              --endpoint emulator:xbc-h\n"));
+}
 
 TEST(ConsoleReport, TellsTheFirstOfAKindInFull) {
   const auto run = [](bool verbose) {

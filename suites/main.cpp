@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -6,6 +7,14 @@
 #include <functional>
 
 #include "harness/cli/commands.hpp"
+#include "harness/cli/completion_values.hpp"
+#include "harness/cli/version.hpp"
+#include "harness/run/run_report.hpp"
+#include "harness/system/terminal.hpp"
+#include "harness/usage/completion_scripts.hpp"
+#include "harness/usage/help.hpp"
+#include "harness/usage/man_page.hpp"
+#include "harness/usage/option_groups.hpp"
 #include "src/base/spelling.hpp"
 #include "suites/protocols.hpp"
 
@@ -15,10 +24,9 @@ using namespace fieldproof;
 
 /// Appears in every help text, so that a pipeline's author need not open the README.
 constexpr const char* exit_codes =
-    "Exit codes: 0 gate met, 1 gate not met (conformance failed, or less judged than --qualify or\n"
+    "Exit codes: 0 gate met, 1 gate not met (conformance failed, or less judged than --qualify or "
     "--min-judged asks), 2 usage or invalid input, 3 bench trouble, 4 nothing selected or "
-    "executed,\n"
-    "77 hardware absent (--skip-absent), 130 interrupted.";
+    "executed, 77 hardware absent (--skip-absent), 130 interrupted.";
 
 /// "90%" or "90".
 double percent_of(const std::string& text) {
@@ -250,12 +258,29 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
+/// Prose: as wide as the terminal, up to a width that reads well.
+std::size_t help_width() {
+  const int columns = os::terminal_columns(STDOUT_FILENO);
+  return columns == 0 ? 80 : static_cast<std::size_t>(std::clamp(columns, 40, 100));
+}
+
+/// `fieldproof __complete WORD...`, which the scripts of the shells ask.
+int complete_command(const CLI::App& app, const std::vector<std::string>& words) {
+  run::print(usage::to_string(
+      usage::complete(usage::usage_of(app), words, cli::completion_values(suites::protocols()))));
+  return run::exit_code::ok;
+}
+
 int run_tool(int argc, char** argv) {
   CLI::App app(
       "fieldproof proves, clause by clause of the manual, that a PLC communication module speaks "
       "its protocols.",
       "fieldproof");
-  app.set_version_flag("--version", FIELDPROOF_VERSION);
+  app.formatter_fn([](const CLI::App* one, const std::string&, CLI::AppFormatMode) {
+    const CLI::App* parent = one->get_parent();
+    return usage::help_text(usage::usage_of(*one, parent ? parent->get_name() : ""), help_width());
+  });
+  app.set_version_flag("--version", [] { return cli::version_text(suites::protocols()); });
   app.require_subcommand(1);
   app.footer(exit_codes);
   std::function<int()> chosen;
@@ -263,6 +288,7 @@ int run_tool(int argc, char** argv) {
   run::RunOptions run;
   CLI::App* run_app = app.add_subcommand("run", "Run the cases against an endpoint and judge it");
   add_run(*run_app, run);
+  usage::group_options(*run_app);
   run_app->footer(exit_codes);
   run.command = command_line(argc, argv);
 
@@ -270,6 +296,7 @@ int run_tool(int argc, char** argv) {
   CLI::App* explore_app = app.add_subcommand(
       "explore", "Requests that no vector has, against the device and our own model of it");
   add_explore(*explore_app, explore);
+  usage::group_options(*explore_app);
   explore_app->footer(exit_codes);
   explore.run.command = command_line(argc, argv);
 
@@ -444,6 +471,13 @@ int run_tool(int argc, char** argv) {
       "Exit codes: 0 all is as it was, 2 usage, 3 something could not be put back, 130 "
       "interrupted.");
 
+  std::string shell;
+  CLI::App* completion_app = app.add_subcommand("completion", "Print the completion of a shell");
+  completion_app->add_option("shell", shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember(std::vector<std::string>(usage::shells.begin(), usage::shells.end())));
+  CLI::App* man_app = app.add_subcommand("man", "Print the man page");
+
   run_app->callback([&] {
     const std::string wrong = unknown_argument(*run_app, run_app->remaining(), run.gtest_arguments);
     chosen = [&run, wrong] {
@@ -471,8 +505,21 @@ int run_tool(int argc, char** argv) {
       [&] { chosen = [&] { return cli::judge_command(judge, suites::protocols()); }; });
   restore_app->callback(
       [&] { chosen = [&] { return cli::restore_command(restore, suites::protocols()); }; });
+  completion_app->callback([&] {
+    chosen = [&] {
+      return run::print(usage::completion_script(shell, app.get_name())), run::exit_code::ok;
+    };
+  });
+  man_app->callback([&] {
+    chosen = [&] {
+      run::print(usage::man_page(usage::usage_of(app), {FIELDPROOF_VERSION, FIELDPROOF_RELEASED}));
+      return run::exit_code::ok;
+    };
+  });
   report_app->callback([&] { chosen = [&] { return cli::report_command(report); }; });
 
+  if (argc > 1 && std::string_view(argv[1]) == "__complete")
+    return complete_command(app, {argv + 2, argv + argc});
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,7 +12,7 @@ namespace fieldproof::cli {
 
 Status report_comparison(const compare::ComparisonSet& set, const std::string& html,
                          const std::string& junit) {
-  run::print(compare::compare_text(set));
+  run::tell(compare::compare_text(set));
   if (!html.empty())
     if (Status written = compare::write_compare_html(set, html); !written) return written;
   if (!junit.empty())
@@ -34,8 +34,8 @@ int compare_command(const CompareOptions& options) {
   if (const Status reported = report_comparison(set, options.html, options.junit); !reported)
     return run::complain(reported.error().message, run::exit_code::trouble);
   const int code = set.worse() ? run::exit_code::failed : run::exit_code::ok;
-  run::print(fmt::format("\nexit {}: {}\n", code,
-                         set.worse() ? "something got worse" : "nothing got worse"));
+  run::tell(fmt::format("\nexit {}: {}\n", code,
+                        set.worse() ? "something got worse" : "nothing got worse"));
   return code;
 }
 

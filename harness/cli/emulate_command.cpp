@@ -11,6 +11,7 @@
 #include "harness/monitored_device.hpp"
 #include "harness/notation/notation.hpp"
 #include "harness/protocol.hpp"
+#include "harness/run/run_report.hpp"
 #include "harness/system/interrupt.hpp"
 #include "src/plc/multi_drop.hpp"
 
@@ -21,8 +22,9 @@ using plc::EmulatedDevice;
 namespace {
 
 void print_traffic(const hosting::Traffic& traffic) {
-  fmt::print("{}\n", hosting::monitor_line(traffic));
-  if (!traffic.bytes.empty()) fmt::print("    {}\n", notation::print_bytes(traffic.bytes));
+  run::tell(fmt::format("{}\n", hosting::monitor_line(traffic)));
+  if (!traffic.bytes.empty())
+    run::tell(fmt::format("    {}\n", notation::print_bytes(traffic.bytes)));
   std::fflush(stdout);
 }
 

@@ -11,9 +11,10 @@ int errata_command(const ErrataOptions& options, const harness::Protocols& proto
   std::vector<results::ErratumInfo> errata;
   for (const vectors::Erratum& one : set->errata) errata.push_back(run::erratum_info(one));
   reports::sort_errata(errata);
-  run::print(options.json       ? reports::errata_json(errata)
-             : options.markdown ? reports::errata_markdown(errata)
-                                : reports::errata_text(errata));
+  if (options.json || options.markdown)
+    run::print(options.json ? reports::errata_json(errata) : reports::errata_markdown(errata));
+  else
+    run::tell(reports::errata_text(errata));
   return run::exit_code::ok;
 }
 

@@ -7,6 +7,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/notation/frame_template.hpp"
 #include "harness/protocol.hpp"
+#include "harness/run/run_report.hpp"
 
 namespace fieldproof::cli {
 
@@ -115,16 +116,16 @@ int frame_command(const FrameOptions& options, const harness::Protocols& protoco
   const Result<FrameReading> reading = best_reading(options, protocols);
   if (!reading) return run::complain(reading.error().message, run::exit_code::usage);
   const ByteView bytes = reading->bytes;
-  fmt::print("{}\n{}\n{}, {} bytes\n\n", notation::print_bytes(bytes), to_hex(bytes),
-             reading->protocol->name(), bytes.size());
+  run::tell(fmt::format("{}\n{}\n{}, {} bytes\n\n", notation::print_bytes(bytes), to_hex(bytes),
+                        reading->protocol->name(), bytes.size()));
   for (const harness::Field& field : reading->fields) {
     const std::string hex = to_hex(bytes.subspan(field.offset, field.size));
-    fmt::print("{:>4}  {:<22} {:<30} {}\n", field.offset, field.name, field.text,
-               hex.size() > 47 ? hex.substr(0, 44) + "..." : hex);
-    if (!field.problem.empty()) fmt::print("      {:<22} ! {}\n", "", field.problem);
+    run::tell(fmt::format("{:>4}  {:<22} {:<30} {}\n", field.offset, field.name, field.text,
+                          hex.size() > 47 ? hex.substr(0, 44) + "..." : hex));
+    if (!field.problem.empty()) run::tell(fmt::format("      {:<22} ! {}\n", "", field.problem));
   }
   const std::string end = problem_of_end(*reading->protocol, bytes);
-  if (!end.empty()) fmt::print("      {:<22} ! {}\n", "", end);
+  if (!end.empty()) run::tell(fmt::format("      {:<22} ! {}\n", "", end));
   return reading->problems() == 0 && end.empty() ? run::exit_code::ok : run::exit_code::failed;
 }
 

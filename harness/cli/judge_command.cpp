@@ -160,11 +160,11 @@ int judge_command(const JudgeOptions& options, const harness::Protocols& protoco
   if (const Status begun = report->begin(info_of(options, *plan)); !begun)
     return run::complain(begun.error().message, run::exit_code::trouble);
   const News news = judge_all(options, *plan, *report, protocols);
-  run::print(list("\nverdicts that changed", news.changed));
-  if (!news.not_judged.empty()) run::print(list("\nnot judged again", news.not_judged));
+  run::tell(list("\nverdicts that changed", news.changed));
+  if (!news.not_judged.empty()) run::tell(list("\nnot judged again", news.not_judged));
   if (news.not_executed > 0)
-    run::print(fmt::format("\nnot executed when this was recorded: {} SKIP or BLOCKED\n",
-                           news.not_executed));
+    run::tell(fmt::format("\nnot executed when this was recorded: {} SKIP or BLOCKED\n",
+                          news.not_executed));
   return report->finish({});
 }
 

@@ -7,6 +7,7 @@
 #include "harness/bench/profile.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/paths.hpp"
+#include "harness/run/run_report.hpp"
 #include "harness/run/tool_vectors.hpp"
 #include "harness/vectors/decisions.hpp"
 #include "harness/vectors/errata.hpp"
@@ -99,9 +100,10 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
                          run::exit_code::usage);
   if (options.lock && quotes.empty())
     std::ofstream(folder / "quotes.lock") << vectors::quotes_lock(set);
-  for (const std::string& problem : problems) fmt::print("{}\n", problem);
-  fmt::print("{} cases, {} tables, {} statements, {} errata: {} problems\n", set.cases.size(),
-             set.tables.size(), set.statements.size(), set.errata.size(), problems.size());
+  for (const std::string& problem : problems) run::tell(fmt::format("{}\n", problem));
+  run::tell(fmt::format("{} cases, {} tables, {} statements, {} errata: {} problems\n",
+                        set.cases.size(), set.tables.size(), set.statements.size(),
+                        set.errata.size(), problems.size()));
   return problems.empty() ? run::exit_code::ok : run::exit_code::usage;
 }
 

@@ -1,13 +1,15 @@
 #include <fmt/format.h>
-#include <cstdio>
+#include <unistd.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/cli/case_lines.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/coverage.hpp"
 #include "harness/cli/redundant.hpp"
 #include "harness/exchange/prepared_case.hpp"
 #include "harness/run/run_report.hpp"
 #include "harness/run/tool_vectors.hpp"
+#include "harness/system/terminal.hpp"
 #include "reports/coverage_html.hpp"
 
 namespace fieldproof::cli {
@@ -139,9 +141,11 @@ int list_coverage(const ListOptions& options, const vectors::VectorSet& set) {
   if (!options.html.empty())
     if (const Status written = reports::write_coverage_html(coverage, options.html); !written)
       return run::complain(written.error().message, run::exit_code::trouble);
-  run::print(options.json       ? reports::coverage_json(coverage)
-             : options.markdown ? reports::coverage_markdown(coverage)
-                                : reports::coverage_text(coverage));
+  if (options.json || options.markdown)
+    run::print(options.json ? reports::coverage_json(coverage)
+                            : reports::coverage_markdown(coverage));
+  else
+    run::tell(reports::coverage_text(coverage));
   const reports::CoverageCounts counts = reports::count_statements(coverage);
   const double percent = counts.percent(coverage.with_results());
   if (percent < options.min_coverage)
@@ -160,7 +164,7 @@ int list_redundant(const ListOptions& options, const vectors::VectorSet& set) {
         fmt::format("there is no {}, which says what our broken devices show of these cases",
                     (folder / "faults.json").string()),
         run::exit_code::usage);
-  run::print(redundant_text(set, *faults));
+  run::tell(redundant_text(set, *faults));
   return run::exit_code::ok;
 }
 
@@ -184,25 +188,23 @@ int list_command(const ListOptions& options, const harness::Protocols& protocols
   const vectors::VectorSet& set = *loaded;
   if (options.coverage) return list_coverage(options, set);
   if (options.redundant) return list_redundant(options, set);
-  ordered_json all = ordered_json::array();
-  std::size_t count = 0;
-  for (const vectors::Case& one : set.cases) {
-    if (!vectors::has_role(one, options.role)) continue;
-    ++count;
-    if (options.json)
-      all.push_back(case_json(one, protocols));
-    else
-      fmt::print("{:<58} {:<6} {:<8} {}\n", one.id, one.level, one.basis, one.title);
+  std::vector<const vectors::Case*> listed;
+  for (const vectors::Case& one : set.cases)
+    if (vectors::has_role(one, options.role)) listed.push_back(&one);
+  if (options.json) {
+    ordered_json all = ordered_json::array();
+    for (const vectors::Case* one : listed) all.push_back(case_json(*one, protocols));
+    run::print(all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n');
   }
-  if (options.json)
-    fmt::print("{}\n", all.dump(2, ' ', false, ordered_json::error_handler_t::replace));
-  if (count == 0)
+  if (listed.empty())
     return run::complain(
         fmt::format("no case{} matches '{}'{}; `fieldproof list` shows them all",
                     options.role.empty() ? "" : " of role " + options.role, options.filter,
                     run::meant_filter(options.vectors, protocols, options.filter)),
         run::exit_code::nothing);
-  if (!options.json) fmt::print("{} cases\n", count);
+  if (!options.json)
+    run::print(case_lines(listed, os::terminal_columns(STDOUT_FILENO)) +
+               fmt::format("{} cases\n", listed.size()));
   return run::exit_code::ok;
 }
 

@@ -14,6 +14,7 @@
 #include "harness/paths.hpp"
 #include "harness/probe/conclusion.hpp"
 #include "harness/probe/target.hpp"
+#include "harness/run/run_report.hpp"
 #include "harness/system/interrupt.hpp"
 
 namespace fieldproof::cli {
@@ -146,13 +147,16 @@ class ProgressLine {
 void report(const std::vector<Finding>& findings, const EndpointName& endpoint, bool settable) {
   for (const Finding& finding : findings) {
     const bool where = finding.trial.protocol && settable;
-    fmt::print("{:<13} {}{}\n", probe::to_string(finding.kind),
-               where ? line::to_string(finding.trial.line) + ", " : "", finding.text);
-    if (!finding.advice.empty()) fmt::print("{:<13} {}\n", "what to do", finding.advice);
+    run::tell(fmt::format("{:<13} {}{}\n", probe::to_string(finding.kind),
+                          where ? line::to_string(finding.trial.line) + ", " : "", finding.text));
+    if (!finding.advice.empty())
+      run::tell(fmt::format("{:<13} {}\n", "what to do", finding.advice));
     if (finding.kind != Finding::Kind::device) continue;
     if (settable)
-      fmt::print("{:<13} one or two stop bits: they read the same, see the module's setting\n", "");
-    fmt::print("{:<13} {}\n", "go on with", probe_run_line(endpoint, finding.trial, settable));
+      run::tell(fmt::format(
+          "{:<13} one or two stop bits: they read the same, see the module's setting\n", ""));
+    run::tell(fmt::format("{:<13} {}\n", "go on with",
+                          probe_run_line(endpoint, finding.trial, settable)));
   }
 }
 
@@ -193,7 +197,7 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
   }
   const std::vector<probe::Trial> plan = probe::make_plan(*space, protocols);
   const Duration longest = probe::longest_time(plan, timing.wait) + timing.listen;
-  fmt::print("{}", head(options, probe::filled(*space, protocols), plan, longest));
+  run::tell(fmt::format("{}", head(options, probe::filled(*space, protocols), plan, longest)));
   std::fflush(stdout);
 
   const ProgressLine progress(longest / static_cast<Duration::rep>(plan.size()), space->settable);
@@ -207,9 +211,10 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
   progress.erase();
   if (!search) return run::complain(search.error().message, run::exit_code::trouble);
   for (const std::string& refused : search->not_offered)
-    fmt::print("{:<13} {}\n", "not tried", refused);
+    run::tell(fmt::format("{:<13} {}\n", "not tried", refused));
   if (search->interrupted)
-    fmt::print("{:<13} after {} of {}\n", "interrupted", search->trials, plan.size() + 1);
+    run::tell(
+        fmt::format("{:<13} after {} of {}\n", "interrupted", search->trials, plan.size() + 1));
   const std::vector<Finding> findings = probe::conclude(*search, timing);
   report(findings, *endpoint, space->settable);
   for (const Finding& finding : findings)

@@ -10,6 +10,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/paths.hpp"
 #include "harness/probe/target.hpp"
+#include "harness/run/run_report.hpp"
 
 namespace fieldproof::cli {
 
@@ -56,7 +57,7 @@ int print_probed_fingerprint(const EndpointName& endpoint, const probe::Trial& d
     return run::complain(found.error().message, found.error().interrupted
                                                     ? run::exit_code::interrupted
                                                     : run::exit_code::trouble);
-  fmt::print("{:<13} {}\n", "fingerprint", bench::to_string(*found));
+  run::tell(fmt::format("{:<13} {}\n", "fingerprint", bench::to_string(*found)));
   return run::exit_code::ok;
 }
 

@@ -8,6 +8,7 @@
 #include "harness/cli/probe_found.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/probe/servers.hpp"
+#include "harness/run/run_report.hpp"
 #include "harness/system/interrupt.hpp"
 #include "harness/system/socket_address.hpp"
 
@@ -50,12 +51,13 @@ Wanted by_port(const EndpointName& endpoint, const harness::Protocols& protocols
 
 void report(const std::vector<ServerFinding>& findings, const EndpointName& endpoint) {
   for (const ServerFinding& one : findings) {
-    fmt::print("{:<13} {}\n", probe::to_string(one.kind), one.text);
-    for (const std::string& limit : one.limits) fmt::print("{:<13} {}\n", "limit", limit);
-    if (!one.advice.empty()) fmt::print("{:<13} {}\n", "what to do", one.advice);
+    run::tell(fmt::format("{:<13} {}\n", probe::to_string(one.kind), one.text));
+    for (const std::string& limit : one.limits)
+      run::tell(fmt::format("{:<13} {}\n", "limit", limit));
+    if (!one.advice.empty()) run::tell(fmt::format("{:<13} {}\n", "what to do", one.advice));
     if (one.is_server())
-      fmt::print("{:<13} {}\n", "go on with",
-                 probe_run_line(endpoint, {{}, one.protocol, 1}, false));
+      run::tell(fmt::format("{:<13} {}\n", "go on with",
+                            probe_run_line(endpoint, {{}, one.protocol, 1}, false)));
   }
 }
 
@@ -89,8 +91,8 @@ int probe_servers(const ProbeOptions& options, const EndpointName& endpoint, con
   os::catch_interrupts();
   std::vector<std::string_view> names;
   for (const Protocol* one : wanted) names.push_back(one->name());
-  fmt::print("probing {}: {}. Only reads are sent, nothing is written.\n", options.endpoint,
-             fmt::join(names, ", "));
+  run::tell(fmt::format("probing {}: {}. Only reads are sent, nothing is written.\n",
+                        options.endpoint, fmt::join(names, ", ")));
   std::fflush(stdout);
   const Duration wait = std::chrono::milliseconds(options.wait_ms);
   const auto open = [&](const Protocol& protocol) {

@@ -6,6 +6,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/exchange/exchange.hpp"
+#include "harness/run/run_report.hpp"
 #include "harness/safety/saved_memory.hpp"
 #include "harness/system/interrupt.hpp"
 
@@ -66,11 +67,11 @@ class Restoration {
     for (auto one = entries.rbegin(); one != entries.rend(); ++one) {
       const Status done = put_back(*one);
       if (done)
-        fmt::print("restored      {} = {} on {}\n", one->address, one->value,
-                   endpoint_of(one->device));
+        run::tell(fmt::format("restored      {} = {} on {}\n", one->address, one->value,
+                              endpoint_of(one->device)));
       else
-        fmt::print("NOT RESTORED  {} = {} on {}: {}\n", one->address, one->value,
-                   endpoint_of(one->device), done.error().message);
+        run::tell(fmt::format("NOT RESTORED  {} = {} on {}: {}\n", one->address, one->value,
+                              endpoint_of(one->device), done.error().message));
       all_ = all_ && done;
     }
     return all_;
@@ -116,7 +117,7 @@ int restore_command(const RestoreOptions& options, const harness::Protocols& pro
   Result<safety::Journal> journal = safety::Journal::open(options.journal);
   if (!journal) return run::complain(journal.error().message, run::exit_code::usage);
   if (journal->open_entries().empty()) {
-    fmt::print("nothing to put back: {} has no open entry\n", options.journal);
+    run::tell(fmt::format("nothing to put back: {} has no open entry\n", options.journal));
     return run::exit_code::ok;
   }
   os::catch_interrupts();

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 #include <algorithm>
 #include <chrono>
 #include <deque>
@@ -10,6 +11,7 @@
 #include "harness/bench/benches.hpp"
 #include "harness/bench/runner.hpp"
 #include "harness/bench/watchdog.hpp"
+#include "harness/cli/case_lines.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/compare_command.hpp"
 #include "harness/judge/judge.hpp"
@@ -26,6 +28,7 @@
 #include "harness/run/timestamp.hpp"
 #include "harness/run/tool_vectors.hpp"
 #include "harness/system/interrupt.hpp"
+#include "harness/system/terminal.hpp"
 #include "reports/results/ndjson.hpp"
 
 namespace fieldproof::cli {
@@ -328,9 +331,9 @@ class Run {
 };
 
 int dry_run(const RunPlan& plan) {
-  for (const Case* one : plan.selected) fmt::print("{:<58} {}\n", one->id, one->title);
-  fmt::print("{} cases would run on {}:{}\n", plan.selected.size(), plan.endpoint.kind,
-             plan.endpoint.target);
+  run::print(case_lines(plan.selected, os::terminal_columns(STDOUT_FILENO)));
+  run::tell(fmt::format("{} cases would run on {}:{}\n", plan.selected.size(), plan.endpoint.kind,
+                        plan.endpoint.target));
   return run::exit_code::ok;
 }
 

@@ -1,7 +1,6 @@
 #include "harness/run/run_report.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 #include <cstdio>
 #include <cstdlib>
@@ -9,11 +8,13 @@
 
 #include "harness/run/exit_code.hpp"
 #include "harness/run/timestamp.hpp"
+#include "harness/system/terminal.hpp"
 #include "reports/capture.hpp"
 #include "reports/csv.hpp"
 #include "reports/html/html.hpp"
 #include "reports/json_report.hpp"
 #include "reports/junit.hpp"
+#include "reports/text/fold.hpp"
 
 namespace fieldproof::run {
 
@@ -28,6 +29,10 @@ namespace fs = std::filesystem;
 void print(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (!text.empty()) std::fflush(stdout);
+}
+
+void tell(const std::string& text) {
+  print(text::fold(text, static_cast<std::size_t>(os::terminal_columns(STDOUT_FILENO))));
 }
 
 Result<ReportPaths> make_report_paths(const std::string& out, const std::string& json,
@@ -66,9 +71,7 @@ reports::ConsoleOptions console_options(const results::Gate& gate, bool verbose)
   console.verbose = verbose;
   console.terminal = isatty(STDOUT_FILENO) != 0;
   console.colour = std::getenv("NO_COLOR") == nullptr;
-  winsize size{};
-  if (console.terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20)
-    console.width = size.ws_col;
+  console.width = os::terminal_columns(STDOUT_FILENO);
   return console;
 }
 

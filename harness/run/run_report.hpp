@@ -27,6 +27,8 @@ results::Sinks sinks_for(const ReportPaths& paths);
 reports::ConsoleOptions console_options(const results::Gate& gate, bool verbose);
 
 void print(const std::string& text);
+/// What a person reads: in lines that the terminal has room for.
+void tell(const std::string& text);
 
 class RunReport {
  public:

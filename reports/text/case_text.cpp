@@ -7,8 +7,10 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "reports/text/fold.hpp"
 #include "reports/text/frame_cells.hpp"
 #include "reports/text/tally.hpp"
 #include "reports/text/xml_text.hpp"
@@ -20,8 +22,19 @@ using results::Event;
 
 namespace {
 
-constexpr std::size_t bytes_a_line = 16;
+constexpr std::size_t label_width = 10;
+constexpr std::size_t dump_of_16 = 55;       // columns, with offsets
 constexpr std::size_t longest_frame = 4096;  // bytes that are shown in full
+
+std::size_t bytes_a_line(const CaseTextOptions& options) {
+  return options.width == 0 || options.width >= dump_of_16 ? 16 : 8;
+}
+
+/// Where `columns` of each line are taken by what stands left of it.
+CaseTextOptions beside(CaseTextOptions options, std::size_t columns) {
+  if (options.width > 0) options.width -= std::min(columns, options.width - 1);
+  return options;
+}
 
 /// `before`: bytes of the frame that stand before the cells.
 std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t last, bool offsets,
@@ -37,19 +50,20 @@ std::string dump_line(const FrameCells& cells, std::size_t first, std::size_t la
   return text + '\n' + (marks.empty() ? "" : marks + '\n');
 }
 
-std::string dump_lines(const FrameCells& cells, std::size_t end, bool offsets,
+std::string dump_lines(const FrameCells& cells, std::size_t end, std::size_t a_line, bool offsets,
                        std::size_t before = 0) {
   std::string text;
-  for (std::size_t first = 0; first < end; first += bytes_a_line)
-    text += dump_line(cells, first, std::min(first + bytes_a_line, end), offsets, before);
+  for (std::size_t first = 0; first < end; first += a_line)
+    text += dump_line(cells, first, std::min(first + a_line, end), offsets, before);
   return text;
 }
 
 /// Of a flood: both ends, how much it was, and what tells it from another one.
-std::string dump(const FrameCells& head, std::size_t kept, const results::Extract& extract) {
-  return dump_lines(head, kept, true) +
+std::string dump(const FrameCells& head, std::size_t kept, const results::Extract& extract,
+                 std::size_t a_line) {
+  return dump_lines(head, kept, a_line, true) +
          fmt::format("... {} bytes left out\n", grouped(extract.left_out(kept))) +
-         dump_lines(cells_of(extract.tail), extract.tail.size(), true,
+         dump_lines(cells_of(extract.tail), extract.tail.size(), a_line, true,
                     extract.count - extract.tail.size()) +
          fmt::format("{} bytes in all, sha256 {}\n", grouped(extract.count), extract.sha256);
 }
@@ -57,26 +71,22 @@ std::string dump(const FrameCells& head, std::size_t kept, const results::Extrac
 /// `bytes`: those of the cells.
 std::string dump(const FrameCells& cells, ByteView bytes, const results::Extract& extract,
                  const CaseTextOptions& options, bool offsets) {
-  if (!extract.empty()) return dump(cells, cells.size(), extract);
+  const std::size_t a_line = bytes_a_line(options);
+  if (!extract.empty()) return dump(cells, cells.size(), extract, a_line);
   if (cells.size() > longest_frame) {
     Bytes head(bytes.begin(), bytes.end());
     const results::Extract of_it = results::cut(head, longest_frame);
-    return dump(cells, head.size(), of_it);
+    return dump(cells, head.size(), of_it, a_line);
   }
   const std::size_t shown =
       options.limit == 0 ? cells.size() : std::min(cells.size(), options.limit);
-  std::string text = dump_lines(cells, shown, offsets);
+  std::string text = dump_lines(cells, shown, a_line, offsets);
   if (shown < cells.size()) text += fmt::format("... {} more bytes\n", cells.size() - shown);
   return text;
 }
 
-std::size_t characters(std::string_view utf8) {
-  const auto starts_one = [](char c) { return (static_cast<Byte>(c) & 0xC0u) != 0x80u; };
-  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), starts_one));
-}
-
 std::string padded(const std::string& text, std::size_t width) {
-  const std::size_t have = characters(text);
+  const std::size_t have = columns_of(text);
   return have < width ? text + std::string(width - have, ' ') : text;
 }
 
@@ -86,7 +96,7 @@ class Block {
   void add(std::string_view label, std::string_view lines) {
     while (!lines.empty()) {
       const std::size_t end = std::min(lines.find('\n'), lines.size());
-      if (end > 0) text_ += fmt::format("{:<10}{}", label, lines.substr(0, end));
+      if (end > 0) text_ += fmt::format("{:<{}}{}", label, label_width, lines.substr(0, end));
       text_ += '\n';
       lines.remove_prefix(std::min(end + 1, lines.size()));
       label = "";
@@ -99,19 +109,24 @@ class Block {
   std::string text_;
 };
 
-/// The frame that the judged answer answers: the last sent before it; without an answer, the last
-/// sent.
-const Event* request_of(const CaseResult& result) {
+/// What was judged, in the exchange. nullptr: not there.
+struct Judged {
+  const Event* request = nullptr;  // that the answer answers; without an answer, the last sent
+  const Event* answer = nullptr;
+};
+
+Judged judged_in(const CaseResult& result) {
+  Judged judged;
   const Event* request = nullptr;
-  const Event* before_answer = nullptr;
   for (const Event& event : result.exchange) {
     if (event.kind == Event::Kind::sent) request = &event;
     const bool came = event.kind == Event::Kind::received && !event.bytes.empty();
     if (came && event.bytes == result.received_bytes && event.extract == result.received_extract &&
         request != nullptr)
-      before_answer = request;
+      judged = {request, &event};
   }
-  return before_answer != nullptr ? before_answer : request;
+  if (!judged.request) judged.request = request;
+  return judged;
 }
 
 std::string clause(const CaseResult& result) {
@@ -131,27 +146,50 @@ std::string frame(const std::string& notation, const std::string& bytes,
   return (notation.empty() ? "" : shorten(notation, options) + '\n') + bytes;
 }
 
+using DifferenceRow = std::array<std::string, 4>;
+
+/// Cells side by side, each in lines of its column's width; the hint, where it does not fit beside
+/// them, in a line of its own.
+std::string difference_row(const DifferenceRow& row, const std::array<std::size_t, 3>& widths,
+                           const CaseTextOptions& options) {
+  std::array<std::string, 3> cells;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    cells[i] = options.width == 0 ? row[i] : fold(row[i], widths[i]);
+  std::string text, hint = row[3];
+  while (std::ranges::any_of(cells, [](const std::string& cell) { return !cell.empty(); })) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::size_t end = std::min(cells[i].find('\n'), cells[i].size());
+      line += padded(cells[i].substr(0, end), widths[i]) + "  ";
+      cells[i].erase(0, end + 1);
+    }
+    if (options.width == 0 || columns_of(line + hint) <= options.width)
+      line += std::exchange(hint, "");
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
+  return hint.empty() ? text : text + fold("  " + hint, options.width) + '\n';
+}
+
 std::string differences(const CaseResult& result, const CaseTextOptions& options) {
-  using Row = std::array<std::string, 4>;
-  std::vector<Row> rows = {{"field", "expected", "received", ""}};
+  std::vector<DifferenceRow> rows = {{"field", "expected", "received", ""}};
   for (const results::Difference& difference : result.differences) {
     rows.push_back({shorten(difference.field, options), shorten(difference.expected, options),
                     shorten(difference.received, options), shorten(difference.hint, options)});
   }
-  constexpr std::size_t widest = 40;  // one long value must not push all others aside
+  // One long value must not push all others aside.
+  std::array<std::size_t, 3> widest{40, 40, 40};
+  if (options.width > 0) {
+    widest[0] = std::clamp<std::size_t>(options.width / 4, 6, 16);
+    widest[1] = widest[2] = std::clamp<std::size_t>((options.width - widest[0] - 4) / 2, 8, 40);
+  }
   std::array<std::size_t, 3> widths{};
-  for (const Row& row : rows) {
+  for (const DifferenceRow& row : rows) {
     for (std::size_t i = 0; i < widths.size(); ++i)
-      widths[i] = std::min(widest, std::max(widths[i], characters(row[i])));
+      widths[i] = std::min(widest[i], std::max(widths[i], columns_of(row[i])));
   }
   std::string text;
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < widths.size(); ++i) line += padded(row[i], widths[i]) + "  ";
-    line += row[3];
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  }
+  for (const DifferenceRow& row : rows) text += difference_row(row, widths, options);
   return text;
 }
 
@@ -164,9 +202,10 @@ void add_frames(Block& block, const CaseResult& result, const CaseTextOptions& o
   if (!has_judged_frames(result)) return;
   const auto [expected, received] = judged_frames(result);
   // Alike for both, so that they stand byte below byte.
-  const bool offsets = std::max(expected ? expected->size() : 0, received.size()) > bytes_a_line;
+  const bool offsets =
+      std::max(expected ? expected->size() : 0, received.size()) > bytes_a_line(options);
 
-  if (const Event* request = request_of(result)) {
+  if (const Event* request = judged_in(result).request) {
     block.add("sent", frame(request->text, hex_dump(request->bytes, options), options));
   }
   const std::string expected_bytes =
@@ -246,7 +285,7 @@ std::string case_message(const CaseResult& result) {
 
 std::string hex_dump(ByteView bytes, const CaseTextOptions& options,
                      const results::Extract& extract) {
-  return dump(cells_of(bytes), bytes, extract, options, bytes.size() > bytes_a_line);
+  return dump(cells_of(bytes), bytes, extract, options, bytes.size() > bytes_a_line(options));
 }
 
 std::string indent(std::string_view lines, std::size_t columns) {
@@ -263,11 +302,15 @@ std::string indent(std::string_view lines, std::size_t columns) {
 
 std::string frame_monitor(const CaseResult& result, const CaseTextOptions& options) {
   if (result.exchange.empty()) return "";
-  const auto row = [](const std::string& time, const std::string& gap, const char* direction,
-                      const std::string& text) {
-    return fmt::format("{:>10}  {:>9}  {}  {}\n", time, gap, direction, text);
-  };
   constexpr std::size_t frame_column = 28;
+  const CaseTextOptions inner = beside(options, frame_column);
+  const Judged above = options.frames_above ? judged_in(result) : Judged{};
+  const auto row = [&inner](const std::string& time, const std::string& gap, const char* direction,
+                            const std::string& text) {
+    const std::string lines = indent(fold(text, inner.width), frame_column);
+    return fmt::format("{:>10}  {:>9}  {}  {}", time, gap, direction,
+                       lines.size() > frame_column ? lines.substr(frame_column) : "\n");
+  };
   std::string text = row("time ms", "gap ms", "   ", "frame");
   const Time zero = results::shown_from(result);
   std::optional<Time> last_end;
@@ -275,10 +318,12 @@ std::string frame_monitor(const CaseResult& result, const CaseTextOptions& optio
     const bool is_frame = event.kind != Event::Kind::note;
     const std::string gap =
         is_frame && last_end ? fmt::format("{:.3f}", to_ms(event.start - *last_end)) : "";
+    const bool stands_above = &event == above.request || &event == above.answer;
     text += row(fmt::format("{:.3f}", to_ms(event.start - zero)), gap, arrow(event.kind),
-                shorten(event.text, options));
+                stands_above ? &event == above.request ? "as sent above" : "as received above"
+                             : shorten(event.text, options));
     if (!is_frame) continue;
-    text += indent(hex_dump(event.bytes, options, event.extract), frame_column);
+    if (!stands_above) text += indent(hex_dump(event.bytes, inner, event.extract), frame_column);
     last_end = event.end;
   }
   return text;
@@ -288,12 +333,14 @@ std::string case_block(const CaseResult& result, const CaseTextOptions& options)
   Block block;
   if (!result.title.empty()) block.line(xml_line(result.title));
   block.add("clause", clause(result));
-  add_frames(block, result, options);
-  if (!result.differences.empty()) block.add("differs", differences(result, options));
+  CaseTextOptions inner = beside(options, label_width);
+  add_frames(block, result, inner);
+  inner.frames_above = has_judged_frames(result);
+  if (!result.differences.empty()) block.add("differs", differences(result, inner));
   block.add("timing", case_timing(result));
   block.add("device", xml_line(result.dut));
   const bool shown = options.exchange || several_sent(result) || result.recording.flooded;
-  if (!result.exchange.empty() && shown) block.add("exchange", frame_monitor(result, options));
+  if (!result.exchange.empty() && shown) block.add("exchange", frame_monitor(result, inner));
   std::string readings;
   for (const auto& [name, taken] : result.readings)
     readings += fmt::format("{} = {}\n", xml_line(name), xml_line(taken));

@@ -15,6 +15,8 @@ struct CaseTextOptions {
       0;  // bytes of a frame that are shown; 0: all, but of more than 4096 an extract
   bool exchange =
       false;  // the exchange in any case; else only where a case sends more than one frame
+  std::size_t width = 0;      // of the terminal: for bytes and tables; 0: as wide as they are
+  bool frames_above = false;  // the judged frames stand there already: the exchange names them
 };
 
 /// One line of text that may be long, cut where the frame that it is about would be.
@@ -54,8 +56,9 @@ std::string case_block(const results::CaseResult& result, const CaseTextOptions&
 /// it (ms), direction.
 std::string frame_monitor(const results::CaseResult& result, const CaseTextOptions& options = {});
 
-/// Hex in lines of 16 bytes, with offsets where there is more than one line: "06 30 31 ...". Of
-/// an extract, or of more than 4096 bytes, both ends, how many they are, and their SHA-256.
+/// Hex in lines of 16 bytes, 8 where `width` is less, with offsets where there is more than one
+/// line: "06 30 31 ...". Of an extract, or of more than 4096 bytes, both ends, how many they are,
+/// and their SHA-256.
 std::string hex_dump(ByteView bytes, const CaseTextOptions& options = {},
                      const results::Extract& extract = {});
 

@@ -107,7 +107,7 @@ TEST(CaseBlock, DifferencesAreAligned) {
   EXPECT_EQ(
       "differs   field        expected                                  received\n"
       "          block count  01                                        00\n"
-      "          국번           00                                        01        station\n"
+      "          국번         00                                        01        station\n"
       "          data         " +
           std::string(50, '1') + "  2         long\n",
       case_block(result));
@@ -163,6 +163,43 @@ TEST(CaseBlock, AnExtractIsShownAsSuch) {
       shown.replace(at, 5, std::string(static_cast<std::size_t>(column), ' '));
     EXPECT_THAT(block, HasSubstr(shown)) << "no mark where it only goes on";
   }
+}
+
+TEST(CaseBlock, KeepsToTheTerminal) {
+  CaseResult result = samples::failure();
+  result.exchange.push_back({results::Event::Kind::sent, 3s, 3s, Bytes(20, 0x41), "'AAAA'"});
+  result.exchange.push_back({results::Event::Kind::note,
+                             3s,
+                             3s,
+                             {},
+                             "a note that does not fit beside what is left of it"});
+  result.differences = {{"error code", "1132 device memory: no such area, or not writable",
+                         "0011 data error", "another word for it"}};
+  const std::string block = case_block(result, {.width = 78});
+  for (std::size_t at = 0, end = 0; (end = block.find('\n', at)) != block.npos; at = end + 1) {
+    const std::string line = block.substr(at, end - at);
+    EXPECT_TRUE(line.size() <= 78 || line.starts_with("replay")) << line;
+  }
+  EXPECT_THAT(block, HasSubstr(R"(
+differs   field       expected                  received
+          error code  1132 device memory: no    0011 data error
+                      such area, or not
+                      writable
+            another word for it
+)"));
+  EXPECT_THAT(block,
+              HasSubstr("-->  'AAAA'\n                                      0000  41 41 41 41 "
+                        "41 41 41 41\n"));
+  EXPECT_THAT(block, HasSubstr(".   a note that does not fit beside what is\n"
+                               "                                      left of it\n"));
+}
+
+TEST(CaseBlock, ShowsAFrameOnce) {
+  const std::string block = case_block(samples::failure(), {.exchange = true});
+  EXPECT_THAT(block, HasSubstr("-->  as sent above\n"));
+  EXPECT_THAT(block, HasSubstr("<--  as received above\n"));
+  for (const char* once : {"05 30 31 72", "ENQ '01rSS0106%MW100'", "0010  39", "ETX '09'"})
+    EXPECT_EQ(block.find(once), block.rfind(once)) << once;
 }
 
 TEST(CaseBlock, NothingInItHarmsATerminalOrXml) {

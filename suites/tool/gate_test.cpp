@@ -254,7 +254,7 @@ TEST(Readme, RecipesPassAsPrinted) {
   std::vector<std::string> options;
   for (std::sregex_iterator one(readme.begin(), readme.end(), recipe), end; one != end; ++one)
     options.push_back((*one)[1]);
-  ASSERT_GE(options.size(), 4u) << "GitLab, GitHub, Jenkins, Slurm";
+  ASSERT_GE(options.size(), 2u) << "Jenkins, Slurm; those of GitLab and GitHub are in recipes_test";
   for (const std::string& one : options)
     EXPECT_THAT(one, HasSubstr("--min-judged 90%")) << "the recipe of a gate says what it judges";
   const TestFolder folder;

@@ -10,7 +10,7 @@
 namespace fieldproof::tool_tests {
 namespace {
 
-constexpr std::array<std::string_view, 6> programs{"./run.sh", "./test.sh", "fieldproof",
+constexpr std::array<std::string_view, 7> programs{"./run.sh", "./test.sh", "fieldproof", "cpack",
                                                    "cmake",    "socat",     "srun"};
 
 bool is_command(std::string_view text) {

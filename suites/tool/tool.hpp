@@ -19,6 +19,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,6 +71,13 @@ class TestFolder {
 inline std::string read_text(const std::string& path) {
   const Result<std::string> text = results::read_whole_file(path);
   return text ? *text : "";
+}
+
+inline std::vector<std::string> text_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
 }
 
 struct ProcessOptions {
@@ -159,7 +167,7 @@ class Process {
     for (char** one = environ; *one; ++one) {
       const std::string text = *one;
       if (text.starts_with("GTEST_") || text.starts_with("FIELDPROOF_") ||
-          text.starts_with("XML_OUTPUT_FILE"))
+          text.starts_with("XML_OUTPUT_FILE") || text.starts_with("COLUMNS="))
         continue;
       result.push_back(text);
     }
