@@ -41,17 +41,6 @@ std::string names_hash(const RunSummary& run) {
   return sum.digits();
 }
 
-/// By which a run is known again, whichever of its files it is read from.
-std::string hash_of(const RunSummary& run, const std::string& head, const CaseLists& lists) {
-  results::Sha256 sum;
-  for (const std::string& part : {head, names_hash(run), pack(lists.verdicts), pack(lists.revs),
-                                  pack(lists.replies), pack(lists.times)}) {
-    sum.add(std::to_string(part.size()));
-    sum.add(part);
-  }
-  return sum.digits();
-}
-
 Numbers counts_of(const text::Tally& tally) {
   Numbers counts;
   for (std::int64_t code = 0; const auto verdict = verdict_of(code); ++code)
@@ -65,6 +54,17 @@ Result<History> History::open(const std::string& path, Use use) {
   Result<std::unique_ptr<Database>> database = open_history(path, use);
   if (!database) return database.error();
   return History(path, std::move(*database));
+}
+
+std::string History::hash_of(const RunSummary& run, const CaseLists& lists) {
+  results::Sha256 sum;
+  for (const std::string& part : {head_of(run), names_hash(run), pack(lists.verdicts),
+                                  pack(lists.revs), pack(lists.replies), pack(lists.times)}) {
+    sum.add(std::to_string(part.size()));
+    sum.add(" ");
+    sum.add(part);
+  }
+  return sum.digits();
 }
 
 std::string History::protocols_of(const results::RunInfo& run) {
@@ -81,7 +81,7 @@ Result<History::Added> History::add(const RunSummary& run) {
   if (run.cases.empty())
     return fail(fmt::format("cannot add {}: there is no result in it", run.path));
   const CaseLists lists = lists_of(run);
-  const std::string hash = hash_of(run, head_of(run), lists);
+  const std::string hash = hash_of(run, lists);
   Added added;
   added.device = device_of(run.run);
   return guarded(Use::write, path_, [&] {

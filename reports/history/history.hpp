@@ -24,6 +24,7 @@ struct RunEntry {
   std::int64_t number = 0;  // by which the user names it, in the order of adding
   std::string device, firmware, protocols, vectors, tool;
   std::string started;           // as the run wrote it
+  std::int64_t started_s = 0;    // since 1970
   std::optional<int> exit_code;  // nothing: killed
   bool complete = false;         // it came to its end, not interrupted
   double seconds = 0;
@@ -54,8 +55,9 @@ class History {
   /// As `compare::summarize` made it when it was added, but for what stands in the vectors alone
   /// (titles, sections), which is as of the first run that had the case.
   Result<compare::RunSummary> summary(std::int64_t number);
-  /// The last run of this device over these protocols that came to its end, whatever its verdicts.
-  Result<std::optional<compare::RunSummary>> last(const results::RunInfo& like);
+  /// The last run before this one of the same device over the same protocols that came to its end,
+  /// whatever its verdicts. `run` may have no cases yet.
+  Result<std::optional<compare::RunSummary>> last_before(const compare::RunSummary& run);
 
   Result<Numbers> list(std::int64_t id);
   /// By their ids: `from_steps` of the list `cases` of a run.
@@ -68,6 +70,8 @@ class History {
   History(std::string path, std::unique_ptr<Database> database)
       : path_(std::move(path)), database_(std::move(database)) {}
 
+  /// By which a run is known again, whichever of its files it is read from.
+  static std::string hash_of(const compare::RunSummary& run, const CaseLists& lists);
   static std::string protocols_of(const results::RunInfo& run);
   Numbers read_list(std::int64_t id);
   std::int64_t keep(const Numbers& numbers);

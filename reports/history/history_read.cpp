@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr const char* entry_columns =
     "run.number, device.name, firmware, protocols, vectors, tool, started, exit_code, complete, "
-    "seconds, red, counts, cases, verdicts, repetitions, with_verdict, topics";
+    "seconds, red, counts, cases, verdicts, repetitions, with_verdict, topics, started_s";
 
 text::Tally tally_from(std::string_view bytes) {
   const std::optional<Numbers> counts = unpack(bytes);
@@ -46,6 +47,7 @@ RunEntry entry_of(const Statement& row) {
   entry.repetitions = row.integer(14);
   entry.with_verdict = row.integer(15);
   entry.topics = row.integer(16);
+  entry.started_s = row.integer(17);
   return entry;
 }
 
@@ -65,21 +67,24 @@ Result<std::vector<RunEntry>> History::runs(const std::string& device) {
   });
 }
 
-Result<std::optional<RunSummary>> History::last(const results::RunInfo& like) {
-  const std::string device = device_of(like), protocols = protocols_of(like);
+Result<std::optional<RunSummary>> History::last_before(const RunSummary& run) {
+  const std::string device = device_of(run.run), protocols = protocols_of(run.run);
+  const std::string hash = hash_of(run, lists_of(run));
+  constexpr std::int64_t any_time = std::numeric_limits<std::int64_t>::max();
   const Result<std::int64_t> number = guarded(Use::read, path_, [&] {
     Statement row = database_->prepare(
         "SELECT run.number FROM run JOIN device ON device.id = run.device "
-        "WHERE device.name = ? AND protocols = ? AND complete ORDER BY started_s DESC, run.number "
-        "DESC LIMIT 1");
-    row.with(std::string_view(device), std::string_view(protocols));
+        "WHERE device.name = ? AND protocols = ? AND started_s <= ? AND hash != ? AND complete "
+        "ORDER BY started_s DESC, run.number DESC LIMIT 1");
+    row.with(std::string_view(device), std::string_view(protocols),
+             seconds_of(run.run.started).value_or(any_time), std::string_view(hash));
     return row.next() ? row.integer(0) : 0;
   });
   if (!number) return number.error();
   if (*number == 0) return std::optional<RunSummary>();
-  Result<RunSummary> run = summary(*number);
-  if (!run) return run.error();
-  return std::optional(std::move(*run));
+  Result<RunSummary> last = summary(*number);
+  if (!last) return last.error();
+  return std::optional(std::move(*last));
 }
 
 Result<RunSummary> History::summary(std::int64_t number) {
