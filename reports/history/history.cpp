@@ -14,12 +14,6 @@ using compare::RunSummary;
 
 namespace {
 
-std::string sha256_of(std::string_view bytes) {
-  results::Sha256 sum;
-  sum.add(bytes);
-  return sum.digits();
-}
-
 std::string json_of(const auto& value) {
   std::string text;
   results::append_json(text, value);
@@ -135,7 +129,7 @@ std::int64_t History::insert(const RunSummary& run, const CaseLists& lists,
 }
 
 std::int64_t History::keep(const Numbers& numbers) {
-  const std::string bytes = pack(numbers), hash = sha256_of(bytes);
+  const std::string bytes = pack(numbers), hash = results::sha256_of(bytes);
   Statement known = database_->prepare("SELECT id FROM list WHERE hash = ?");
   if (known.with(std::string_view(hash)).next()) return known.integer(0);
   database_->prepare("INSERT INTO list (hash, bytes) VALUES (?, ?)")

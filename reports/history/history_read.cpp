@@ -7,6 +7,7 @@
 #include "reports/history/device.hpp"
 #include "reports/history/history.hpp"
 #include "reports/results/result_json.hpp"
+#include "reports/results/sha256.hpp"
 
 namespace fieldproof::history {
 
@@ -124,8 +125,9 @@ Result<RunSummary> History::summary(std::int64_t number) {
 }
 
 Numbers History::read_list(std::int64_t id) {
-  Statement row = database_->prepare("SELECT bytes FROM list WHERE id = ?");
+  Statement row = database_->prepare("SELECT bytes, hash FROM list WHERE id = ?");
   if (!row.with(id).next()) damaged("a list is missing");
+  if (results::sha256_of(row.blob(0)) != row.text(1)) damaged("a list is not what its hash says");
   std::optional<Numbers> numbers = unpack(row.blob(0));
   if (!numbers) damaged("a list");
   return std::move(*numbers);

@@ -29,9 +29,15 @@ Table columns_table(const Matrix& matrix) {
   return table;
 }
 
-Table sections_table(const Matrix& matrix) {
+bool is_news(const MatrixSection& section) {
+  return std::ranges::any_of(section.rows,
+                             [](const MatrixRow& row) { return row.differs || row.red; });
+}
+
+Table sections_table(const Matrix& matrix, bool news_alone) {
   Table table{letters(matrix, {"manual", "section"}), {}};
   for (const MatrixSection& section : matrix.sections) {
+    if (news_alone && !is_news(section)) continue;
     std::vector<std::string>& row =
         table.rows.emplace_back(std::vector{section.name.manual, section.name.section});
     for (const text::Tally& tally : section.tallies) row.push_back(section_cell(tally));
@@ -73,14 +79,15 @@ std::string matrix_text(const Matrix& matrix) {
     return table_text(heading, cases_table(matrix, rows), console_rows, "; --html FILE shows all");
   };
   return table_text("columns", columns_table(matrix)).substr(1) +
-         table_text("sections: cases judged", sections_table(matrix)) +
+         table_text("sections with a case that differs or is red: cases judged",
+                    sections_table(matrix, true)) +
          table("cases that differ", rows_with(matrix, &MatrixRow::differs)) +
          table("cases red in all that have them", red_alike(matrix)) + last_line(matrix);
 }
 
 std::string matrix_markdown(const Matrix& matrix) {
   return "# fieldproof history matrix\n" + table_markdown("Columns", columns_table(matrix)) +
-         table_markdown("Sections: cases judged", sections_table(matrix)) +
+         table_markdown("Sections: cases judged", sections_table(matrix, false)) +
          table_markdown("Cases that differ",
                         cases_table(matrix, rows_with(matrix, &MatrixRow::differs))) +
          table_markdown("Cases red in all that have them", cases_table(matrix, red_alike(matrix))) +

@@ -7,9 +7,9 @@
 
 namespace fieldproof::history {
 
-/// Columns, sections, and the cases that differ; those that are alike are counted.
+/// Columns, the cases that differ or are red, and their sections; those that are alike are counted.
 std::string matrix_text(const Matrix& matrix);
-/// The same with all cases that differ or are red anywhere.
+/// The same with all sections, and without a limit of rows.
 std::string matrix_markdown(const Matrix& matrix);
 /// {"columns": [...], "sections": [{"manual", "section", "cases": [{"id", "title", "differs",
 /// "verdicts": [...]}]}]}, one verdict a column, null where no run has the case: all cases.

@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
+
 namespace fieldproof::history {
 
 namespace {
@@ -11,7 +13,11 @@ constexpr int patience_ms = 30'000;
 
 [[noreturn]] void raise(sqlite3* database, int code) {
   if (!database) throw SqliteError(SQLITE_NOMEM, 0, sqlite3_errstr(SQLITE_NOMEM));
-  throw SqliteError(code & 0xFF, sqlite3_system_errno(database), sqlite3_errmsg(database));
+  const int primary = code & 0xFF;
+  const bool of_the_system = primary == SQLITE_IOERR || primary == SQLITE_CANTOPEN;
+  int system_error = sqlite3_system_errno(database);
+  if (of_the_system && system_error == 0) system_error = errno;  // a commit does not hand it on
+  throw SqliteError(primary, of_the_system ? system_error : 0, sqlite3_errmsg(database));
 }
 
 void check(sqlite3* database, int code) {
@@ -30,6 +36,7 @@ Statement::Statement(sqlite3* database, std::string_view sql) : database_(databa
 void Statement::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
 bool Statement::next() {
+  errno = 0;
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
@@ -97,6 +104,7 @@ Database::Database(const std::string& path, bool make) {
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
 
 void Database::execute(const std::string& sql) {
+  errno = 0;
   check(database_.get(), sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr));
 }
 

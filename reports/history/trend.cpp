@@ -87,6 +87,28 @@ void find_changes(std::vector<Series>& family, std::size_t& tested) {
   for (std::size_t i = 0; i < family.size(); ++i) family[i].change = std::move(changes[i]);
 }
 
+/// What `compare` says of each run and the next.
+Status add_steps(History& history, Trend& trend) {
+  if (trend.runs.size() >= 2 * least_side) return ok();
+  std::optional<compare::RunSummary> before;
+  for (std::size_t i = 0; i < trend.runs.size(); ++i) {
+    Result<compare::RunSummary> after = history.summary(trend.runs[i].number);
+    if (!after) return after.error();
+    if (before) {
+      const compare::Comparison one = compare::compare(*before, *after);
+      const std::size_t faster = one.shifts.size() - one.slower();
+      std::string outcome = one.worse() ? compare::outcome(one) : "";
+      for (const auto& [count, what] : {std::pair(one.count(compare::Change::newly_passing),
+                                                  to_string(compare::Change::newly_passing)),
+                                        std::pair(faster, std::string("faster"))})
+        if (count > 0) outcome += fmt::format("{}{} {}", outcome.empty() ? "" : ", ", count, what);
+      if (!outcome.empty()) trend.steps.push_back({i - 1, i, std::move(outcome)});
+    }
+    before = std::move(*after);
+  }
+  return ok();
+}
+
 const RunEntry& run_before(const Trend& trend, const Series& series) {
   return trend.runs[series.runs[series.change->at - 1]];
 }
@@ -123,6 +145,7 @@ Result<Trend> trend_of(History& history, const std::string& device, std::size_t 
   Result<std::vector<FlakyCase>> flaky = flaky_cases(history, trend.runs);
   if (!flaky) return flaky.error();
   trend.flaky = std::move(*flaky);
+  if (const Status added = add_steps(history, trend); !added) return added.error();
   return trend;
 }
 
@@ -144,8 +167,11 @@ std::string shift_of(const Series& series) {
 }
 
 std::string place_of(const Trend& trend, const Series& series) {
-  return fmt::format("between {} and {}", run_name(run_before(trend, series)),
-                     run_name(run_after(trend, series)));
+  return between(run_before(trend, series), run_after(trend, series));
+}
+
+std::string between(const RunEntry& before, const RunEntry& after) {
+  return fmt::format("between {} and {}", run_name(before), run_name(after));
 }
 
 std::string cause_of(const Trend& trend, const Series& series) {

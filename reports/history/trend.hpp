@@ -20,6 +20,12 @@ struct Series {
   std::optional<ChangePoint> change;
 };
 
+/// Neighbours in a history too short for the test over runs, compared reply by reply.
+struct Step {
+  std::size_t before = 0, after = 0;  // into Trend::runs
+  std::string outcome;                // "4 newly failing, 2 slower"
+};
+
 struct Trend {
   std::string device;
   std::vector<RunEntry> runs;  // that came to their end, the oldest first
@@ -28,6 +34,7 @@ struct Trend {
   std::vector<Series> topics;                                    // reply times
   std::size_t tested_totals = 0, tested_topics = 0;
   std::vector<FlakyCase> flaky;
+  std::vector<Step> steps;    // in which something changed; only of fewer than 2 * least_side runs
   std::size_t older = 0;      // runs before these, left out
   std::size_t not_ended = 0;  // killed or interrupted, left out
   std::size_t devices = 1;    // in the history
@@ -39,9 +46,11 @@ Result<Trend> trend_of(History& history, const std::string& device, std::size_t 
 
 /// Totals and topics that changed, in this order.
 std::vector<const Series*> changed(const Trend& trend);
+/// "between run 12 (V1.40, 2026-05-01) and run 13 (V1.41, 2026-05-02)".
+std::string between(const RunEntry& before, const RunEntry& after);
 /// "2.104 to 3.208 ms (+1.104 ms, +52 %)", or "0 to 12".
 std::string shift_of(const Series& series);
-/// "between run 12 (V1.40, 2026-05-01) and run 13 (V1.41, 2026-05-02)".
+/// Between which runs.
 std::string place_of(const Trend& trend, const Series& series);
 /// What else is new there: "firmware V1.40 to V1.41, vectors a1b2 to c3d4"; empty: nothing.
 std::string cause_of(const Trend& trend, const Series& series);

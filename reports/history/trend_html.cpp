@@ -69,6 +69,11 @@ void write_changes(HtmlWriter& out, const Trend& trend) {
       out.element("small", {}, evidence_of(*one));
     });
   }
+  for (const Step& one : trend.steps)
+    out.element("p", {}, [&] {
+      out.element("b", {}, one.outcome);
+      out.text(' ' + between(trend.runs[one.before], trend.runs[one.after]));
+    });
   out.element("small", {}, tested_text(trend));
 }
 

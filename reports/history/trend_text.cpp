@@ -28,6 +28,13 @@ Table changes_table(const Trend& trend) {
   return table;
 }
 
+Table steps_table(const Trend& trend) {
+  Table table{{"what", "where"}, {}};
+  for (const Step& one : trend.steps)
+    table.rows.push_back({one.outcome, between(trend.runs[one.before], trend.runs[one.after])});
+  return table;
+}
+
 Table flaky_table(const Trend& trend) {
   Table table{{"case", "firmware", "vectors", "verdicts"}, {}};
   for (const FlakyCase& one : trend.flaky)
@@ -115,10 +122,10 @@ std::vector<std::string> trend_remarks(const Trend& trend) {
   if (trend.not_ended > 0)
     remarks.push_back(fmt::format("{} killed or interrupted runs are left out", trend.not_ended));
   if (trend.runs.size() < 2 * least_side)
-    remarks.push_back(
-        fmt::format("{} runs are too few to look for a change in reply times and counts: {} are "
-                    "needed; `fieldproof compare` tests two runs reply by reply",
-                    trend.runs.size(), 2 * least_side));
+    remarks.push_back(fmt::format(
+        "{} runs are too few to test them against each other, {} are needed: neighbours "
+        "are compared reply by reply, as `fieldproof compare` does",
+        trend.runs.size(), 2 * least_side));
   return remarks;
 }
 
@@ -135,6 +142,7 @@ std::string trend_text(const Trend& trend) {
                         cause.empty() ? "" : "; new there: " + cause);
   }
   text += wrapped_text(tested_text(trend));
+  text += table_text("from run to run", steps_table(trend));
   text += table_text("flaky: same device, firmware and vectors, and yet other verdicts",
                      flaky_table(trend), console_cases, "; --html FILE shows all");
   const std::string versions =
@@ -148,7 +156,8 @@ std::string trend_markdown(const Trend& trend) {
   for (const std::string& one : trend_remarks(trend)) text += "\n" + one + '\n';
   text += table_markdown("Changes", changes_table(trend));
   text += "\n" + tested_text(trend) + '\n';
-  return text + table_markdown("Flaky cases", flaky_table(trend)) +
+  return text + table_markdown("From run to run", steps_table(trend)) +
+         table_markdown("Flaky cases", flaky_table(trend)) +
          table_markdown("By firmware", versions_table(trend)) +
          table_markdown("Runs", runs_table(trend));
 }
@@ -156,7 +165,8 @@ std::string trend_markdown(const Trend& trend) {
 std::string trend_json(const Trend& trend) {
   using nlohmann::ordered_json;
   ordered_json runs = ordered_json::array(), topics = ordered_json::object(),
-               changes = ordered_json::array(), flaky = ordered_json::array();
+               changes = ordered_json::array(), steps = ordered_json::array(),
+               flaky = ordered_json::array();
   for (std::size_t i = 0; i < trend.runs.size(); ++i) {
     const RunEntry& run = trend.runs[i];
     const auto& figures = trend.replies[i];
@@ -187,14 +197,18 @@ std::string trend_json(const Trend& trend) {
                        {"between",
                         {trend.runs[one->runs[one->change->at - 1]].number,
                          trend.runs[one->runs[one->change->at]].number}}});
+  for (const Step& one : trend.steps)
+    steps.push_back({{"outcome", one.outcome},
+                     {"between", {trend.runs[one.before].number, trend.runs[one.after].number}}});
   for (const FlakyCase& one : trend.flaky)
     flaky.push_back({{"id", one.name},
                      {"firmware", one.firmware},
                      {"vectors", one.vectors},
                      {"verdicts", counts_json(one.verdicts)},
                      {"within", one.within}});
-  return ordered_json{{"device", trend.device}, {"runs", runs},   {"topics", topics},
-                      {"changes", changes},     {"flaky", flaky}, {"test", tested_text(trend)}}
+  return ordered_json{{"device", trend.device},    {"runs", runs},   {"topics", topics},
+                      {"changes", changes},        {"steps", steps}, {"flaky", flaky},
+                      {"test", tested_text(trend)}}
              .dump(1) +
          '\n';
 }

@@ -11,7 +11,8 @@ std::string trend_text(const Trend& trend);
 std::string trend_markdown(const Trend& trend);
 /// {"device", "runs": [{"run", "started", "firmware", "vectors", "counts", "red", "judged",
 /// "response": {...} or null}], "topics": {"xgt_cnet/rss": [[run, median_ms], ...]}, "changes":
-/// [{"series", "before", "after", "shift", "p", "corrected_p", "between": [run, run]}], "flaky":
+/// [{"series", "before", "after", "shift", "p", "corrected_p", "between": [run, run]}], "steps":
+/// [{"outcome", "between"}], "flaky":
 /// [{"id", "firmware", "vectors", "verdicts", "within"}], "test"}
 std::string trend_json(const Trend& trend);
 
