@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include <cstdint>
+
 namespace fieldproof::history {
 
 using results::Verdict;
@@ -35,16 +37,21 @@ class Census {
   explicit Census(History& history) : history_(history) {}
 
   Status count(const Group& group) {
-    std::map<std::tuple<std::int64_t, std::int64_t>, Group> alike;  // cases, verdicts
-    for (const RunEntry* run : group) alike[{run->cases, run->verdicts}].push_back(run);
-    const bool one_run_tells = std::ranges::any_of(
-        group, [](const RunEntry* run) { return run->repetitions != run->with_verdict; });
-    if (alike.size() < 2 && !one_run_tells) return ok();
-    for (const auto& [lists, runs] : alike)
-      if (const Status counted = count_verdicts(runs); !counted) return counted;
-    for (const RunEntry* run : group)
-      if (run->repetitions != run->with_verdict)
-        if (const Status counted = count_within(*run); !counted) return counted;
+    std::map<std::int64_t, Group> selections;  // by the list of their cases
+    for (const RunEntry* run : group) selections[run->cases].push_back(run);
+    const bool all_alike =
+        selections.size() == 1 && std::ranges::all_of(group, [&](const RunEntry* run) {
+          return run->verdicts == group.front()->verdicts && run->repetitions == run->with_verdict;
+        });
+    if (all_alike) return ok();
+    for (const auto& [cases, runs] : selections) {
+      const Result<Numbers> ids = ids_of(*runs.front());
+      if (!ids) return ids.error();
+      if (const Status counted = count_verdicts(*ids, runs); !counted) return counted;
+      for (const RunEntry* run : runs)
+        if (run->repetitions != run->with_verdict)
+          if (const Status counted = count_within(*ids, *run); !counted) return counted;
+    }
     return ok();
   }
 
@@ -92,32 +99,62 @@ class Census {
     return ids;
   }
 
-  Status count_verdicts(const Group& runs) {
-    const Result<Numbers> ids = ids_of(*runs.front()),
-                          codes = history_.list(runs.front()->verdicts);
-    for (const auto* list : {&ids, &codes})
-      if (!*list) return list->error();
-    std::int64_t last = 0;
-    for (const RunEntry* run : runs) last = std::max(last, run->number);
-    for (std::size_t i = 0; i < std::min(ids->size(), codes->size()); ++i) {
-      const std::optional<Verdict> verdict = verdict_of((*codes)[i]);
-      if (!verdict || !results::is_judged(*verdict)) continue;
-      Row& row = cases_[static_cast<std::size_t>((*ids)[i])];
-      row.verdicts.add(*verdict, runs.size());
-      row.bare.add(bare(*verdict), runs.size());
-      std::int64_t& seen = row.last[static_cast<std::size_t>(bare(*verdict))];
-      seen = std::max(seen, last);
+  /// Most runs of a selection come out alike: what differs from the last of them is counted, the
+  /// rest follows.
+  Status count_verdicts(const Numbers& ids, const Group& runs) {
+    std::map<std::int64_t, Group> alike;  // by the list of their verdicts
+    for (const RunEntry* run : runs) alike[run->verdicts].push_back(run);
+    const RunEntry& last = *std::ranges::max(runs, {}, &RunEntry::number);
+    const Result<Numbers> usual = history_.list(last.verdicts);
+    if (!usual) return usual.error();
+    const std::vector<std::int8_t> codes(usual->begin(), usual->end());
+    std::vector<std::size_t> left(codes.size(), runs.size());
+    for (const auto& [list, same] : alike) {
+      if (list == last.verdicts) continue;
+      const Result<std::vector<Repeated>> parts = history_.repeated(list);
+      if (!parts) return parts.error();
+      const std::int64_t number = std::ranges::max(same, {}, &RunEntry::number)->number;
+      each_difference(codes, *parts, [&](std::size_t i, std::int64_t code) {
+        left[i] -= same.size();
+        add(ids, i, code, same.size(), number);
+      });
     }
+    for (std::size_t i = 0; i < codes.size(); ++i) add(ids, i, codes[i], left[i], last.number);
     return ok();
   }
 
-  Status count_within(const RunEntry& run) {
-    const Result<Numbers> ids = ids_of(run), all = history_.list(run.repetitions),
+  static void each_difference(const std::vector<std::int8_t>& codes,
+                              const std::vector<Repeated>& parts, const auto& visit) {
+    auto first = codes.begin();
+    for (const Repeated& part : parts) {
+      const auto end = first + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(part.count),
+                                                        codes.end() - first);
+      const auto code = static_cast<std::int8_t>(part.number);
+      if (std::count(first, end, code) != end - first)
+        for (auto at = first; at != end; ++at)
+          if (*at != code) visit(static_cast<std::size_t>(at - codes.begin()), part.number);
+      first = end;
+    }
+  }
+
+  void add(const Numbers& ids, std::size_t i, std::int64_t code, std::size_t runs,
+           std::int64_t number) {
+    const std::optional<Verdict> verdict = verdict_of(code);
+    if (runs == 0 || i >= ids.size() || !verdict || !results::is_judged(*verdict)) return;
+    Row& row = cases_[static_cast<std::size_t>(ids[i])];
+    row.verdicts.add(*verdict, runs);
+    row.bare.add(bare(*verdict), runs);
+    std::int64_t& seen = row.last[static_cast<std::size_t>(bare(*verdict))];
+    seen = std::max(seen, number);
+  }
+
+  Status count_within(const Numbers& ids, const RunEntry& run) {
+    const Result<Numbers> all = history_.list(run.repetitions),
                           alike = history_.list(run.with_verdict);
-    for (const auto* list : {&ids, &all, &alike})
+    for (const auto* list : {&all, &alike})
       if (!*list) return list->error();
-    for (std::size_t i = 0; i < std::min({ids->size(), all->size(), alike->size()}); ++i)
-      if ((*alike)[i] < (*all)[i]) ++cases_[static_cast<std::size_t>((*ids)[i])].within;
+    for (std::size_t i = 0; i < std::min({ids.size(), all->size(), alike->size()}); ++i)
+      if ((*alike)[i] < (*all)[i]) ++cases_[static_cast<std::size_t>(ids[i])].within;
     return ok();
   }
 

@@ -60,6 +60,7 @@ class History {
   Result<std::optional<compare::RunSummary>> last_before(const compare::RunSummary& run);
 
   Result<Numbers> list(std::int64_t id);
+  Result<std::vector<Repeated>> repeated(std::int64_t id);
   /// By their ids: `from_steps` of the list `cases` of a run.
   Result<std::vector<CaseFacts>> cases(const Numbers& ids);
   Result<std::string> text(std::int64_t id);
@@ -68,11 +69,14 @@ class History {
 
  private:
   History(std::string path, std::unique_ptr<Database> database)
-      : path_(std::move(path)), database_(std::move(database)) {}
+      : path_(std::move(path)),
+        database_(std::move(database)),
+        list_(database_->prepare("SELECT bytes, hash FROM list WHERE id = ?")) {}
 
   /// By which a run is known again, whichever of its files it is read from.
   static std::string hash_of(const compare::RunSummary& run, const CaseLists& lists);
   static std::string protocols_of(const results::RunInfo& run);
+  std::string_view read_bytes(std::int64_t id);  // until the next
   Numbers read_list(std::int64_t id);
   std::int64_t keep(const Numbers& numbers);
   std::int64_t keep(const std::string& text);
@@ -85,6 +89,7 @@ class History {
 
   std::string path_;
   std::unique_ptr<Database> database_;
+  Statement list_;
 };
 
 }  // namespace fieldproof::history

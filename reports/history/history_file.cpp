@@ -80,7 +80,8 @@ std::unique_ptr<Database> open_checked(const std::string& path, Use use) {
   database->execute("PRAGMA foreign_keys = ON; PRAGMA cell_size_check = ON");
   // A journal that is rolled back (the default) and not WAL: one file to copy or mail, on a share
   // of a network and on a medium that is read-only, too; writes are rare and short.
-  if (use == Use::read) database->execute("PRAGMA query_only = ON");
+  // Whoever reads sees one state, and locks it once.
+  if (use == Use::read) database->execute("PRAGMA query_only = ON; BEGIN");
   return database;
 }
 

@@ -124,13 +124,25 @@ Result<RunSummary> History::summary(std::int64_t number) {
   });
 }
 
+std::string_view History::read_bytes(std::int64_t id) {
+  if (!list_.with(id).next()) damaged("a list is missing");
+  const std::string_view bytes = list_.blob(0);
+  if (results::sha256_of(bytes) != list_.text(1)) damaged("a list is not what its hash says");
+  return bytes;
+}
+
 Numbers History::read_list(std::int64_t id) {
-  Statement row = database_->prepare("SELECT bytes, hash FROM list WHERE id = ?");
-  if (!row.with(id).next()) damaged("a list is missing");
-  if (results::sha256_of(row.blob(0)) != row.text(1)) damaged("a list is not what its hash says");
-  std::optional<Numbers> numbers = unpack(row.blob(0));
+  std::optional<Numbers> numbers = unpack(read_bytes(id));
   if (!numbers) damaged("a list");
   return std::move(*numbers);
+}
+
+Result<std::vector<Repeated>> History::repeated(std::int64_t id) {
+  return guarded(Use::read, path_, [&] {
+    std::optional<std::vector<Repeated>> parts = unpack_repeated(read_bytes(id));
+    if (!parts) damaged("a list");
+    return std::move(*parts);
+  });
 }
 
 std::vector<std::string> History::texts(const Numbers& ids) {

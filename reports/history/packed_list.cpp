@@ -16,16 +16,29 @@ void append(std::string& bytes, std::uint64_t number) {
   bytes += static_cast<char>(number);
 }
 
-std::optional<std::uint64_t> take(std::string_view& bytes) {
-  std::uint64_t number = 0;
-  for (unsigned shift = 0; shift < 64 && !bytes.empty(); shift += 7) {
-    const auto byte = static_cast<unsigned char>(bytes.front());
-    bytes.remove_prefix(1);
-    number |= std::uint64_t{byte & 0x7Fu} << shift;
-    if (byte < 0x80) return number;
+/// Reads what `append` wrote. A number beyond the end is none, and nothing comes after it.
+class Cursor {
+ public:
+  explicit Cursor(std::string_view bytes) : rest_(bytes) {}
+  bool more() const { return !rest_.empty() && ok_; }
+  bool ok() const { return ok_; }
+
+  std::uint64_t take() {
+    std::uint64_t number = 0;
+    for (unsigned shift = 0; shift < 64 && !rest_.empty(); shift += 7) {
+      const auto byte = static_cast<unsigned char>(rest_.front());
+      rest_.remove_prefix(1);
+      number |= std::uint64_t{byte & 0x7Fu} << shift;
+      if (byte < 0x80) return number;
+    }
+    ok_ = false;
+    return 0;
   }
-  return std::nullopt;
-}
+
+ private:
+  std::string_view rest_;
+  bool ok_ = true;
+};
 
 /// Small numbers of either sign become small: 0, -1, 1, -2, ...
 std::uint64_t unsigned_of(std::int64_t number) {
@@ -52,15 +65,26 @@ std::string pack(const Numbers& numbers) {
   return bytes;
 }
 
-std::optional<Numbers> unpack(std::string_view bytes) {
-  Numbers numbers;
-  while (!bytes.empty()) {
-    const std::optional<std::uint64_t> head = take(bytes);
-    const std::optional<std::uint64_t> count =
-        head && (*head & 1) ? take(bytes) : std::optional<std::uint64_t>(1);
-    if (!head || !count || *count > most_numbers - numbers.size()) return std::nullopt;
-    numbers.insert(numbers.end(), *count, signed_of(*head >> 1));
+std::optional<std::vector<Repeated>> unpack_repeated(std::string_view bytes) {
+  std::vector<Repeated> parts;
+  parts.reserve(bytes.size() / 2);
+  std::uint64_t left = most_numbers;
+  for (Cursor cursor(bytes); cursor.more();) {
+    const std::uint64_t head = cursor.take();
+    const std::uint64_t count = head & 1 ? cursor.take() : 1;
+    if (!cursor.ok() || count > left) return std::nullopt;
+    left -= count;
+    parts.push_back({signed_of(head >> 1), count});
   }
+  return parts;
+}
+
+std::optional<Numbers> unpack(std::string_view bytes) {
+  const auto parts = unpack_repeated(bytes);
+  if (!parts) return std::nullopt;
+  Numbers numbers;
+  numbers.reserve(parts->size());
+  for (const Repeated& one : *parts) numbers.insert(numbers.end(), one.count, one.number);
   return numbers;
 }
 

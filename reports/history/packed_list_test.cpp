@@ -27,6 +27,14 @@ TEST(PackedList, EqualNeighboursCostNothing) {
   EXPECT_EQ(pack({3}), "\x0C") << "one byte for a small number";
 }
 
+TEST(PackedList, ReadsWithoutSpellingOut) {
+  const auto parts = unpack_repeated(pack({7, 7, 7, -2, 7}));
+  ASSERT_TRUE(parts);
+  std::vector<std::pair<std::int64_t, std::size_t>> found;
+  for (const Repeated& one : *parts) found.emplace_back(one.number, one.count);
+  EXPECT_THAT(found, ElementsAre(testing::Pair(7, 3), testing::Pair(-2, 1), testing::Pair(7, 1)));
+}
+
 TEST(PackedList, RefusesWhatNobodyPacked) {
   EXPECT_EQ(unpack("\x80"), std::nullopt) << "its number goes on";
   EXPECT_EQ(unpack("\x03"), std::nullopt) << "the count is missing";

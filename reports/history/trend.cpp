@@ -157,6 +157,20 @@ std::vector<const Series*> changed(const Trend& trend) {
   return found;
 }
 
+std::vector<std::vector<const Series*>> changed_by_place(const Trend& trend) {
+  std::vector<std::vector<const Series*>> places;
+  for (const Series* one : changed(trend)) {
+    const auto same = std::ranges::find_if(places, [&](const auto& place) {
+      return place_of(trend, *place.front()) == place_of(trend, *one);
+    });
+    if (same == places.end())
+      places.push_back({one});
+    else
+      same->push_back(one);
+  }
+  return places;
+}
+
 std::string shift_of(const Series& series) {
   const ChangePoint& change = *series.change;
   if (!series.is_time) return fmt::format("{:g} to {:g}", change.before, change.after);

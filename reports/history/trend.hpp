@@ -46,6 +46,8 @@ Result<Trend> trend_of(History& history, const std::string& device, std::size_t 
 
 /// Totals and topics that changed, in this order.
 std::vector<const Series*> changed(const Trend& trend);
+/// The same, those at one place together: the place with the first of them first.
+std::vector<std::vector<const Series*>> changed_by_place(const Trend& trend);
 /// "between run 12 (V1.40, 2026-05-01) and run 13 (V1.41, 2026-05-02)".
 std::string between(const RunEntry& before, const RunEntry& after);
 /// "2.104 to 3.208 ms (+1.104 ms, +52 %)", or "0 to 12".

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "reports/compare/compare_statistics.hpp"
 #include "reports/history/trend_plot.hpp"
@@ -16,7 +17,9 @@ using text::grouped;
 
 namespace {
 
-constexpr std::size_t most_runs = 1000;  // rows; the curves show all
+constexpr std::size_t most_runs = 1000;   // rows; the curves show all
+constexpr std::size_t most_flaky = 200;   // the others are counted
+constexpr std::size_t most_in_sight = 6;  // changes of a place, and curves; the others are folded
 
 void write_table(HtmlWriter& out, std::initializer_list<std::string_view> head, const auto& rows) {
   out.element("div", {{"class", "scroll"}}, [&] {
@@ -52,23 +55,35 @@ void write_head(HtmlWriter& out, const Trend& trend, const std::string& title) {
       });
 }
 
+void write_change(HtmlWriter& out, const Series& one) {
+  const bool bad = (one.change->shift > 0) == (one.name != "judged");
+  out.element("p", {}, [&] {
+    out.element("span", {{"class", bad ? "verdict v-fail" : "verdict v-pass"}}, direction_of(one));
+    out.text(" ");
+    out.element("b", {}, one.name);
+    out.text(": " + shift_of(one));
+    out.element("small", {}, evidence_of(one));
+  });
+}
+
+void write_place(HtmlWriter& out, const Trend& trend, const std::vector<const Series*>& place) {
+  const std::string cause = cause_of(trend, *place.front());
+  out.element("h3", {}, place_of(trend, *place.front()));
+  if (!cause.empty()) out.element("p", {}, "new there: " + cause);
+  const std::size_t shown = std::min(most_in_sight, place.size());
+  for (std::size_t i = 0; i < shown; ++i) write_change(out, *place[i]);
+  if (shown == place.size()) return;
+  out.element("details", {}, [&] {
+    out.element("summary", {}, fmt::format("{} more at this place", place.size() - shown));
+    for (std::size_t i = shown; i < place.size(); ++i) write_change(out, *place[i]);
+  });
+}
+
 void write_changes(HtmlWriter& out, const Trend& trend) {
   out.element("h2", {}, "Changes");
-  const std::vector<const Series*> changes = changed(trend);
-  if (changes.empty()) out.element("p", {}, "None that is more than chance.");
-  for (const Series* one : changes) {
-    const bool bad = (one->change->shift > 0) == (one->name != "judged");
-    out.element("p", {}, [&] {
-      out.element("span", {{"class", bad ? "verdict v-fail" : "verdict v-pass"}},
-                  direction_of(*one));
-      out.text(" ");
-      out.element("b", {}, one->name);
-      const std::string cause = cause_of(trend, *one);
-      out.text(fmt::format(": {}, {}{}", shift_of(*one), place_of(trend, *one),
-                           cause.empty() ? "" : "; new there: " + cause));
-      out.element("small", {}, evidence_of(*one));
-    });
-  }
+  const auto places = changed_by_place(trend);
+  if (places.empty()) out.element("p", {}, "None that is more than chance.");
+  for (const std::vector<const Series*>& place : places) write_place(out, trend, place);
   for (const Step& one : trend.steps)
     out.element("p", {}, [&] {
       out.element("b", {}, one.outcome);
@@ -78,19 +93,16 @@ void write_changes(HtmlWriter& out, const Trend& trend) {
 }
 
 void write_topics(HtmlWriter& out, const Trend& trend) {
-  std::size_t steady = 0;
-  for (const Series& one : trend.topics) {
-    if (one.change)
-      write_trend_plot(out, trend, one);
-    else
-      ++steady;
-  }
-  if (steady == 0) return;
+  std::vector<const Series*> in_sight, others;
+  for (const Series& one : trend.topics)
+    (one.change && in_sight.size() < most_in_sight ? in_sight : others).push_back(&one);
+  for (const Series* one : in_sight) write_trend_plot(out, trend, *one);
+  if (others.empty()) return;
   out.element("details", {}, [&] {
     out.element("summary", {},
-                fmt::format("{} groups of cases whose reply times did not change", steady));
-    for (const Series& one : trend.topics)
-      if (!one.change) write_trend_plot(out, trend, one);
+                fmt::format("reply times of {} {}groups of cases", others.size(),
+                            in_sight.empty() ? "" : "more "));
+    for (const Series* one : others) write_trend_plot(out, trend, *one);
   });
 }
 
@@ -98,8 +110,9 @@ void write_flaky(HtmlWriter& out, const Trend& trend) {
   if (trend.flaky.empty()) return;
   out.element("h2", {}, fmt::format("{} flaky cases", grouped(trend.flaky.size())));
   out.element("p", {}, "Same device, firmware and vectors, and yet other verdicts.");
+  const std::size_t shown = std::min(most_flaky, trend.flaky.size());
   write_table(out, {"Case", "Firmware", "Vectors", "Verdicts"}, [&] {
-    for (const FlakyCase& one : trend.flaky) {
+    for (const FlakyCase& one : std::span(trend.flaky).first(shown)) {
       out.element("tr", {}, [&] {
         out.element("th", {}, [&] { out.element("code", {}, one.name); });
         for (const std::string& cell : {one.firmware, one.vectors, flaky_text(one)})
@@ -108,6 +121,10 @@ void write_flaky(HtmlWriter& out, const Trend& trend) {
       out.markup("\n");
     }
   });
+  if (shown < trend.flaky.size())
+    out.element("p", {},
+                fmt::format("{} more, less often: `fieldproof history trend --json` has them.",
+                            grouped(trend.flaky.size() - shown)));
 }
 
 void write_versions_table(HtmlWriter& out, const Trend& trend) {
@@ -153,7 +170,7 @@ std::string trend_html(const Trend& trend) {
   std::string title = changes == 0 ? "No change" : fmt::format("{} changes", changes);
   if (changes == 1) title = "1 change";
   if (!trend.flaky.empty())
-    title += fmt::format(", {} flaky {}", trend.flaky.size(),
+    title += fmt::format(", {} flaky {}", grouped(trend.flaky.size()),
                          trend.flaky.size() == 1 ? "case" : "cases");
   HtmlWriter body;
   write_head(body, trend, title);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "reports/compare/compare_statistics.hpp"
 
@@ -15,15 +16,16 @@ namespace {
 
 constexpr double plot_width = 640, plot_height = 150, left = 56, right = 632, top = 22,
                  bottom = 128;
-constexpr std::size_t most_points = 160, most_versions = 8;
+constexpr double character_width = 9;  // at 400 px, where text is larger
+constexpr std::size_t most_points = 160, most_versions = 20;
 
 std::string unit_text(double value) { return fmt::format("{:.1f}", value); }
 
-/// The next of 1, 2, 5, 10, ... at or above.
+/// The next of 1, 2, 4, 6, 8, 10, 20, ... at or above.
 double round_up(double value) {
   if (value <= 0) return 1;
   const double power = std::pow(10, std::floor(std::log10(value)));
-  for (const double step : {1.0, 2.0, 5.0})
+  for (const double step : {1.0, 2.0, 4.0, 6.0, 8.0})
     if (value <= step * power) return step * power;
   return 10 * power;
 }
@@ -52,7 +54,9 @@ void write_scale(HtmlWriter& out, const Frame& frame, const Trend& trend) {
   for (const double part : {0.0, 0.5, 1.0}) {
     const double value = frame.greatest * part;
     write_stroke(out, "grid", fmt::format("M{} {:.1f}H{}", left, frame.y(value), right));
-    write_label(out, "y", left - 6, frame.y(value) + 4, fmt::format("{:.4g}", value));
+    write_label(out, "y", left - 6, frame.y(value) + 4,
+                value < 1000 ? fmt::format("{:.4g}", value)
+                             : text::grouped(static_cast<std::size_t>(value)));
   }
   const auto day = [](const RunEntry& run) { return run.started.substr(0, 10); };
   write_label(out, "at", left, bottom + 17, day(trend.runs.front()));
@@ -66,25 +70,36 @@ void write_versions(HtmlWriter& out, const Frame& frame, const Trend& trend) {
   for (std::size_t i = 0; i < trend.runs.size(); ++i)
     if (i == 0 || trend.runs[i].firmware != trend.runs[i - 1].firmware) places.push_back(i);
   if (places.size() > most_versions || places.size() < 2) return;
+  double free = 0;  // from here on no label stands
   for (const std::size_t at : places) {
     const double x = frame.x(static_cast<double>(at) - 0.5);
     if (at > 0) write_stroke(out, "mark", fmt::format("M{:.1f} {}V{}", x, top - 8, bottom));
+    if (x < free) continue;
     write_label(out, "at", x + 3, top - 10, trend.runs[at].firmware);
+    free = x + character_width * static_cast<double>(trend.runs[at].firmware.size() + 1);
   }
 }
 
-void write_curve(HtmlWriter& out, const Frame& frame, const Series& series) {
+/// Run and value of what is drawn: of many runs, neighbours together.
+std::vector<std::pair<double, double>> points_of(const Series& series) {
   const std::size_t group = (series.values.size() + most_points - 1) / most_points;
-  std::string points;
+  std::vector<std::pair<double, double>> points;
   for (std::size_t first = 0; first < series.values.size(); first += group) {
     const std::size_t last = std::min(first + group, series.values.size());
-    const std::vector<double> values(series.values.begin() + static_cast<std::ptrdiff_t>(first),
-                                     series.values.begin() + static_cast<std::ptrdiff_t>(last));
-    const double run = static_cast<double>(series.runs[first] + series.runs[last - 1]) / 2;
-    points += fmt::format("{}{:.1f},{:.1f}", points.empty() ? "" : " ", frame.x(run),
-                          frame.y(compare::median(values)));
+    const auto begin = series.values.begin();
+    points.emplace_back(static_cast<double>(series.runs[first] + series.runs[last - 1]) / 2,
+                        compare::median({begin + static_cast<std::ptrdiff_t>(first),
+                                         begin + static_cast<std::ptrdiff_t>(last)}));
   }
-  out.empty("polyline", {{"class", "a0"}, {"points", points}});
+  return points;
+}
+
+void write_curve(HtmlWriter& out, const Frame& frame,
+                 const std::vector<std::pair<double, double>>& points) {
+  std::string text;
+  for (const auto& [run, value] : points)
+    text += fmt::format("{}{:.1f},{:.1f}", text.empty() ? "" : " ", frame.x(run), frame.y(value));
+  out.empty("polyline", {{"class", "a0"}, {"points", text}});
 }
 
 void write_change(HtmlWriter& out, const Frame& frame, const Series& series) {
@@ -98,7 +113,9 @@ void write_change(HtmlWriter& out, const Frame& frame, const Series& series) {
 }  // namespace
 
 void write_trend_plot(HtmlWriter& out, const Trend& trend, const Series& series) {
-  const Frame frame{trend.runs.size(), round_up(*std::ranges::max_element(series.values) * 1.05)};
+  const std::vector<std::pair<double, double>> points = points_of(series);
+  const double greatest = std::ranges::max(points | std::views::values);
+  const Frame frame{trend.runs.size(), round_up(greatest * 1.05)};
   const std::string box = fmt::format("0 0 {} {}", plot_width, plot_height);
   const char* unit = series.is_time ? "ms, median of a run" : "results of a run";
   const std::string what =
@@ -112,7 +129,7 @@ void write_trend_plot(HtmlWriter& out, const Trend& trend, const Series& series)
                 [&] {
                   write_scale(out, frame, trend);
                   write_versions(out, frame, trend);
-                  write_curve(out, frame, series);
+                  write_curve(out, frame, points);
                   write_change(out, frame, series);
                 });
     out.element("figcaption", {}, [&] {

@@ -69,7 +69,9 @@ TEST_F(TrendTest, NamesTheChangeAndItsRuns) {
   EXPECT_EQ(found.tested_topics, 2u);
   const std::string text = trend_text(found);
   EXPECT_THAT(text, AllOf(HasSubstr("24 runs, 2026-01-01 to 2026-01-24, firmware V1.40, V1.41\n"),
-                          HasSubstr("12 runs before and 12 after; new there: firmware"),
+                          HasSubstr("changes between run 12 (V1.40, 2026-01-12) and run 13 (V1.41, "
+                                    "2026-01-13); new there: firmware V1.40 to V1.41 (2)"),
+                          HasSubstr("12 runs before and 12 after"),
                           HasSubstr("Mann-Whitney U, two-sided, on one number a run"),
                           HasSubstr("by firmware (2)"), HasSubstr("... and 4 more")));
 }
@@ -121,6 +123,17 @@ TEST_F(TrendTest, FlakyIsWhatChangesThoughNothingElseDid) {
   EXPECT_EQ(found.flaky[0].firmware, "V1.40");
   EXPECT_EQ(flaky_text(found.flaky[0]),
             "PASS in 3, FAIL in 1 of 4 runs; the last odd one is run 3");
+}
+
+/// Other cases beside it are no other circumstances.
+TEST_F(TrendTest, FlakyOverRunsOfOtherSelections) {
+  add({"V1.40", 1}, 4, V::fail);
+  add_or_fail(history_, run_of({"V1.40", 2}, {result_of("wss/d", V::pass)}));
+  add_or_fail(history_,
+              run_of({"V1.40", 3}, {result_of("rss/a", V::pass), result_of("wss/d", V::pass)}));
+  ASSERT_EQ(trend().flaky.size(), 1u);
+  EXPECT_EQ(flaky_text(trend().flaky[0]),
+            "PASS in 2, FAIL in 1 of 3 runs; the last odd one is run 1");
 }
 
 TEST_F(TrendTest, RepetitionsOfOneRunMayDifferToo) {

@@ -73,6 +73,21 @@ Table runs_table(const Trend& trend) {
   return table;
 }
 
+/// A block for each place.
+std::string changes_text(const Trend& trend) {
+  std::string text;
+  for (const std::vector<const Series*>& place : changed_by_place(trend)) {
+    Table table{{"what", "", "median of the runs", "evidence"}, {}};
+    for (const Series* one : place)
+      table.rows.push_back({one->name, direction_of(*one), shift_of(*one), evidence_of(*one)});
+    const std::string cause = cause_of(trend, *place.front());
+    text += table_text(fmt::format("changes {}{}", place_of(trend, *place.front()),
+                                   cause.empty() ? "" : "; new there: " + cause),
+                       table, console_runs, "; --html FILE shows all");
+  }
+  return text;
+}
+
 /// Lines of a paragraph.
 std::string wrapped_text(const std::string& text) {
   constexpr std::size_t width = 108;
@@ -98,8 +113,11 @@ std::string direction_of(const Series& series) {
 
 std::string evidence_of(const Series& series) {
   const ChangePoint& change = *series.change;
-  return fmt::format("p {:.2g}, corrected {:.2g}, {} runs before and {} after", change.p,
-                     change.corrected_p, change.at, series.values.size() - change.at);
+  const auto text = [](double p) {
+    return p < 1e-12 ? std::string("below 1e-12") : fmt::format("{:.2g}", p);
+  };
+  return fmt::format("p {}, corrected {}, {} runs before and {} after", text(change.p),
+                     text(change.corrected_p), change.at, series.values.size() - change.at);
 }
 
 std::string trend_head(const Trend& trend) {
@@ -132,19 +150,13 @@ std::vector<std::string> trend_remarks(const Trend& trend) {
 std::string trend_text(const Trend& trend) {
   std::string text = fmt::format("{}\n{}\n", trend.device, trend_head(trend));
   for (const std::string& one : trend_remarks(trend)) text += one + '\n';
-  const std::vector<const Series*> changes = changed(trend);
-  text += changes.empty() ? "\nno change in reply times or counts that is more than chance\n"
-                          : fmt::format("\nchanges ({})\n", changes.size());
-  for (const Series* one : changes) {
-    const std::string cause = cause_of(trend, *one);
-    text += fmt::format("  {}: {}, {}\n      {}\n      {}{}\n", one->name, direction_of(*one),
-                        shift_of(*one), place_of(trend, *one), evidence_of(*one),
-                        cause.empty() ? "" : "; new there: " + cause);
-  }
+  const std::string changes = changes_text(trend);
+  text +=
+      changes.empty() ? "\nno change in reply times or counts that is more than chance\n" : changes;
   text += wrapped_text(tested_text(trend));
   text += table_text("from run to run", steps_table(trend));
   text += table_text("flaky: same device, firmware and vectors, and yet other verdicts",
-                     flaky_table(trend), console_cases, "; --html FILE shows all");
+                     flaky_table(trend), console_cases, "; --json has all");
   const std::string versions =
       versions_of(trend).size() > 1 ? table_text("by firmware", versions_table(trend)) : "";
   return text + versions +
