@@ -122,7 +122,11 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.add_option("--waivers", run.waivers,
                  "JSON file of accepted failures: id, reason, owner, text, expires, firmware");
   app.add_option("--baseline", run.baseline,
-                 "Results of an earlier run: what got worse since then fails the gate");
+                 "Results of an earlier run, or `last`, the last run of this device in the "
+                 "history: what got worse since then fails the gate");
+  app.add_option("--history", run.history,
+                 "Adds this run to the history in this file, for `fieldproof history`; --baseline "
+                 "last reads it, too");
   app.add_option("--allow-write", run.allow_write,
                  "Real devices: what may be written: M, M100-M199, h1230-h12FF, all (outputs P, Q, "
                  "U only when named). Of exec: anything, where this is not given");
@@ -203,6 +207,60 @@ void add_explore(CLI::App& app, cli::ExploreOptions& explore) {
   app.add_flag("--fail-fast", run.fail_fast, "Stop at the first finding");
   app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
   app.add_flag("-v,--verbose", run.verbose, "Show every result with its exchange");
+}
+
+/// Its commands, each with what it does.
+void add_history(CLI::App& app, cli::HistoryOptions& options, std::function<int()>& chosen) {
+  using Command = int (*)(const cli::HistoryOptions&);
+  const auto add = [&](const char* name, const char* what, Command command) {
+    CLI::App* one = app.add_subcommand(name, what);
+    one->add_option("--history", options.file,
+                    "File of the history (default fieldproof/history.sqlite in XDG_DATA_HOME or "
+                    "~/.local/share)");
+    one->callback([&options, &chosen, command] {
+      chosen = [&options, command] { return command(options); };
+    });
+    return one;
+  };
+  const auto add_device = [&](CLI::App& one) {
+    one.add_option("--device", options.device, "Its name, or a part that only one device has");
+  };
+  const auto add_last = [&](CLI::App& one, const char* what) {
+    one.add_option("--last", options.last, what)->check(CLI::Range(0, 1'000'000));
+  };
+  const auto add_reports = [&](CLI::App& one) {
+    one.add_option("--html", options.html, "HTML file");
+    CLI::Option* json = one.add_flag("--json", options.json);
+    one.add_flag("--markdown", options.markdown)->excludes(json);
+  };
+  add("add", "Add runs; one that is there already stands once", cli::history_add_command)
+      ->add_option("results", options.results, "OUT/results.ndjson or OUT/results.json of each run")
+      ->required();
+  CLI::App* list = add("list", "The runs, the newest first", cli::history_list_command);
+  add_device(*list);
+  add_last(*list, "So many runs (20); 0: all");
+  list->add_flag("--json", options.json, "All runs, the oldest first");
+  CLI::App* show =
+      add("show", "One run: what did not hold, reply times", cli::history_show_command);
+  show->add_option("run", options.run, "Its number, or last")->capture_default_str();
+  add_device(*show);
+  show->add_flag("--json", options.json, "All cases");
+  CLI::App* matrix = add("matrix", "Devices or firmware versions side by side, case by case",
+                         cli::history_matrix_command);
+  matrix->add_option("--by", options.by, "What has a column: device, firmware")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"device", "firmware"}));
+  add_device(*matrix);
+  matrix->add_option("--filter", options.filter, "Cases by id: globs separated by ':'");
+  add_last(*matrix, "So many columns, those with the latest runs (12); 0: all");
+  add_reports(*matrix);
+  CLI::App* trend = add("trend",
+                        "A device over its runs: reply times, counts, where they changed, "
+                        "flaky cases",
+                        cli::history_trend_command);
+  add_device(*trend);
+  add_last(*trend, "The last so many runs (all)");
+  add_reports(*trend);
 }
 
 /// "; did you mean '--filter'?" for "--filer=x"; empty for what is an option, or like none. Those
@@ -433,14 +491,23 @@ int run_tool(int argc, char** argv) {
   compare_app
       ->add_option(
           "results", compare.files,
-          "Results of two or more runs (NDJSON, JSON or JUnit): each is compared with the first")
+          "Results of two or more runs (NDJSON, JSON or JUnit): each is compared with the first; "
+          "`last` as the first: the last run of that device in the history")
       ->required()
       ->expected(2, -1);
+  compare_app->add_option("--history", compare.history, "File of the history, for `last`");
   compare_app->add_option("--html", compare.html, "HTML file of the comparison");
   compare_app->add_option("--junit", compare.junit,
                           "JUnit file of the comparison: what got worse is a failure");
   compare_app->footer(
       "Exit codes: 0 nothing got worse, 1 something got worse, 2 a file cannot be read.");
+
+  cli::HistoryOptions history;
+  CLI::App* history_app =
+      app.add_subcommand("history", "Many runs: verdicts side by side, reply times over versions");
+  history_app->require_subcommand(1);
+  add_history(*history_app, history, chosen);
+  history_app->footer("Exit codes: 0 done, 2 a file cannot be used, 3 it could not be written.");
 
   cli::MergeOptions merge;
   CLI::App* merge_app = app.add_subcommand(

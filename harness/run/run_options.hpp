@@ -20,7 +20,8 @@ struct RunOptions {
   std::string journal;            // empty: in `out`
   bool discard_journal = false;   // forget what an earlier run did not put back
   std::string waivers;
-  std::string baseline;  // results of an earlier run, to compare with
+  std::string baseline;  // results of an earlier run, to compare with; "last": of the history
+  std::string history;   // where this run is added at its end; empty: nowhere
   std::string power_cycle;
   std::string role;      // "client", "server"; empty: both
   std::string stimulus;  // what makes a device ask: a command, or "-": the program of exec:

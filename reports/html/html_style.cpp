@@ -124,6 +124,8 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .a0{--a:#3b82d6}.a1{--a:#d9822b}.a2{--a:#17988f}.a3{--a:#9a5fd0}.a4{--a:#d24d8a}.a5{--a:#84931f}
 
 .list td,.list th{border-bottom:1px solid var(--rule)}
+.scroll{overflow-x:auto}
+.scroll .list th:first-child{min-width:160px}
 .list .num{padding-right:20px}
 .ids{color:var(--soft)}
 .errata th{width:200px}
