@@ -79,6 +79,13 @@ const Finding& Failures::add(const results::CaseResult& result) {
   return finding;
 }
 
+std::vector<const Finding*> Failures::all() const {
+  std::vector<const Finding*> all;
+  for (const auto& [kind, one] : known_) all.push_back(&one.finding);
+  std::ranges::sort(all, std::less<>{}, &Finding::number);
+  return all;
+}
+
 std::vector<const Finding*> Failures::repeated() const {
   std::vector<const Finding*> all;
   for (const auto& [kind, one] : known_)

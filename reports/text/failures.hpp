@@ -38,6 +38,8 @@ class Failures {
   /// One more; the finding that it belongs to, with it.
   const Finding& add(const results::CaseResult& result);
 
+  /// In the order in which they came up.
+  std::vector<const Finding*> all() const;
   /// With more cases than are told in full; the greatest first.
   std::vector<const Finding*> repeated() const;
   /// Labels of all other cases, in their order.
