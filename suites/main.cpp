@@ -454,6 +454,30 @@ int run_tool(int argc, char** argv) {
       "Exit codes: 0 found, 1 something is wrong and named, 2 usage, 3 port trouble, 130 "
       "interrupted.");
 
+  cli::InitOptions init;
+  CLI::App* init_app = app.add_subcommand(
+      "init",
+      "The first run: asks where the device is, finds it, writes a bench file, runs its "
+      "cases and writes a job for CI");
+  init_app->add_option("--endpoint", init.endpoint,
+                       "serial:PATH, rfc2217:HOST:PORT, tcp:HOST, exec:COMMAND, emulator:MODEL");
+  init_app->add_option("--protocol", init.protocol, "Look for this one alone");
+  init_app->add_option("--profile", init.profile,
+                       "What the device declares: a name from the profiles folder, or a JSON file");
+  init_app->add_option("--name", init.name, "Its name in the bench file");
+  init_app->add_option("--serial", init.serial, "Its serial number, for reports");
+  init_app->add_option("--firmware", init.firmware, "Its firmware, for reports and waivers");
+  init_app->add_option("--allow-write", init.allow_write,
+                       "Memory that may be written: M100-M199,D0-D99 (a program behind exec: needs "
+                       "none)");
+  init_app->add_option("--ci", init.ci, "github, gitlab or none");
+  init_app->add_option("--bench", init.bench, "Bench file; a device is added to one that is there")
+      ->capture_default_str();
+  init_app->add_option("--out", init.out, "Folder of the reports")->capture_default_str();
+  init_app->add_flag("--yes", init.yes, "Ask nothing: what no option answers is as usual");
+  init_app->add_flag("--no-run", init.no_run, "Write the files alone");
+  init_app->footer(exit_codes);
+
   cli::FrameOptions frame;
   CLI::App* frame_app =
       app.add_subcommand("frame", "Explain a frame field by field, with its checks computed");
@@ -562,6 +586,8 @@ int run_tool(int argc, char** argv) {
       [&] { chosen = [&] { return cli::emulate_command(emulate, suites::protocols()); }; });
   probe_app->callback(
       [&] { chosen = [&] { return cli::probe_command(probe, suites::protocols()); }; });
+  init_app->callback(
+      [&] { chosen = [&] { return cli::init_command(init, suites::protocols()); }; });
   frame_app->callback(
       [&] { chosen = [&] { return cli::frame_command(frame, suites::protocols()); }; });
   errata_app->callback(

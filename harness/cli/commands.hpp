@@ -60,7 +60,26 @@ struct ProbeOptions {
   bool all = false;                                              // go on after the first find
   bool fingerprint = false;                                      // of each device that was found
 };
-int probe_command(const ProbeOptions& options, const harness::Protocols& protocols);
+/// What `probe` has found, to go on with.
+struct ProbedDevice {
+  std::string endpoint;  // with its settings, station and protocol
+  std::string protocol;
+  std::string profile;  // that suits a module of the protocol; of an emulator: its own
+};
+/// `found`, where it is not nullptr, takes each device.
+int probe_command(const ProbeOptions& options, const harness::Protocols& protocols,
+                  std::vector<ProbedDevice>* found = nullptr);
+
+struct InitOptions {
+  std::string endpoint, protocol, profile, name, serial, firmware, allow_write;
+  std::string ci;                      // "github", "gitlab", "none"
+  std::string bench = "bench.json";    // made, or added to
+  std::string out = "fieldproof-out";  // of the first run
+  bool yes = false;                    // nobody is asked
+  bool no_run = false;
+};
+/// Finds a device, writes it into a bench file, runs its cases, and writes a job for CI.
+int init_command(const InitOptions& options, const harness::Protocols& protocols);
 
 struct FrameOptions {
   std::string frame;

@@ -54,6 +54,8 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   unsigned starts() const override { return starts_; }
 
   Result<LinkId> open(Transport transport, std::uint16_t port) override {
+    if (!child_)
+      if (const Status started = start(false); !started) return started.error();
     if (client_) return cannot_open(transport, "this case is of a client, which opens the links");
     const std::uint16_t own = transport == Transport::tcp ? tcp_ : udp_;
     if (own == 0)
