@@ -20,7 +20,7 @@ std::string read(const std::string& path) {
 /// `init` in the folder, where it writes its files.
 Finished init(const TestFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"init", "--yes"});
-  return run_tool(arguments, {.folder = folder.path()});
+  return run_tool(arguments, {{}, folder.path()});
 }
 
 const std::string inverter =
