@@ -309,7 +309,7 @@ bool Bench::set_up_device(const PreparedCase& prepared, CaseResult& result) {
          &begun.error());
     return give_up(Verdict::error, begun.error().message);
   }
-  const bool started = known_->starts != endpoint_.starts();
+  const bool started = just_started_ = known_->starts != endpoint_.starts();
   const bool changed = endpoint_.capabilities().control && known_->config != config;
   known_->starts = endpoint_.starts();
   known_->config = config;
@@ -342,7 +342,8 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (!real)
     if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun)
       return give_up(Verdict::error, begun.error());
-  if (prepared.source->fresh && real && !power_cycle(result, prepared.is_client()))
+  if (prepared.source->fresh && real && !just_started_ &&
+      !power_cycle(result, prepared.is_client()))
     return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
   if (real && !prepared.is_client() && !meets_premises(prepared, result)) return false;
   // What a clock asked between the cases is no part of this one. It waits for its answer before it

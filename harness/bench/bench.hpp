@@ -193,6 +193,7 @@ class Bench {
   const vectors::Case* last_ = nullptr;  // on an emulator repeats find it again, ready
   Ready last_ready_;
   std::string not_up_;           // why the device cannot be asked as it is to be set up here
+  bool just_started_ = false;    // for the present case
   bool set_up_answered_ = true;  // in the present case: saving and setting memory
   bool silent_ = false;          // nothing came in start()
 };

@@ -93,10 +93,12 @@ TEST(BenchFile, PathsOfProfilesStartAtItsFolder) {
 }
 
 TEST(BenchFile, ErrorsNameFileKeyAndWhatToWrite) {
-  EXPECT_EQ(refusal(R"("endpoint": "emulator:", "statoin": 3)"),
-            "cannot read bench file lab/bench.json: devices.d: unknown key 'statoin'; did you mean "
-            "'station'?; the keys are endpoint, profile, "
-            "station, line, identity, fingerprint, allow_write, operator, notes, stimulus, aux");
+  EXPECT_EQ(
+      refusal(R"("endpoint": "emulator:", "statoin": 3)"),
+      "cannot read bench file lab/bench.json: devices.d: unknown key 'statoin'; did you mean "
+      "'station'?; the keys are endpoint, profile, "
+      "station, line, identity, fingerprint, allow_write, operator, notes, stimulus, control, "
+      "aux");
   EXPECT_THAT(refusal(R"("endpoint": "emulator:", "identity": {"vendor": "LS"})"),
               HasSubstr("devices.d.identity: unknown key 'vendor'"));
   EXPECT_THAT(refusal(R"("station": 3)"), HasSubstr("devices.d: has no \"endpoint\""));

@@ -82,17 +82,16 @@ Bench& Benches::bench_for(const vectors::Case& source) {
 
 std::vector<const vectors::Case*> Benches::grouped(
     const std::vector<const vectors::Case*>& cases) const {
-  std::map<std::pair<const Member*, std::string>, std::vector<const vectors::Case*>> groups;
-  std::vector<std::pair<const Member*, std::string>> order;
-  for (const Member& member : members_) order.emplace_back(&member, "{}");
+  std::map<std::string, std::vector<const vectors::Case*>> groups;
+  std::vector<std::string> order{"{}"};
   for (const vectors::Case* one : cases) {
-    const Member& member = member_for(*one);
-    const std::pair key{&member, needed_by(*one, member).dump()};
-    if (std::ranges::find(order, key) == order.end()) order.push_back(key);
-    groups[key].push_back(one);
+    const std::string needed = needed_by(*one, member_for(*one)).dump();
+    if (!groups.contains(needed) && needed != order.front()) order.push_back(needed);
+    groups[needed].push_back(one);
   }
   std::vector<const vectors::Case*> sorted;
-  for (const auto& key : order) std::ranges::copy(groups[key], std::back_inserter(sorted));
+  for (const std::string& needed : order)
+    std::ranges::copy(groups[needed], std::back_inserter(sorted));
   return sorted;
 }
 

@@ -172,7 +172,7 @@ Result<std::string> Controlled::get(std::string_view address, std::size_t digits
     const auto one = values.find(name);
     const bool text = one != values.end() && one->is_string();
     if (!text || !is_hex(one->get_ref<const std::string&>()))
-      return fail(
+      return refuse(
           fmt::format("--control: the answer {} has no hex digits for {}", answer->dump(), name));
     hex += upper(one->get<std::string>());
   }

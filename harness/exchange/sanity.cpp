@@ -21,14 +21,13 @@ Result<Sign> Sanity::anything_answers(Duration patience, Duration reply_delay, b
   heard_.clear();
   all_.clear();
   probes_ = answers_ = 0;
-  for (bool first = true; endpoint.now() < give_up; first = false) {
+  // A child that has just been started flushes what came before it opened the port: the first
+  // probes are often lost.
+  Duration patient = endpoint.capabilities().can_power_cycle ? timing_.quiet : timing_.response_max;
+  for (; endpoint.now() < give_up; patient = std::min(2 * patient, timing_.response_max)) {
     const Result<Sent> sent = visit_.send(request);
     if (!sent) return sent.error();
     ++probes_;
-    // A child that has just been started flushes what came before it opened the port: the first
-    // probe is often lost.
-    const bool maybe_lost = first && endpoint.capabilities().can_power_cycle;
-    const Duration patient = maybe_lost ? timing_.quiet : timing_.response_max;
     const Status listened =
         hear_answers(std::min(give_up, sent->end + patient + reply_delay), begun);
     if (!listened) return listened.error();

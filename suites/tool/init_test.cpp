@@ -38,7 +38,7 @@ TEST(Init, FindsTheExampleDeviceAndRunsItsCases) {
   EXPECT_EQ(device["profile"], "inverter");
   EXPECT_EQ(device["identity"]["firmware"], "1.2");
   Results results = read_results(folder / "fieldproof-out/results.ndjson");
-  EXPECT_GT(results.counts()["PASS"], 200u);
+  EXPECT_GT(results.counts()["PASS"], 150u);
   const std::string job = read(folder / ".gitlab-ci.yml");
   EXPECT_THAT(job, HasSubstr("--bench bench.json --dut fan --role server --min-judged "));
   EXPECT_THAT(job, HasSubstr("junit: fieldproof-out/junit.xml"));
