@@ -61,7 +61,8 @@ const std::map<std::string, Special> specials{
      {.not_run = "the text of the manuals is not ours to ship, and vectors would be locked"}},
     {"fieldproof emulate", {.not_run = "the name of a command, in a sentence"}},
     {"./run.sh ARGUMENTS", {.replaced = "ARGUMENTS", .by = "list"}},
-    {"./run.sh explore --endpoint 'exec:./my_plc {tty}' --profile xbc-dxxxh --requests 500 --seed 7",
+    {"./run.sh explore --endpoint 'exec:./my_plc {tty}' --profile xbc-dxxxh --requests 500 --seed "
+     "7",
      {.replaced = "--requests 500", .by = "--requests 30"}},
     {"fieldproof run --derived",
      {.replaced = "--derived", .by = "--derived --filter 'ls_bus/read/*'"}},
@@ -119,6 +120,7 @@ const std::map<std::string, Special> specials{
     {"fieldproof run --duration 8h", {.replaced = "8h", .by = "1s"}},
     {"fieldproof run --waivers FILE", {.replaced = "FILE", .by = "waivers.json"}},
     {"fieldproof compare OLD NEW...", {.replaced = "NEW...", .by = "NEW"}},
+    {"fieldproof history add RESULT...", {.replaced = "RESULT...", .by = "OLD RESULT"}},
     {"fieldproof probe ENDPOINT", {.replaced = "ENDPOINT", .by = "serial:adapter"}},
     {"fieldproof report results.ndjson --junit F --html F",
      {.replaced = "--html F", .by = "--html F.html"}},
@@ -195,7 +197,8 @@ class ReadmeRuns : public testing::Test {
   Process& start(const std::string& command) {
     return processes_.emplace_back(
         std::vector<std::string>{"bash", "-c", command},
-        ProcessOptions{.environment = {{"PATH", (folder_ / "bin:") + std::getenv("PATH")}},
+        ProcessOptions{.environment = {{"PATH", (folder_ / "bin:") + std::getenv("PATH")},
+                                       {"XDG_DATA_HOME", folder_ / "data"}},
                        .folder = folder_.path()});
   }
 
