@@ -295,19 +295,27 @@ std::string unknown_argument(const CLI::App& app, const std::vector<std::string>
 
 /// What the first unknown word was meant to be, and where the words stand.
 std::string slip_of(const CLI::App& app, int argc, char** argv) {
-  std::vector<std::string> commands;
-  const CLI::App* command = nullptr;
-  for (const CLI::App* one : app.get_subcommands({})) {
-    commands.push_back(one->get_name());
-    if (argc > 1 && one->get_name() == argv[1]) command = one;
+  const CLI::App* command = &app;
+  std::string path, meant;
+  int at = 1;
+  for (bool known = true; known && at < argc;) {
+    std::vector<std::string> names;
+    const CLI::App* next = nullptr;
+    for (const CLI::App* one : command->get_subcommands({})) {
+      names.push_back(one->get_name());
+      if (names.back() == argv[at]) next = one;
+    }
+    known = next != nullptr;
+    if (known) {
+      command = next;
+      path += command->get_name() + " ";
+      ++at;
+    } else {
+      meant = suggestion(argv[at], std::vector<std::string_view>(names.begin(), names.end()));
+    }
   }
-  std::string meant;
-  if (!command && argc > 1)
-    meant = suggestion(argv[1], std::vector<std::string_view>(commands.begin(), commands.end()));
-  for (int i = 2; command && i < argc && meant.empty(); ++i)
-    meant = meant_option(*command, argv[i]);
-  return fmt::format("{}; see fieldproof {}--help", meant,
-                     command ? command->get_name() + " " : "");
+  for (; at < argc && meant.empty(); ++at) meant = meant_option(*command, argv[at]);
+  return fmt::format("{}; see fieldproof {}--help", meant, path);
 }
 
 std::string command_line(int argc, char** argv) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "reports/history/device.hpp"
@@ -68,10 +69,15 @@ std::string History::protocols_of(const results::RunInfo& run) {
 
 Result<History::Added> History::add(const RunSummary& run) {
   const std::optional<std::int64_t> started = seconds_of(run.run.started);
-  if (run.run.vectors_hash.empty() || !started)
+  const bool has_revisions =
+      std::ranges::none_of(run.cases, [](const auto& one) { return one.second.rev == 0; });
+  if (const char* missing = !started                       ? "when it was"
+                            : run.run.vectors_hash.empty() ? "which vectors it is of"
+                            : !has_revisions ? "which revisions of the vectors it is of"
+                                             : nullptr)
     return fail(
         fmt::format("cannot add {}: it does not say {}; give results.ndjson or results.json",
-                    run.path, started ? "which vectors it is of" : "when it was"));
+                    run.path, missing));
   if (run.cases.empty())
     return fail(fmt::format("cannot add {}: there is no result in it", run.path));
   const CaseLists lists = lists_of(run);

@@ -73,9 +73,12 @@ Result<std::optional<RunSummary>> History::last_before(const RunSummary& run) {
   const std::string hash = hash_of(run, lists_of(run));
   constexpr std::int64_t any_time = std::numeric_limits<std::int64_t>::max();
   const Result<std::int64_t> number = guarded(Use::read, path_, [&] {
+    // Within a second, by the order of adding; a run that is not there yet comes last.
     Statement row = database_->prepare(
         "SELECT run.number FROM run JOIN device ON device.id = run.device "
-        "WHERE device.name = ? AND protocols = ? AND started_s <= ? AND hash != ? AND complete "
+        "WHERE device.name = ?1 AND protocols = ?2 AND complete AND (started_s < ?3 OR "
+        "(started_s = ?3 AND run.number < coalesce((SELECT number FROM run WHERE hash = ?4), "
+        "1e18))) "
         "ORDER BY started_s DESC, run.number DESC LIMIT 1");
     row.with(std::string_view(device), std::string_view(protocols),
              seconds_of(run.run.started).value_or(any_time), std::string_view(hash));

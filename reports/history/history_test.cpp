@@ -141,6 +141,9 @@ TEST_F(HistoryTest, WhatSaysTooLittleIsNotAdded) {
   run = run_of({}, {result_of("a", V::pass)});
   run.run.started = "yesterday";
   EXPECT_THAT(refused(run), HasSubstr("it does not say when it was"));
+  run = run_of({}, {result_of("a", V::pass)});
+  run.cases.begin()->second.rev = 0;  // JUnit knows none, and no reply times
+  EXPECT_THAT(refused(run), HasSubstr("it does not say which revisions of the vectors it is of"));
   EXPECT_THAT(refused(run_of({}, {})), HasSubstr("there is no result in it"));
   EXPECT_THAT(*history.runs(), IsEmpty());
 }

@@ -125,6 +125,7 @@ const std::map<std::string, Special> specials{
     {"fieldproof run --duration 8h", {.replaced = "8h", .by = "1s"}},
     {"fieldproof run --waivers FILE", {.replaced = "FILE", .by = "waivers.json"}},
     {"fieldproof compare OLD NEW...", {.replaced = "NEW...", .by = "NEW"}},
+    {"fieldproof history add RESULT...", {.replaced = "RESULT...", .by = "OLD RESULT"}},
     {"fieldproof probe ENDPOINT", {.replaced = "ENDPOINT", .by = "serial:adapter"}},
     {"fieldproof report results.ndjson --junit F --html F",
      {.replaced = "--html F", .by = "--html F.html"}},
@@ -201,7 +202,8 @@ class ReadmeRuns : public testing::Test {
   Process& start(const std::string& command) {
     return processes_.emplace_back(
         std::vector<std::string>{"bash", "-c", command},
-        ProcessOptions{.environment = {{"PATH", (folder_ / "bin:") + std::getenv("PATH")}},
+        ProcessOptions{.environment = {{"PATH", (folder_ / "bin:") + std::getenv("PATH")},
+                                       {"XDG_DATA_HOME", folder_ / "data"}},
                        .folder = folder_.path()});
   }
 
