@@ -100,6 +100,8 @@ std::string Bench::undeclared(const json& config) const {
   for (const auto& [key, value] : config.items()) {
     if (key == "station" || key == "p2p" || (key == "role" && asks)) continue;  // Arming tells
     if (asks && arming_.tells(key)) continue;
+    const bool of_wire = key == "line" || key == "bench_line";
+    if (of_wire && !asks && !endpoint_.capabilities().wire) continue;  // below_floor tells
     const json& declared = options_.profile.config;
     const json fallback = default_config().value(key, json());
     const json has = declared.value(key, fallback);
@@ -258,7 +260,8 @@ std::string Bench::not_carried(const PreparedCase& prepared) const {
     if (step.step->kind != vectors::Step::Kind::open || !step.network) continue;
     const bool udp = step.step->link.transport == Transport::udp;
     if (udp && !can.datagrams)
-      return "needs datagrams; say where the device takes them: {udp_port} in the command of exec:, "
+      return "needs datagrams; say where the device takes them: {udp_port} in the command of "
+             "exec:, "
              "udp=PORT behind tcp:HOST:PORT";
     if (!udp && !can.connections)
       return "needs connections; name the endpoint tcp:HOST:PORT?udp=PORT";

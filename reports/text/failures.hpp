@@ -38,7 +38,9 @@ class Failures {
   /// One more; the finding that it belongs to, with it.
   const Finding& add(const results::CaseResult& result);
 
-  /// With more cases than are told in full; the greatest first.
+  /// The greatest first.
+  std::vector<const Finding*> all() const;
+  /// Those with more cases than are told in full.
   std::vector<const Finding*> repeated() const;
   /// Labels of all other cases, in their order.
   std::vector<std::string> single() const;

@@ -60,9 +60,10 @@ const std::map<std::string, Special> specials{
     {"./run.sh lint --manuals DIR --lock",
      {.not_run = "the text of the manuals is not ours to ship, and vectors would be locked"}},
     {"fieldproof emulate", {.not_run = "the name of a command, in a sentence"}},
-    {"cpack --preset tool", {.not_run = "Package makes one"}},
+    {"cpack --config build/tool/CPackConfig.cmake", {.not_run = "Package makes one"}},
     {"./run.sh ARGUMENTS", {.replaced = "ARGUMENTS", .by = "list"}},
-    {"./run.sh explore --endpoint 'exec:./my_plc {tty}' --profile xbc-dxxxh --requests 500 --seed 7",
+    {"./run.sh explore --endpoint 'exec:./my_plc {tty}' --profile xbc-dxxxh --requests 500 --seed "
+     "7",
      {.replaced = "--requests 500", .by = "--requests 30"}},
     {"fieldproof run --derived",
      {.replaced = "--derived", .by = "--derived --filter 'ls_bus/read/*'"}},
