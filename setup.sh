@@ -2,10 +2,23 @@
 
 say() { printf '%s\n' "$*" >&2; }
 
-# install_packages KIND...: the packages of these kinds that are not installed yet.
+# release: the one of this system that packages.txt knows, else Debian 12.
+release() {
+  local here
+  here=$(. "${OS_RELEASE:-/etc/os-release}" 2>/dev/null && echo "$ID-${VERSION_ID:-}")
+  grep -qE "^[^#].* ${here:-none}( |$)" packages.txt && echo "$here" || echo debian-12
+}
+
+# packages_of KIND...: the packages of these kinds, of this release.
+packages_of() {
+  awk -v kinds=" $* " -v release=" $(release) " \
+    '$1 !~ /^#/ && index(kinds, " " $1 " ") && (NF == 2 || index($0 " ", release)) { print $2 }' packages.txt
+}
+
+# install_packages KIND...: those that are not installed yet.
 install_packages() {
-  local kinds="$*" wanted missing
-  wanted=$(awk -v kinds=" $kinds " '$1 !~ /^#/ && NF == 2 && index(kinds, " " $1 " ") { print $2 }' packages.txt)
+  local wanted missing
+  wanted=$(packages_of "$@")
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     say "This is not a Debian system. Install the equivalents of these packages, then run cmake --preset tool:"
     say "$wanted"
@@ -37,6 +50,8 @@ build() {
   # Paths relative to this folder: another clone of the same tree hits the same cache.
   export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
   command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  # Its g++ is 11, and C++20 wants 12.
+  if [ -z "${CXX:-}" ] && [ "$(release)" = ubuntu-22.04 ]; then export CXX=g++-12; fi
   if [ ! -f "build/$preset/build.ninja" ]; then
     say "Configuring $preset ..."
     cmake --preset "$preset" "${launcher[@]}" >"$log" 2>&1 || { cat "$log" >&2; return 3; }

@@ -78,6 +78,21 @@ std::string red_cases(const text::Failures& failures, const std::string& rest) {
   return text.empty() ? "" : "\nred:\n" + text;
 }
 
+/// Where no case was judged at all: why.
+std::string why_nothing(const Summary& summary) {
+  constexpr std::size_t most = 5;
+  const std::vector<const text::Finding*> reasons = summary.not_judged.all();
+  std::size_t cases = 0;
+  for (const text::Finding* one : reasons) cases += one->cases;
+  if (cases == 0 || cases < summary.tally.total()) return "";
+  std::string text = "\nnothing was judged:\n";
+  for (std::size_t i = 0; i < std::min(reasons.size(), most); ++i)
+    text += fmt::format("  {}\n", text::xml_line(text::to_string(*reasons[i])));
+  if (reasons.size() > most)
+    text += fmt::format("  ... and {} more reasons\n", reasons.size() - most);
+  return text;
+}
+
 /// Where each case is told in full.
 std::string place_of_all(const Summary& summary) {
   for (const auto& [kind, path] : summary.reports)
@@ -202,7 +217,7 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   if (const std::string timing = text::timing_text(summary.timing); !timing.empty())
     text += '\n' + timing;
   if (summary.soak) text += '\n' + results::soak_text(*summary.soak);
-  text += red_cases(summary.red, place_of_all(summary));
+  text += red_cases(summary.red, place_of_all(summary)) + why_nothing(summary);
   std::size_t width = 0;
   for (const auto& [kind, path] : summary.reports) width = std::max(width, kind.size());
   if (!summary.reports.empty()) text += '\n';
@@ -222,6 +237,8 @@ Status ConsoleReport::begin(const RunInfo& run) {
 const text::Finding* ConsoleReport::count(const CaseResult& result) {
   summary_.tally.add(result);
   timing_.add(result);
+  if (!results::is_judged(result.verdict) && result.verdict != Verdict::error)
+    summary_.not_judged.add(result);
   return gates(result.verdict, options_.gate) ? &summary_.red.add(result) : nullptr;
 }
 

@@ -62,6 +62,7 @@ struct Summary {
       reports;  // kind and path: {"junit", "fieldproof-out/junit.xml"}
   text::TimingTable::Rows timing = {};
   std::optional<results::SoakSummary> soak = {};
+  text::Failures not_judged = {};  // SKIP, BLOCKED, INCONCLUSIVE
 };
 
 /// Counts of the verdicts that occur with their meaning, what failed again and again as one

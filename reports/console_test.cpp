@@ -256,6 +256,22 @@ TEST(CaseReport, ALineOfItsOwnWhereItShallBeOne) {
             "FAIL          xgt_cnet/rss/one_word  " + samples::failure().message + "\n");
 }
 
+TEST(RunSummary, SaysWhyNothingWasJudged) {
+  Summary summary;
+  const auto add = [&](Verdict verdict, const std::string& id, const std::string& message) {
+    summary.tally.add(verdict);
+    summary.not_judged.add(samples::with(verdict, id, message));
+  };
+  add(Verdict::blocked, "a/0", "needs --power-cycle");
+  for (int i = 1; i <= 4; ++i) add(Verdict::skip, "a/" + std::to_string(i), "is another protocol");
+  EXPECT_THAT(run_summary(summary, {}),
+              HasSubstr("\nnothing was judged:\n"
+                        "  4 cases: is another protocol (first: a/1, a/2, a/3)\n"
+                        "  1 case: needs --power-cycle (first: a/0)\n"));
+  summary.tally.add(Verdict::pass);
+  EXPECT_THAT(run_summary(summary, {}), Not(HasSubstr("nothing was judged")));
+}
+
 TEST(RunSummary, SaysWhereTheRestIs) {
   Summary summary;
   for (int i = 0; i < 25; ++i)

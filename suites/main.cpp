@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -7,13 +6,9 @@
 #include <functional>
 
 #include "harness/cli/commands.hpp"
-#include "harness/cli/completion_values.hpp"
+#include "harness/cli/usage_commands.hpp"
 #include "harness/cli/version.hpp"
-#include "harness/run/run_report.hpp"
-#include "harness/system/terminal.hpp"
 #include "harness/usage/completion_scripts.hpp"
-#include "harness/usage/help.hpp"
-#include "harness/usage/man_page.hpp"
 #include "harness/usage/option_groups.hpp"
 #include "src/base/spelling.hpp"
 #include "suites/protocols.hpp"
@@ -324,28 +319,12 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
-/// Prose: as wide as the terminal, up to a width that reads well.
-std::size_t help_width() {
-  const int columns = os::terminal_columns(STDOUT_FILENO);
-  return columns == 0 ? 80 : static_cast<std::size_t>(std::clamp(columns, 40, 100));
-}
-
-/// `fieldproof __complete WORD...`, which the scripts of the shells ask.
-int complete_command(const CLI::App& app, const std::vector<std::string>& words) {
-  run::print(usage::to_string(
-      usage::complete(usage::usage_of(app), words, cli::completion_values(suites::protocols()))));
-  return run::exit_code::ok;
-}
-
 int run_tool(int argc, char** argv) {
   CLI::App app(
       "fieldproof proves, clause by clause of the manual, that a PLC communication module speaks "
       "its protocols.",
       "fieldproof");
-  app.formatter_fn([](const CLI::App* one, const std::string&, CLI::AppFormatMode) {
-    const CLI::App* parent = one->get_parent();
-    return usage::help_text(usage::usage_of(*one, parent ? parent->get_name() : ""), help_width());
-  });
+  cli::format_help(app);
   app.set_version_flag("--version", [] { return cli::version_text(suites::protocols()); });
   app.require_subcommand(1);
   app.footer(exit_codes);
@@ -606,21 +585,12 @@ int run_tool(int argc, char** argv) {
       [&] { chosen = [&] { return cli::judge_command(judge, suites::protocols()); }; });
   restore_app->callback(
       [&] { chosen = [&] { return cli::restore_command(restore, suites::protocols()); }; });
-  completion_app->callback([&] {
-    chosen = [&] {
-      return run::print(usage::completion_script(shell, app.get_name())), run::exit_code::ok;
-    };
-  });
-  man_app->callback([&] {
-    chosen = [&] {
-      run::print(usage::man_page(usage::usage_of(app), {FIELDPROOF_VERSION, FIELDPROOF_RELEASED}));
-      return run::exit_code::ok;
-    };
-  });
+  completion_app->callback([&] { chosen = [&] { return cli::completion_command(app, shell); }; });
+  man_app->callback([&] { chosen = [&] { return cli::man_command(app); }; });
   report_app->callback([&] { chosen = [&] { return cli::report_command(report); }; });
 
   if (argc > 1 && std::string_view(argv[1]) == "__complete")
-    return complete_command(app, {argv + 2, argv + argc});
+    return cli::complete_command(app, {argv + 2, argv + argc}, suites::protocols());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

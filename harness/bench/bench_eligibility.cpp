@@ -109,6 +109,8 @@ std::string Bench::undeclared(const json& config) const {
   for (const auto& [key, value] : config.items()) {
     if (key == "station" || key == "p2p" || (key == "role" && asks)) continue;  // Arming tells
     if (asks && arming_.tells(key)) continue;
+    const bool of_wire = key == "line" || key == "bench_line";
+    if (of_wire && !asks && !endpoint_.capabilities().wire) continue;  // below_floor tells
     const json has = declared_value(options_.profile, key);
     if (!has.is_null() && plain(without_programs(has)) == plain(value)) continue;
     const bool refused = endpoint_.capabilities().control && !endpoint_.configures(key);

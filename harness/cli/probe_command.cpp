@@ -16,6 +16,8 @@
 #include "harness/probe/target.hpp"
 #include "harness/run/run_report.hpp"
 #include "harness/system/interrupt.hpp"
+#include "harness/system/terminal.hpp"
+#include "reports/text/fold.hpp"
 
 namespace fieldproof::cli {
 
@@ -130,8 +132,11 @@ class ProgressLine {
     if (!terminal_)
       fmt::print(stderr, "{}{}\n", text, last.diagnosis.echo ? " (echo)" : "");
     else
-      fmt::print(stderr, "\r\x1b[K{}, at most {} left", text,
-                 duration_text(each_ * static_cast<Duration::rep>(total - done)));
+      fmt::print(
+          stderr, "\r\x1b[K{}",
+          text::cut(fmt::format("{}, at most {} left", text,
+                                duration_text(each_ * static_cast<Duration::rep>(total - done))),
+                    static_cast<std::size_t>(os::terminal_columns(STDERR_FILENO)) - 1));
     std::fflush(stderr);
   }
   void erase() const {

@@ -58,9 +58,9 @@ std::string kind_of(const std::string& message) {
 }
 
 std::string to_string(const Finding& finding) {
-  return fmt::format("{} cases: {}{} (first: {})", grouped(finding.cases),
-                     finding.alike ? "" : "alike, as ", finding.message,
-                     fmt::join(finding.first, ", "));
+  return fmt::format("{} case{}: {}{} (first: {})", grouped(finding.cases),
+                     finding.cases == 1 ? "" : "s", finding.alike ? "" : "alike, as ",
+                     finding.message, fmt::join(finding.first, ", "));
 }
 
 const Finding& Failures::add(const results::CaseResult& result) {
@@ -79,7 +79,7 @@ const Finding& Failures::add(const results::CaseResult& result) {
   return finding;
 }
 
-std::vector<const Finding*> Failures::all() const {
+std::vector<const Finding*> Failures::in_order() const {
   std::vector<const Finding*> all;
   for (const auto& [kind, one] : known_) all.push_back(&one.finding);
   std::ranges::sort(all, std::less<>{}, &Finding::number);
@@ -87,9 +87,14 @@ std::vector<const Finding*> Failures::all() const {
 }
 
 std::vector<const Finding*> Failures::repeated() const {
+  std::vector<const Finding*> again = all();
+  std::erase_if(again, [](const Finding* one) { return !one->is_again(); });
+  return again;
+}
+
+std::vector<const Finding*> Failures::all() const {
   std::vector<const Finding*> all;
-  for (const auto& [kind, one] : known_)
-    if (one.finding.is_again()) all.push_back(&one.finding);
+  for (const auto& [kind, one] : known_) all.push_back(&one.finding);
   std::ranges::sort(all, [](const Finding* a, const Finding* b) {
     return std::pair(b->cases, a->number) < std::pair(a->cases, b->number);
   });

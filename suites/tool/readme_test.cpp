@@ -64,7 +64,7 @@ const std::map<std::string, Special> specials{
      {.replaced = "init", .by = "init --yes --endpoint emulator:xbc-h --no-run"}},
     {"./run.sh init",
      {.replaced = "init", .by = "init --yes --endpoint emulator:xbc-h --name mine --no-run"}},
-    {"cpack --preset tool", {.not_run = "Package makes one"}},
+    {"cpack --config build/tool/CPackConfig.cmake", {.not_run = "Package makes one"}},
     {"./run.sh ARGUMENTS", {.replaced = "ARGUMENTS", .by = "list"}},
     {"./run.sh explore --endpoint 'exec:./my_plc {tty}' --profile xbc-dxxxh --requests 500 --seed "
      "7",

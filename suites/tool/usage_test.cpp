@@ -101,6 +101,18 @@ TEST_F(Usage, zsh_completes) {
   EXPECT_THAT(offered("fieldproof run --out o"), ElementsAre("files"));
 }
 
+TEST_F(Usage, version_names_vectors_and_libraries) {
+  const std::string version = run_tool({"--version"}).out;
+  EXPECT_THAT(version, StartsWith("fieldproof " FIELDPROOF_VERSION " ("));
+  EXPECT_EQ(
+      run_tool({"run", "--filter", "xgt_cnet/rss/two_words/*", "--out", folder_ / "out"}).code, 0);
+  const std::string hash = read_results(folder_ / "out/results.ndjson").run.at("vectors_hash");
+  EXPECT_THAT(version, HasSubstr("\nvectors     " + hash + '\n'));
+  for (const char* name : {"compiler", "Boost 1.", "CLI11 ", "fmt ", "GoogleTest ",
+                           "nlohmann-json ", "OpenSSL ", "pugixml "})
+    EXPECT_THAT(version, testing::ContainsRegex(std::string(name) + "[^,]*[0-9]")) << name;
+}
+
 TEST_F(Usage, the_man_page_is_sound) {
   const std::string page = folder_.write("fieldproof.1", run_tool({"man"}).out);
   bool checked = false;
