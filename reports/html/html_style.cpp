@@ -170,7 +170,7 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .reason .ids{display:block}
 .list td,.list th{border-bottom:1px solid var(--rule)}
 .list .num{padding-right:20px}
-.ids{color:var(--soft)}
+.ids{color:var(--soft);overflow-wrap:anywhere}
 .errata th{width:200px}
 .errata td:last-child{width:110px}
 .legend{padding:0;list-style:none}
@@ -179,6 +179,7 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .sheet{margin-top:50px;padding-top:30px;border-top:3px solid var(--ink)}
 .sheet .banner{margin-top:16px}
 .signatures{display:grid;grid-template-columns:1fr 1fr;gap:40px;margin-top:40px;break-inside:avoid}
+.parts td:nth-child(-n+2){white-space:nowrap}
 .parts td:nth-child(3){color:var(--soft)}
 .signatures p{margin:0;padding-top:34px;border-bottom:1px solid var(--ink);color:var(--soft)}
 
@@ -236,6 +237,7 @@ tr,.tiles li,.section>summary,.banner,.facts,.signatures{break-inside:avoid}
 .case::details-content{content-visibility:visible;display:block;height:auto}
 .section .case::details-content{content-visibility:hidden}
 .sheet{border:0;margin:0;padding:0}
+.sheet .bar,.sheet .tiles small{display:none}
 .sheet .page{break-before:page;margin-top:0}
 .list details::details-content{content-visibility:visible;display:block}
 }
