@@ -209,8 +209,9 @@ h1{font-size:24px}
 .monitor tr{display:grid;grid-template-columns:auto auto 1fr;border-bottom:1px solid var(--rule)}
 .monitor td{border:0;width:auto!important;text-align:left!important}
 .monitor td:last-child{grid-column:1/-1;padding-top:0}
-.timing thead th:nth-child(n+3),.timing td:nth-child(n+4){display:none}
-.timing .plot{width:60%}
+.timing th:nth-child(3),.timing td:nth-child(3),.timing th:nth-child(4),.timing td:nth-child(4),.timing th:nth-child(n+6),.timing td:nth-child(n+6){display:none}
+.timing .plot{width:44%}
+.timing td{font-size:12.5px}
 .facts th{width:100px}
 .trace svg{font-size:18px}
 }
