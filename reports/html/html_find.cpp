@@ -77,8 +77,8 @@ function distinct(key) {
 function show(node) {
   for (var at = node; at; at = at.parentElement) if (at.tagName === "DETAILS") at.open = true;
   node.scrollIntoView({block: "center"});
+  document.querySelectorAll(".seen").forEach(function (other) { other.classList.remove("seen"); });
   node.classList.add("seen");
-  setTimeout(function () { node.classList.remove("seen"); }, 1500);
 }
 function target(one) {
   var link = one.row.querySelector("th a");

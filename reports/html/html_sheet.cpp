@@ -35,6 +35,12 @@ void write_fingerprint(HtmlWriter& out, const results::Identity& identity) {
         "None was declared and none was read: the identity above is as the engineer entered it.");
     return;
   }
+  if (identity.fingerprint.empty()) {
+    std::string found;
+    for (const auto& [key, value] : identity.fingerprint_found)
+      found += fmt::format("{}{}: {}", found.empty() ? "" : "; ", key, value);
+    return out.element("p", {}, "Read, and none was declared to compare it with: " + found);
+  }
   std::map<std::string, std::string> keys = identity.fingerprint;
   keys.insert(identity.fingerprint_found.begin(), identity.fingerprint_found.end());
   out.element("table", {{"class", "list"}}, [&] {
@@ -174,7 +180,8 @@ void write_first_page(HtmlWriter& out, const HtmlSurvey& survey, const results::
   write_verdict_of_run(out, survey, gate);
   write_facts(out, survey, gate);
   write_signatures(out);
-  write_hashes(out, survey);
+  if (!survey.log.sha256.empty())
+    out.element("p", {{"class", "ids"}}, "Of the log with SHA-256 " + survey.log.sha256);
 }
 
 }  // namespace
@@ -191,6 +198,7 @@ void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate&
     const results::RunInfo& run = survey.log.run;
     if (run.duts.empty()) write_fingerprint(out, run.identity);
     for (const results::DutInfo& dut : run.duts) write_fingerprint(out, dut.identity);
+    write_hashes(out, survey);
   });
 }
 

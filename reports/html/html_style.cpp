@@ -172,7 +172,7 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .scroll{overflow-x:auto}
 .scroll .list th:first-child{min-width:160px}
 .list .num{padding-right:20px}
-.ids{color:var(--soft)}
+.ids{color:var(--soft);overflow-wrap:anywhere}
 .errata th{width:200px}
 .errata td:last-child{width:110px}
 .legend{padding:0;list-style:none}
@@ -181,6 +181,7 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .sheet{margin-top:50px;padding-top:30px;border-top:3px solid var(--ink)}
 .sheet .banner{margin-top:16px}
 .signatures{display:grid;grid-template-columns:1fr 1fr;gap:40px;margin-top:40px;break-inside:avoid}
+.parts td:nth-child(-n+2){white-space:nowrap}
 .parts td:nth-child(3){color:var(--soft)}
 .signatures p{margin:0;padding-top:34px;border-bottom:1px solid var(--ink);color:var(--soft)}
 
@@ -210,8 +211,9 @@ h1{font-size:24px}
 .monitor tr{display:grid;grid-template-columns:auto auto 1fr;border-bottom:1px solid var(--rule)}
 .monitor td{border:0;width:auto!important;text-align:left!important}
 .monitor td:last-child{grid-column:1/-1;padding-top:0}
-.timing thead th:nth-child(n+3),.timing td:nth-child(n+4){display:none}
-.timing .plot{width:60%}
+.timing th:nth-child(3),.timing td:nth-child(3),.timing th:nth-child(4),.timing td:nth-child(4),.timing th:nth-child(n+6),.timing td:nth-child(n+6){display:none}
+.timing .plot{width:44%}
+.timing td{font-size:12.5px}
 .facts th{width:100px}
 .trace svg{font-size:18px}
 }
@@ -238,6 +240,7 @@ tr,.tiles li,.section>summary,.banner,.facts,.signatures{break-inside:avoid}
 .case::details-content{content-visibility:visible;display:block;height:auto}
 .section .case::details-content{content-visibility:hidden}
 .sheet{border:0;margin:0;padding:0}
+.sheet .bar,.sheet .tiles small{display:none}
 .sheet .page{break-before:page;margin-top:0}
 .list details::details-content{content-visibility:visible;display:block}
 }

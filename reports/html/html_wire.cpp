@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
@@ -18,7 +19,7 @@ constexpr double wire_left = 62, wire_right = 748, wire_width = 760, wire_height
 constexpr double bench_lane = 26, device_lane = 62, bar = 20, axis = 96;
 constexpr double least_bar = 10, tick_room = 52;
 constexpr std::size_t most_frames = 24;
-constexpr double cut_width = 2;  // a longer silence is drawn as twice as long as all frames
+constexpr double cut_from = 2;  // times all frames: a longer silence is cut
 
 std::string pixels(double value) { return fmt::format("{:.1f}", value); }
 std::string in_ms(Duration time) { return fmt::format("{:.3f}", to_ms(time)); }
@@ -83,14 +84,15 @@ class Axis {
   };
 
   void lay_out(const std::vector<const Event*>& frames, double busy) {
-    const double longest = std::max(cut_width * busy, 0.01);
+    const double longest = std::max(cut_from * busy, 0.01);
     double all = 0;
     for (Piece& one : pieces_) {
       const double took = to_ms(one.to - one.from);
       one.cut = took > longest && std::ranges::none_of(frames, [&](const Event* frame) {
                   return frame->start <= one.from && one.to <= frame->end;
                 });
-      one.wide = one.cut ? longest : took;
+      // Of two silences that are cut the longer one stays the wider.
+      one.wide = one.cut ? longest * (1 + std::log10(took / longest) / 2) : took;
       all += one.wide;
     }
     // Each piece keeps some room, so that no label stands on another.

@@ -5,9 +5,10 @@
   ["script", false]          as in a browser whose owner forbids scripts
   ["click", SELECTOR]        with the mouse, in the middle of what the selector finds
   ["type", TEXT]             key by key, into what has the focus
-  ["choose", SELECTOR, VALUE] an option of a list, as its keys do
+  ["choose", SELECTOR, TEXT] an option of a list, by its first letters
+  ["paper", WIDTH, HEIGHT]   lays it out as for print, in a window of so many inches; ends with 0, 0
   ["eval", EXPRESSION]       its value
-  ["pdf", PATH, WIDTH, HEIGHT]  prints, in inches; how many pages
+  ["pdf", PATH, WIDTH, HEIGHT]  prints on paper of so many inches, with margins of 15 and 14 mm; how many pages
   ["png", PATH]              a picture of the window
 
 It speaks the DevTools protocol over a pipe (descriptors 3 and 4), so that it needs nothing but Python and Chromium.
@@ -35,7 +36,7 @@ class Browser:
             pass_fds=(theirs_in, theirs_out), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(theirs_in)
         os.close(theirs_out)
-        self.buffer, self.last, self.events, self.session = b"", 0, [], None
+        self.buffer, self.last, self.events, self.session, self.scripts = b"", 0, [], None, True
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         self.call("Page.enable")
@@ -79,6 +80,8 @@ class Browser:
         self.events.clear()
         self.call("Page.navigate", url=where if ":" in where else "file://" + where)
         self.wait_for("Page.loadEventFired")
+        if not self.scripts:
+            return 0  # nothing of the page may run, the clock below neither
         # Twice: the first frame begins to be drawn, the second one stands behind it.
         return self.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => "
                          "done(performance.now()))))")
@@ -87,6 +90,7 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     def script(self, allowed):
+        self.scripts = allowed
         self.call("Emulation.setScriptExecutionDisabled", value=not allowed)
 
     def click(self, selector):
@@ -100,10 +104,14 @@ class Browser:
         for character in text:
             self.call("Input.dispatchKeyEvent", type="char", text=character)
 
-    def choose(self, selector, value):
-        self.call("DOM.enable")
+    def choose(self, selector, text):
         self.eval("document.querySelector(%s).focus()" % json.dumps(selector))
-        self.type(value)
+        self.type(text)
+
+    def paper(self, width, height):
+        self.call("Emulation.setEmulatedMedia", media="print" if width else "")
+        if width:
+            self.size(round(width * 96), round(height * 96))
 
     def pdf(self, path, width, height):
         data = base64.b64decode(self.call("Page.printToPDF", paperWidth=width, paperHeight=height,

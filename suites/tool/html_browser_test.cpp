@@ -1,0 +1,207 @@
+// The HTML report as a reader meets it: in headless Chromium, with mouse, keys and printer.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "suites/tool/tool_files.hpp"
+
+namespace fieldproof::tool_tests {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::Each;
+using testing::Ge;
+using testing::HasSubstr;
+using testing::Le;
+using testing::StartsWith;
+
+/// "chromium", or nothing.
+std::string browser() {
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+    if (run_program({"bash", "-c", std::string("command -v ") + name}).code == 0) return name;
+  return "";
+}
+
+constexpr const char* overflow = "document.documentElement.scrollWidth - innerWidth";
+constexpr const char* open_all = "document.querySelectorAll('details').forEach(d => d.open = true)";
+
+/// A device whose every answer has a wrong BCC, with cases of other models: one run for all tests.
+const std::string& red() {
+  static const TestFolder folder;
+  static const std::string page = [] {
+    run_tool({"run", "--endpoint", std::string("exec:") + BROKEN_SERVER + " bcc_off_by_one {tty}",
+              "--profile", "xbc-h", "--filter", "xgt_cnet/rss/bit_areas*", "--qualify", "--out",
+              folder.path()});
+    return folder / "report.html";
+  }();
+  return page;
+}
+
+class HtmlReportInBrowser : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (browser().empty())
+      GTEST_SKIP() << "no Chromium is installed; on Debian: apt-get install chromium";
+  }
+
+  /// The results of actions, those without one left out (suites/tool/testdata/browser.py).
+  std::vector<json> browse(const std::vector<json>& actions) {
+    const std::string script = folder_.write("actions.json", json(actions).dump());
+    const Finished done =
+        run_program({"bash", "-c",
+                     "/usr/bin/python3 " FIELDPROOF_SOURCE_DIR "/suites/tool/testdata/browser.py " +
+                         browser() + " <" + quoted(script)});
+    EXPECT_EQ(done.code, 0) << done.err;
+    std::vector<json> results;
+    for (const json& one : json::parse(done.out, nullptr, false))
+      if (!one.is_null()) results.push_back(one);
+    return results;
+  }
+
+  /// The default run, which is green, as if its gate had been another.
+  std::string qualified() {
+    std::string log = read_text(default_run().out() + "/results.ndjson");
+    const std::string gate = R"("gate":"default")";
+    const std::size_t at = log.find(gate);
+    if (at == std::string::npos) ADD_FAILURE() << "the run has no gate";
+    return report(
+        folder_.write("results.ndjson", log.replace(at, gate.size(), R"("gate":"qualify")")));
+  }
+
+  std::string report(const std::string& results) {
+    const std::string html = folder_ / "report.html";
+    EXPECT_EQ(run_tool({"report", results, "--html", html}).code, 0);
+    return html;
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(HtmlReportInBrowser, cases_are_searched_filtered_and_sorted_by_clicks) {
+  const char* count = "parseInt(document.querySelector('#find output').textContent)";
+  const char* found = "document.querySelector('#found').checkVisibility()";
+  const std::vector<json> seen = browse({
+      {"size", 1280, 900},
+      {"open", default_run().out() + "/report.html"},
+      {"eval", found},
+      {"click", "#find input"},
+      {"type", "rss two_words"},
+      {"eval", "[...document.querySelectorAll('#found tbody tr')].map(r => r.textContent)"},
+      {"eval", count},
+      {"eval", "location.hash"},
+      {"choose", "#find [name=verdict]", "INFO"},
+      {"eval", count},
+      {"click", "#find [type=reset]"},
+      {"eval", found},
+      {"click", ".tiles .v-info"},
+      {"eval", std::string(count) + " - document.querySelector('[data-count=INFO]').textContent"},
+      {"click", "#find [type=reset]"},
+      {"choose", "#find [name=protocol]", "modbus_rtu"},
+      {"click", "#found [data-sort=ms]"},
+      {"click", "#found [data-sort=ms]"},
+      {"eval",
+       "[...document.querySelectorAll('#found tbody tr')].map(r => +r.cells[4].textContent)"
+       ".every((ms, i, all) => i == 0 || ms <= all[i - 1])"},
+      {"eval", "location.hash"},
+      {"click", "#found tbody a"},
+      {"eval",
+       "(row => row.checkVisibility() && row.getBoundingClientRect().top < innerHeight)"
+       "(document.querySelector('.seen'))"},
+  });
+  ASSERT_EQ(seen.size(), 11u);
+  EXPECT_EQ(seen[1], false) << "nothing was asked";
+  EXPECT_THAT(seen[2].get<std::vector<std::string>>(),
+              Each(AllOf(StartsWith("PASSxgt_cnet/rss/two_words"), HasSubstr("7.1.5 (1)(e)"),
+                         HasSubstr("Individual reading of device"))));
+  EXPECT_EQ(seen[3], seen[2].size());
+  EXPECT_GT(seen[3], 1);
+  EXPECT_EQ(seen[4], "#q=rss+two_words");
+  EXPECT_EQ(seen[5], 0);
+  EXPECT_EQ(seen[6], false) << "all was cleared";
+  EXPECT_EQ(seen[7], 0) << "as many as the tile says";
+  EXPECT_EQ(seen[8], true) << "the slowest first";
+  EXPECT_EQ(seen[9], "#protocol=modbus_rtu&sort=-ms");
+  EXPECT_EQ(seen[10], true) << "a result leads to its case";
+}
+
+TEST_F(HtmlReportInBrowser, an_address_keeps_what_was_asked) {
+  const std::vector<json> seen =
+      browse({{"open", "file://" + red() + "#q=bit_areas&verdict=FAIL&sort=name"},
+              {"eval",
+               "[...document.querySelectorAll('#found tbody tr')].length > 0 &&"
+               " [...document.querySelectorAll('#found tbody tr')].every(r => "
+               "/^FAIL.*bit_areas/.test(r.textContent))"},
+              {"eval", "document.querySelector('#find input').value"},
+              {"click", "#found tbody a"},
+              {"eval", "document.querySelector('.seen').className"}});
+  ASSERT_EQ(seen.size(), 4u);
+  EXPECT_EQ(seen[1], true);
+  EXPECT_EQ(seen[2], "bit_areas");
+  EXPECT_THAT(seen[3].get<std::string>(), StartsWith("case v-fail")) << "its block, or one alike";
+}
+
+TEST_F(HtmlReportInBrowser, all_is_there_without_a_script) {
+  const std::vector<json> seen =
+      browse({{"script", false},
+              {"size", 1280, 900},
+              {"open", "file://" + red()},
+              {"eval", "document.querySelector('#find').checkVisibility()"},
+              {"eval", "document.querySelector('.cause details').open"},
+              {"click", "details.section summary"},
+              {"eval", "document.querySelector('details.section').open"},
+              {"eval", "document.querySelector('details.section tr').checkVisibility()"}});
+  ASSERT_EQ(seen.size(), 5u);
+  EXPECT_EQ(seen[1], false) << "what needs a script is not offered";
+  EXPECT_EQ(seen[2], true) << "the first failure of a cause is in full";
+  EXPECT_EQ(seen[3], true);
+  EXPECT_EQ(seen[4], true);
+}
+
+TEST_F(HtmlReportInBrowser, nothing_is_wider_than_400_pixels) {
+  for (const std::string& page : {qualified(), red()}) {
+    const std::vector<json> seen = browse({{"size", 400, 800},
+                                           {"open", page + "#q=rss"},
+                                           {"eval", overflow},
+                                           {"eval", open_all},
+                                           {"eval", overflow}});
+    ASSERT_EQ(seen.size(), 3u);
+    EXPECT_EQ(seen[1], 0) << page;
+    EXPECT_EQ(seen[2], 0) << page << " with all of it open";
+  }
+}
+
+/// Both papers: what is signed on the first page, what was not judged from the second on.
+TEST_F(HtmlReportInBrowser, the_sheet_has_few_pages) {
+  struct Paper {
+    double width, height;  // inches
+    double inside() const { return height - 30 / 25.4; }
+  };
+  constexpr std::array papers = {Paper{8.27, 11.69}, Paper{8.5, 11.0}};  // A4, Letter
+  for (const std::string& page : {qualified(), red()}) {
+    std::vector<json> actions = {{"open", page}};
+    for (const Paper& paper : papers)
+      actions.insert(
+          actions.end(),
+          {{"pdf", folder_ / "sheet.pdf", paper.width, paper.height},
+           {"paper", paper.width - 28 / 25.4, paper.inside()},
+           {"eval",
+            "document.querySelector('.signatures').getBoundingClientRect().bottom + scrollY"},
+           {"eval", "getComputedStyle(document.querySelector('.sheet .page')).breakBefore"},
+           {"eval",
+            "[...document.querySelectorAll('main > :not(.sheet)')].filter(e => "
+            "e.checkVisibility()).length"}});
+    const std::vector<json> seen = browse(actions);
+    ASSERT_EQ(seen.size(), 9u);
+    for (std::size_t i = 0; i < papers.size(); ++i) {
+      EXPECT_THAT(seen[4 * i + 1].get<int>(), AllOf(Ge(2), Le(6))) << papers[i].width << page;
+      EXPECT_LE(seen[4 * i + 2].get<double>(), papers[i].inside() * 96) << "the first page";
+      EXPECT_EQ(seen[4 * i + 3], "page") << "what was not judged begins another";
+      EXPECT_EQ(seen[4 * i + 4], 0) << "the sheet alone is printed";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fieldproof::tool_tests
