@@ -11,7 +11,7 @@ namespace {
 
 /// What a reason says, and what would end it; the first that fits. Options stand first: a reason
 /// that names one says what to do.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 19> remedies = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> remedies = {{
     {"--stimulus",
      "something that makes the device ask: --stimulus COMMAND, or \"prepared_blocks\" of the "
      "profile"},
@@ -23,11 +23,16 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 19> remedies
     {"line = ", "a line with these settings: serial:PORT, or --matrix"},
     {"no room", "more words to write in: --allow-write RANGES"},
     {"cannot be moved", "the very addresses of the manual's example: --allow-write RANGES"},
-    {"is about station", "a device set to the station that the case is about"},
+    {"is about station",
+     "a device set to the station that the case is about: {station} in the command of exec:, or "
+     "--control"},
     {"no command reads", "somebody who looks at it in XG5000"},
-    {"read only over the protocol", "another way into memory that the protocol cannot write"},
-    {"cannot do ", "a device whose mode and power the bench can change"},
-    {"the profile declares", "other settings of the device, declared in \"config\" of the profile"},
+    {"read only over the protocol", "a way into memory that the protocol cannot write: --control"},
+    {"read only with the bases", "a way into memory that the protocol cannot write: --control"},
+    {"cannot do ", "a device whose mode and power the bench can change: --control"},
+    {"the profile declares",
+     "other settings of the device: marks in the command of exec:, --control, or \"config\" of the "
+     "profile"},
     {"needs connections", "a device on a network: tcp:HOST:PORT?udp=PORT"},
     {"needs datagrams", "a device that takes datagrams: tcp:HOST:PORT?udp=PORT"},
     {"behind a pty or socket", "a real line, which carries short times: serial:PORT"},
