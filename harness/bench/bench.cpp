@@ -304,8 +304,9 @@ bool Bench::set_up_device(const PreparedCase& prepared, CaseResult& result) {
   const Status begun = endpoint_.begin(config);
   if (!begun && begun.error().refused) return give_up(Verdict::blocked, begun.error().message);
   if (!begun) {
-    stop(begun.error().interrupted ? "interrupted"
-                                   : "cannot set up the device: " + begun.error().message,
+    stop(begun.error().interrupted
+             ? "interrupted"
+             : "the port failed in " + result.id + ": " + begun.error().message,
          &begun.error());
     return give_up(Verdict::error, begun.error().message);
   }
