@@ -93,6 +93,38 @@ TEST_F(HistoryCommand, TheLastRunOfADeviceIsTheBaselineOfItsNextFirmware) {
   }
 }
 
+TEST_F(HistoryCommand, ABaselineIsAsWideAsTheRun) {
+  run_firmware("V1", "0011_for_1132", {"--history", file_});
+  const std::string lower = "xgt_cnet/rss/refused/lower";
+  const Finished narrow =
+      run_firmware("V2", "none", {"--baseline", "last", "--history", file_, "--filter", lower});
+  EXPECT_EQ(narrow.code, 0) << narrow.err;
+  EXPECT_THAT(narrow.out, AllOf(HasSubstr("newly passing: red before, and holds now (1)"),
+                                Not(HasSubstr("removed"))));
+}
+
+/// A shard is a part of a run: kept, and nobody's baseline. What `merge` makes of all is one.
+TEST_F(HistoryCommand, AShardIsNoBaseline) {
+  std::vector<std::string> shards;
+  for (const char* index : {"0", "1"}) {
+    const std::string out = folder_ / (std::string("shard") + index);
+    EXPECT_EQ(run_tool({"run", "--bench", bench("V1", "none"), "--dut", "plc", "--filter",
+                        refused_words, "--history", file_, "--out", out},
+                       {.environment = {{"GTEST_TOTAL_SHARDS", "2"}, {"GTEST_SHARD_INDEX", index}},
+                        .folder = ""})
+                  .code,
+              0);
+    shards.push_back(out + "/results.ndjson");
+  }
+  EXPECT_EQ(list().size(), 2u);
+  EXPECT_THAT(run_firmware("V2", "none", {"--history", file_, "--baseline", "last"}).out,
+              HasSubstr("no baseline"));
+  ASSERT_EQ(run_tool({"merge", shards[0], shards[1], "--out", folder_ / "merged"}).code, 0);
+  const Finished added = history({"add", folder_ / "merged/results.ndjson"});
+  EXPECT_THAT(added.out, HasSubstr("run 4, LS XBC, serial number 7: 2 PASS"));
+  EXPECT_TRUE(list()[3]["complete"] || list()[0]["complete"]);
+}
+
 TEST_F(HistoryCommand, ARunStandsOnceWhicheverOfItsFilesIsAdded) {
   ASSERT_EQ(run_firmware("V1", "none", {"--history", file_}).code, 0);
   const Finished added = history({"add", results_of("V1"), folder_ / "out_V1/results.json"});
