@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <filesystem>
 #include <optional>
 #include <set>
 
@@ -13,8 +12,8 @@
 #include "harness/bench/watchdog.hpp"
 #include "harness/cli/case_lines.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/compare_command.hpp"
 #include "harness/cli/last_run.hpp"
+#include "harness/cli/run_baseline.hpp"
 #include "harness/judge/judge.hpp"
 #include "harness/run/coverage_hint.hpp"
 #include "harness/run/line_steps.hpp"
@@ -338,72 +337,6 @@ int dry_run(const RunPlan& plan) {
   return run::exit_code::ok;
 }
 
-/// The results of this run against those of an earlier one, as far as it has the selected cases.
-void compare_with(const RunSummary& baseline, RunSummary now, const RunOptions& options,
-                  RunReport& report, RunReport::End& end) {
-  now.end = report.ended(end);
-  const compare::ComparisonSet set({baseline, now});
-  const std::filesystem::path out = options.out;
-  const std::string html = (out / "compare.html").string(), junit = (out / "compare.xml").string();
-  if (const Status reported = report_comparison(set, html, junit); !reported) {
-    end.trouble += (end.trouble.empty() ? "" : "; ") + reported.error().message;
-  } else {
-    report.add_path("compare", html);
-    report.add_path("compare", junit);
-  }
-  if (set.worse())
-    end.worse = fmt::format("worse than {}: {}", baseline.path, outcome(set.comparisons.front()));
-}
-
-std::set<std::string> selected_ids(const RunPlan& plan) {
-  std::set<std::string> selected;
-  for (const Case* one : plan.selected) selected.insert(one->id);
-  return selected;
-}
-
-/// The baseline's results of the selected cases.
-Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const RunPlan& plan) {
-  if (options.baseline.empty() || options.baseline == last_run) return std::optional<RunSummary>();
-  Result<compare::ResultFile> file = compare::read_result_file(options.baseline);
-  if (!file) return file.error();
-  const std::set<std::string> selected = selected_ids(plan);
-  std::erase_if(file->results, [&](const CaseResult& one) { return !selected.contains(one.id); });
-  return std::optional(compare::summarize(*file));
-}
-
-/// The same of the last run that the history has of this device; says so where there is none.
-Result<std::optional<RunSummary>> baseline_of_history(const RunOptions& options,
-                                                      const RunPlan& plan,
-                                                      const results::RunInfo& info,
-                                                      RunReport& report) {
-  RunSummary now;
-  now.run = info;
-  Result<std::optional<RunSummary>> last = last_before(options.history, now, use_of(options));
-  if (!last) return last;
-  if (!*last) {
-    report.say(no_run_before(options.history, now));
-    return last;
-  }
-  const std::set<std::string> selected = selected_ids(plan);
-  std::erase_if((*last)->cases, [&](const auto& one) {
-    return !selected.contains(one.first.substr(0, one.first.find(" [")));
-  });
-  return last;
-}
-
-/// Without results there is nothing to be added.
-void add_to_history(const RunOptions& options, RunSummary now, RunReport& report,
-                    RunReport::End& end) {
-  if (options.history.empty() || now.cases.empty()) return;
-  now.end = report.ended(end);
-  Result<history::History> history = history::History::open(options.history, history::Use::write);
-  const auto added = history ? history->add(now) : Result<history::History::Added>(history.error());
-  if (added)
-    report.add_path("history", fmt::format("{}, run {}", options.history, added->number));
-  else
-    end.trouble += (end.trouble.empty() ? "" : "; ") + added.error().message;
-}
-
 int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports,
             run::ReportPaths paths, std::optional<RunSummary> baseline) {
   Result<RunReport> report = RunReport::create(
@@ -415,7 +348,8 @@ int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& port
   now.path = report->path();
   Run run(options, plan, ports, *report);
   if (options.baseline == last_run) {
-    auto last = baseline_of_history(options, plan, run.info(), *report);
+    Result<std::optional<RunSummary>> last =
+        baseline_of_history(options, plan, run.info(), *report);
     if (!last) return run::complain(last.error().message, run::exit_code::usage);
     baseline = std::move(*last);
   }
@@ -441,7 +375,7 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
                     run::meant_filter(options.vectors, protocols, options.filter)),
         run::exit_code::nothing);
   if (options.dry_run) return dry_run(*plan);
-  Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
+  Result<std::optional<RunSummary>> baseline = baseline_of_file(options, *plan);
   if (!baseline) return run::complain(baseline.error().message, run::exit_code::usage);
   if (const Status fit = check_history(options); !fit)
     return run::complain(fit.error().message, run::exit_code::usage);

@@ -36,6 +36,11 @@ std::string names_hash(const RunSummary& run) {
   return sum.digits();
 }
 
+/// It came to its end with all of its cases.
+bool is_whole(const RunSummary& run) {
+  return run.end && !run.end->interrupted && !run.run.properties.contains("shard");
+}
+
 Numbers counts_of(const text::Tally& tally) {
   Numbers counts;
   for (std::int64_t code = 0; const auto verdict = verdict_of(code); ++code)
@@ -117,14 +122,14 @@ std::int64_t History::insert(const RunSummary& run, const CaseLists& lists,
   const auto text = [](const std::string& one) { return std::string_view(one); };
   const auto bound = [&](const auto& exit_code, const auto& end) {
     statement
-        .with(
-            text(hash), keep_device(device), text(run.run.identity.firmware), text(protocols),
-            text(run.run.vectors_hash), text(run.run.tool_version), text(run.run.started), started,
-            std::int64_t{run.end && !run.end->interrupted}, run.end ? run.end->seconds : 0.0,
-            static_cast<std::int64_t>(run.tally.gating(run.gate)), Blob{counts}, keep_cases(run),
-            keep(lists.verdicts), keep(lists.repetitions), keep(lists.with_verdict),
-            keep(to_numbers(topics, topic_names)), keep(lists.revs), keep(messages),
-            keep(lists.floors), keep(lists.replies), keep(lists.times), text(head), exit_code, end)
+        .with(text(hash), keep_device(device), text(run.run.identity.firmware), text(protocols),
+              text(run.run.vectors_hash), text(run.run.tool_version), text(run.run.started),
+              started, std::int64_t{is_whole(run)}, run.end ? run.end->seconds : 0.0,
+              static_cast<std::int64_t>(run.tally.gating(run.gate)), Blob{counts}, keep_cases(run),
+              keep(lists.verdicts), keep(lists.repetitions), keep(lists.with_verdict),
+              keep(to_numbers(topics, topic_names)), keep(lists.revs), keep(messages),
+              keep(lists.floors), keep(lists.replies), keep(lists.times), text(head), exit_code,
+              end)
         .run();
   };
   if (run.end)

@@ -26,7 +26,7 @@ struct RunEntry {
   std::string started;           // as the run wrote it
   std::int64_t started_s = 0;    // since 1970
   std::optional<int> exit_code;  // nothing: killed
-  bool complete = false;         // it came to its end, not interrupted
+  bool complete = false;         // it came to its end, not interrupted, and is no shard
   double seconds = 0;
   text::Tally counts;   // results
   std::size_t red = 0;  // of them, by the gate of the run

@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 #include <sys/resource.h>
 
+#include <barrier>
 #include <csignal>
 #include <cstdlib>
 #include <thread>
@@ -211,25 +212,46 @@ TEST_F(HistoryTest, ADamagedFileIsNamedAndNotWrittenTo) {
 TEST_F(HistoryTest, NoticesAListThatIsNotWhatItsHashSays) {
   History history = open_or_fail(path_);
   const std::int64_t run = add_or_fail(history, run_of({}, {result_of("a", V::pass, {4.2})}));
-  execute("UPDATE list SET bytes = x'02' WHERE id = (SELECT verdicts FROM run)");
+  execute("UPDATE list SET bytes = x'04' WHERE id = (SELECT verdicts FROM run)");
   const auto read = history.summary(run);
   ASSERT_FALSE(read);
   EXPECT_THAT(read.error().message, HasSubstr("it is damaged"));
 }
 
-/// Two programs at once, from before there is a file.
+/// Several at the same moment, from before there is a file.
 TEST_F(HistoryTest, WritersAtOnceAreAllKept) {
-  constexpr int writers = 4, each = 8;
+  constexpr int writers = 4, each = 12;
+  std::barrier together(writers);
   std::vector<std::thread> threads;
   for (int w = 0; w < writers; ++w)
-    threads.emplace_back([this, w] {
-      History history = open_or_fail(path_);
-      for (int i = 1; i <= each; ++i)
-        add_or_fail(history, run_of({.day = i, .serial = std::to_string(w)},
-                                    {result_of("a", V::pass), result_of("b", V::fail)}));
+    threads.emplace_back([&, w] {
+      together.arrive_and_wait();
+      Result<History> history = History::open(path_, Use::write);
+      EXPECT_TRUE(history) << history.error().message;
+      for (int i = 1; i <= each; ++i) {
+        together.arrive_and_wait();
+        if (history)
+          add_or_fail(*history, run_of({.day = i, .serial = std::to_string(w)},
+                                       {result_of("a", V::pass), result_of("b", V::fail)}));
+      }
     });
   for (std::thread& one : threads) one.join();
   EXPECT_EQ(open_or_fail(path_).runs()->size(), std::size_t{writers * each});
+}
+
+TEST_F(HistoryTest, ItIsMadeOnceByWhoeverIsFirst) {
+  constexpr int rounds = 20;
+  std::barrier together(2);
+  const auto open_all = [&] {
+    for (int i = 0; i < rounds; ++i) {
+      together.arrive_and_wait();
+      const auto opened = History::open(folder_ / std::to_string(i), Use::write);
+      EXPECT_TRUE(opened) << opened.error().message;
+    }
+  };
+  std::thread other(open_all);
+  open_all();
+  other.join();
 }
 
 /// A file that may not grow stands for a full disk: what was there stays.

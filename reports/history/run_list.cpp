@@ -22,7 +22,7 @@ constexpr std::size_t shown_cases = 50;
 
 std::string end_of(const RunEntry& run) {
   if (!run.exit_code) return "killed";
-  return run.complete ? fmt::format("exit {}", *run.exit_code) : "interrupted";
+  return run.complete ? fmt::format("exit {}", *run.exit_code) : "not whole";
 }
 
 bool is_remarkable(Verdict verdict) {

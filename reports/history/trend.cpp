@@ -25,7 +25,7 @@ void choose_runs(std::vector<RunEntry> all, std::size_t last, Trend& trend) {
     if (run.complete)
       trend.runs.push_back(std::move(run));
     else
-      ++trend.not_ended;
+      ++trend.not_whole;
   }
   if (last == 0 || trend.runs.size() <= last) return;
   trend.older = trend.runs.size() - last;

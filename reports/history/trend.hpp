@@ -28,7 +28,7 @@ struct Step {
 
 struct Trend {
   std::string device;
-  std::vector<RunEntry> runs;  // that came to their end, the oldest first
+  std::vector<RunEntry> runs;                                    // that are whole, the oldest first
   std::vector<std::optional<results::ResponseFigures>> replies;  // of each run, all together
   std::vector<Series> totals;                                    // reply times, red, judged
   std::vector<Series> topics;                                    // reply times
@@ -36,7 +36,7 @@ struct Trend {
   std::vector<FlakyCase> flaky;
   std::vector<Step> steps;    // in which something changed; only of fewer than 2 * least_side runs
   std::size_t older = 0;      // runs before these, left out
-  std::size_t not_ended = 0;  // killed or interrupted, left out
+  std::size_t not_whole = 0;  // killed, interrupted, or shards: left out
   std::size_t devices = 1;    // in the history
 };
 

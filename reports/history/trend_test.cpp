@@ -88,7 +88,7 @@ TEST_F(TrendTest, CountsHaveTheirChange) {
 TEST_F(TrendTest, AWrongAnswerTakesItsOwnTime) {
   const auto add_with = [&](int day, V verdict, double ms) {
     add_or_fail(history_, run_of({"V1.40", day}, {result_of("rss/a", V::pass, {4}),
-                                                  result_of("rss/b", verdict, {ms})}));
+                                                  result_of("rss/b", verdict, {ms, ms})}));
   };
   for (int day = 1; day <= 24; ++day)
     add_with(day, day <= 12 ? V::pass : V::fail, day <= 12 ? 4 : 100);
@@ -151,9 +151,10 @@ TEST_F(TrendTest, IsOfOneDeviceAndOfRunsThatCameToTheirEnd) {
   add_or_fail(history_, killed);
   EXPECT_EQ(trend().device, "LS XBC, serial number 8") << "that of the last run";
   EXPECT_EQ(trend().runs.size(), 1u);
-  EXPECT_THAT(trend_text(trend()),
-              AllOf(HasSubstr("the history has 2 devices; --device names another"),
-                    HasSubstr("1 killed or interrupted runs are left out")));
+  EXPECT_THAT(
+      trend_text(trend()),
+      AllOf(HasSubstr("the history has 2 devices; --device names another"),
+            HasSubstr("1 runs that were killed or interrupted, or are shards, are left out")));
   const auto two = trend_of(history_, "LS XBC", 0), none = trend_of(history_, "XEC", 0);
   ASSERT_FALSE(two || none);
   EXPECT_THAT(two.error().message, HasSubstr("'LS XBC' is a part of several devices"));

@@ -121,7 +121,7 @@ std::string evidence_of(const Series& series) {
 }
 
 std::string trend_head(const Trend& trend) {
-  if (trend.runs.empty()) return "no run came to its end";
+  if (trend.runs.empty()) return "no whole run";
   std::string versions;
   for (const Version& one : versions_of(trend))
     if (!one.firmware.empty()) versions += (versions.empty() ? ", firmware " : ", ") + one.firmware;
@@ -137,8 +137,9 @@ std::vector<std::string> trend_remarks(const Trend& trend) {
         fmt::format("the history has {} devices; --device names another", trend.devices));
   if (trend.older > 0)
     remarks.push_back(fmt::format("{} runs before these are left out (--last)", trend.older));
-  if (trend.not_ended > 0)
-    remarks.push_back(fmt::format("{} killed or interrupted runs are left out", trend.not_ended));
+  if (trend.not_whole > 0)
+    remarks.push_back(fmt::format(
+        "{} runs that were killed or interrupted, or are shards, are left out", trend.not_whole));
   if (trend.runs.size() < 2 * least_side)
     remarks.push_back(fmt::format(
         "{} runs are too few to test them against each other, {} are needed: neighbours "
