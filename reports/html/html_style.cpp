@@ -158,6 +158,8 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .wire .received{fill:var(--soft)}
 .wire .surplus{fill:var(--warn)}
 .wire .judged{fill:var(--bad)}
+.wire .opened{fill:var(--paper);stroke:var(--soft);stroke-width:2}
+.wire .ended{fill:var(--soft)}
 .wire .due{fill:var(--bad);opacity:.07}
 .wire .limit-text,.wire .over{fill:var(--bad)}
 .wire .silence,.wire .tick,.wire .cut{text-anchor:middle;font-variant-numeric:tabular-nums}

@@ -28,6 +28,9 @@ bool is_frame(const Event& event) {
   return event.kind == Event::Kind::sent || event.kind == Event::Kind::received;
 }
 
+/// A frame, or what became of a connection.
+bool is_drawn(const Event& event) { return event.kind != Event::Kind::note; }
+
 bool is_judged(const Event& event, const CaseResult& result) {
   return event.kind == Event::Kind::received && !event.bytes.empty() &&
          event.bytes == result.received_bytes && event.extract == result.received_extract;
@@ -38,7 +41,7 @@ std::vector<const Event*> shown_frames(const CaseResult& result) {
   std::vector<const Event*> frames;
   std::size_t judged = 0;
   for (const Event& event : result.exchange) {
-    if (!is_frame(event)) continue;
+    if (!is_drawn(event)) continue;
     if (is_judged(event, result)) judged = frames.size();
     frames.push_back(&event);
   }
@@ -134,7 +137,7 @@ class Wire {
       line("rail", wire_left, y + bar, wire_right, y + bar);
     }
     for (const double x : axis_.cuts()) label("cut", x, axis + 4, "\u2248");
-    for (const Event* frame : frames_) write_bar(*frame);
+    for (const Event* event : frames_) is_frame(*event) ? write_bar(*event) : write_link(*event);
     write_silences();
     write_ticks();
   }
@@ -178,6 +181,22 @@ class Wire {
                                 fmt::format("{} bytes, {} to {} ms", bytes,
                                             in_ms(since(frame.start)), in_ms(since(frame.end))));
                  });
+  }
+
+  void write_link(const Event& event) {
+    const char* css = event.kind == Event::Kind::opened ? "link opened" : "link ended";
+    out_.element(
+        "circle",
+        {{"class", css},
+         {"cx", pixels(axis_.x(event.start))},
+         {"cy", pixels((event.by_device ? device_lane : bench_lane) + bar)},
+         {"r", "4"}},
+        [&] {
+          out_.element(
+              "title", {},
+              fmt::format("{} {} by the {}, {} ms", event.link, results::to_string(event.kind),
+                          event.by_device ? "device" : "bench", in_ms(since(event.start))));
+        });
   }
 
   /// Between one frame and the next, above the rail of the one that ends it.
