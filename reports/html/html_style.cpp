@@ -241,6 +241,9 @@ tr,.tiles li,.section>summary,.banner,.facts,.signatures{break-inside:avoid}
 .section .case::details-content{content-visibility:hidden}
 .sheet{border:0;margin:0;padding:0}
 .sheet .bar,.sheet .tiles small{display:none}
+.sheet .tiles{margin-top:10px}
+.one-line td{white-space:nowrap}
+.one-line td:last-child{width:100%}
 .sheet .page{break-before:page;margin-top:0}
 .list details::details-content{content-visibility:visible;display:block}
 }
