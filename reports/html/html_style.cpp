@@ -158,6 +158,8 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .wire .received{fill:var(--soft)}
 .wire .surplus{fill:var(--warn)}
 .wire .judged{fill:var(--bad)}
+.wire .opened{fill:var(--paper);stroke:var(--soft);stroke-width:2}
+.wire .ended{fill:var(--soft)}
 .wire .due{fill:var(--bad);opacity:.07}
 .wire .limit-text,.wire .over{fill:var(--bad)}
 .wire .silence,.wire .tick,.wire .cut{text-anchor:middle;font-variant-numeric:tabular-nums}
@@ -241,6 +243,9 @@ tr,.tiles li,.section>summary,.banner,.facts,.signatures{break-inside:avoid}
 .section .case::details-content{content-visibility:hidden}
 .sheet{border:0;margin:0;padding:0}
 .sheet .bar,.sheet .tiles small{display:none}
+.sheet .tiles{margin-top:10px}
+.one-line td{white-space:nowrap}
+.one-line td:last-child{width:100%}
 .sheet .page{break-before:page;margin-top:0}
 .list details::details-content{content-visibility:visible;display:block}
 }

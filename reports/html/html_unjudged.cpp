@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t group_limit = 200, reason_limit = 40;  // shown on screen
 constexpr std::size_t line_limit = 40;                       // on paper
-constexpr std::size_t paper_line = 110;                      // characters
+constexpr std::size_t paper_line = 88;                       // characters
 
 constexpr std::array unjudged_verdicts = {Verdict::blocked, Verdict::inconclusive, Verdict::skip};
 

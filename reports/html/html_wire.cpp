@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
 #include <vector>
+
+#include "reports/html/html_time_axis.hpp"
 
 namespace fieldproof::html {
 
@@ -17,9 +17,8 @@ namespace {
 
 constexpr double wire_left = 62, wire_right = 748, wire_width = 760, wire_height = 124;
 constexpr double bench_lane = 26, device_lane = 62, bar = 20, axis = 96;
-constexpr double least_bar = 10, tick_room = 52;
+constexpr double tick_room = 52;
 constexpr std::size_t most_frames = 24;
-constexpr double cut_from = 2;  // times all frames: a longer silence is cut
 
 std::string pixels(double value) { return fmt::format("{:.1f}", value); }
 std::string in_ms(Duration time) { return fmt::format("{:.3f}", to_ms(time)); }
@@ -27,6 +26,9 @@ std::string in_ms(Duration time) { return fmt::format("{:.3f}", to_ms(time)); }
 bool is_frame(const Event& event) {
   return event.kind == Event::Kind::sent || event.kind == Event::Kind::received;
 }
+
+/// A frame, or what became of a connection.
+bool is_drawn(const Event& event) { return event.kind != Event::Kind::note; }
 
 bool is_judged(const Event& event, const CaseResult& result) {
   return event.kind == Event::Kind::received && !event.bytes.empty() &&
@@ -38,7 +40,7 @@ std::vector<const Event*> shown_frames(const CaseResult& result) {
   std::vector<const Event*> frames;
   std::size_t judged = 0;
   for (const Event& event : result.exchange) {
-    if (!is_frame(event)) continue;
+    if (!is_drawn(event)) continue;
     if (is_judged(event, result)) judged = frames.size();
     frames.push_back(&event);
   }
@@ -48,69 +50,13 @@ std::vector<const Event*> shown_frames(const CaseResult& result) {
           frames.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// Where a moment is drawn: to scale, but for silences that would leave no room for frames.
-class Axis {
- public:
-  Axis(const std::vector<const Event*>& frames, const results::Due& due) {
-    std::set<Time> moments;
-    Duration busy{};
-    for (const Event* frame : frames) {
-      moments.insert({frame->start, frame->end});
-      busy += frame->end - frame->start;
-    }
-    if (!due.empty()) moments.insert({due.from, due.until});
-    for (auto at = moments.begin(); at != moments.end(); ++at)
-      if (std::next(at) != moments.end()) pieces_.push_back({*at, *std::next(at)});
-    lay_out(frames, to_ms(busy));
-  }
-
-  double x(Time moment) const {
-    const auto found = x_.find(moment);
-    return found == x_.end() ? wire_left : found->second;
-  }
-  /// Silences that are drawn shorter than they are.
-  std::vector<double> cuts() const {
-    std::vector<double> middles;
-    for (const Piece& one : pieces_)
-      if (one.cut) middles.push_back((x(one.from) + x(one.to)) / 2);
-    return middles;
-  }
-
- private:
-  struct Piece {
-    Time from{}, to{};
-    double wide = 0;
-    bool cut = false;
-  };
-
-  void lay_out(const std::vector<const Event*>& frames, double busy) {
-    const double longest = std::max(cut_from * busy, 0.01);
-    double all = 0;
-    for (Piece& one : pieces_) {
-      const double took = to_ms(one.to - one.from);
-      one.cut = took > longest && std::ranges::none_of(frames, [&](const Event* frame) {
-                  return frame->start <= one.from && one.to <= frame->end;
-                });
-      // Of two silences that are cut the longer one stays the wider.
-      one.wide = one.cut ? longest * (1 + std::log10(took / longest) / 2) : took;
-      all += one.wide;
-    }
-    // Each piece keeps some room, so that no label stands on another.
-    const double scale = all > 0 ? (wire_right - wire_left - least_bar * pieces()) / all : 0;
-    double at = wire_left;
-    if (!pieces_.empty()) x_[pieces_.front().from] = at;
-    for (const Piece& one : pieces_) x_[one.to] = at += least_bar + one.wide * std::max(scale, 0.0);
-  }
-  double pieces() const { return static_cast<double>(pieces_.size()); }
-
-  std::vector<Piece> pieces_;
-  std::map<Time, double> x_;
-};
-
 class Wire {
  public:
   Wire(HtmlWriter& out, const CaseResult& result)
-      : out_(out), result_(result), frames_(shown_frames(result)), axis_(frames_, result.due) {}
+      : out_(out),
+        result_(result),
+        frames_(shown_frames(result)),
+        axis_(frames_, result.due, wire_left, wire_right) {}
 
   void write() {
     if (frames_.empty()) return;
@@ -134,7 +80,7 @@ class Wire {
       line("rail", wire_left, y + bar, wire_right, y + bar);
     }
     for (const double x : axis_.cuts()) label("cut", x, axis + 4, "\u2248");
-    for (const Event* frame : frames_) write_bar(*frame);
+    for (const Event* event : frames_) is_frame(*event) ? write_bar(*event) : write_link(*event);
     write_silences();
     write_ticks();
   }
@@ -178,6 +124,22 @@ class Wire {
                                 fmt::format("{} bytes, {} to {} ms", bytes,
                                             in_ms(since(frame.start)), in_ms(since(frame.end))));
                  });
+  }
+
+  void write_link(const Event& event) {
+    const char* css = event.kind == Event::Kind::opened ? "link opened" : "link ended";
+    out_.element(
+        "circle",
+        {{"class", css},
+         {"cx", pixels(axis_.x(event.start))},
+         {"cy", pixels((event.by_device ? device_lane : bench_lane) + bar)},
+         {"r", "4"}},
+        [&] {
+          out_.element(
+              "title", {},
+              fmt::format("{} {} by the {}, {} ms", event.link, results::to_string(event.kind),
+                          event.by_device ? "device" : "bench", in_ms(since(event.start))));
+        });
   }
 
   /// Between one frame and the next, above the rail of the one that ends it.
@@ -226,7 +188,7 @@ class Wire {
   HtmlWriter& out_;
   const CaseResult& result_;
   std::vector<const Event*> frames_;
-  Axis axis_;
+  TimeAxis axis_;
 };
 
 }  // namespace

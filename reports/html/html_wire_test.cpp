@@ -75,6 +75,20 @@ TEST(Wire, ASilenceInsideAnAnswerIsMarked) {
   EXPECT_EQ(0u, drawn(split).count("//text[@class='silence over']"));
 }
 
+TEST(Wire, WhatBecameOfAConnectionIsMarked) {
+  CaseResult network = samples::failure();
+  const Time start = network.exchange[0].start, end = network.exchange[1].end + 1ms;
+  network.exchange.insert(network.exchange.begin(), {Event::Kind::opened, start, start, {}, ""});
+  network.exchange.push_back({Event::Kind::reset, end, end, {}, ""});
+  network.exchange.front().link = network.exchange.back().link = "a";
+  network.exchange.back().by_device = true;
+  const ParsedHtml page = drawn(network);
+  EXPECT_EQ("a opened by the bench, 0.000 ms", page.text("//circle[@class='link opened']/title"));
+  EXPECT_EQ("a reset by the device, 42.708 ms", page.text("//circle[@class='link ended']/title"));
+  EXPECT_GT(page.numbers("//circle[@class='link ended']", "cy").front(),
+            page.numbers("//circle[@class='link opened']", "cy").front());
+}
+
 TEST(Wire, OfManyFramesThoseAboutTheJudgedOneAreShown) {
   CaseResult many = samples::failure();
   const Event sent = many.exchange[0], judged = many.exchange[1];

@@ -13,8 +13,7 @@ namespace {
 /// that names one says what to do.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 20> remedies = {{
     {"--stimulus",
-     "something that makes the device ask: --stimulus COMMAND, or \"prepared_blocks\" of the "
-     "profile"},
+     "something that makes the device ask: --stimulus COMMAND, or \"prepared_blocks\""},
     {"--power-cycle", "a device fresh from power-on: --power-cycle COMMAND"},
     {"--allow-motion", "permission to move axes: --allow-motion AXES"},
     {"allow", "permission to write: --allow-write RANGES"},
