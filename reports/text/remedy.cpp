@@ -11,7 +11,7 @@ namespace {
 
 /// What a reason says, and what would end it; the first that fits. Options stand first: a reason
 /// that names one says what to do.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 19> remedies = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> remedies = {{
     {"--stimulus",
      "something that makes the device ask: --stimulus COMMAND, or \"prepared_blocks\""},
     {"--power-cycle", "a device fresh from power-on: --power-cycle COMMAND"},
@@ -31,6 +31,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 19> remedies
     {"needs datagrams", "a device that takes datagrams: tcp:HOST:PORT?udp=PORT"},
     {"behind a pty or socket", "a real line, which carries short times: serial:PORT"},
     {"set-up: ", "a device that takes what sets the case up (see the failures)"},
+    {"would say the same", "a device that answers to the end of the run"},
     {"not run: ", "a run that goes on to its end"},
 }};
 
