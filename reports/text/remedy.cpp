@@ -36,6 +36,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> remedies
     {"needs datagrams", "a device that takes datagrams: tcp:HOST:PORT?udp=PORT"},
     {"behind a pty or socket", "a real line, which carries short times: serial:PORT"},
     {"set-up: ", "a device that takes what sets the case up (see the failures)"},
+    {"would say the same", "a device that answers to the end of the run"},
     {"not run: ", "a run that goes on to its end"},
 }};
 
