@@ -11,7 +11,7 @@ namespace {
 
 /// What a reason says, and what would end it; the first that fits. Options stand first: a reason
 /// that names one says what to do.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 20> remedies = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 21> remedies = {{
     {"--stimulus",
      "something that makes the device ask: --stimulus COMMAND, or \"prepared_blocks\""},
     {"--power-cycle", "a device fresh from power-on: --power-cycle COMMAND"},
