@@ -76,6 +76,8 @@ Status Protocol::check_fact(const nlohmann::json& facts) const {
   return fail(fmt::format("the suite of {} has no tables; write a case", name()));
 }
 
+nlohmann::json Protocol::defaults(std::string_view) const { return nlohmann::json::object(); }
+
 Result<std::unique_ptr<Protocol>> Protocol::configured(std::string_view,
                                                        const nlohmann::json&) const {
   return std::unique_ptr<Protocol>();

@@ -141,6 +141,9 @@ class Protocol {
   virtual Result<std::unique_ptr<Protocol>> configured(std::string_view model,
                                                        const nlohmann::json& config) const;
 
+  /// What a device of `model` has that is told nothing: keys of given.config of this protocol.
+  virtual nlohmann::json defaults(std::string_view model) const;
+
   /// What a vector calls an address, and the digits there, on the declared device, for a case that
   /// sends these requests. Errors say why the case cannot be moved to where they lie.
   struct Placed {

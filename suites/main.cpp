@@ -93,6 +93,9 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.add_option("--stimulus", run.stimulus,
                  "Client role: command that makes the device ask, told by lines of JSON; -: the "
                  "program of exec: itself");
+  app.add_option("--control", run.control,
+                 "Command that sets the device up as each case needs it (configuration, inputs, "
+                 "stop), told by lines of JSON; -: the program of exec: itself");
   app.add_option("--aux", run.aux,
                  "A second port of the same PLC, as server: serial:PATH?station=3; for memory that "
                  "--endpoint cannot reach");
@@ -114,7 +117,11 @@ void add_run(CLI::App& app, run::RunOptions& run) {
   app.add_option("--waivers", run.waivers,
                  "JSON file of accepted failures: id, reason, owner, text, expires, firmware");
   app.add_option("--baseline", run.baseline,
-                 "Results of an earlier run: what got worse since then fails the gate");
+                 "Results of an earlier run, or `last`, the last run of this device in the "
+                 "history: what got worse since then fails the gate");
+  app.add_option("--history", run.history,
+                 "Adds this run to the history in this file, for `fieldproof history`; --baseline "
+                 "last reads it, too");
   app.add_option("--allow-write", run.allow_write,
                  "Real devices: what may be written: M, M100-M199, h1230-h12FF, all (outputs P, Q, "
                  "U only when named). Of exec: anything, where this is not given");
@@ -195,6 +202,60 @@ void add_explore(CLI::App& app, cli::ExploreOptions& explore) {
   app.add_flag("--fail-fast", run.fail_fast, "Stop at the first finding");
   app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
   app.add_flag("-v,--verbose", run.verbose, "Show every result with its exchange");
+}
+
+/// Its commands, each with what it does.
+void add_history(CLI::App& app, cli::HistoryOptions& options, std::function<int()>& chosen) {
+  using Command = int (*)(const cli::HistoryOptions&);
+  const auto add = [&](const char* name, const char* what, Command command) {
+    CLI::App* one = app.add_subcommand(name, what);
+    one->add_option("--history", options.file,
+                    "File of the history (default fieldproof/history.sqlite in XDG_DATA_HOME or "
+                    "~/.local/share)");
+    one->callback([&options, &chosen, command] {
+      chosen = [&options, command] { return command(options); };
+    });
+    return one;
+  };
+  const auto add_device = [&](CLI::App& one) {
+    one.add_option("--device", options.device, "Its name, or a part that only one device has");
+  };
+  const auto add_last = [&](CLI::App& one, const char* what) {
+    one.add_option("--last", options.last, what)->check(CLI::Range(0, 1'000'000));
+  };
+  const auto add_reports = [&](CLI::App& one) {
+    one.add_option("--html", options.html, "HTML file");
+    CLI::Option* json = one.add_flag("--json", options.json);
+    one.add_flag("--markdown", options.markdown)->excludes(json);
+  };
+  add("add", "Add runs; one that is there already stands once", cli::history_add_command)
+      ->add_option("results", options.results, "OUT/results.ndjson or OUT/results.json of each run")
+      ->required();
+  CLI::App* list = add("list", "The runs, the newest first", cli::history_list_command);
+  add_device(*list);
+  add_last(*list, "So many runs (20); 0: all");
+  list->add_flag("--json", options.json, "All runs, the oldest first");
+  CLI::App* show =
+      add("show", "One run: what did not hold, reply times", cli::history_show_command);
+  show->add_option("run", options.run, "Its number, or last")->capture_default_str();
+  add_device(*show);
+  show->add_flag("--json", options.json, "All cases");
+  CLI::App* matrix = add("matrix", "Devices or firmware versions side by side, case by case",
+                         cli::history_matrix_command);
+  matrix->add_option("--by", options.by, "What has a column: device, firmware")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"device", "firmware"}));
+  add_device(*matrix);
+  matrix->add_option("--filter", options.filter, "Cases by id: globs separated by ':'");
+  add_last(*matrix, "So many columns, those with the latest runs (12); 0: all");
+  add_reports(*matrix);
+  CLI::App* trend = add("trend",
+                        "A device over its runs: reply times, counts, where they changed, "
+                        "flaky cases",
+                        cli::history_trend_command);
+  add_device(*trend);
+  add_last(*trend, "The last so many runs (all)");
+  add_reports(*trend);
 }
 
 /// "; did you mean '--filter'?" for "--filer=x"; empty for what is an option, or like none. Those
@@ -330,7 +391,10 @@ int run_tool(int argc, char** argv) {
   emulate_app->add_option(
       "--monitor", emulate.monitor,
       "CSV file of the frame monitor: each frame with its result, time and data");
-  emulate_app->add_option("--control", emulate.control, "Back door of the harness")->group("");
+  emulate_app
+      ->add_option("--control", emulate.control,
+                   "-: set up by lines of JSON on standard input, as by the bench's --control")
+      ->transform([](std::string text) { return text == "-" ? std::string("0") : text; });
   emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
   emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");
 
@@ -369,6 +433,30 @@ int run_tool(int argc, char** argv) {
       "Exit codes: 0 found, 1 something is wrong and named, 2 usage, 3 port trouble, 130 "
       "interrupted.");
 
+  cli::InitOptions init;
+  CLI::App* init_app = app.add_subcommand(
+      "init",
+      "The first run: asks where the device is, finds it, writes a bench file, runs its "
+      "cases and writes a job for CI");
+  init_app->add_option("--endpoint", init.endpoint,
+                       "serial:PATH, rfc2217:HOST:PORT, tcp:HOST, exec:COMMAND, emulator:MODEL");
+  init_app->add_option("--protocol", init.protocol, "Look for this one alone");
+  init_app->add_option("--profile", init.profile,
+                       "What the device declares: a name from the profiles folder, or a JSON file");
+  init_app->add_option("--name", init.name, "Its name in the bench file");
+  init_app->add_option("--serial", init.serial, "Its serial number, for reports");
+  init_app->add_option("--firmware", init.firmware, "Its firmware, for reports and waivers");
+  init_app->add_option("--allow-write", init.allow_write,
+                       "Memory that may be written: M100-M199,D0-D99 (a program behind exec: needs "
+                       "none)");
+  init_app->add_option("--ci", init.ci, "github, gitlab or none");
+  init_app->add_option("--bench", init.bench, "Bench file; a device is added to one that is there")
+      ->capture_default_str();
+  init_app->add_option("--out", init.out, "Folder of the reports")->capture_default_str();
+  init_app->add_flag("--yes", init.yes, "Ask nothing: what no option answers is as usual");
+  init_app->add_flag("--no-run", init.no_run, "Write the files alone");
+  init_app->footer(exit_codes);
+
   cli::FrameOptions frame;
   CLI::App* frame_app =
       app.add_subcommand("frame", "Explain a frame field by field, with its checks computed");
@@ -406,14 +494,23 @@ int run_tool(int argc, char** argv) {
   compare_app
       ->add_option(
           "results", compare.files,
-          "Results of two or more runs (NDJSON, JSON or JUnit): each is compared with the first")
+          "Results of two or more runs (NDJSON, JSON or JUnit): each is compared with the first; "
+          "`last` as the first: the last run of that device in the history")
       ->required()
       ->expected(2, -1);
+  compare_app->add_option("--history", compare.history, "File of the history, for `last`");
   compare_app->add_option("--html", compare.html, "HTML file of the comparison");
   compare_app->add_option("--junit", compare.junit,
                           "JUnit file of the comparison: what got worse is a failure");
   compare_app->footer(
       "Exit codes: 0 nothing got worse, 1 something got worse, 2 a file cannot be read.");
+
+  cli::HistoryOptions history;
+  CLI::App* history_app =
+      app.add_subcommand("history", "Many runs: verdicts side by side, reply times over versions");
+  history_app->require_subcommand(1);
+  add_history(*history_app, history, chosen);
+  history_app->footer("Exit codes: 0 done, 2 a file cannot be used, 3 it could not be written.");
 
   cli::MergeOptions merge;
   CLI::App* merge_app = app.add_subcommand(
@@ -468,6 +565,8 @@ int run_tool(int argc, char** argv) {
       [&] { chosen = [&] { return cli::emulate_command(emulate, suites::protocols()); }; });
   probe_app->callback(
       [&] { chosen = [&] { return cli::probe_command(probe, suites::protocols()); }; });
+  init_app->callback(
+      [&] { chosen = [&] { return cli::init_command(init, suites::protocols()); }; });
   frame_app->callback(
       [&] { chosen = [&] { return cli::frame_command(frame, suites::protocols()); }; });
   errata_app->callback(

@@ -24,9 +24,15 @@ constexpr Duration start_patience =
     10s;  // a device that is started by the bench needs time to open its port
 constexpr int errors_to_stop = 5;  // then it is no longer the vectors, it is the bench
 
+/// How long a request for memory waits for its answer: a device may delay each of them.
+Duration patience_with(const Profile& profile) {
+  return profile.response_max + exchange::number_of(profile.config, "delay_ms", 0) * 1ms;
+}
+
 }  // namespace
 
-Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptions options)
+Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptions options,
+             std::shared_ptr<Standing> known)
     : endpoint_(endpoint),
       protocol_(protocol),
       options_(std::move(options)),
@@ -34,14 +40,15 @@ Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptio
               {options_.endpoint_is_stimulus ? exchange::program_of(endpoint) : options_.stimulus,
                exchange::complete_blocks(options_.profile.prepared_blocks),
                options_.aux.endpoint != nullptr}),
-      memory_({&endpoint, &protocol, options_.station}, options_.profile.response_max, options_.aux,
-              &arming_),
+      memory_({&endpoint, &protocol, options_.station}, patience_with(options_.profile),
+              options_.aux, &arming_),
       exchange_(endpoint, protocol, timing(), options_.aux, &arming_),
-      saved_(endpoint, protocol, options_.profile.response_max, options_.device, options_.journal),
+      saved_(endpoint, protocol, patience_with(options_.profile), options_.device,
+             options_.journal),
       saved_over_aux_(options_.aux.endpoint ? *options_.aux.endpoint : endpoint,
                       options_.aux.protocol ? *options_.aux.protocol : protocol,
-                      options_.profile.response_max, options_.aux_device, options_.journal),
-      worth_asking_(options_.max_restarts) {}
+                      patience_with(options_.profile), options_.aux_device, options_.journal),
+      known_(known ? std::move(known) : std::make_shared<Standing>(options_.max_restarts)) {}
 
 exchange::ExchangeTiming Bench::timing() const {
   exchange::ExchangeTiming timing;
@@ -55,8 +62,8 @@ judging::JudgeRules Bench::rules() const {
   const endpoints::Capabilities& can = endpoint_.capabilities();
   rules.guard_band = options_.profile.guard_band;
   const Duration declared = std::max(options_.profile.floor, can.timing_floor);
-  rules.timing_floor = timing_floor(declared, options_.profile.response_max, floor_);
-  rules.link_floor = gap_floor(declared, floor_);
+  rules.timing_floor = timing_floor(declared, options_.profile.response_max, known_->floor);
+  rules.link_floor = gap_floor(declared, known_->floor);
   rules.turnaround_min = options_.profile.turnaround_min;
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
   // Simulated time is exact, but for the moment at which a character counts as come.
@@ -71,25 +78,26 @@ judging::JudgeRules Bench::rules() const {
 
 Status Bench::start() {
   const int station = options_.station;
-  json config = json::object();
-  config["station"] = station;
-  if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
+  json config = begin_config(Case());
   const bool listens = endpoint_.capabilities().real_device && !options_.client_cases.empty();
   if (listens) config["role"] = "client";
   silent_ = false;
   if (Status begun = endpoint_.begin(config); !begun) return begun;
+  known_->starts = endpoint_.starts();
+  known_->config = config;
   if (listens) {
     const Result<bool> asked = wait_for_request();
-    port_failed_ = !asked;
+    known_->port_failed = !asked;
     if (!asked) return asked.error();
     return *asked ? ok() : Status(fail(why_nothing_is_asked({&endpoint_, &protocol_, station})));
   }
   const Result<exchange::Sign> sign = exchange_.first_sign(station, start_patience);
-  port_failed_ = !sign;
+  known_->port_failed = !sign;
   if (!sign) return sign.error();
-  answers_ = *sign == exchange::Sign::alive;
+  known_->answers = *sign == exchange::Sign::alive;
   silent_ = *sign == exchange::Sign::silent;
-  return answers_ ? ok() : Status(fail(why_silent({&endpoint_, &protocol_, station}, *sign)));
+  return known_->answers ? ok()
+                         : Status(fail(why_silent({&endpoint_, &protocol_, station}, *sign)));
 }
 
 std::optional<exchange::Channel> Bench::silent_line() const {
@@ -127,8 +135,8 @@ Result<bool> Bench::wait_for_request() {
                                      : Result<bool>(fail(given.message));
     // One that gives up is judged, case by case.
     const bool ended = !asked && !asked.error().interrupted &&
-                       (client_gave_up_ || (arming_.declares() && arming_.gave_up()));
-    if (ended && (arming_.revive() || client_gave_up_)) return true;
+                       (known_->client_gave_up || (arming_.declares() && arming_.gave_up()));
+    if (ended && (arming_.revive() || known_->client_gave_up)) return true;
     if (!asked) return asked.error();
     if (const Status over = end_asking(*prepared, true); !over) return over.error();
     [[maybe_unused]] const std::string problem =
@@ -139,7 +147,7 @@ Result<bool> Bench::wait_for_request() {
 }
 
 Result<std::optional<AdapterFloor>> Bench::measure_floor() {
-  if (endpoint_.capabilities().simulated || !answers_) return std::optional<AdapterFloor>();
+  if (endpoint_.capabilities().simulated || !known_->answers) return std::optional<AdapterFloor>();
   Result<results::ResponseTimes> times =
       exchange_.time_probes(options_.station, floor_probes, floor_budget);
   if (!times) return times.error();
@@ -162,18 +170,19 @@ CaseResult Bench::run(const Case& source) {
   if (vectors::is_client_case(source) && endpoint_.capabilities().real_device) arming_.greet();
   const Ready& ready = ready_for(source);
   if (!ready.prepared) return decline(ready.why);
-  if (!stopped_.empty()) return decline({Verdict::blocked, stopped_});
+  if (!known_->stopped.empty()) return decline({Verdict::blocked, known_->stopped});
   for (const results::Move& move : ready.moves)
     result.notes.push_back(safety::note_of(move, protocol_));
   set_up_answered_ = true;
   execute(*ready.prepared, result);
-  if (port_failed_ && !interrupted_) start_again(result);
-  set_up_findings_.note(result);
-  if (endpoint_.capabilities().real_device && !ready.prepared->is_client() && stopped_.empty())
-    stopped_ = worth_asking_.after(result, protocol_, set_up_answered_);
+  if (known_->port_failed && !known_->interrupted) start_again(result);
+  known_->set_up_findings.note(result);
+  if (endpoint_.capabilities().real_device && !ready.prepared->is_client() &&
+      known_->stopped.empty())
+    known_->stopped = known_->worth_asking.after(result, protocol_, set_up_answered_);
   if (!result.recording.stimulus.empty()) result.recording.moves = ready.moves;
-  errors_in_a_row_ = result.verdict == Verdict::error ? errors_in_a_row_ + 1 : 0;
-  if (errors_in_a_row_ == errors_to_stop && stopped_.empty())
+  known_->errors_in_a_row = result.verdict == Verdict::error ? known_->errors_in_a_row + 1 : 0;
+  if (known_->errors_in_a_row == errors_to_stop && known_->stopped.empty())
     stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));
   return result;
 }
@@ -181,12 +190,14 @@ CaseResult Bench::run(const Case& source) {
 void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   judging::note_transposition(prepared, result);
   const bool real = endpoint_.capabilities().real_device;
-  if (real && !save_memory(prepared, result)) return;
+  if (real && (!set_up_device(prepared, result) || !save_memory(prepared, result))) return;
   if (prepare_device(prepared, result)) exchange(prepared, result);
   if (!real) return;
   for (safety::SavedMemory* memory : {&saved_, &saved_over_aux_})
     if (const std::string problem = memory->restore(); !problem.empty())
       result.notes.push_back("not put back what it wrote: " + problem);
+  if (const Status back = endpoint_.put_back(); !back)
+    result.notes.push_back("not put back what it set: " + back.error().message);
 }
 
 void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
@@ -196,7 +207,7 @@ void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
       transcript.trouble = over.error();
   judge_exchange(prepared, transcript, result);
   after(prepared, transcript, result);
-  readings_.note(result);
+  known_->readings.note(result);
 }
 
 /// What it sets in a partner of the device.
@@ -259,6 +270,11 @@ bool Bench::writes_without_check(const PreparedCase& prepared) const {
 
 std::string Bench::put_back() {
   if (!endpoint_.capabilities().real_device) return {};
+  if (saved_.open_places().empty() && saved_over_aux_.open_places().empty()) return {};
+  // Written where the device was set up so; with one that was started anew its memory is gone.
+  if (!endpoint_.capabilities().can_power_cycle)
+    if (const Status begun = endpoint_.begin(begin_config(Case())); !begun)
+      return saved_.open_places() + saved_over_aux_.open_places();
   std::string open;
   for (safety::SavedMemory* memory : {&saved_, &saved_over_aux_}) {
     [[maybe_unused]] const std::string problem = memory->restore();
@@ -266,6 +282,50 @@ std::string Bench::put_back() {
       open += (open.empty() ? "" : ", ") + places;
   }
   return open;
+}
+
+std::string Bench::leave_as_declared() {
+  const endpoints::Capabilities& can = endpoint_.capabilities();
+  if (!can.control || can.can_power_cycle || !known_->stopped.empty()) return {};
+  const Status begun = endpoint_.begin(begin_config(Case()));
+  return begun ? "" : "the configuration: " + begun.error().message;
+}
+
+/// A real device is given what the case needs before anything of it is read. One that cannot be, or
+/// does not answer then, says nothing about the clause.
+bool Bench::set_up_device(const PreparedCase& prepared, CaseResult& result) {
+  const auto give_up = [&](Verdict verdict, const std::string& why) {
+    result.verdict = verdict;
+    result.message = why;
+    return false;
+  };
+  if (!not_up_.empty()) return give_up(Verdict::blocked, not_up_);
+  const json config = begin_config(*prepared.source);
+  const Status begun = endpoint_.begin(config);
+  if (!begun && begun.error().refused) return give_up(Verdict::blocked, begun.error().message);
+  if (!begun) {
+    stop(begun.error().interrupted ? "interrupted"
+                                   : "cannot set up the device: " + begun.error().message,
+         &begun.error());
+    return give_up(Verdict::error, begun.error().message);
+  }
+  const bool started = known_->starts != endpoint_.starts();
+  const bool changed = endpoint_.capabilities().control && known_->config != config;
+  known_->starts = endpoint_.starts();
+  known_->config = config;
+  if (!started && !changed) return true;
+  if (prepared.is_client()) return !started || arming_.started_anew();  // it answers no probe
+  const Result<exchange::Sign> sign = answers_when_set_up(prepared, started);
+  if (sign && *sign == exchange::Sign::alive) return true;
+  if (!sign && sign.error().interrupted) stop("interrupted", &sign.error());
+  not_up_ = fmt::format("the device does not answer once it is set up for this case{}",
+                        sign ? "" : ": " + sign.error().message);
+  return give_up(Verdict::blocked, not_up_);
+}
+
+Result<exchange::Sign> Bench::answers_when_set_up(const PreparedCase& prepared, bool started) {
+  const Duration patience = started ? start_patience : 3 * options_.profile.response_max;
+  return exchange_.anything_answers(prepared.station, patience, prepared.reply_delay(), true);
 }
 
 bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
@@ -279,8 +339,9 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
       stop("the port failed in " + result.id + ": " + error.message, &error);
     return false;
   };
-  if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun)
-    return give_up(Verdict::error, begun.error());
+  if (!real)
+    if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun)
+      return give_up(Verdict::error, begun.error());
   if (prepared.source->fresh && real && !power_cycle(result, prepared.is_client()))
     return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
   if (real && !prepared.is_client() && !meets_premises(prepared, result)) return false;
@@ -290,7 +351,7 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
     if (Status quiet = exchange_.settle(50ms); !quiet)
       return give_up(Verdict::error, quiet.error());
   if (begin_case(prepared, result)) return true;
-  if (!real || prepared.is_client() || interrupted_) return false;
+  if (!real || prepared.is_client() || known_->interrupted) return false;
   if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
   if (memory_.silent()) look_for_device(result, result.message);
   return false;
@@ -357,6 +418,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   for (const auto& [address, hex] : prepared.source->memory) {
     const Status done = set(address, hex);
     if (done) continue;
+    if (done.error().refused) return give_up(Verdict::blocked, done.error());
     if (!memory_.refused())
       return give_up(arming_.gave_up() ? Verdict::fail : Verdict::error, done.error());
     const Time now = endpoint_.now();

@@ -13,7 +13,7 @@
 #include "harness/bench/profile.hpp"
 #include "harness/bench/set_up_findings.hpp"
 #include "harness/bench/worth_asking.hpp"
-#include "harness/endpoints/endpoint.hpp"
+#include "harness/endpoints/controlled.hpp"
 #include "harness/exchange/exchange.hpp"
 #include "harness/judge/judge.hpp"
 #include "harness/judge/readings.hpp"
@@ -40,14 +40,37 @@ struct BenchOptions {
   bool endpoint_is_stimulus = false;  // --stimulus -: the endpoint's own program is told
   std::vector<const vectors::Case*>
       client_cases;  // all that are selected, where every one of them is of a device that asks
+  endpoints::ControlProgram control;         // --control: what sets the device up; empty: none
+  bool endpoint_is_control = false;          // --control -: the endpoint's own program is told
   safety::JournalDevice device;              // for the journal of a real device
   safety::JournalDevice aux_device;          // of `aux`
   std::shared_ptr<safety::Journal> journal;  // without one nothing is written to a real device
 };
 
+/// What is known of a device, however it is set up.
+struct Standing {
+  explicit Standing(int max_restarts) : worth_asking(max_restarts) {}
+
+  judging::Readings readings;
+  SetUpFindings set_up_findings;
+  WorthAsking worth_asking;
+  std::optional<AdapterFloor> floor;  // nothing: what is declared
+  std::string stopped;                // why no further case can run
+  nlohmann::json config;              // that the device was given last
+  int errors_in_a_row = 0;
+  unsigned starts = 0;  // of the endpoint, when the device was last seen to answer
+  bool port_failed = false;
+  bool answers = false;  // the device answers probes
+  bool interrupted = false;
+  bool client_gave_up = false;  // the program under test, in some case
+};
+
 class Bench {
  public:
-  Bench(endpoints::Endpoint& endpoint, const harness::Protocol& protocol, BenchOptions options);
+  /// `known` is shared by benches of one device that is set up in several ways; nullptr: this is
+  /// the only one.
+  Bench(endpoints::Endpoint& endpoint, const harness::Protocol& protocol, BenchOptions options,
+        std::shared_ptr<Standing> known = nullptr);
 
   /// The first sanity exchange: does anything answer at all? The error tells the engineer what to
   /// check.
@@ -59,7 +82,7 @@ class Bench {
   /// How fast this device answers; none on simulated time, which has no floor, and where start()
   /// found no answer.
   Result<std::optional<AdapterFloor>> measure_floor();
-  void use_floor(AdapterFloor floor) { floor_ = std::move(floor); }
+  void use_floor(AdapterFloor floor) { known_->floor = std::move(floor); }
   /// A limit below it is INCONCLUSIVE.
   Duration floor() const { return rules().timing_floor; }
 
@@ -79,14 +102,17 @@ class Bench {
   /// After the last case: tries again to put back what could not be. Empty, or what a real device
   /// does not hold as before.
   std::string put_back();
+  /// The last: a device that was set up by --control becomes what this bench declares. Empty, or
+  /// what is wrong.
+  std::string leave_as_declared();
 
   /// Set-up writes that the device did not take.
-  const SetUpFindings& set_up_findings() const { return set_up_findings_; }
+  const SetUpFindings& set_up_findings() const { return known_->set_up_findings; }
 
   /// Why no further case can run: the port failed, or the link is dead. Empty while all is well.
-  const std::string& stopped() const { return stopped_; }
-  bool port_failed() const { return port_failed_; }
-  bool interrupted() const { return interrupted_; }
+  const std::string& stopped() const { return known_->stopped; }
+  bool port_failed() const { return known_->port_failed; }
+  bool interrupted() const { return known_->interrupted; }
 
  private:
   struct Eligibility {
@@ -124,8 +150,11 @@ class Bench {
   Result<exchange::PreparedCase> prepare(const vectors::Case& source) const;
   int station_for(const vectors::Case& source) const;
   nlohmann::json device_config(const vectors::Case& source) const;
+  nlohmann::json begin_config(const vectors::Case& source) const;
+  bool places_memory_itself(const vectors::Case& source) const;
   judging::JudgeRules rules() const;
   exchange::ExchangeTiming timing() const;
+  Result<exchange::Sign> answers_when_set_up(const exchange::PreparedCase& prepared, bool started);
 
   Result<bool> wait_for_request();
   Status end_asking(const exchange::PreparedCase& prepared, bool waits);
@@ -141,6 +170,7 @@ class Bench {
   bool save_memory(const exchange::PreparedCase& prepared, results::CaseResult& result);
   bool writes_without_check(const exchange::PreparedCase& prepared) const;
   void exchange(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  bool set_up_device(const exchange::PreparedCase& prepared, results::CaseResult& result);
   bool prepare_device(const exchange::PreparedCase& prepared, results::CaseResult& result);
   void judge_exchange(const exchange::PreparedCase& prepared,
                       const exchange::Transcript& transcript, results::CaseResult& result);
@@ -158,21 +188,13 @@ class Bench {
   exchange::Arming arming_;
   exchange::MemoryAccess memory_;
   exchange::Exchange exchange_;
-  std::optional<AdapterFloor> floor_;  // nothing: what is declared
-  judging::Readings readings_;
   safety::SavedMemory saved_, saved_over_aux_;
-  SetUpFindings set_up_findings_;
-  WorthAsking worth_asking_;
+  std::shared_ptr<Standing> known_;
   const vectors::Case* last_ = nullptr;  // on an emulator repeats find it again, ready
   Ready last_ready_;
-  std::string stopped_;
-  int errors_in_a_row_ = 0;
+  std::string not_up_;           // why the device cannot be asked as it is to be set up here
   bool set_up_answered_ = true;  // in the present case: saving and setting memory
-  bool port_failed_ = false;
-  bool answers_ = false;  // the device answers probes
-  bool silent_ = false;   // nothing came in start()
-  bool interrupted_ = false;
-  bool client_gave_up_ = false;  // the program under test, in some case
+  bool silent_ = false;          // nothing came in start()
 };
 
 }  // namespace fieldproof::bench

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "harness/bench/device_set_up.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/safety/placement.hpp"
 #include "harness/safety/transposition.hpp"
@@ -20,20 +21,6 @@ using results::Verdict;
 using vectors::Case;
 
 namespace {
-
-/// What a device has that declares nothing.
-const json& default_config() {
-  static const json config{{"role", "server"},
-                           {"mode", "run"},
-                           {"inter_character_ms", 0},
-                           {"delay_ms", 0},
-                           {"rs485", false}};
-  return config;
-}
-
-std::string plain(const json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
 
 /// Programs are the bench's: no part of what a case is about.
 json without_programs(json stations) {
@@ -62,6 +49,28 @@ json Bench::device_config(const Case& source) const {
   else
     config["model"] = source.models.empty() ? protocol_.models().front() : source.models.front();
   return config;
+}
+
+/// For Endpoint::begin.
+json Bench::begin_config(const Case& source) const {
+  json config = endpoint_.capabilities().real_device
+                    ? whole_config(options_.profile, options_.station, protocol_)
+                    : json{{"station", options_.station}};
+  if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
+  if (source.config.contains("role")) config["role"] = source.config["role"];
+  return config;
+}
+
+/// The case says itself where the memory of a device lies, and this one has it there.
+bool Bench::places_memory_itself(const Case& source) const {
+  const json defaults = protocol_.defaults(options_.profile.model);
+  bool any = false, all = true;
+  for (const auto& [key, value] : defaults.items()) {
+    any = any || source.config.contains(key);
+    all = all && plain(source.config.value(key, value)) ==
+                     plain(options_.profile.config.value(key, value));
+  }
+  return any && all;
 }
 
 Bench::Eligibility Bench::outside_profile(const Case& source) const {
@@ -102,12 +111,14 @@ std::string Bench::undeclared(const json& config) const {
     if (asks && arming_.tells(key)) continue;
     const bool of_wire = key == "line" || key == "bench_line";
     if (of_wire && !asks && !endpoint_.capabilities().wire) continue;  // below_floor tells
-    const json& declared = options_.profile.config;
-    const json fallback = default_config().value(key, json());
-    const json has = declared.value(key, fallback);
+    const json has = declared_value(options_.profile, key);
     if (!has.is_null() && plain(without_programs(has)) == plain(value)) continue;
+    const bool refused = endpoint_.capabilities().control && !endpoint_.configures(key);
     return fmt::format("needs {} = {}; the profile declares {}{}", key, plain(value),
-                       has.is_null() ? "nothing" : plain(has), asks ? arming_.not_told(key) : "");
+                       has.is_null() ? "nothing" : plain(has),
+                       asks      ? arming_.not_told(key)
+                       : refused ? ", and --control does not support it"
+                                 : "");
   }
   return {};
 }
@@ -202,10 +213,13 @@ std::string Bench::fence_objection(const PreparedCase& prepared) const {
   if (std::string why = motion_objection(prepared); !why.empty()) return why;
   for (const auto& [address, hex] : settings_of(prepared)) {
     if (!exchange::place_name(address).partner.empty()) continue;
-    if (const Result<std::vector<Bytes>> requests =
-            protocol_.write_requests(prepared.station, address, hex);
-        !requests)
+    const Result<std::vector<Bytes>> requests =
+        protocol_.write_requests(prepared.station, address, hex);
+    if (requests) continue;
+    const auto named = protocol_.named(address, hex.size());
+    if (!endpoint_.capabilities().control || !named)
       return fmt::format("cannot set {}: {}", address, requests.error().message);
+    if (std::string why = options_.fence.objection({*named}, protocol_); !why.empty()) return why;
   }
   return options_.fence.objection(written_by(prepared), protocol_);
 }
@@ -249,7 +263,7 @@ std::string Bench::unreadable(const std::string& address, std::size_t digits) co
   const exchange::PlaceName name = exchange::place_name(address);
   const Protocol& protocol = name.partner.empty() ? protocol_ : *options_.aux.protocol;
   const auto requests = protocol.read_requests(options_.station, name.address, digits);
-  return requests ? "" : requests.error().message;
+  return requests || endpoint_.capabilities().control ? "" : requests.error().message;
 }
 
 /// A network device that is not reached by what the case opens: connections, or datagrams.
@@ -288,10 +302,14 @@ Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepar
       if (!why.empty()) return {Verdict::blocked, why};
   if (std::string why = undeclared(source.config); !why.empty())
     return {prepared.is_client() && arming_.declares() ? Verdict::skip : Verdict::blocked, why};
-  if (prepared.looks_at_counters() && !prepared.is_client())
+  if (prepared.looks_at_counters() && prepared.counts_from_power_on() && can.control)
+    return {Verdict::blocked,
+            "looks at the status counters as they are from power-on; the bench's own requests have "
+            "moved them"};
+  if (prepared.looks_at_counters() && !prepared.is_client() && !can.control)
     return {Verdict::blocked,
             "looks at the status counters, which no command reads; see XG5000, status by service"};
-  if (source.fresh && !can.can_power_cycle && options_.power_cycle_command.empty())
+  if (source.fresh && !can.can_power_cycle && !can.control && options_.power_cycle_command.empty())
     return {Verdict::blocked, "needs a device fresh from power-on; give --power-cycle COMMAND"};
   return {};
 }
@@ -341,7 +359,8 @@ Bench::Ready Bench::make_ready(const Case& source) const {
   // allowed.
   const bool real = endpoint_.capabilities().real_device;
   if (real && !prepared->is_client()) {
-    Result<std::optional<Case>> placed = safety::placed_case(*prepared, protocol_);
+    Result<std::optional<Case>> placed = std::optional<Case>();
+    if (!places_memory_itself(source)) placed = safety::placed_case(*prepared, protocol_);
     if (!placed) return declined({Verdict::blocked, placed.error().message});
     if (*placed) ready.elsewhere = std::make_unique<Case>(std::move(**placed));
     const Case& here = ready.elsewhere ? *ready.elsewhere : source;

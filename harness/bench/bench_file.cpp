@@ -23,9 +23,9 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 11> device_keys{
+constexpr std::array<std::string_view, 12> device_keys{
     "endpoint",    "profile",  "station", "line",     "identity", "fingerprint",
-    "allow_write", "operator", "notes",   "stimulus", "aux"};
+    "allow_write", "operator", "notes",   "stimulus", "control",  "aux"};
 constexpr std::array<std::string_view, 4> identity_keys{"maker", "model", "serial", "firmware"};
 
 [[noreturn]] void refuse(const std::string& where, const std::string& why) {
@@ -142,6 +142,7 @@ BenchDevice read_device(const json& object, const std::string& name, const fs::p
   device.station = read_station(object, where);
   device.line = read_text(object, "line", where);
   device.stimulus = read_text(object, "stimulus", where);
+  device.control = read_text(object, "control", where);
   device.aux = read_text(object, "aux", where);
   if (const auto aux = endpoints::parse_endpoint(device.aux); !aux && !device.aux.empty())
     refuse(where + ".aux", aux.error().message);

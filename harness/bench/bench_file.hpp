@@ -25,7 +25,7 @@ struct BenchDevice {
                          // empty: none named
   std::optional<int> station;            // 0 to 255
   std::string line;                      // "38400-8N1"; empty: what the endpoint says
-  std::string stimulus, aux;             // as --stimulus and --aux take them
+  std::string stimulus, control, aux;    // as --stimulus, --control and --aux take them
   std::vector<std::string> allow_write;  // as --allow-write takes them
   results::Identity identity;            // with the device's name, operator and notes
 };

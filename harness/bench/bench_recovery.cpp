@@ -26,7 +26,7 @@ bool Bench::gave_up(const PreparedCase& prepared, const Error& trouble, CaseResu
   if (!prepared.is_client() || !options_.endpoint_is_stimulus || trouble.interrupted) return false;
   result.verdict = Verdict::fail;
   result.message = "the client gave up: " + trouble.message;
-  client_gave_up_ = true;
+  known_->client_gave_up = true;
   if (!arming_.revive()) stop("the client gave up too often, last in " + result.id);
   return true;
 }
@@ -87,16 +87,16 @@ void Bench::start_again(CaseResult& result) {
   const std::string frame = last == result.exchange.rend()
                                 ? "in the set-up"
                                 : "after " + notation::print_bytes(last->bytes);
-  result.message = fmt::format("the device ended {}: {}", frame, stopped_);
+  result.message = fmt::format("the device ended {}: {}", frame, known_->stopped);
   result.verdict = Verdict::fail;
-  stopped_.clear();
-  port_failed_ = false;
+  known_->stopped.clear();
+  known_->port_failed = false;
   revive(result);
 }
 
 void Bench::revive(CaseResult& result) {
   if (endpoint_.capabilities().can_power_cycle && options_.power_cycle_command.empty())
-    if (std::string enough = worth_asking_.restart(result); !enough.empty())
+    if (std::string enough = known_->worth_asking.restart(result); !enough.empty())
       return stop(std::move(enough));
   if (!power_cycle(result))
     stop(fmt::format(
@@ -110,8 +110,10 @@ bool Bench::power_cycle(CaseResult& result, bool client) {
     result.notes.push_back("the --power-cycle command failed");
     return false;
   }
-  if (!hook && (!endpoint_.capabilities().can_power_cycle || !endpoint_.act("power_cycle")))
+  const endpoints::Capabilities& can = endpoint_.capabilities();
+  if (!hook && !((can.can_power_cycle || can.control) && endpoint_.act("power_cycle")))
     return false;
+  known_->starts = endpoint_.starts();
   result.notes.push_back("power-cycled the device");
   if (client) return arming_.started_anew();  // it answers no probe
   const Result<exchange::Sign> sign =
@@ -120,9 +122,9 @@ bool Bench::power_cycle(CaseResult& result, bool client) {
 }
 
 void Bench::stop(std::string why, const Error* error) {
-  stopped_ = std::move(why);
-  port_failed_ = error != nullptr;
-  interrupted_ = error && error->interrupted;
+  known_->stopped = std::move(why);
+  known_->port_failed = error != nullptr;
+  known_->interrupted = error && error->interrupted;
 }
 
 }  // namespace fieldproof::bench

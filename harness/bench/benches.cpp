@@ -1,8 +1,14 @@
 #include "harness/bench/benches.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "harness/bench/device_set_up.hpp"
+
 namespace fieldproof::bench {
+
+using nlohmann::json;
 
 Result<Benches> Benches::open(const endpoints::EndpointName& name,
                               const std::vector<const harness::Protocol*>& protocols,
@@ -14,57 +20,117 @@ Result<Benches> Benches::open(const endpoints::EndpointName& name,
     Result<std::unique_ptr<endpoints::Endpoint>> endpoint =
         endpoints::open_endpoint(own, *protocol);
     if (!endpoint) return endpoint.error();
-    std::unique_ptr<harness::Protocol> configured;
-    if ((*endpoint)->capabilities().real_device) {
-      Result<std::unique_ptr<harness::Protocol>> declared =
-          protocol->configured(options.profile.model, options.profile.config);
-      if (!declared)
-        return fail("cannot use profile " + options.profile.name + ": " + declared.error().message);
-      configured = std::move(*declared);
-    }
-    BenchOptions one = options;
-    one.device.protocol = protocol->name();
-    auto bench =
-        std::make_unique<Bench>(**endpoint, configured ? *configured : *protocol, std::move(one));
-    benches.members_.push_back(
-        {protocol, std::move(*endpoint), std::move(configured), std::move(bench)});
+    if ((options.control || options.endpoint_is_control) && (*endpoint)->capabilities().real_device)
+      *endpoint =
+          std::make_unique<endpoints::Controlled>(std::move(*endpoint), *protocol, options.control);
+    Member member{protocol, std::move(*endpoint), options,
+                  std::make_shared<Standing>(options.max_restarts)};
+    member.options.device.protocol = protocol->name();
+    Result<SetUp> declared = make_set_up(member, json::object(), member.options);
+    if (!declared)
+      return fail("cannot use profile " + options.profile.name + ": " + declared.error().message);
+    member.set_ups.emplace("{}", std::move(*declared));
+    benches.members_.push_back(std::move(member));
   }
   return benches;
 }
 
+Result<Benches::SetUp> Benches::make_set_up(const Member& member, const json& needed,
+                                            const BenchOptions& declared) {
+  BenchOptions options = declared;
+  options.profile.config.update(needed);
+  options.profile.config.erase("model");
+  options.profile.model = needed.value("model", options.profile.model);
+  options.station = needed.value("station", options.station);
+  if (!needed.empty()) {
+    options.device.station = options.station;
+    options.device.model = options.profile.model;
+    options.device.config = options.profile.config;
+  }
+  SetUp set_up;
+  if (member.endpoint->capabilities().real_device) {
+    Result<std::unique_ptr<harness::Protocol>> configured =
+        member.protocol->configured(options.profile.model, options.profile.config);
+    if (!configured) return configured.error();
+    set_up.configured = std::move(*configured);
+  }
+  set_up.bench = std::make_unique<Bench>(*member.endpoint,
+                                         set_up.configured ? *set_up.configured : *member.protocol,
+                                         std::move(options), member.known);
+  return set_up;
+}
+
+json Benches::needed_by(const vectors::Case& source, const Member& member) {
+  const BenchOptions& declared = member.options;
+  if (!member.endpoint->capabilities().real_device) return json::object();
+  return needed_set_up(source, declared.profile, declared.station, *member.endpoint,
+                       *member.protocol);
+}
+
+/// What no device of this profile can be set up as is for the declared one, which says why not.
+Bench& Benches::bench_for(const vectors::Case& source) {
+  Member& member = members_[index_for(source)];
+  const json needed = needed_by(source, member);
+  const std::string key = needed.dump();
+  if (!member.set_ups.contains(key)) {
+    Result<SetUp> made = make_set_up(member, needed, member.options);
+    if (!made) return member.bench();
+    member.set_ups.emplace(key, std::move(*made));
+  }
+  return *member.set_ups.at(key).bench;
+}
+
+std::vector<const vectors::Case*> Benches::grouped(
+    const std::vector<const vectors::Case*>& cases) const {
+  std::map<std::pair<const Member*, std::string>, std::vector<const vectors::Case*>> groups;
+  std::vector<std::pair<const Member*, std::string>> order;
+  for (const Member& member : members_) order.emplace_back(&member, "{}");
+  for (const vectors::Case* one : cases) {
+    const Member& member = member_for(*one);
+    const std::pair key{&member, needed_by(*one, member).dump()};
+    if (std::ranges::find(order, key) == order.end()) order.push_back(key);
+    groups[key].push_back(one);
+  }
+  std::vector<const vectors::Case*> sorted;
+  for (const auto& key : order) std::ranges::copy(groups[key], std::back_inserter(sorted));
+  return sorted;
+}
+
 Status Benches::start() {
   for (Member& member : members_) {
-    if (!member.bench->stopped().empty()) continue;
-    if (Status alive = member.bench->start(); !alive) return alive;
+    if (!member.bench().stopped().empty()) continue;
+    if (Status alive = member.bench().start(); !alive) return alive;
   }
   return ok();
 }
 
 std::optional<exchange::Channel> Benches::silent_line() const {
   for (const Member& member : members_)
-    if (std::optional<exchange::Channel> asked = member.bench->silent_line()) return asked;
+    if (std::optional<exchange::Channel> asked = member.bench().silent_line()) return asked;
   return std::nullopt;
 }
 
-const Benches::Member& Benches::member_for(const vectors::Case& source) const {
+std::size_t Benches::index_for(const vectors::Case& source) const {
   const auto own = std::ranges::find_if(
       members_, [&](const Member& member) { return member.protocol->name() == source.protocol; });
-  return own == members_.end() ? members_.front() : *own;
+  return own == members_.end() ? 0 : static_cast<std::size_t>(own - members_.begin());
 }
 
 results::CaseResult Benches::run(const vectors::Case& source) {
-  return member_for(source).bench->run(source);
+  return bench_for(source).run(source);
 }
 
 std::size_t Benches::could_run(const std::vector<const vectors::Case*>& cases,
                                const BenchOptions& options) const {
   std::size_t count = 0;
-  for (const Member& member : members_) {
-    const Bench other(*member.endpoint, member.configured ? *member.configured : *member.protocol,
-                      options);
-    count += static_cast<std::size_t>(std::ranges::count_if(cases, [&](const vectors::Case* one) {
-      return &member_for(*one) == &member && other.could_run(*one);
-    }));
+  std::map<std::string, Result<SetUp>> others;
+  for (const vectors::Case* one : cases) {
+    const Member& member = member_for(*one);
+    const json needed = needed_by(*one, member);
+    const std::string key = fmt::format("{}{}", member.protocol->name(), needed.dump());
+    if (!others.contains(key)) others.emplace(key, make_set_up(member, needed, options));
+    const Result<SetUp>& other = others.at(key);
+    if (other && other->bench->could_run(*one)) ++count;
   }
   return count;
 }
@@ -72,17 +138,17 @@ std::size_t Benches::could_run(const std::vector<const vectors::Case*>& cases,
 std::pair<const harness::Protocol*, std::vector<harness::Protocol::Written>> Benches::written_by(
     const vectors::Case& source) const {
   const Member& member = member_for(source);
-  return {member.protocol, member.bench->written_by(source)};
+  return {member.protocol, member.bench().written_by(source)};
 }
 
 Result<std::string> Benches::measure_floor() {
   std::string text;
   for (Member& member : members_) {
-    Result<std::optional<AdapterFloor>> measured = member.bench->measure_floor();
+    Result<std::optional<AdapterFloor>> measured = member.bench().measure_floor();
     if (!measured) return measured.error();
     if (!*measured) continue;
-    member.bench->use_floor(**measured);
-    const std::string own = to_string(**measured, member.bench->floor());
+    member.bench().use_floor(**measured);
+    const std::string own = to_string(**measured, member.bench().floor());
     text += members_.size() == 1
                 ? own
                 : (text.empty() ? "" : "; ") + std::string(member.protocol->name()) + ' ' + own;
@@ -91,45 +157,49 @@ Result<std::string> Benches::measure_floor() {
 }
 
 std::string Benches::use_floor(const AdapterFloor& floor) {
-  for (Member& member : members_) member.bench->use_floor(floor);
-  return to_string(floor, members_.front().bench->floor());
+  for (Member& member : members_) member.bench().use_floor(floor);
+  return to_string(floor, members_.front().bench().floor());
 }
 
 Status Benches::start_those_that_answer() {
   for (Member& member : members_) {
-    const Status alive = member.bench->start();
+    const Status alive = member.bench().start();
     if (alive) continue;
-    if (alive.error().interrupted || member.bench->port_failed()) return alive;
-    member.bench->set_aside(alive.error().message);
+    if (alive.error().interrupted || member.bench().port_failed()) return alive;
+    member.bench().set_aside(alive.error().message);
   }
   return ok();
 }
 
 std::string Benches::stopped() const {
-  const auto can_run = [](const Member& member) { return member.bench->stopped().empty(); };
+  const auto can_run = [](const Member& member) { return member.bench().stopped().empty(); };
   return members_.empty() || std::ranges::any_of(members_, can_run)
              ? ""
-             : members_.front().bench->stopped();
+             : members_.front().bench().stopped();
 }
 
 std::vector<results::CaseResult> Benches::set_up_findings() const {
   std::vector<results::CaseResult> all;
   for (const Member& member : members_)
-    std::ranges::move(member.bench->set_up_findings().results(), std::back_inserter(all));
+    std::ranges::move(member.bench().set_up_findings().results(), std::back_inserter(all));
   return all;
 }
 
 std::string Benches::put_back() {
   std::string open;
-  for (Member& member : members_)
-    if (const std::string one = member.bench->put_back(); !one.empty())
+  for (Member& member : members_) {
+    for (auto& [key, set_up] : member.set_ups)
+      if (const std::string one = set_up.bench->put_back(); !one.empty())
+        open += (open.empty() ? "" : ", ") + one;
+    if (const std::string one = member.bench().leave_as_declared(); !one.empty())
       open += (open.empty() ? "" : ", ") + one;
+  }
   return open;
 }
 
 bool Benches::interrupted() const {
   return std::ranges::any_of(members_,
-                             [](const Member& member) { return member.bench->interrupted(); });
+                             [](const Member& member) { return member.bench().interrupted(); });
 }
 
 std::string Benches::protocol_names() const {

@@ -2,6 +2,7 @@
 // of.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,7 +30,7 @@ class Benches {
   Result<std::string> measure_floor();
   /// The same of the first alone, without using it.
   Result<std::optional<AdapterFloor>> measured_floor() {
-    return members_.front().bench->measure_floor();
+    return members_.front().bench().measure_floor();
   }
   /// Instead of measuring: given by hand, or measured over a loop.
   std::string use_floor(const AdapterFloor& floor);
@@ -38,8 +39,12 @@ class Benches {
   /// An error: the port.
   Status start_those_that_answer();
 
-  /// On the bench of the case's protocol; a case of another protocol is SKIP.
+  /// On the bench of the case's protocol; a case of another protocol is SKIP. A device that can be
+  /// set up is set up as the case needs it.
   results::CaseResult run(const vectors::Case& source);
+  /// The cases that want one set-up behind each other, those of the declared device first: each
+  /// change may cost a restart.
+  std::vector<const vectors::Case*> grouped(const std::vector<const vectors::Case*>& cases) const;
 
   /// How many of these cases could run if the options were others; nothing is sent.
   std::size_t could_run(const std::vector<const vectors::Case*>& cases,
@@ -54,7 +59,7 @@ class Benches {
   void close() { members_.clear(); }
 
   /// By the first protocol.
-  Result<Fingerprint> fingerprint() { return members_.front().bench->fingerprint(); }
+  Result<Fingerprint> fingerprint() { return members_.front().bench().fingerprint(); }
   /// SetUpFindings::results of all.
   std::vector<results::CaseResult> set_up_findings() const;
   /// `Bench::put_back` of all.
@@ -62,7 +67,7 @@ class Benches {
 
   bool interrupted() const;
   /// The port itself is gone.
-  bool port_failed() const { return members_.front().bench->port_failed(); }
+  bool port_failed() const { return members_.front().bench().port_failed(); }
   /// Why no further case can run on any of them; empty while one can.
   std::string stopped() const;
   /// "emulator xbc-h".
@@ -71,13 +76,29 @@ class Benches {
   std::string protocol_names() const;
 
  private:
+  /// A device set up in one way.
+  struct SetUp {
+    std::unique_ptr<harness::Protocol> configured;  // of a real device: as it has it then
+    std::unique_ptr<Bench> bench;
+  };
   struct Member {
     const harness::Protocol* protocol;
     std::unique_ptr<endpoints::Endpoint> endpoint;
-    std::unique_ptr<harness::Protocol> configured;  // of a real device: as it declares itself
-    std::unique_ptr<Bench> bench;
+    BenchOptions options;  // of the device as it is declared
+    std::shared_ptr<Standing> known;
+    std::map<std::string, SetUp> set_ups{};  // by needed_set_up; "{}": as it is declared
+
+    Bench& bench() const { return *set_ups.at("{}").bench; }
   };
-  const Member& member_for(const vectors::Case& source) const;
+  std::size_t index_for(const vectors::Case& source) const;
+  const Member& member_for(const vectors::Case& source) const {
+    return members_[index_for(source)];
+  }
+
+  static Result<SetUp> make_set_up(const Member& member, const nlohmann::json& needed,
+                                   const BenchOptions& options);
+  static nlohmann::json needed_by(const vectors::Case& source, const Member& member);
+  Bench& bench_for(const vectors::Case& source);
 
   std::vector<Member> members_;
 };

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
+#include "reports/results/shard.hpp"
+
 namespace fieldproof::bench {
 
 namespace {
@@ -45,6 +47,7 @@ class Repetitions : public testing::EmptyTestEventListener {
 };
 
 void initialize(const RunnerOptions& options) {
+  if (const auto shard = results::shard_of_environment()) results::hand_to_googletest(*shard);
   // Selection, repetition and reports are ours, whatever GTEST_FILTER and its like say in the
   // environment.
   std::vector<std::string> arguments{"fieldproof",

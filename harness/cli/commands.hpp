@@ -15,8 +15,8 @@ namespace fieldproof::cli {
 int run_command(const run::RunOptions& options, const harness::Protocols& protocols);
 
 struct ExploreOptions {
-  run::RunOptions run;             // device, fence, gate and reports; `seed` -1: by the clock
-  std::uint64_t requests = 0;      // then it ends; 0: by `run.duration`, or 100,000
+  run::RunOptions run;         // device, fence, gate and reports; `seed` -1: by the clock
+  std::uint64_t requests = 0;  // then it ends; 0: by `run.duration`, or 100,000
 };
 /// Requests that no vector has, against the device and our own model of it.
 int explore_command(const ExploreOptions& options, const harness::Protocols& protocols);
@@ -60,7 +60,26 @@ struct ProbeOptions {
   bool all = false;                                              // go on after the first find
   bool fingerprint = false;                                      // of each device that was found
 };
-int probe_command(const ProbeOptions& options, const harness::Protocols& protocols);
+/// What `probe` has found, to go on with.
+struct ProbedDevice {
+  std::string endpoint;  // with its settings, station and protocol
+  std::string protocol;
+  std::string profile;  // that suits a module of the protocol; of an emulator: its own
+};
+/// `found`, where it is not nullptr, takes each device.
+int probe_command(const ProbeOptions& options, const harness::Protocols& protocols,
+                  std::vector<ProbedDevice>* found = nullptr);
+
+struct InitOptions {
+  std::string endpoint, protocol, profile, name, serial, firmware, allow_write;
+  std::string ci;                      // "github", "gitlab", "none"
+  std::string bench = "bench.json";    // made, or added to
+  std::string out = "fieldproof-out";  // of the first run
+  bool yes = false;                    // nobody is asked
+  bool no_run = false;
+};
+/// Finds a device, writes it into a bench file, runs its cases, and writes a job for CI.
+int init_command(const InitOptions& options, const harness::Protocols& protocols);
 
 struct FrameOptions {
   std::string frame;
@@ -89,8 +108,27 @@ int restore_command(const RestoreOptions& options, const harness::Protocols& pro
 struct CompareOptions {
   std::vector<std::string> files;  // results: the first is what the others are compared with
   std::string html, junit;
+  std::string history;  // for the file `last`; empty: the user's own
 };
 int compare_command(const CompareOptions& options);
+
+struct HistoryOptions {
+  std::string file;                  // empty: the user's own
+  std::vector<std::string> results;  // add
+  std::string run = "last";          // show: its number, or "last"
+  std::string device;                // its name or a part of it; empty: by the command
+  std::string by = "device";         // matrix: "device", "firmware"
+  std::string filter;                // matrix: cases by id
+  int last = -1;                     // runs or columns; 0: all; negative: as usual
+  std::string html;                  // matrix, trend: empty: none
+  bool json = false, markdown = false;
+};
+/// Errors of the results or of the file are usage, those of writing it trouble.
+int history_add_command(const HistoryOptions& options);
+int history_list_command(const HistoryOptions& options);
+int history_show_command(const HistoryOptions& options);
+int history_matrix_command(const HistoryOptions& options);
+int history_trend_command(const HistoryOptions& options);
 
 struct MergeOptions {
   std::vector<std::string> files;  // results.ndjson or results.json of the parts of one run

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "harness/cli/commands.hpp"
+#include "harness/cli/last_run.hpp"
 #include "harness/run/run_report.hpp"
 #include "reports/compare/compare_html.hpp"
 #include "reports/compare/compare_junit.hpp"
@@ -20,17 +21,33 @@ Status report_comparison(const compare::ComparisonSet& set, const std::string& h
   return ok();
 }
 
-int compare_command(const CompareOptions& options) {
+namespace {
+
+Result<std::vector<compare::RunSummary>> read_runs(const CompareOptions& options) {
+  const bool from_history = options.files.front() == last_run;
   std::vector<compare::RunSummary> runs;
-  for (const std::string& path : options.files) {
-    const Result<compare::ResultFile> file = compare::read_result_file(path);
-    if (!file) return run::complain(file.error().message, run::exit_code::usage);
+  for (std::size_t i = from_history ? 1 : 0; i < options.files.size(); ++i) {
+    const Result<compare::ResultFile> file = compare::read_result_file(options.files[i]);
+    if (!file) return file.error();
     if (file->results.empty())
-      return run::complain(fmt::format("cannot compare {}: there is no result in it", path),
-                           run::exit_code::usage);
+      return fail(fmt::format("cannot compare {}: there is no result in it", options.files[i]));
     runs.push_back(compare::summarize(*file));
   }
-  const compare::ComparisonSet set(std::move(runs));
+  if (!from_history) return runs;
+  Result<std::optional<compare::RunSummary>> last =
+      last_before(options.history, runs.front(), history::Use::read);
+  if (!last) return last.error();
+  if (!*last) return fail(no_run_before(options.history, runs.front()));
+  runs.insert(runs.begin(), std::move(**last));
+  return runs;
+}
+
+}  // namespace
+
+int compare_command(const CompareOptions& options) {
+  Result<std::vector<compare::RunSummary>> runs = read_runs(options);
+  if (!runs) return run::complain(runs.error().message, run::exit_code::usage);
+  const compare::ComparisonSet set(std::move(*runs));
   if (const Status reported = report_comparison(set, options.html, options.junit); !reported)
     return run::complain(reported.error().message, run::exit_code::trouble);
   const int code = set.worse() ? run::exit_code::failed : run::exit_code::ok;

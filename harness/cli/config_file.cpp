@@ -15,9 +15,10 @@ Result<nlohmann::json> read_config_file(const std::string& path) {
   } catch (const nlohmann::json::parse_error& error) {
     return fail(fmt::format("cannot read {}: it is no JSON: {}", path, error.what()));
   }
-  return fail(fmt::format("cannot read {}: it is no object; write the keys of given.config "
-                          "(vectors/README.md)",
-                          path));
+  return fail(
+      fmt::format("cannot read {}: it is no object; write the keys of given.config "
+                  "(vectors/README.md)",
+                  path));
 }
 
 Result<nlohmann::json> read_p2p_file(const std::string& path) {

@@ -173,13 +173,14 @@ int exit_code_of(const std::vector<Finding>& findings, bool was_interrupted) {
 
 }  // namespace
 
-int probe_command(const ProbeOptions& options, const harness::Protocols& protocols) {
+int probe_command(const ProbeOptions& options, const harness::Protocols& protocols,
+                  std::vector<ProbedDevice>* found) {
   const Result<EndpointName> endpoint = endpoints::parse_endpoint(options.endpoint);
   if (!endpoint) return run::complain(endpoint.error().message, run::exit_code::usage);
   const Result<std::vector<const harness::Protocol*>> servers =
       servers_to_probe(options, *endpoint, protocols);
   if (!servers) return run::complain(servers.error().message, run::exit_code::usage);
-  if (!servers->empty()) return probe_servers(options, *endpoint, *servers, protocols);
+  if (!servers->empty()) return probe_servers(options, *endpoint, *servers, protocols, found);
   Result<probe::SearchSpace> space = space_of(options, *endpoint, protocols);
   if (!space) return run::complain(space.error().message, run::exit_code::usage);
   probe::ProbeTiming timing;
@@ -222,6 +223,9 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
         fmt::format("{:<13} after {} of {}\n", "interrupted", search->trials, plan.size() + 1));
   const std::vector<Finding> findings = probe::conclude(*search, timing);
   report(findings, *endpoint, space->settable);
+  for (const Finding& finding : findings)
+    if (found && finding.kind == Finding::Kind::device)
+      found->push_back(probed_device(*endpoint, finding.trial, space->settable));
   for (const Finding& finding : findings)
     if (options.fingerprint && finding.kind == Finding::Kind::device && !search->interrupted)
       if (const int code =

@@ -36,11 +36,18 @@ std::string profile_of_a_module(const harness::Protocol& protocol) {
 
 std::string probe_run_line(const EndpointName& endpoint, const probe::Trial& device,
                            bool settable) {
-  std::string line =
-      "fieldproof run --endpoint " +
-      run::shell_word(probe::to_string(probe::name_of_found(endpoint, device, settable)));
-  if (probe::is_emulator(endpoint)) return line;
-  return line + " --profile " + profile_of_a_module(*device.protocol);
+  const ProbedDevice found = probed_device(endpoint, device, settable);
+  const std::string line = "fieldproof run --endpoint " + run::shell_word(found.endpoint);
+  return probe::is_emulator(endpoint) ? line : line + " --profile " + found.profile;
+}
+
+ProbedDevice probed_device(const EndpointName& endpoint, const probe::Trial& device,
+                           bool settable) {
+  const EndpointName name = probe::name_of_found(endpoint, device, settable);
+  const std::string profile = probe::is_emulator(endpoint) && !endpoint.target.empty()
+                                  ? endpoint.target
+                                  : profile_of_a_module(*device.protocol);
+  return {probe::to_string(name), std::string(device.protocol->name()), profile};
 }
 
 int print_probed_fingerprint(const EndpointName& endpoint, const probe::Trial& device,

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "harness/cli/commands.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/probe/plan.hpp"
 
@@ -11,6 +12,10 @@ namespace fieldproof::cli {
 /// "fieldproof run --endpoint ... --profile ...": its own module's profile is for the engineer to
 /// choose. `settable`: the line has speed and frame.
 std::string probe_run_line(const endpoints::EndpointName& endpoint, const probe::Trial& device,
+                           bool settable);
+
+/// The same as parts.
+ProbedDevice probed_device(const endpoints::EndpointName& endpoint, const probe::Trial& device,
                            bool settable);
 
 /// Prints the fingerprint; what went wrong is said and makes the exit code.

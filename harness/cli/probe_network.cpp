@@ -81,7 +81,7 @@ Result<Wanted> servers_to_probe(const ProbeOptions& options, const EndpointName&
 }
 
 int probe_servers(const ProbeOptions& options, const EndpointName& endpoint, const Wanted& wanted,
-                  const harness::Protocols& protocols) {
+                  const harness::Protocols& protocols, std::vector<ProbedDevice>* devices) {
   if (!(options.stations.empty() && options.speeds.empty() && options.frames.empty()))
     return run::complain(
         fmt::format("cannot search stations, speeds and frames of {}: a network has none; leave "
@@ -110,6 +110,7 @@ int probe_servers(const ProbeOptions& options, const EndpointName& endpoint, con
   bool found = false;
   for (const ServerFinding& one : *findings) {
     if (!one.is_server()) continue;
+    if (devices) devices->push_back(probed_device(endpoint, {{}, one.protocol, 1}, false));
     if (options.fingerprint && !found)
       if (const int code = print_probed_fingerprint(endpoint, {{}, one.protocol, 1}, false, wait);
           code != run::exit_code::ok)

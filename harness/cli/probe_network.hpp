@@ -18,6 +18,6 @@ Result<std::vector<const harness::Protocol*>> servers_to_probe(
 /// Asks them, and prints what answers and what is in the way. Exit code 0: at least one answers.
 int probe_servers(const ProbeOptions& options, const endpoints::EndpointName& endpoint,
                   const std::vector<const harness::Protocol*>& wanted,
-                  const harness::Protocols& protocols);
+                  const harness::Protocols& protocols, std::vector<ProbedDevice>* devices);
 
 }  // namespace fieldproof::cli

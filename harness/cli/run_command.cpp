@@ -14,6 +14,7 @@
 #include "harness/cli/case_lines.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/compare_command.hpp"
+#include "harness/cli/last_run.hpp"
 #include "harness/judge/judge.hpp"
 #include "harness/run/coverage_hint.hpp"
 #include "harness/run/line_steps.hpp"
@@ -354,19 +355,57 @@ void compare_with(const RunSummary& baseline, RunSummary now, const RunOptions& 
     end.worse = fmt::format("worse than {}: {}", baseline.path, outcome(set.comparisons.front()));
 }
 
-/// The baseline's results of the selected cases.
-Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const RunPlan& plan) {
-  if (options.baseline.empty()) return std::optional<RunSummary>();
-  Result<compare::ResultFile> file = compare::read_result_file(options.baseline);
-  if (!file) return file.error();
+std::set<std::string> selected_ids(const RunPlan& plan) {
   std::set<std::string> selected;
   for (const Case* one : plan.selected) selected.insert(one->id);
+  return selected;
+}
+
+/// The baseline's results of the selected cases.
+Result<std::optional<RunSummary>> load_baseline(const RunOptions& options, const RunPlan& plan) {
+  if (options.baseline.empty() || options.baseline == last_run) return std::optional<RunSummary>();
+  Result<compare::ResultFile> file = compare::read_result_file(options.baseline);
+  if (!file) return file.error();
+  const std::set<std::string> selected = selected_ids(plan);
   std::erase_if(file->results, [&](const CaseResult& one) { return !selected.contains(one.id); });
   return std::optional(compare::summarize(*file));
 }
 
+/// The same of the last run that the history has of this device; says so where there is none.
+Result<std::optional<RunSummary>> baseline_of_history(const RunOptions& options,
+                                                      const RunPlan& plan,
+                                                      const results::RunInfo& info,
+                                                      RunReport& report) {
+  RunSummary now;
+  now.run = info;
+  Result<std::optional<RunSummary>> last = last_before(options.history, now, use_of(options));
+  if (!last) return last;
+  if (!*last) {
+    report.say(no_run_before(options.history, now));
+    return last;
+  }
+  const std::set<std::string> selected = selected_ids(plan);
+  std::erase_if((*last)->cases, [&](const auto& one) {
+    return !selected.contains(one.first.substr(0, one.first.find(" [")));
+  });
+  return last;
+}
+
+/// Without results there is nothing to be added.
+void add_to_history(const RunOptions& options, RunSummary now, RunReport& report,
+                    RunReport::End& end) {
+  if (options.history.empty() || now.cases.empty()) return;
+  now.end = report.ended(end);
+  Result<history::History> history = history::History::open(options.history, history::Use::write);
+  const auto added = history ? history->add(now) : Result<history::History::Added>(history.error());
+  if (added)
+    report.add_path("history", fmt::format("{}, run {}", options.history, added->number));
+  else
+    end.trouble += (end.trouble.empty() ? "" : "; ") + added.error().message;
+}
+
 int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& ports,
-            run::ReportPaths paths, const std::optional<RunSummary>& baseline) {
+            run::ReportPaths paths, std::optional<RunSummary> baseline) {
   Result<RunReport> report = RunReport::create(
       std::move(paths), run::console_options(run::gate_of(options), options.verbose));
   if (!report) return run::complain(report.error().message, run::exit_code::trouble);
@@ -374,13 +413,19 @@ int execute(const RunOptions& options, RunPlan& plan, std::vector<Benches>& port
       plan.matrix.empty() ? run::take_fingerprints(plan, ports, options.qualify) : ok();
   RunSummary now;
   now.path = report->path();
-  if (baseline) report->attach(compare::summarizer(now));
   Run run(options, plan, ports, *report);
+  if (options.baseline == last_run) {
+    auto last = baseline_of_history(options, plan, run.info(), *report);
+    if (!last) return run::complain(last.error().message, run::exit_code::usage);
+    baseline = std::move(*last);
+  }
+  if (baseline || !options.history.empty()) report->attach(compare::summarizer(now));
   const Status started = same_devices ? run.start() : same_devices;
   if (const Status begun = report->begin(run.info()); !begun)
     return run::complain(begun.error().message, run::exit_code::trouble);
   RunReport::End end = run.execute(started);
-  if (baseline) compare_with(*baseline, std::move(now), options, *report, end);
+  if (baseline) compare_with(*baseline, now, options, *report, end);
+  add_to_history(options, std::move(now), *report, end);
   return report->finish(end);
 }
 
@@ -396,8 +441,10 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
                     run::meant_filter(options.vectors, protocols, options.filter)),
         run::exit_code::nothing);
   if (options.dry_run) return dry_run(*plan);
-  const Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
+  Result<std::optional<RunSummary>> baseline = load_baseline(options, *plan);
   if (!baseline) return run::complain(baseline.error().message, run::exit_code::usage);
+  if (const Status fit = check_history(options); !fit)
+    return run::complain(fit.error().message, run::exit_code::usage);
   os::catch_interrupts();
   const auto trouble = [&](const Error& error) {
     return run::complain(error.message, options.skip_absent && error.absent
@@ -415,7 +462,8 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
   if (!fixtures) return trouble(fixtures.error());
   Result<std::vector<Benches>> ports = run::open_ports(*plan);
   if (!ports) return trouble(ports.error());
-  return execute(options, *plan, *ports, std::move(*paths), *baseline);
+  plan->selected = ports->front().grouped(plan->selected);
+  return execute(options, *plan, *ports, std::move(*paths), std::move(*baseline));
 }
 
 int report_command(const ReportOptions& options) {

@@ -1,14 +1,16 @@
-// The back door of an emulator in another process: one JSON object a line asks, one answers.
+// The back door of an emulator in another process: the lines of --control (suites/example), and
+// more.
 //
-//   {"begin": {"station": 1, ...}}                    a fresh device with this configuration
-//   {"set": {"address": "%MW100", "hex": "1234"}}
-//   {"get": {"address": "%MW100", "digits": 4}}       -> {"ok": true, "value": "1234"}
-//   {"act": "power_cycle"}
+//   {"begin": {"station": 1, ...}}        a fresh device with this configuration
+//   {"config": {"delay_ms": 10}}          a fresh one with the present configuration changed so
+//   {"set": {"%MW100": "1234"}}
+//   {"get": ["%MW100"]}, or with digits {"get": {"%MW100": 8}}   -> {"values": {"%MW100": "1234"}}
+//   {"do": "power_cycle"}
 //   -> {"ok": true} or {"error": "why"}
 #pragma once
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -17,16 +19,19 @@
 
 namespace fieldproof::endpoints {
 
-/// The answer line (with its newline) to one request line; `begin` makes the fresh device, `device`
-/// gives the present one (nullptr: none yet).
-std::string answer_control(std::string_view line,
-                           const std::function<Status(const nlohmann::json& config)>& begin,
-                           const std::function<plc::EmulatedDevice*()>& device);
+struct ControlledDevice {
+  std::function<Status(const nlohmann::json& config)> begin;   // makes the fresh device
+  std::function<Status(const nlohmann::json& change)> config;  // the same, with this changed
+  std::function<plc::EmulatedDevice*()> device;                // the present one; nullptr: none yet
+};
+
+/// The answer line (with its newline) to one request line.
+std::string answer_control(std::string_view line, const ControlledDevice& device);
 
 /// A request as a line.
 std::string control_line(const nlohmann::json& request);
 
-/// "value" of an answer line (empty where there is none), or its error.
-Result<std::string> read_control_answer(std::string_view line);
+/// The values of an answer line (none: an empty object), or its error.
+Result<nlohmann::json> read_control_answer(std::string_view line);
 
 }  // namespace fieldproof::endpoints

@@ -24,6 +24,7 @@ struct Capabilities {
   bool simulated = false;  // time costs nothing and is exact
   bool wire = false;  // character times, parity and data bits exist (simulated line, real adapter)
   bool back_door = false;  // emulator: memory, counters and configuration can be set for each case
+  bool control = false;    // real device: a program beside it reaches what its protocol does not
   bool real_device = false;  // the write fence binds; configuration is what is declared
   bool can_power_cycle = false;
   bool connections = false;  // links are opened and closed (TCP); there is no line 0
@@ -44,9 +45,14 @@ class Endpoint {
   virtual Duration character_time() const = 0;
 
   /// Starts a case. Emulators become a fresh device with `config` (vectors/README.md,
-  /// `given.config`, with "model"); real devices ignore it: the runner has compared it with what is
-  /// declared. Nothing is purged.
+  /// `given.config`, with "model"). Real devices are given what they can be given of it: it is all
+  /// that the device is to have; what else differs, the runner has compared with what is declared.
+  /// Nothing is purged. Errors that are `refused`: the device cannot be set up so.
   virtual Status begin(const nlohmann::json& config) = 0;
+  /// Does begin() give a real device this key of `given.config`?
+  virtual bool configures(std::string_view) const { return false; }
+  /// How often the device under test was started by this endpoint: what it knew before is gone.
+  virtual unsigned starts() const { return 0; }
 
   /// Opens a connection to `port` of the device, or a datagram port of the bench that talks to it
   /// (capabilities().connections, .datagrams); 0: the port of the endpoint's name, else of its
@@ -71,10 +77,13 @@ class Endpoint {
   /// event `data`: nothing came. Ctrl-C ends the wait with an interrupted error.
   virtual Result<Burst> receive(Time deadline) = 0;
 
-  /// Back door (capabilities().back_door); errors name the address or action.
+  /// Back door (capabilities().back_door, .control); errors name the address or action, and are
+  /// `refused` where the device has no such thing.
   virtual Status set(std::string_view address, std::string_view hex);
   virtual Result<std::string> get(std::string_view address, std::size_t digits);
   virtual Status act(std::string_view action);
+  /// Puts back what set() has changed in a real device since the case began.
+  virtual Status put_back() { return ok(); }
   /// What moved since the case began, and who had the token (EmulatedDevice::trace).
   virtual Trace trace() const { return {}; }
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/endpoints/command_marks.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
 #include "harness/protocol.hpp"
@@ -34,17 +35,18 @@ class ExecEndpoint final : public Endpoint {
     capabilities_.timing_floor = floor;
   }
 
-  Status start() {
+  Status start(const nlohmann::json& config) {
+    running_ = command_.filled(config);
+    ++starts_;
     link_.set_far_end(nullptr);
     child_.reset();
     os::drop_waiting_bytes(link_.fd());
     os::drop_waiting_bytes(slave_.get());
     os::set_raw(slave_.get());
     os::ChildOptions options;
-    const std::string command = with_mark(command_, tty_mark, path_);
-    options.arguments = os::shell(command);
+    options.arguments = os::shell(with_mark(running_, tty_mark, path_));
     options.terminal = slave_.get();
-    options.terminal_is_stdio = command == command_;
+    options.terminal_is_stdio = is_stdio();
     Result<os::LinePipe> pipe = os::open_line_pipe();
     if (!pipe) return pipe.error();
     options.standard_input = pipe->child.get();
@@ -57,17 +59,22 @@ class ExecEndpoint final : public Endpoint {
   }
 
   const Capabilities& capabilities() const override { return capabilities_; }
-  std::string describe() const override { return "exec:" + command_; }
+  std::string describe() const override { return "exec:" + command_.text(); }
   Time now() const override { return link_.now(); }
   /// A pty has no wire; pauses in characters are meant at the default speed.
   Duration character_time() const override { return line::LineSettings{}.character_time(); }
-  Status begin(const nlohmann::json&) override { return ok(); }
+  Status begin(const nlohmann::json& config) override {
+    config_ = config;
+    return command_.filled(config) == running_ ? ok() : start(config);
+  }
+  bool configures(std::string_view key) const override { return command_.takes(key); }
+  unsigned starts() const override { return starts_; }
   using Endpoint::send;
   Result<Sent> send(ByteView bytes, LinkId) override { return link_.send(bytes); }
   Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
   Status tell(std::string_view line) override {
-    if (command_.find(tty_mark) == std::string::npos)
+    if (is_stdio())
       return fail(
           fmt::format("cannot tell {} what to request: its standard input is the port; write "
                       "{{tty}} where the command takes its path",
@@ -79,14 +86,19 @@ class ExecEndpoint final : public Endpoint {
   std::string answer(Duration patience) override { return child_->answer(patience); }
 
   Status act(std::string_view action) override {
-    if (action == "power_cycle") return start();
+    if (action == "power_cycle") return start(config_);
     return fail(
         fmt::format("cannot do '{}' on {}: the bench can only power_cycle it", action, describe()));
   }
 
  private:
+  bool is_stdio() const { return command_.text().find(tty_mark) == std::string::npos; }
+
   Capabilities capabilities_;
-  std::string command_;
+  CommandMarks command_;
+  nlohmann::json config_ = nlohmann::json::object();  // of the present case
+  std::string running_;                               // the command, filled
+  unsigned starts_ = 0;
   os::UniqueFd slave_;  // kept open: no close of the device under test ends the line
   std::string path_;
   os::FdLink link_;
@@ -99,7 +111,7 @@ class ExecEndpoint final : public Endpoint {
 Status check_command(const EndpointName& name) {
   if (uses(name, port_mark) && uses(name, tty_mark))
     return fail("{port} and {tty} exclude each other: the device is on a network or on a line");
-  return ok();
+  return CommandMarks::check(name.target);
 }
 
 Status check_command_for(const EndpointName& name, const harness::Protocol& protocol) {
@@ -109,6 +121,10 @@ Status check_command_for(const EndpointName& name, const harness::Protocol& prot
   if (!network && uses(name, port_mark))
     return fail("it runs on a serial line; write {tty} where the command takes its path");
   return ok();
+}
+
+nlohmann::json config_of(const EndpointName& name) {
+  return {{"station", name.option("station", "1")}, {"protocol", name.option("protocol", "")}};
 }
 
 std::string with_mark(std::string command, std::string_view mark, const std::string& value) {
@@ -130,7 +146,7 @@ Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name,
   Result<os::PtyPair> pty = os::open_pty_pair();
   if (!pty) return pty.error();
   auto endpoint = std::make_unique<ExecEndpoint>(name, std::move(*pty), *floor);
-  if (const Status started = endpoint->start(); !started) return started.error();
+  if (const Status started = endpoint->start(config_of(name)); !started) return started.error();
   return std::unique_ptr<Endpoint>(std::move(endpoint));
 }
 

@@ -2,13 +2,16 @@
 // or the port that it listens on or connects to.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "harness/endpoints/endpoint.hpp"
 
 namespace fieldproof::endpoints {
 
 /// Runs COMMAND by /bin/sh. `{tty}` in it becomes the path of the pty; without any mark, stdin and
 /// stdout are the pty. With `{port}` it is a device on a network instead, see open_exec_network.
-/// `act("power_cycle")` ends it with all its children and starts it anew. Options: floor_ms,
+/// `act("power_cycle")` ends it with all its children and starts it anew; so does begin() where the
+/// command takes what is otherwise than in the last case (CommandMarks). Options: floor_ms,
 /// station, protocol, echo. When it ends, send and receive fail and say its exit status and the
 /// last lines of its stderr.
 Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name,
@@ -24,6 +27,9 @@ Result<std::unique_ptr<Endpoint>> open_exec_network(const EndpointName& name,
 Status check_command(const EndpointName& name);
 /// `{port}` for protocols of networks, and for none else.
 Status check_command_for(const EndpointName& name, const harness::Protocol& protocol);
+
+/// What the command is told before the first case.
+nlohmann::json config_of(const EndpointName& name);
 
 /// `command` with `value` for each `mark`.
 std::string with_mark(std::string command, std::string_view mark, const std::string& value);

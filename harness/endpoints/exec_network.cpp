@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "harness/endpoints/command_marks.hpp"
 #include "harness/endpoints/exec.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/network.hpp"
@@ -33,6 +34,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
                       os::RemoteHost host, os::PtyPair pty, NetworkPorts defaults)
       : NetworkEndpoint("exec:" + name.target, capabilities),
         command_(name.target),
+        config_(config_of(name)),
         host_(std::move(host)),
         pty_(std::move(pty)),
         defaults_(std::move(defaults)) {}
@@ -41,13 +43,19 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   /// Only the role counts: a client finds the bench listening.
   Status begin(const nlohmann::json& config) override {
     const bool client = config.value("role", "server") == "client";
-    if (!child_ || client != client_) return start(client);
+    config_ = config;
+    if (!child_ || client != client_ || command_.filled(config) != running_) return start(client);
     if (!client) return NetworkEndpoint::begin(config);
     sockets().end_closed();  // it may keep a connection over several cases, but not one of these
     return ok();
   }
 
+  bool configures(std::string_view key) const override { return command_.takes(key); }
+  unsigned starts() const override { return starts_; }
+
   Result<LinkId> open(Transport transport, std::uint16_t port) override {
+    if (!child_)
+      if (const Status started = start(false); !started) return started.error();
     if (client_) return cannot_open(transport, "this case is of a client, which opens the links");
     const std::uint16_t own = transport == Transport::tcp ? tcp_ : udp_;
     if (own == 0)
@@ -75,6 +83,8 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
 
  private:
   Status start(bool client) {
+    running_ = command_.filled(config_);
+    ++starts_;
     sockets().set_far_end(nullptr);
     child_.reset();
     sockets().lose_all();
@@ -85,7 +95,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
     Result<os::LinePipe> pipe = os::open_line_pipe();
     if (!pipe) return pipe.error();
     os::ChildOptions options;
-    options.arguments = os::shell(with_mark(with_mark(command_, udp_mark, std::to_string(udp_)),
+    options.arguments = os::shell(with_mark(with_mark(running_, udp_mark, std::to_string(udp_)),
                                             "{port}", std::to_string(tcp_)));
     options.terminal = pty_.slave.get();  // its hangup ends the child with the bench
     options.standard_input = pipe->child.get();
@@ -99,7 +109,8 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
 
   /// A port that is free now. The bench keeps the one that a client is to connect to.
   Status choose_port(Transport transport, std::uint16_t& port) {
-    if (transport == Transport::udp && command_.find(udp_mark) == std::string::npos) return ok();
+    if (transport == Transport::udp && command_.text().find(udp_mark) == std::string::npos)
+      return ok();
     Result<os::UniqueFd> fd =
         os::listen_socket({loopback, 0}, transport == Transport::tcp ? SOCK_STREAM : SOCK_DGRAM);
     if (!fd) return fd.error();
@@ -128,7 +139,10 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
     }
   }
 
-  std::string command_;
+  CommandMarks command_;
+  nlohmann::json config_;  // of the present case
+  std::string running_;    // the command, filled
+  unsigned starts_ = 0;
   os::RemoteHost host_;
   os::PtyPair pty_;
   NetworkPorts defaults_;

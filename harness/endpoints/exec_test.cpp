@@ -40,6 +40,20 @@ TEST(Exec, TheMarkBecomesThePathOfThePort) {
   EXPECT_EQ(receive_text(*endpoint, "LOUD"), "LOUD");
 }
 
+TEST(Exec, IsStartedAnewWhereACaseNeedsAnotherCommandLine) {
+  const auto endpoint = open("echo {station} >{tty}; exec cat <{tty}");
+  EXPECT_EQ(receive_text(*endpoint, "1\n"), "1\n");
+  EXPECT_EQ(endpoint->starts(), 1u);
+  EXPECT_TRUE(endpoint->configures("station"));
+  EXPECT_FALSE(endpoint->configures("delay_ms"));
+  ASSERT_TRUE(endpoint->begin({{"station", 5}, {"delay_ms", 10}}));
+  EXPECT_EQ(receive_text(*endpoint, "5\n"), "5\n");
+  ASSERT_TRUE(endpoint->begin({{"station", 5}, {"delay_ms", 20}}));
+  EXPECT_EQ(endpoint->starts(), 2u) << "the command takes no delay";
+  ASSERT_TRUE(endpoint->act("power_cycle"));
+  EXPECT_EQ(receive_text(*endpoint, "5\n"), "5\n") << "as it was";
+}
+
 TEST(Exec, WhatAChildSaysBesidesTheLineIsNotOnTheLine) {
   const auto endpoint = open("echo chatter; echo more >&2; cat <{tty} >{tty}");
   ASSERT_TRUE(endpoint->send(to_bytes("x")));

@@ -17,6 +17,8 @@ class Forwarding : public Endpoint {
   Time now() const override { return to_.now(); }
   Duration character_time() const override { return to_.character_time(); }
   Status begin(const nlohmann::json& config) override { return to_.begin(config); }
+  bool configures(std::string_view key) const override { return to_.configures(key); }
+  unsigned starts() const override { return to_.starts(); }
 
   Result<LinkId> open(Transport transport, std::uint16_t port) override {
     return to_.open(transport, port);
@@ -34,6 +36,7 @@ class Forwarding : public Endpoint {
     return to_.get(address, digits);
   }
   Status act(std::string_view action) override { return to_.act(action); }
+  Status put_back() override { return to_.put_back(); }
   Trace trace() const override { return to_.trace(); }
   Status tell(std::string_view line) override { return to_.tell(line); }
   std::string answer(Duration patience) override { return to_.answer(patience); }

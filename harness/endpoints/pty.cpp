@@ -70,7 +70,7 @@ class PtyEndpoint final : public Endpoint {
     // Bytes on their way to the old device, and after the answer those that it had sent: neither
     // concerns this case.
     os::drop_waiting_bytes(link_.fd());
-    const Result<std::string> begun = ask({{"begin", config}});
+    const Result<json> begun = ask({{"begin", config}});
     os::drop_waiting_bytes(link_.fd());
     return status_of(begun);
   }
@@ -80,15 +80,17 @@ class PtyEndpoint final : public Endpoint {
   Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
   Status set(std::string_view address, std::string_view hex) override {
-    return status_of(ask({{"set", {{"address", address}, {"hex", hex}}}}));
+    return status_of(ask({{"set", {{std::string(address), hex}}}}));
   }
   Result<std::string> get(std::string_view address, std::size_t digits) override {
-    return ask({{"get", {{"address", address}, {"digits", digits}}}});
+    const Result<json> values = ask({{"get", {{std::string(address), digits}}}});
+    if (!values) return values.error();
+    return values->value(std::string(address), "");
   }
-  Status act(std::string_view action) override { return status_of(ask({{"act", action}})); }
+  Status act(std::string_view action) override { return status_of(ask({{"do", action}})); }
 
  private:
-  static Status status_of(const Result<std::string>& answer) {
+  static Status status_of(const Result<json>& answer) {
     if (answer) return ok();
     return answer.error();
   }
@@ -99,7 +101,7 @@ class PtyEndpoint final : public Endpoint {
     return name_.option("line", line::to_string(line::LineSettings{}));
   }
 
-  Result<std::string> ask(const json& request) {
+  Result<json> ask(const json& request) {
     const std::string question = control_line(request);
     if (const Result<Sent> sent = control_.send(to_bytes(question)); !sent) return sent.error();
     const Time deadline = control_.now() + answer_limit;

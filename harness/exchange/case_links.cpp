@@ -128,6 +128,25 @@ void CaseRun::settle_before_look() {
   }
 }
 
+void CaseRun::note_counters() {
+  if (client_ || !can().control) return;
+  for (const PreparedStep& one : prepared_.steps)
+    if (one.step->kind == Step::Kind::check)
+      for (const auto& [address, hex] : one.step->memory)
+        if (address == "@services" || address == "@errors")
+          if (const Result<std::string> value = memory_.get(prepared_, address, hex.size()))
+            counters_[address] = *value;
+}
+
+std::string CaseRun::since_beginning(const std::string& address, std::string value) const {
+  const auto before = counters_.find(address);
+  if (before == counters_.end() || value.size() > 8) return value;
+  const unsigned long counted =
+      std::stoul(value, nullptr, 16) - std::stoul(before->second, nullptr, 16);
+  const unsigned long most = (1ul << (4 * value.size())) - 1;
+  return fmt::format("{:0{}X}", counted & most, value.size());
+}
+
 void CaseRun::look_at_memory(const Step& step) {
   settle_before_look();
   borrow_idle_link();
@@ -135,8 +154,8 @@ void CaseRun::look_at_memory(const Step& step) {
     if (!memory_.can_read(prepared_, address)) continue;
     const Result<std::string> value = memory_.get(prepared_, address, hex.size());
     if (value) {
-      record().memory.emplace_back(address, *value);
-      links_.note(now(), fmt::format("check {}: {}", address, *value));
+      record().memory.emplace_back(address, since_beginning(address, *value));
+      links_.note(now(), fmt::format("check {}: {}", address, record().memory.back().second));
       continue;
     }
     record().refused = "the bench cannot look: " + value.error().message;

@@ -38,6 +38,7 @@ void CaseRun::begin() {
 }
 
 void CaseRun::execute() {
+  note_counters();
   for (const PreparedStep& one : prepared_.steps) {
     for (int i = 0; i < one.step->times && !stopped(); ++i) {
       step(one);

@@ -1,7 +1,9 @@
 // One case on its way: its steps, in order, over its links.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 
 #include "harness/exchange/links.hpp"
 #include "harness/exchange/memory_access.hpp"
@@ -70,6 +72,9 @@ class CaseRun {
   void set_memory(const std::vector<std::pair<std::string, std::string>>& memory);
   void look_at_memory(const vectors::Step& step);
   void settle_before_look();
+  /// On a real device they count on from case to case; the case counts from its beginning.
+  void note_counters();
+  std::string since_beginning(const std::string& address, std::string value) const;
   void borrow_idle_link();
 
   void take_trace();
@@ -83,6 +88,7 @@ class CaseRun {
   const PreparedCase& prepared_;
   bool client_, neighbours_;  // neighbours: further stations hear all that is said
   Transcript transcript_;
+  std::map<std::string, std::string> counters_;  // of a real device, at the beginning
   Links links_;
   MemoryAccess memory_;
   Partner partner_;

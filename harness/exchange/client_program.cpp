@@ -116,7 +116,7 @@ bool needs_memory(const vectors::Case& source, const std::vector<json>& blocks,
 
 }  // namespace
 
-ClientProgram program_of(Stimulus& stimulus) {
+ClientProgram program_of(os::LineProgram& stimulus) {
   return {[&stimulus](const std::string& line) { return stimulus.tell(line); },
           [&stimulus](Duration patience) { return stimulus.answer(patience); },
           [&stimulus] { return stimulus.restart(); }};

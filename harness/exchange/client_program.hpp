@@ -9,11 +9,14 @@
 #include <string>
 
 #include "harness/endpoints/endpoint.hpp"
-#include "harness/exchange/stimulus.hpp"
+#include "harness/system/line_program.hpp"
 #include "harness/vectors/case.hpp"
 #include "src/base/time.hpp"
 
 namespace fieldproof::exchange {
+
+/// Takes one line, without its newline.
+using TellStimulus = std::function<Status(const std::string& line)>;
 
 /// How the bench reaches it.
 struct ClientProgram {
@@ -25,7 +28,7 @@ struct ClientProgram {
 };
 
 /// `stimulus` must outlive it.
-ClientProgram program_of(Stimulus& stimulus);
+ClientProgram program_of(os::LineProgram& stimulus);
 /// The program of `exec:` itself (--stimulus -), which must outlive it.
 ClientProgram program_of(endpoints::Endpoint& endpoint);
 

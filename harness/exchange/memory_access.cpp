@@ -171,9 +171,10 @@ Status MemoryAccess::set(const PreparedCase& prepared, const std::string& addres
     return other ? write(*other, std::string(name.address), hex) : Status(other.error());
   }
   if (!prepared.is_client()) {
-    if (!aux_ || device_.protocol->write_requests(prepared.station, address, hex))
-      return write(own(prepared), address, hex);
-    return write(aux_, address, hex);
+    const bool by_itself = bool(device_.protocol->write_requests(prepared.station, address, hex));
+    if (!by_itself && device_.endpoint->capabilities().control)
+      return device_.endpoint->set(address, hex);
+    return write(by_itself || !aux_ ? own(prepared) : aux_, address, hex);
   }
   if (aux_) {
     const Status written = write(aux_, address, hex);
@@ -197,8 +198,10 @@ Result<std::string> MemoryAccess::get(const PreparedCase& prepared, const std::s
     return other ? read(*other, std::string(name.address), digits)
                  : Result<std::string>(other.error());
   }
-  const bool by_itself = !prepared.is_client() && (!aux_ || device_.protocol->read_requests(
-                                                                prepared.station, address, digits));
+  const bool readable = bool(device_.protocol->read_requests(prepared.station, address, digits));
+  if (!prepared.is_client() && !readable && device_.endpoint->capabilities().control)
+    return device_.endpoint->get(address, digits);
+  const bool by_itself = !prepared.is_client() && (!aux_ || readable);
   Result<std::string> value =
       by_itself ? read(own(prepared), address, digits) : read(aux_, address, digits);
   if (by_itself) return value;

@@ -14,6 +14,14 @@ namespace fieldproof::exchange {
 
 using vectors::Step;
 
+namespace {
+
+bool is_counter(const std::pair<std::string, std::string>& entry) {
+  return entry.first.starts_with('@');
+}
+
+}  // namespace
+
 int number_of(const nlohmann::json& config, const char* key, int fallback) {
   const nlohmann::json value = config.value(key, nlohmann::json(fallback));
   if (value.is_string()) return std::atoi(value.get_ref<const std::string&>().c_str());
@@ -59,9 +67,22 @@ bool PreparedCase::listens_for_silence() const {
 bool PreparedCase::looks_at_counters() const {
   return std::ranges::any_of(steps, [](const PreparedStep& step) {
     return step.step->kind == Step::Kind::check &&
-           std::ranges::any_of(step.step->memory,
-                               [](const auto& entry) { return entry.first.starts_with('@'); });
+           std::ranges::any_of(step.step->memory, is_counter);
   });
+}
+
+bool PreparedCase::counts_from_power_on() const {
+  bool sent = false, disturbed = false;
+  for (const PreparedStep& one : steps) {
+    const Step& step = *one.step;
+    const bool counter =
+        step.kind == Step::Kind::check && std::ranges::all_of(step.memory, is_counter);
+    if (counter && (!sent || disturbed)) return true;
+    sent = sent || step.kind == Step::Kind::send;
+    disturbed = disturbed || step.kind == Step::Kind::set || step.kind == Step::Kind::act ||
+                (step.kind == Step::Kind::check && !counter);
+  }
+  return false;
 }
 
 Duration PreparedCase::shortest_pause(Duration character_time) const {

@@ -51,6 +51,9 @@ struct PreparedCase {
   bool expects_requests() const;  // in the partner's chair: an expect or partner step
   bool listens_for_silence() const;
   bool looks_at_counters() const;  // a check of @status, @errors or @services
+  /// It looks at them before anything was sent, after a restart, or after memory that is reached by
+  /// requests: on a real device they have counted what the bench itself has asked.
+  bool counts_from_power_on() const;
   /// The shortest pause or wait, or 0 when there is none.
   Duration shortest_pause(Duration character_time) const;
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 
@@ -41,9 +42,11 @@ class DeviceHost {
         port_(port),
         bus_(bus),
         control_(options.control),
+        answers_(options.control >= 0 ? ::dup(options.control == 0 ? 1 : options.control) : -1),
         hangup_(os::catch_hangup()) {}
 
   Status begin(const json& config);
+  Status change_config(const json& change);
   int run();
 
  private:
@@ -64,12 +67,13 @@ class DeviceHost {
   const HostOptions& options_;
   HostPort& port_;
   BusLink* bus_;  // nullptr: none
-  os::UniqueFd control_;
+  os::UniqueFd control_, answers_;
   int hangup_;
   os::RunClock clock_;
   std::unique_ptr<plc::EmulatedDevice> device_;
   std::unique_ptr<Party> party_;  // of device_
   Time device_time_{};
+  json changed_ = json::object();  // by {"config": ...}
   std::string control_text_;
   bool control_closed_ = false;
   std::vector<pollfd> fds_;
@@ -98,6 +102,18 @@ Status DeviceHost::begin(const json& config) {
   device_ = std::move(*device);
   if (bus_) bus_->begin(*device_->bus_end());
   port_.flush();
+  return ok();
+}
+
+Status DeviceHost::change_config(const json& change) {
+  json changed = changed_;
+  for (const auto& [key, value] : change.items())
+    if (value.is_null())
+      changed.erase(key);
+    else
+      changed[key] = value;
+  if (const Status begun = begin(changed); !begun) return begun;
+  changed_ = std::move(changed);
   return ok();
 }
 
@@ -205,7 +221,7 @@ void DeviceHost::transmit(std::vector<Burst> bursts) {
 
 void DeviceHost::serve_control() {
   std::array<char, 4096> buffer;
-  const ssize_t n = ::recv(control_.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+  const ssize_t n = ::read(control_.get(), buffer.data(), buffer.size());
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (n <= 0) {
     control_closed_ = true;  // the bench has ended
@@ -218,11 +234,13 @@ void DeviceHost::serve_control() {
 void DeviceHost::answer_lines() {
   for (std::size_t end; (end = control_text_.find('\n')) != std::string::npos;
        control_text_.erase(0, end + 1)) {
-    std::string answer = endpoints::answer_control(
-        std::string_view(control_text_).substr(0, end),
-        [this](const json& config) { return begin(config); }, [this] { return device_.get(); });
+    std::string answer =
+        endpoints::answer_control(std::string_view(control_text_).substr(0, end),
+                                  {[this](const json& config) { return begin(config); },
+                                   [this](const json& change) { return change_config(change); },
+                                   [this] { return device_.get(); }});
     for (std::string_view left = answer; !left.empty();) {
-      const ssize_t n = ::send(control_.get(), left.data(), left.size(), MSG_NOSIGNAL);
+      const ssize_t n = ::write(answers_.get(), left.data(), left.size());
       if (n < 0 && errno == EINTR && !os::interrupted()) continue;
       if (n < 0) {
         control_closed_ = true;
@@ -268,7 +286,7 @@ std::string happening(const Traffic& traffic) {
 
 void announce(const HostOptions& options, const std::string& where) {
   if (options.say) return options.say(where);
-  if (options.control >= 0) return;  // a bench started it, and knows
+  if (options.control > 0) return;  // a bench started it, and knows
   fmt::print("{}\n", where);
   std::fflush(stdout);
 }
@@ -279,6 +297,7 @@ int host(const HostOptions& options, Result<std::unique_ptr<HostPort>> port) {
     return exit_trouble;
   }
   os::catch_interrupts();
+  ::signal(SIGPIPE, SIG_IGN);  // a bench that has ended reads no answers
   std::optional<BusLink> bus;
   if (!options.bus.empty()) {
     Result<BusLink> opened = BusLink::open(options.bus);

@@ -46,7 +46,8 @@ struct HostOptions {
   std::uint16_t port = 0;        // of the device's protocol: it runs on a network; 0: on a line
   std::uint16_t udp_port = 0;    // where it takes datagrams
   std::string bus;               // --bus HOST:PORT: BusLink; empty: its fieldbus ends here
-  int control = -1;              // --control FD, taken over; its end ends the host
+  int control = -1;  // --control FD, taken over; its end ends the host. 0: standard input,
+                     // answered on standard output
   int inter_character_floor_ms = 20;
   std::function<void(const Traffic&)> monitor;     // -v; may be empty
   std::function<void(std::string_view line)> say;  // where it listens; empty: standard output

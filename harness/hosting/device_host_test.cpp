@@ -160,22 +160,21 @@ TEST(DeviceHost, ServesTheControlSocket) {
   HostOptions options;
   options.config = {{"station", 7}, {"delay_ms", 0}};
   Hosted host(options);
-  EXPECT_EQ(host.ask(R"({"set":{"address":"%MW1","hex":"12"}})"), "{\"ok\":true}\n");
-  EXPECT_EQ(host.ask(R"({"get":{"address":"%MW1","digits":2}})"),
-            "{\"ok\":true,\"value\":\"12\"}\n");
+  EXPECT_EQ(host.ask(R"({"set":{"%MW1":"12"}})"), "{\"ok\":true}\n");
+  EXPECT_EQ(host.ask(R"({"get":{"%MW1":2}})"), "{\"values\":{\"%MW1\":\"12\"}}\n");
   EXPECT_EQ(host.ask(R"({"begin":{"delay_ms":1}})"), "{\"ok\":true}\n");
-  EXPECT_THAT(host.ask(R"({"get":{"address":"%MW1","digits":2}})"), HasSubstr("nothing was set"))
+  EXPECT_THAT(host.ask(R"({"get":{"%MW1":2}})"), HasSubstr("nothing was set"))
       << "the device is fresh";
-  const auto answer = nlohmann::json::parse(host.ask(R"({"get":{"address":"@config"}})"));
+  const auto answer = nlohmann::json::parse(host.ask(R"({"get":["@config"]})"));
   EXPECT_EQ(
-      nlohmann::json::parse(answer["value"].get<std::string>()),
+      nlohmann::json::parse(answer["values"]["@config"].get<std::string>()),
       nlohmann::json(
           {{"model", "tiny"}, {"station", 7}, {"delay_ms", 1}, {"inter_character_floor_ms", 20}}));
 }
 
 TEST(DeviceHost, TheStationIsOneUnlessGiven) {
   Hosted host({});
-  EXPECT_THAT(host.ask(R"({"get":{"address":"@config"}})"), HasSubstr(R"(\"station\":1)"));
+  EXPECT_THAT(host.ask(R"({"get":["@config"]})"), HasSubstr(R"(\"station\":1)"));
 }
 
 TEST(DeviceHost, RepliesWhenTheDeviceIsDue) {
@@ -196,14 +195,14 @@ TEST(DeviceHost, AGapEndsAFrame) {
   ASSERT_TRUE(client.receive(client.now() + 100ms));  // five times the gap
   ASSERT_TRUE(client.send(to_bytes("kept.")));
   EXPECT_EQ(receive_text(client, ">"), "<kept>");
-  EXPECT_THAT(host.ask(R"({"get":{"address":"@dropped"}})"), HasSubstr("\"1\""));
+  EXPECT_THAT(host.ask(R"({"get":["@dropped"]})"), HasSubstr("\"1\""));
 }
 
 TEST(DeviceHost, HangupIsAPowerCycle) {
   Hosted host({});
-  host.ask(R"({"set":{"address":"%MW1","hex":"12"}})");
+  host.ask(R"({"set":{"%MW1":"12"}})");
   ASSERT_EQ(::kill(::getpid(), SIGHUP), 0);
-  EXPECT_THAT(host.ask(R"({"get":{"address":"%MW1"}})"), HasSubstr("nothing was set"));
+  EXPECT_THAT(host.ask(R"({"get":["%MW1"]})"), HasSubstr("nothing was set"));
 }
 
 TEST(DeviceHost, AnInterruptEndsItWell) {

@@ -60,6 +60,8 @@ void take_judgement(Judgement judgement, results::CaseResult& result) {
     result.expected_bytes = judgement.expected->frame.bytes;
     result.expected_hex = notation::to_hex_with_holes(judgement.expected->frame);
   }
+  if (judgement.failed && judgement.failed->kind == vectors::Step::Kind::expect)
+    result.due = judgement.due;
   result.received = notation::print_bytes(judgement.received.bytes);
   result.received_bytes = std::move(judgement.received.bytes);
 }

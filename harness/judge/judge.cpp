@@ -116,6 +116,7 @@ class Judge {
   std::string before() const { return client_ ? "what it follows" : "the request"; }
 
   bool judge_reply(const PreparedStep& step, const StepRecord& record, const Share& share) {
+    if (!findings_.missed()) findings_.result.due = {record.cause, record.deadline};
     const Received& received = share.received;
     if (received.arrivals.empty()) {
       expected(step, received);
@@ -359,8 +360,7 @@ class Judge {
     if (due.holds(value)) return;
     if (!findings_.missed())
       findings_.result.differences.push_back({address, due.text(), due.text_of(value), ""});
-    findings_.miss(
-        fmt::format("{} holds {}, {} is due", address, due.text_of(value), due.text()));
+    findings_.miss(fmt::format("{} holds {}, {} is due", address, due.text_of(value), due.text()));
   }
 
   /// What no step was waiting for.

@@ -32,6 +32,7 @@ struct Judgement {
   const vectors::Step* failed = nullptr;  // the first step that was not as it should be
   const exchange::PreparedFrame* expected =
       nullptr;                  // of the failing step, the alternative that comes nearest
+  results::Due due;             // of the failing step, where it waits for a frame
   exchange::Received received;  // what came instead
   std::vector<results::Difference> differences;
   std::map<std::string, std::string> readings;

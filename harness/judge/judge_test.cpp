@@ -373,6 +373,19 @@ TEST_F(JudgeTest, AStepThatFailsIsToldUnderItsOwnClause) {
   EXPECT_EQ(clause(R"({"send": "'<ask>'"}, {"expect": "'<yes>'"})", 1), "1: as printed");
 }
 
+TEST_F(JudgeTest, AFailureSaysWhenTheAnswerWasDue) {
+  const auto due = [&](const std::string& steps) {
+    results::CaseResult result;
+    take_judgement(judged(steps), result);
+    return result.due;
+  };
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<no>"}};
+  const results::Due failed = due(ask());
+  EXPECT_EQ(to_ms(failed.until - failed.from), 500);
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<yes>"}};
+  EXPECT_TRUE(due(R"({"send": "'<ask>'"}, {"expect": "'<yes>'"})").empty());
+}
+
 /// A refusal is due, and the device does what was asked: no wiring is to blame.
 TEST_F(JudgeTest, ANormalReplyThatRepeatsTheRequestIsNoEcho) {
   endpoint.answers["<write>"] = Pieces{{1ms, "<write>"}};

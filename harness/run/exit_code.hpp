@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "harness/system/shell_word.hpp"
+
 namespace fieldproof::run {
 
 /// Exit codes, in order of precedence where several apply: usage, interrupted, trouble, failed,
@@ -12,8 +14,7 @@ inline constexpr int ok = 0, failed = 1, usage = 2, trouble = 3, nothing = 4, ab
                      interrupted = 130;
 }
 
-/// A word of a command line as a shell reads it: quoted where it must be.
-std::string shell_word(const std::string& word);
+using os::shell_word;
 
 /// Prints "fieldproof: MESSAGE" to stderr and returns `code`.
 int complain(const std::string& message, int code);

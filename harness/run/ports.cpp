@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <tuple>
 
 #include "harness/bench/what_to_check.hpp"
 #include "harness/endpoints/kinds.hpp"
@@ -51,17 +52,25 @@ Result<Fixtures> Fixtures::open(const DutPlan& plan) {
     if (const Status opened = fixtures.open_aux(*plan.aux, plan.bench.aux_device, plan.known);
         !opened)
       return opened.error();
-  if (plan.stimulus.empty() || plan.stimulus == "-") return fixtures;
-  Result<std::unique_ptr<exchange::Stimulus>> stimulus = exchange::Stimulus::start(plan.stimulus);
-  if (!stimulus) return stimulus.error();
-  fixtures.stimulus_ = std::move(*stimulus);
+  for (const auto& [option, command, program] :
+       {std::tuple("--stimulus", plan.stimulus, &fixtures.stimulus_),
+        std::tuple("--control", plan.control, &fixtures.control_)}) {
+    if (command.empty() || command == "-") continue;
+    Result<std::unique_ptr<os::LineProgram>> started = os::LineProgram::start(option, command);
+    if (!started) return started.error();
+    *program = std::move(*started);
+  }
   return fixtures;
 }
 
-void Fixtures::give(bench::BenchOptions& bench, const std::string& stimulus) const {
+void Fixtures::give(bench::BenchOptions& bench, const DutPlan& plan) const {
   if (aux_) bench.aux = {aux_.get(), aux_protocol_, aux_station_};
-  bench.endpoint_is_stimulus = stimulus == "-";
+  bench.endpoint_is_stimulus = plan.stimulus == "-";
   if (stimulus_) bench.stimulus = exchange::program_of(*stimulus_);
+  bench.endpoint_is_control = plan.control == "-";
+  if (os::LineProgram* const program = control_.get())
+    bench.control = {[program](const std::string& line) { return program->tell(line); },
+                     [program](Duration patience) { return program->answer(patience); }};
 }
 
 Status Fixtures::open_aux(const endpoints::EndpointName& name, const safety::JournalDevice& device,
@@ -94,7 +103,7 @@ Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan) {
   const auto open = [&](DutPlan& dut) -> Status {
     Result<Fixtures> fixtures = Fixtures::open(dut);
     if (!fixtures) return fixtures.error();
-    fixtures->give(dut.bench, dut.stimulus);
+    fixtures->give(dut.bench, dut);
     all.push_back(std::move(*fixtures));
     return ok();
   };

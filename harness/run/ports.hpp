@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "harness/bench/benches.hpp"
-#include "harness/exchange/stimulus.hpp"
 #include "harness/run/run_plan.hpp"
+#include "harness/system/line_program.hpp"
 
 namespace fieldproof::run {
 
@@ -16,7 +16,7 @@ namespace fieldproof::run {
 class Fixtures {
  public:
   static Result<Fixtures> open(const DutPlan& plan);
-  void give(bench::BenchOptions& bench, const std::string& stimulus) const;
+  void give(bench::BenchOptions& bench, const DutPlan& plan) const;
 
  private:
   Status open_aux(const endpoints::EndpointName& name, const safety::JournalDevice& device,
@@ -27,7 +27,7 @@ class Fixtures {
       aux_configured_;  // as the profile declares it; nullptr: nothing to declare
   const harness::Protocol* aux_protocol_ = nullptr;
   int aux_station_ = 1;
-  std::unique_ptr<exchange::Stimulus> stimulus_;
+  std::unique_ptr<os::LineProgram> stimulus_, control_;
 };
 
 /// Opens the journal of each device that may be written. The error says what an earlier run left,

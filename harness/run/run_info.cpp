@@ -61,6 +61,25 @@ std::vector<results::ErratumInfo> errata(const RunPlan& plan) {
   return met;
 }
 
+/// What the sections are called that the selected cases cite, with those that these are in.
+std::map<std::string, results::SectionTitles> sections(const RunPlan& plan) {
+  std::map<std::string_view, const vectors::Statement*> by_id;
+  for (const vectors::Statement& one : plan.vectors.statements) by_id[one.id] = &one;
+  std::map<std::string, std::set<std::string>> cited;  // by manual
+  for (const vectors::Case* one : plan.selected)
+    for (const std::string_view id : vectors::cited_by(*one))
+      if (const auto found = by_id.find(id); found != by_id.end())
+        cited[found->second->manual].insert(found->second->section);
+  std::map<std::string, results::SectionTitles> named;
+  for (const auto& [manual, titles] : plan.vectors.sections)
+    for (const auto& [number, title] : titles)
+      if (std::ranges::any_of(cited[manual], [&](const std::string& section) {
+            return results::is_within(section, number);
+          }))
+        named[manual][number] = title;
+  return named;
+}
+
 }  // namespace
 
 results::Gate gate_of(const RunOptions& options) {
@@ -100,6 +119,7 @@ results::RunInfo run_info(const RunOptions& options, const RunPlan& plan,
     info.properties["selection"] = selection(plan);
   }
   info.errata = errata(plan);
+  info.sections = sections(plan);
   if (!plan.others.empty()) name_devices(plan, ports, floors, info);
   return info;
 }

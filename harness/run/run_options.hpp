@@ -20,10 +20,12 @@ struct RunOptions {
   std::string journal;            // empty: in `out`
   bool discard_journal = false;   // forget what an earlier run did not put back
   std::string waivers;
-  std::string baseline;  // results of an earlier run, to compare with
+  std::string baseline;  // results of an earlier run, to compare with; "last": of the history
+  std::string history;   // where this run is added at its end; empty: nowhere
   std::string power_cycle;
   std::string role;      // "client", "server"; empty: both
   std::string stimulus;  // what makes a device ask: a command, or "-": the program of exec:
+  std::string control;   // what sets a device up: a command, or "-": the program of exec:
   std::string aux;       // a second channel of the PLC under test
   std::vector<std::string> allow_write;
   std::vector<std::string> allow_motion;  // axes

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "harness/bench/bench_file.hpp"
+#include "harness/endpoints/command_marks.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/explore/derived.hpp"
 #include "harness/paths.hpp"
@@ -98,6 +99,7 @@ std::string profile_for(const RunOptions& options, const EndpointName& endpoint,
   if (is_emulated(endpoint))
     return endpoint.target.empty() || is_bare_model(endpoint, data, known) ? "emulator"
                                                                            : endpoint.target;
+  if (endpoints::CommandMarks(endpoint.target).takes("model")) return "emulator";
   const std::string first = known.front().models().front();
   complain(
       fmt::format("no --profile given: judged as {}, whose every decision binds; a real module "
@@ -121,6 +123,7 @@ std::string replay_command(const RunOptions& options) {
   if (!options.journal.empty()) command += " --journal " + shell_word(options.journal);
   if (!options.power_cycle.empty()) command += " --power-cycle " + shell_word(options.power_cycle);
   if (!options.stimulus.empty()) command += " --stimulus " + shell_word(options.stimulus);
+  if (!options.control.empty()) command += " --control " + shell_word(options.control);
   if (!options.aux.empty()) command += " --aux " + shell_word(options.aux);
   if (!options.floor.empty()) command += " --floor " + shell_word(options.floor);
   if (!options.loop.empty()) command += " --loop " + shell_word(options.loop);
@@ -184,6 +187,7 @@ Result<RunOptions> with_bench_device(RunOptions options, const std::string& dut,
     if (options.allow_write.empty() && !options.read_only)
       options.allow_write = device->allow_write;
     if (options.stimulus.empty()) options.stimulus = device->stimulus;
+    if (options.control.empty()) options.control = device->control;
     if (options.aux.empty()) options.aux = device->aux;
     plan.identity = device->identity;
   }
@@ -378,6 +382,11 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
                     "for cases of clients alone; add --role client",
                     plan.endpoint.kind, plan.endpoint.target));
   plan.stimulus = options->stimulus;
+  plan.control = options->control;
+  if (plan.control == "-" && !plan.ends_with_run)
+    return fail(
+        "--control -: the bench has not started this device; give --control a command, or start "
+        "the device by exec:");
   if (!options->aux.empty()) {
     Result<EndpointName> aux = endpoints::parse_endpoint(options->aux);
     if (!aux) return fail("--aux: " + aux.error().message);

@@ -21,7 +21,7 @@ struct DutPlan {
   harness::Protocols known{{}};                     // that there are
   std::vector<const harness::Protocol*> protocols;  // what the endpoint speaks, at least one
   bench::BenchOptions bench;
-  std::string stimulus;  // as --stimulus takes it
+  std::string stimulus, control;  // as --stimulus and --control take them
   std::optional<endpoints::EndpointName> aux;
   results::Identity identity;  // of the bench file's device
   std::string line;            // as the bench file declares it

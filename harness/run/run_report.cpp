@@ -14,6 +14,7 @@
 #include "reports/html/html.hpp"
 #include "reports/json_report.hpp"
 #include "reports/junit.hpp"
+#include "reports/results/shard.hpp"
 #include "reports/text/fold.hpp"
 
 namespace fieldproof::run {
@@ -126,7 +127,7 @@ RunEnd RunReport::ended(const End& end) const {
   if (!end.worse.empty()) ended.add({exit_code::failed, "baseline", end.worse});
   // GoogleTest deals the cases out to shards; one of them may get none. A run that ended early is
   // not measured by how little it judged.
-  const bool empty_shard = tally().total() == 0 && std::getenv("GTEST_TOTAL_SHARDS");
+  const bool empty_shard = tally().total() == 0 && results::shard_of_environment();
   if (!empty_shard)
     for (results::Reason& reason : text::reasons_of(tally(), gate())) ended.add(std::move(reason));
   return ended;

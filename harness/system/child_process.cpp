@@ -25,6 +25,7 @@ namespace fieldproof::os {
 namespace {
 
 constexpr std::size_t said_limit = 4096;
+constexpr std::size_t kept_answers = 64;
 constexpr std::size_t said_lines = 5;
 constexpr int term_limit_ms = 1000;
 
@@ -134,29 +135,32 @@ void ChildProcess::read_standard_error() {
   const ssize_t n = ::read(standard_error_.get(), buffer.data(), buffer.size());
   if (n <= 0) return;
   const std::string_view more(buffer.data(), static_cast<std::size_t>(n));
-  look_for_answer(more);
+  look_for_answers(more);
   said_ += more;
   if (said_.size() > said_limit) said_.erase(0, said_.size() - said_limit);
 }
 
-void ChildProcess::look_for_answer(std::string_view more) {
+void ChildProcess::look_for_answers(std::string_view more) {
   for (const char c : more) {
-    if (!answer_.empty()) return;
     if (c == '\n') {
-      if (line_.starts_with('{')) answer_ = line_;
+      if (line_.starts_with('{')) answers_.push_back(line_);
+      if (answers_.size() > kept_answers) answers_.pop_front();
       line_.clear();
     } else if (line_.size() < said_limit) {
       line_ += c;
     }
   }
-  if (!answer_.empty()) said_more_.notify_all();
+  if (!answers_.empty()) said_more_.notify_all();
 }
 
 std::string ChildProcess::answer(Duration patience) {
   read_standard_error();  // what was said before this moment is in the pipe
   std::unique_lock lock(mutex_);
-  said_more_.wait_for(lock, patience, [&] { return !answer_.empty() || ended_; });
-  return answer_;
+  said_more_.wait_for(lock, patience, [&] { return !answers_.empty() || ended_; });
+  if (answers_.empty()) return {};
+  std::string answer = std::move(answers_.front());
+  answers_.pop_front();
+  return answer;
 }
 
 std::string ChildProcess::last_lines() {

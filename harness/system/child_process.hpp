@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -47,15 +48,15 @@ class ChildProcess final : public FarEnd {
   /// "the process ended with exit status 3; it said: ..." (the last lines of stderr), or that it
   /// still runs.
   std::string how() override;
-  /// The first line of its output that begins with '{'; empty: it has said none within that time,
-  /// or has ended without one.
+  /// The next line of its output that begins with '{'; empty: it has said none within that time, or
+  /// has ended without one. Of very many that nobody asked for the oldest are dropped.
   std::string answer(Duration patience);
 
  private:
   ChildProcess(pid_t pid, UniqueFd pid_fd, UniqueFd standard_error);
   void watch();
   void read_standard_error();
-  void look_for_answer(std::string_view more);
+  void look_for_answers(std::string_view more);
   std::string last_lines();
 
   pid_t pid_;
@@ -65,7 +66,8 @@ class ChildProcess final : public FarEnd {
   std::atomic<bool> ended_{false};
   std::mutex mutex_;  // guards what follows
   std::string said_;
-  std::string line_, answer_;  // the line that is not complete yet; what answer() waits for
+  std::string line_;                 // that is not complete yet
+  std::deque<std::string> answers_;  // what answer() waits for
   std::condition_variable said_more_;
   std::thread watcher_;
 };

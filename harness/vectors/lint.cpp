@@ -165,6 +165,20 @@ std::vector<std::string> contradictions(const VectorSet& set, const harness::Pro
   return problems;
 }
 
+/// Each section of a statement has a title, in a set that has titles at all.
+void lint_titles(const VectorSet& set, std::vector<std::string>& problems) {
+  if (set.sections.empty()) return;
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const Statement& one : set.statements) {
+    if (!results::is_numbered(one.section) || !seen.emplace(one.manual, one.section).second)
+      continue;
+    const auto titles = set.sections.find(one.manual);
+    if (titles == set.sections.end() || results::title_of(titles->second, one.section).empty())
+      problems.push_back(fmt::format("sections.json: no title of {} in {}, which {} is of",
+                                     one.section, one.manual, one.id));
+  }
+}
+
 std::vector<std::string> lint_statements(const VectorSet& set) {
   std::vector<std::string> problems;
   std::set<std::string_view> manuals, ids;
@@ -177,6 +191,7 @@ std::vector<std::string> lint_statements(const VectorSet& set) {
                                      statement.manual));
   }
   lint_citations(set, problems);
+  lint_titles(set, problems);
   for (const SectionCoverage& section : coverage(set))
     for (const std::string& id : section.uncovered)
       problems.push_back(fmt::format("statements: {} has neither a vector nor a reason", id));

@@ -171,6 +171,32 @@ TEST(LintStatements, EachNeedsAVectorOrAReason) {
               ElementsAre(HasSubstr("no statement 'm/9'"), HasSubstr("m/1 has neither")));
 }
 
+TEST(LintStatements, EachSectionHasATitle) {
+  VectorSet set = with_step(R"j({"silence": true})j");
+  set.sections = {{"m", {{"1", "General"}}}};
+  EXPECT_THAT(lint_statements(set), IsEmpty());
+  set.statements[0].section = "2.1 (3)";
+  EXPECT_THAT(lint_statements(set),
+              ElementsAre("sections.json: no title of 2.1 (3) in m, which m/1 is of"));
+  set.statements[0].section = "Warranty";
+  EXPECT_THAT(lint_statements(set), IsEmpty()) << "its own title";
+}
+
+TEST(LintQuotes, TitlesStandInTheManualToo) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "lint_titles";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "m.txt") << "1 General  terms: one two three four five";
+  VectorSet set = with_step(R"j({"silence": true})j");
+  set.sections = {{"m", {{"1", "General terms"}}}};
+  EXPECT_THAT(lint_quotes(set, folder), IsEmpty());
+  const std::string lock = quotes_lock(set);
+  set.sections["m"]["1"] = "General remarks";
+  EXPECT_THAT(lint_quotes(set, folder),
+              ElementsAre(HasSubstr("sections.json: m/1: the quote does not stand in m")));
+  EXPECT_THAT(lint_lock(set, lock), ElementsAre(HasSubstr("sections.json: m/1: the quote is not")));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(LintQuotes, StandInTheManualWithSpaceFolded) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "lint_quotes";
   std::filesystem::create_directories(folder);

@@ -149,6 +149,8 @@ class FolderLoader {
       hash_ = extend_fingerprint(extend_fingerprint(hash_, name), text);
       if (name == "manuals.json")
         load_manuals(text);
+      else if (name == "sections.json")
+        set_.sections = json::parse(text).get<decltype(set_.sections)>();
       else if (name.starts_with("statements/"))
         statement_files_.emplace_back(name, std::move(text));
       else if (name.starts_with("errata/"))

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "harness/protocols.hpp"
 #include "harness/vectors/case.hpp"
 #include "harness/vectors/filter.hpp"
+#include "reports/results/section_titles.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof::vectors {
@@ -47,7 +49,8 @@ struct VectorSet {
   std::vector<Erratum> errata;
   std::vector<Statement> statements;
   std::vector<Manual> manuals;
-  std::vector<Decision> decisions;  // load_decisions
+  std::map<std::string, results::SectionTitles> sections;  // by manual
+  std::vector<Decision> decisions;                         // load_decisions
   std::vector<std::string> problems;
   std::string hash;  // of all files, to tell vector sets apart
 };

@@ -68,6 +68,8 @@ void note(const CaseResult& result, CaseSummary& summary) {
   ++summary.repetitions;
   if (result.verdict == summary.verdict) ++summary.with_verdict;
   summary.title = result.title;
+  summary.manual = result.manual;
+  summary.section = result.section;
   summary.rev = result.rev;
   summary.response_ms.insert(summary.response_ms.end(), result.response_ms.begin(),
                              result.response_ms.end());

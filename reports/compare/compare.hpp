@@ -20,7 +20,7 @@ namespace fieldproof::compare {
 struct CaseSummary {
   results::Verdict verdict = results::Verdict::error;  // the gravest
   std::string message;                                 // of that
-  std::string title;
+  std::string title, manual, section;
   int rev = 0;  // 0: the file does not say
   std::size_t repetitions = 0;
   std::size_t with_verdict = 0;     // repetitions that came to `verdict`

@@ -144,6 +144,8 @@ RunInfo merge_heads(const std::vector<ResultFile>& files) {
     run.identity = results::in_common(run.identity, file.run.identity);
     for (const auto& [name, value] : file.run.properties) join(run.properties[name], value);
     for (const results::ErratumInfo& one : file.run.errata) add_erratum(run.errata, one);
+    for (const auto& [manual, titles] : file.run.sections)
+      run.sections[manual].insert(titles.begin(), titles.end());
   }
   run.duts = devices_of(files);
   if (const auto shards = run.properties.extract("shard"))

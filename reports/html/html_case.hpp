@@ -23,9 +23,16 @@ void write_pass_line(HtmlWriter& out, const results::CaseResult& result, bool pi
 void write_case_line(HtmlWriter& out, const results::CaseResult& result,
                      const std::string& link = "");
 
+/// How a block stands in its page.
+struct CaseBlock {
+  bool open = false;
+  std::string id{};             // its anchor; empty: none
+  std::string section_title{};  // of its clause
+  bool wire = false;            // the exchange drawn on a time axis, too
+};
+
 /// <details>: title, clause and quote, the exchange as a frame monitor shows it with the bytes that
-/// differ marked, differing fields, timing, readings, notes, replay command. `id` is its anchor.
-void write_case_block(HtmlWriter& out, const results::CaseResult& result, bool open,
-                      const std::string& id = "");
+/// differ marked, differing fields, timing, readings, notes, replay command.
+void write_case_block(HtmlWriter& out, const results::CaseResult& result, const CaseBlock& block);
 
 }  // namespace fieldproof::html

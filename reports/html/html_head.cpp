@@ -126,7 +126,7 @@ void write_run(HtmlWriter& out, const HtmlSurvey& survey, const Gate& gate) {
 /// Several devices shared the run.
 void write_devices(HtmlWriter& out, const results::RunInfo& run) {
   if (run.duts.empty()) return;
-  out.element("h2", {{"id", "devices"}}, "Devices");
+  out.element("h2", {}, "Devices");
   out.element("table", {{"class", "list devices"}}, [&] {
     out.element("tbody", {}, [&] {
       for (const results::DutInfo& dut : run.duts) {

@@ -2,7 +2,7 @@
 
 namespace fieldproof::html {
 
-std::string html_page(std::string_view title, const HtmlWriter& body) {
+std::string html_page(std::string_view title, const HtmlWriter& body, std::string_view script) {
   HtmlWriter page;
   page.markup("<!DOCTYPE html>\n");
   page.element("html", {{"xmlns", "http://www.w3.org/1999/xhtml"}, {"lang", "en"}}, [&] {
@@ -15,7 +15,10 @@ std::string html_page(std::string_view title, const HtmlWriter& body) {
       page.element("style", {}, [&] { page.markup(html_style); });
     });
     page.markup("\n");
-    page.element("body", {}, [&] { page.element("main", {}, [&] { page.markup(body.str()); }); });
+    page.element("body", {}, [&] {
+      page.element("main", {}, [&] { page.markup(body.str()); });
+      if (!script.empty()) page.element("script", {}, [&] { page.markup(script); });
+    });
   });
   page.markup("\n");
   return page.take();

@@ -1,4 +1,4 @@
-// What every HTML report looks like: one file, without network and without script.
+// What every HTML report looks like: one file, without network, and readable without a script.
 #pragma once
 
 #include <string>
@@ -9,8 +9,9 @@
 
 namespace fieldproof::html {
 
-/// Doctype, head with the style sheet, and <body><main> around what `body` is.
-std::string html_page(std::string_view title, const HtmlWriter& body);
+/// Doctype, head with the style sheet, and <body><main> around what `body` is. `script` stands in
+/// this source, and in a CDATA section.
+std::string html_page(std::string_view title, const HtmlWriter& body, std::string_view script = {});
 
 /// The style sheet: colours of both schemes, tables, print. Classes are described in
 /// html_style.cpp.

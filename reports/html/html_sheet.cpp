@@ -3,142 +3,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
+#include <map>
+#include <string>
 
+#include "reports/html/html_head.hpp"
+#include "reports/html/html_lists.hpp"
 #include "reports/html/html_page.hpp"
+#include "reports/html/html_red.hpp"
+#include "reports/html/html_timing.hpp"
+#include "reports/html/html_unjudged.hpp"
 
 namespace fieldproof::html {
+
+using results::Verdict;
+
 namespace {
 
-constexpr std::size_t reason_limit = 200;
-
-void write_head_row(HtmlWriter& out, std::initializer_list<const char*> heads) {
-  out.element("thead", {}, [&] {
-    out.element("tr", {}, [&] {
-      for (const char* head : heads) out.element("th", {}, head);
-    });
-  });
-}
-
-std::string joined(const std::vector<std::string>& ids, std::size_t total) {
-  std::string text;
-  for (const std::string& id : ids) text += (text.empty() ? "" : ", ") + id;
-  return total > ids.size() ? fmt::format("{}, and {} more", text, total - ids.size()) : text;
-}
+constexpr std::size_t cause_limit = 40;  // more are counted
 
 std::string value_or(const std::map<std::string, std::string>& map, const std::string& key,
                      const char* otherwise) {
   const auto found = map.find(key);
   return found == map.end() ? otherwise : found->second;
-}
-
-}  // namespace
-
-void write_unexecuted(HtmlWriter& out, const HtmlSurvey& survey) {
-  out.element("h2", {{"id", "unexecuted"}}, "Not judged, and why");
-  if (survey.unexecuted.empty()) {
-    out.element("p", {}, "Every selected case was executed and judged.");
-    return;
-  }
-  std::vector<const decltype(survey.unexecuted)::value_type*> reasons;
-  for (const auto& one : survey.unexecuted) reasons.push_back(&one);
-  std::ranges::stable_sort(
-      reasons, [](const auto* a, const auto* b) { return a->second.cases > b->second.cases; });
-  out.element("table", {{"class", "list"}}, [&] {
-    write_head_row(out, {"verdict", "cases", "reason"});
-    out.element("tbody", {}, [&] {
-      for (const auto* one : std::span(reasons).first(std::min(reasons.size(), reason_limit))) {
-        out.element("tr", {}, [&] {
-          out.element("td", {}, [&] { write_verdict(out, one->first.first); });
-          out.element("td", {{"class", "num"}}, std::to_string(one->second.cases));
-          out.element("td", {}, [&] {
-            out.element("details", {}, [&] {
-              out.element(
-                  "summary", {},
-                  one->first.second.empty() ? "no reason given" : one->first.second.substr(0, 500));
-              out.element("p", {{"class", "ids"}}, joined(one->second.ids, one->second.cases));
-            });
-          });
-        });
-      }
-    });
-  });
-  if (reasons.size() > reason_limit)
-    out.element("p", {}, fmt::format("... {} more reasons", reasons.size() - reason_limit));
-}
-
-void write_readings(HtmlWriter& out, const HtmlSurvey& survey) {
-  out.element("h2", {{"id", "readings"}}, "Readings taken");
-  if (survey.readings.empty()) {
-    out.element("p", {}, "No case met a place where the manuals leave two readings.");
-    return;
-  }
-  out.element("p", {},
-              "Where the manuals can be read in more than one way, the device did this. A device "
-              "that mixes readings is NON-STRICT.");
-  out.element("table", {{"class", "list"}}, [&] {
-    write_head_row(out, {"reading", "taken", "cases", "first seen in"});
-    out.element("tbody", {}, [&] {
-      for (const auto& [name, taken] : survey.readings) {
-        for (const auto& [choice, reading] : taken) {
-          out.element("tr", {}, [&] {
-            out.element("th", {}, name);
-            out.element("td", {}, choice + (taken.size() > 1 ? " (mixed)" : ""));
-            out.element("td", {{"class", "num"}}, std::to_string(reading.cases));
-            out.element("td", {}, [&] {
-              out.text(reading.clause + ": " + reading.title);
-              out.element("small", {}, reading.example);
-            });
-          });
-        }
-      }
-    });
-  });
-}
-
-void write_errata(HtmlWriter& out, const HtmlSurvey& survey) {
-  if (survey.errata.empty()) return;
-  out.element("h2", {{"id", "errata"}}, "Errata of the manuals met");
-  out.element("p", {}, "Cases judged by what is right, where the manual prints what cannot be.");
-  out.element("table", {{"class", "list errata"}}, [&] {
-    write_head_row(out, {"manual", "printed", "right, and why", "cases"});
-    out.element("tbody", {}, [&] {
-      for (const auto& [erratum, tally] : survey.errata) {
-        out.element("tr", {}, [&] {
-          out.element("th", {}, [&] {
-            std::string places;
-            for (const results::Passage& one : erratum.places)
-              places +=
-                  fmt::format("{}{}, {}", places.empty() ? "" : "; ", one.manual, one.section);
-            out.text(places);
-            out.element("small", {}, fmt::format("{}: {}", erratum.id, erratum.kind));
-          });
-          out.element("td", {}, [&] { out.element("code", {}, erratum.printed); });
-          out.element("td", {}, [&] {
-            out.element("code", {}, erratum.right);
-            out.element("small", {}, erratum.why);
-            if (!erratum.doubt.empty()) out.element("small", {}, erratum.doubt);
-          });
-          out.element("td", {}, text::to_string(tally));
-        });
-      }
-    });
-  });
-}
-
-void write_hashes(HtmlWriter& out, const HtmlSurvey& survey) {
-  out.element("h2", {{"id", "hashes"}}, "What this report speaks of");
-  out.element("table", {{"class", "facts wide"}}, [&] {
-    const auto row = [&](std::string_view name, const std::string& hash) {
-      out.element("tr", {}, [&] {
-        out.element("th", {}, name);
-        out.element("td", {}, [&] { out.element("code", {}, hash); });
-      });
-    };
-    for (const auto& [name, hash] : survey.log.run.hashes) row("SHA-256 of " + name, hash);
-    row("SHA-256 of the log", survey.log.sha256);
-    row("command", survey.log.run.command);
-  });
 }
 
 void write_fingerprint(HtmlWriter& out, const results::Identity& identity) {
@@ -178,6 +64,133 @@ void write_signatures(HtmlWriter& out) {
         for (const char* field : {"Name", "Date", "Signature"}) out.element("p", {}, field);
       });
     }
+  });
+}
+
+/// What failed, a line a cause.
+void write_causes(HtmlWriter& out, const HtmlSurvey& survey) {
+  const std::vector<RedCause> causes = red_causes(survey);
+  if (causes.empty()) return;
+  out.element("h2", {}, "What turned the gate red");
+  out.element("table", {{"class", "list"}}, [&] {
+    write_head_row(out, {"cases", "cause", "first"});
+    out.element("tbody", {}, [&] {
+      for (std::size_t i = 0; i < std::min(causes.size(), cause_limit); ++i)
+        out.element("tr", {}, [&] {
+          const text::Finding& finding = *causes[i].finding;
+          out.element("td", {{"class", "num"}}, text::grouped(finding.cases));
+          out.element("td", {}, cause_text(finding));
+          out.element("td", {{"class", "ids"}}, finding.first.front());
+        });
+    });
+  });
+  if (causes.size() > cause_limit)
+    out.element("p", {}, fmt::format("... {} more causes", causes.size() - cause_limit));
+}
+
+/// A chapter's part of a manual.
+struct Part {
+  std::string manual, number, title;
+  text::Tally tally;
+};
+std::vector<Part> parts_of(const HtmlSurvey& survey) {
+  std::vector<Part> parts;
+  for (const auto& [name, section] : survey.sections) {
+    const std::string number = results::part_of(name.section);
+    if (parts.empty() || parts.back().manual != name.manual || parts.back().number != number)
+      parts.push_back(
+          {name.manual, number, section_title(survey.log.run.sections, name.manual, number), {}});
+    parts.back().tally.add(section.tally);
+  }
+  return parts;
+}
+
+/// Each part of a manual by verdict, SKIP apart: what is not of this device is no line of its
+/// sheet.
+void write_parts(HtmlWriter& out, const HtmlSurvey& survey) {
+  std::vector<Verdict> columns;
+  for (const Verdict verdict : text::Tally::verdicts)
+    if (verdict != Verdict::skip && survey.tally.of(verdict) > 0) columns.push_back(verdict);
+  out.element("h2", {}, "By section of the manuals");
+  out.element("table", {{"class", "list parts"}}, [&] {
+    out.element("thead", {}, [&] {
+      out.element("tr", {}, [&] {
+        for (const char* head : {"manual", "section", ""}) out.element("th", {}, head);
+        for (const Verdict verdict : columns)
+          out.element("th", {{"class", "num"}}, results::to_string(verdict));
+      });
+    });
+    out.element("tbody", {}, [&] {
+      for (const Part& part : parts_of(survey)) {
+        if (part.tally.applicable() == 0) continue;
+        out.element("tr", {}, [&] {
+          for (const std::string* text : {&part.manual, &part.number, &part.title})
+            out.element("td", {}, *text);
+          for (const Verdict verdict : columns) {
+            const std::size_t count = part.tally.of(verdict);
+            out.element("td", {{"class", "num"}},
+                        count == 0 ? std::string("\u00B7") : text::grouped(count));
+          }
+        });
+      }
+    });
+  });
+}
+
+/// Those that the cases of this run met, by their names; the report has what they are.
+void write_met(HtmlWriter& out, const HtmlSurvey& survey) {
+  if (!survey.readings.empty()) {
+    out.element("h2", {}, "Readings taken");
+    out.element("p", {{"class", "ids"}}, [&] {
+      std::string text;
+      for (const auto& [name, taken] : survey.readings)
+        for (const auto& [choice, reading] : taken)
+          text += fmt::format("{}{} = {} ({}{})", text.empty() ? "" : "; ", name, choice,
+                              text::grouped(reading.cases), taken.size() > 1 ? ", mixed" : "");
+      out.text(text);
+    });
+  }
+  if (survey.errata.empty()) return;
+  std::map<std::string, std::size_t> kinds;
+  for (const auto& [erratum, tally] : survey.errata) ++kinds[erratum.kind];
+  std::string text = fmt::format("{} mistakes of the manuals, judged by what is right: ",
+                                 text::grouped(survey.errata.size()));
+  for (const auto& [kind, count] : kinds)
+    text += fmt::format("{}{} {}", kind == kinds.begin()->first ? "" : ", ", count, kind);
+  out.element("h2", {}, "Errata of the manuals met");
+  out.element("p", {}, text + ". The report and `fieldproof errata` have each.");
+}
+
+/// By protocol: a line a group of cases would fill pages.
+void write_protocol_times(HtmlWriter& out, const HtmlSurvey& survey) {
+  std::map<std::string, results::ResponseTimes> by_protocol;
+  for (const auto& [group, times] : survey.response_ms)
+    by_protocol[group.substr(0, group.find('/'))].add(times);
+  write_times(out, by_protocol, survey.log.run);
+}
+
+void write_first_page(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate& gate) {
+  out.element("h1", {}, "Qualification sheet");
+  write_verdict_of_run(out, survey, gate);
+  write_facts(out, survey, gate);
+  write_signatures(out);
+  write_hashes(out, survey);
+}
+
+}  // namespace
+
+void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate& gate) {
+  out.element("section", {{"id", "sheet"}, {"class", "sheet"}}, [&] {
+    write_first_page(out, survey, gate);
+    out.element("h2", {{"class", "page"}}, "Not judged, and why");
+    write_unjudged_lines(out, survey);
+    write_causes(out, survey);
+    write_parts(out, survey);
+    write_protocol_times(out, survey);
+    write_met(out, survey);
+    const results::RunInfo& run = survey.log.run;
+    if (run.duts.empty()) write_fingerprint(out, run.identity);
+    for (const results::DutInfo& dut : run.duts) write_fingerprint(out, dut.identity);
   });
 }
 

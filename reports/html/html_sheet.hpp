@@ -1,22 +1,11 @@
-// The part of the report that is printed and signed: what was not judged and why, which readings
-// the device takes, which errata were met, and the hashes that say which files all this speaks of.
+// What is printed and signed of a run with --qualify: identity, verdict and signatures on the first
+// page, what was not judged on the second, then causes, sections, times, readings and errata.
 #pragma once
-
-#include <string>
 
 #include "reports/html/html_survey.hpp"
 
 namespace fieldproof::html {
 
-void write_unexecuted(HtmlWriter& out, const HtmlSurvey& survey);
-void write_readings(HtmlWriter& out, const HtmlSurvey& survey);
-void write_errata(HtmlWriter& out, const HtmlSurvey& survey);
-
-/// SHA-256 of tool, vectors and profile as the run recorded them, and of its log.
-void write_hashes(HtmlWriter& out, const HtmlSurvey& survey);
-
-/// The declared fingerprint beside the found one, and the lines to sign.
-void write_fingerprint(HtmlWriter& out, const results::Identity& identity);
-void write_signatures(HtmlWriter& out);
+void write_sheet(HtmlWriter& out, const HtmlSurvey& survey, const results::Gate& gate);
 
 }  // namespace fieldproof::html

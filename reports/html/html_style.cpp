@@ -6,14 +6,16 @@ namespace fieldproof::html {
 // nor '&' may stand here.
 const char* const html_style = R"css(
 :root{color-scheme:light dark;--paper:#fff;--ink:#1b1f24;--soft:#59636e;--rule:#d8dee4;--tint:#f5f7f9;--link:#0757b3;
---good:#17703a;--good-tint:#e6f4ea;--bad:#b3201b;--bad-tint:#fdecea;--warn:#8a5a00;--warn-tint:#fff4d6;--cool:#3b5b8c;--cool-tint:#e8eef8;--mark:#ffd9d6}
+--good:#17703a;--good-tint:#e6f4ea;--bad:#b3201b;--bad-tint:#fdecea;--warn:#8a5a00;--warn-tint:#fff4d6;--cool:#3b5b8c;--cool-tint:#e8eef8;--hold:#6b3fa0;--hold-tint:#f2ebfa;--mark:#ffd9d6}
 @media (prefers-color-scheme:dark){:root{--paper:#0f1318;--ink:#e4e8ed;--soft:#98a4b1;--rule:#2b333d;--tint:#171d24;--link:#79b4ff;
---good:#63cf8a;--good-tint:#12291b;--bad:#ff8a80;--bad-tint:#33171a;--warn:#e9b949;--warn-tint:#2f2611;--cool:#9db9e6;--cool-tint:#1a2536;--mark:#7a2620}}
+--good:#63cf8a;--good-tint:#12291b;--bad:#ff8a80;--bad-tint:#33171a;--warn:#e9b949;--warn-tint:#2f2611;--cool:#9db9e6;--cool-tint:#1a2536;--hold:#c6a4f2;--hold-tint:#271c36;--mark:#7a2620}}
 *{box-sizing:border-box}
+[hidden]{display:none!important}
 body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.5 system-ui,"Segoe UI","Helvetica Neue",Arial,"Noto Sans CJK KR",sans-serif}
 main{max-width:1120px;margin:0 auto;padding:20px 20px 60px}
 h1{margin:0;font-size:30px;line-height:1.2}
 h2{margin:40px 0 10px;font-size:20px}
+h3{margin:26px 0 8px;font-size:16px;font-weight:600;overflow-wrap:anywhere}
 p{margin:6px 0}
 a{color:var(--link)}
 small{display:block;color:var(--soft);font-size:12px;overflow-wrap:anywhere}
@@ -29,8 +31,9 @@ thead th{color:var(--soft);font-size:12px;border-bottom:1px solid var(--rule);wh
 .v-pass,.v-info{--c:var(--good);--t:var(--good-tint)}
 .v-fail,.v-xpass,.v-error{--c:var(--bad);--t:var(--bad-tint)}
 .v-marginal,.v-non-strict,.v-xfail{--c:var(--warn);--t:var(--warn-tint)}
-.v-skip,.v-blocked,.v-inconclusive{--c:var(--cool);--t:var(--cool-tint)}
-.v-info{--c:var(--soft);--t:var(--tint)}
+.v-blocked,.v-inconclusive{--c:var(--hold);--t:var(--hold-tint)}
+.v-info{--c:var(--cool);--t:var(--cool-tint)}
+.v-skip{--c:var(--soft);--t:var(--tint)}
 .verdict{display:inline-block;padding:1px 7px;border-radius:4px;background:var(--t);color:var(--c);font-size:11.5px;font-weight:700;letter-spacing:.03em;white-space:nowrap}
 
 .banner{padding:20px 24px;border-radius:10px;border-left:8px solid var(--c);background:var(--t)}
@@ -43,6 +46,8 @@ thead th{color:var(--soft);font-size:12px;border-bottom:1px solid var(--rule);wh
 .bar span{min-width:4px;background:var(--c);border-radius:2px}
 .tiles{display:flex;flex-wrap:wrap;gap:10px;margin:0 0 18px;padding:0;list-style:none}
 .tiles li{flex:1 1 150px;max-width:270px;padding:8px 12px;border:1px solid var(--rule);border-radius:8px}
+.tiles .link{cursor:pointer}
+.tiles .link:hover{border-color:var(--c)}
 .tiles b{margin-right:8px;color:var(--c);font-size:22px;font-variant-numeric:tabular-nums}
 .columns{display:grid;grid-template-columns:1fr 1fr;gap:0 40px}
 .facts{height:max-content}
@@ -51,10 +56,30 @@ thead th{color:var(--soft);font-size:12px;border-bottom:1px solid var(--rule);wh
 .facts tr{border-bottom:1px solid var(--rule)}
 nav{display:flex;flex-wrap:wrap;gap:4px 18px;margin-top:18px}
 
+#find{display:flex;flex-wrap:wrap;gap:8px;align-items:center;margin:24px 0 8px}
+#find input,#find select,button{font:inherit;font-size:14px;padding:6px 9px;border:1px solid var(--rule);border-radius:6px;background:var(--paper);color:var(--ink)}
+#find input{flex:3 1 260px;min-width:0}
+#find select{flex:1 1 130px;min-width:0;max-width:220px}
+#find output{color:var(--soft);font-size:14px}
+button{cursor:pointer}
+.found{table-layout:fixed;font-size:13px}
+.found td{border-bottom:1px solid var(--rule)}
+.found th button{padding:0;border:0;background:none;color:inherit;font-size:12px}
+.found th:nth-child(1){width:124px}
+.found th:nth-child(2){width:30%}
+.found th:nth-child(3){width:20%}
+.found th:nth-child(5){width:80px;text-align:right}
+.found td:last-child{text-align:right;font-variant-numeric:tabular-nums}
+.found [aria-sort=ascending]::after{content:" \25B2"}
+.found [aria-sort=descending]::after{content:" \25BC"}
+.seen{outline:3px solid var(--link);outline-offset:2px}
+
+.cause>h3 .times{color:var(--bad)}
 .case{margin:8px 0;border:1px solid var(--rule);border-left:4px solid var(--c);border-radius:6px;padding:0 14px}
 .case summary{padding:8px 0;overflow-wrap:anywhere}
 .case[open]{padding-bottom:12px}
 .message{display:block;padding-left:20px;color:var(--c)}
+.clause .of{margin-left:8px}
 .clause q{display:block;margin-top:2px;padding-left:12px;border-left:3px solid var(--rule);color:var(--soft)}
 .monitor,.differences{margin:12px 0}
 .monitor td,.differences td{border-bottom:1px solid var(--rule)}
@@ -83,6 +108,7 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .matrix .head span,.section>summary span{padding:2px 6px;text-align:right;font-size:14px}
 .matrix .head span{font-size:10.5px}
 .matrix .head .name,.section>summary .name{text-align:left}
+.name i{margin-left:10px;color:var(--soft);font-style:normal;font-size:13px}
 .section{border-bottom:1px solid var(--rule)}
 .section>summary:hover{background:var(--tint)}
 .section>summary .name::before{content:"\25B8";display:inline-block;width:16px;color:var(--soft)}
@@ -123,7 +149,28 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .had{opacity:.3}
 .a0{--a:#3b82d6}.a1{--a:#d9822b}.a2{--a:#17988f}.a3{--a:#9a5fd0}.a4{--a:#d24d8a}.a5{--a:#84931f}
 
+.wire{margin:12px 0;overflow-x:auto}
+.wire svg{display:block;width:100%;min-width:560px;max-width:900px;font:11px system-ui,"Segoe UI",Arial,sans-serif;fill:var(--soft)}
+.wire .lane{font-weight:600}
+.wire .rail{stroke:var(--rule)}
+.wire .bar{stroke:var(--paper)}
+.wire .sent{fill:var(--link)}
+.wire .received{fill:var(--soft)}
+.wire .surplus{fill:var(--warn)}
+.wire .judged{fill:var(--bad)}
+.wire .due{fill:var(--bad);opacity:.07}
+.wire .limit-text,.wire .over{fill:var(--bad)}
+.wire .silence,.wire .tick,.wire .cut{text-anchor:middle;font-variant-numeric:tabular-nums}
+.wire .cut{font-size:15px}
+.wire .last{text-anchor:end}
+.wire .unit{text-anchor:end;font-size:10px}
+
+.unjudged .num{width:90px;color:var(--c);font-weight:600}
+.reason{margin:4px 0 4px 16px;font-size:13px;overflow-wrap:anywhere}
+.reason .ids{display:block}
 .list td,.list th{border-bottom:1px solid var(--rule)}
+.scroll{overflow-x:auto}
+.scroll .list th:first-child{min-width:160px}
 .list .num{padding-right:20px}
 .ids{color:var(--soft)}
 .errata th{width:200px}
@@ -134,9 +181,10 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .sheet{margin-top:50px;padding-top:30px;border-top:3px solid var(--ink)}
 .sheet .banner{margin-top:16px}
 .signatures{display:grid;grid-template-columns:1fr 1fr;gap:40px;margin-top:40px;break-inside:avoid}
+.parts td:nth-child(3){color:var(--soft)}
 .signatures p{margin:0;padding-top:34px;border-bottom:1px solid var(--ink);color:var(--soft)}
 
-@media (max-width:960px){
+@media screen and (max-width:960px){
 .matrix .head{display:block}
 .matrix .head span:not(.name){display:none}
 .section>summary{display:flex;flex-wrap:wrap}
@@ -144,14 +192,20 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .section>summary .name{flex:1 1 100%}
 .section>summary span[data-verdict]::after{content:" " attr(data-verdict);font-size:11px;font-weight:400}
 }
-@media (max-width:720px){
+@media screen and (max-width:720px){
 main{padding:12px 12px 40px}
 h1{font-size:24px}
 .columns{grid-template-columns:1fr}
 .tiles li{flex-basis:42%;max-width:none}
-.passes,.passes tbody,.passes tr,.passes th,.passes td,.lines,.lines tbody,.lines tr,.lines th,.lines td{display:block;width:auto!important;padding:0}
-.passes tr,.lines tr{padding:6px 0;border-bottom:1px solid var(--rule)}
-.passes td:last-child{text-align:left}
+#find select{max-width:none;flex-basis:45%}
+.found thead tr{display:flex;gap:14px}
+.found thead th:nth-child(n){width:auto}
+.found,.found tbody,.found tbody tr,.found td,.list,.list tbody,.list tr,.list td,.list th,.passes,.passes tbody,.passes tr,.passes th,.passes td,.lines,.lines tbody,.lines tr,.lines th,.lines td{display:block;width:auto!important;padding:0}
+.passes tr,.lines tr,.found tr,.list tr{padding:6px 0;border-bottom:1px solid var(--rule)}
+.list thead{display:none}
+.list td,.list th,.found td{border:0}
+.list .num{text-align:left}
+.passes td:last-child,.found td:last-child{text-align:left}
 .monitor thead{display:none}
 .monitor tr{display:grid;grid-template-columns:auto auto 1fr;border-bottom:1px solid var(--rule)}
 .monitor td{border:0;width:auto!important;text-align:left!important}
@@ -162,7 +216,7 @@ h1{font-size:24px}
 .trace svg{font-size:18px}
 }
 @media print{
-:root{--paper:#fff;--ink:#000;--soft:#444;--rule:#bbb;--tint:#f4f4f4;--good:#17703a;--good-tint:#eef7f0;--bad:#b3201b;--bad-tint:#fdf0ef;--warn:#8a5a00;--warn-tint:#fff8e6;--cool:#3b5b8c;--cool-tint:#eef2f9;--mark:#ffd9d6;--link:#0757b3}
+:root{--paper:#fff;--ink:#000;--soft:#444;--rule:#bbb;--tint:#f4f4f4;--good:#17703a;--good-tint:#eef7f0;--bad:#b3201b;--bad-tint:#fdf0ef;--warn:#8a5a00;--warn-tint:#fff8e6;--cool:#3b5b8c;--cool-tint:#eef2f9;--hold:#6b3fa0;--hold-tint:#f6f1fb;--mark:#ffd9d6;--link:#0757b3}
 *{print-color-adjust:exact}
 body{font-size:9pt;line-height:1.4}
 h1{font-size:17pt}
@@ -176,13 +230,15 @@ small,.verdict{font-size:7.5pt}
 code,pre,.ids,.monitor td{font-size:8pt}
 .facts th{width:90px}
 main{max-width:none;padding:0}
-nav{display:none}
-h2{break-after:avoid}
-tr,.tiles li,.section>summary,.banner{break-inside:avoid}
+nav,#find,.found,#more{display:none}
+main:has(>.sheet)>:not(.sheet){display:none}
+h1,h2,h3,thead tr,tbody tr:first-child,tbody tr:nth-last-child(2){break-after:avoid}
+h1,h2,h3,p{orphans:3;widows:3}
+tr,.tiles li,.section>summary,.banner,.facts,.signatures{break-inside:avoid}
 .case::details-content{content-visibility:visible;display:block;height:auto}
 .section .case::details-content{content-visibility:hidden}
-.sheet{break-before:page;border:0;margin:0;padding:0}
-.sheet ~ *{break-before:auto}
+.sheet{border:0;margin:0;padding:0}
+.sheet .page{break-before:page;margin-top:0}
 .list details::details-content{content-visibility:visible;display:block}
 }
 @page{margin:15mm 14mm;@bottom-right{content:counter(page) " / " counter(pages);font-size:9pt}}

@@ -63,6 +63,12 @@ bool operator<(const SectionName& a, const SectionName& b) {
   return manuals != 0 ? manuals < 0 : compare_naturally(a.section, b.section) < 0;
 }
 
+std::string section_title(const std::map<std::string, results::SectionTitles>& titles,
+                          const std::string& manual, const std::string& section) {
+  const auto found = titles.find(manual);
+  return found == titles.end() ? "" : std::string(results::title_of(found->second, section));
+}
+
 SectionName first_place(const ErratumInfo& erratum) {
   if (erratum.places.empty()) return {};
   return {erratum.places.front().manual, erratum.places.front().section};
@@ -109,15 +115,17 @@ void HtmlSurveyor::add_line(SectionReport& section, HtmlWriter& out, const auto&
 
 void HtmlSurveyor::add_red(SectionReport& section, const CaseResult& result) {
   const text::Finding& finding = survey_.failures.add(result);
-  std::string anchor;
-  if (finding.is_again()) {
-    anchor = survey_.anchors[finding.number];
-  } else if (fits(red_blocks_, html_block_limit)) {
+  RedGroup& group = survey_.red[finding.number];
+  std::string anchor = group.anchor;
+  if (!finding.is_again() && fits(red_blocks_, html_block_limit)) {
+    const bool is_first = anchor.empty();
     anchor = fmt::format("red-{}", red_blocks_);
-    survey_.anchors.emplace(finding.number, anchor);
-    write_case_block(gates(result.verdict, Gate{}) ? survey_.broken : survey_.red, result,
-                     red_blocks_ <= open_blocks, anchor);
-  } else {
+    write_case_block(group.blocks, result,
+                     {is_first && fits(open_, open_blocks), anchor,
+                      section_title(titles_, result.manual, result.section), true});
+    if (is_first) group.anchor = anchor;
+    group.always = gates(result.verdict, Gate{});
+  } else if (!finding.is_again()) {
     ++survey_.red_unlisted;
   }
   add_line(section, section.red, [&](HtmlWriter& out) { write_case_line(out, result, anchor); });
@@ -125,7 +133,8 @@ void HtmlSurveyor::add_red(SectionReport& section, const CaseResult& result) {
 
 void HtmlSurveyor::add_remarkable(SectionReport& section, const CaseResult& result) {
   if (fits(other_blocks_, html_block_limit))
-    write_case_block(section.remarkable, result, false);
+    write_case_block(section.remarkable, result,
+                     {.section_title = section_title(titles_, result.manual, result.section)});
   else
     add_line(section, section.unjudged, [&](HtmlWriter& out) { write_case_line(out, result); });
 }

@@ -22,6 +22,10 @@ struct SectionName {
 };
 bool operator<(const SectionName& a, const SectionName& b);
 
+/// What it is called; empty where that is not known.
+std::string section_title(const std::map<std::string, results::SectionTitles>& titles,
+                          const std::string& manual, const std::string& section);
+
 /// Where an erratum is listed.
 SectionName first_place(const results::ErratumInfo& erratum);
 
@@ -46,13 +50,18 @@ struct Unexecuted {
   std::size_t cases = 0;
 };
 
+/// Cases that turn the gate red alike: the first of them in full.
+struct RedGroup {
+  HtmlWriter blocks;
+  bool always = false;  // turns every gate red: FAIL, XPASS, ERROR
+  std::string anchor;   // of its first block
+};
+
 struct HtmlSurvey {
   results::RunLog log;
   text::Tally tally;
-  HtmlWriter broken;  // blocks of what turns every gate red: FAIL, XPASS, ERROR
-  HtmlWriter red;     // blocks of what turns this gate red: NON-STRICT, MARGINAL
   text::Failures failures;
-  std::map<std::size_t, std::string> anchors;  // of the first of a finding, by its number
+  std::map<std::size_t, RedGroup> red;  // by number of the finding
   std::size_t red_unlisted = 0;
   std::map<SectionName, SectionReport> sections;
   std::map<std::string, results::ResponseTimes> response_ms;       // by group: "xgt_cnet/rss"
@@ -73,7 +82,9 @@ inline constexpr std::size_t html_picture_limit = 1000;
 /// Gathers it.
 class HtmlSurveyor {
  public:
-  explicit HtmlSurveyor(const results::Gate& gate) : gate_(gate) {}
+  explicit HtmlSurveyor(const results::Gate& gate,
+                        std::map<std::string, results::SectionTitles> titles = {})
+      : gate_(gate), titles_(std::move(titles)) {}
 
   void add(const results::CaseResult& result);
   /// Once, at the end.
@@ -87,9 +98,10 @@ class HtmlSurveyor {
   text::Tally executed(const std::string& vector) const;
 
   results::Gate gate_;
+  std::map<std::string, results::SectionTitles> titles_;
   HtmlSurvey survey_;
   std::map<std::string, text::Tally> by_id_;
-  std::size_t lines_ = 0, red_blocks_ = 0, other_blocks_ = 0, pictures_ = 0;
+  std::size_t lines_ = 0, red_blocks_ = 0, open_ = 0, other_blocks_ = 0, pictures_ = 0;
 };
 
 }  // namespace fieldproof::html

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/html/html_red.hpp"
 #include "reports/testdata/parsed_html.hpp"
 #include "reports/testdata/samples.hpp"
 
@@ -54,8 +55,7 @@ TEST_F(Survey, WhatTurnsEveryGateRedStandsFirst) {
              {.strict = true});
   HtmlWriter red;
   red.element("div", {}, [&] {
-    red.markup(made.broken.str());
-    red.markup(made.red.str());
+    for (const RedCause& cause : red_causes(made)) red.markup(cause.group->blocks.str());
   });
   EXPECT_THAT(samples::ParsedHtml(red.str()).texts("//summary/b"),
               ElementsAre("a/bad", "a/port", "a/lenient"));
@@ -125,8 +125,10 @@ TEST_F(Survey, WhatOneReportCannotHoldIsCounted) {
   const HtmlSurvey made = survey(many);
   EXPECT_EQ(7u, made.red_unlisted);
   EXPECT_EQ(html_block_limit + 7, made.tally.of(Verdict::fail));
-  EXPECT_THAT(made.broken.str(), HasSubstr(fmt::format("a/n{}<", html_block_limit - 1)));
-  EXPECT_THAT(made.broken.str(), testing::Not(HasSubstr(fmt::format("a/n{}<", html_block_limit))));
+  std::string blocks;
+  for (const auto& [number, group] : made.red) blocks += group.blocks.str();
+  EXPECT_THAT(blocks, HasSubstr(fmt::format("a/n{}<", html_block_limit - 1)));
+  EXPECT_THAT(blocks, testing::Not(HasSubstr(fmt::format("a/n{}<", html_block_limit))));
   EXPECT_THAT(made.sections.begin()->second.red.str(),
               HasSubstr(fmt::format("a/n{}<", html_block_limit + 6)))
       << "its line is there";

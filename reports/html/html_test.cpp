@@ -173,15 +173,57 @@ TEST_F(Html, TheSameFailureIsToldOnce) {
     results.back().id = "xgt_cnet/rss/n" + std::to_string(i);
   }
   const ParsedHtml page(report(results));
-  EXPECT_THAT(page.texts("//table[@class='list findings']//td[@class='num']"),
-              ElementsAre("20 cases"));
-  EXPECT_THAT(page.text("//table[@class='list findings']//td[2]"),
-              HasSubstr(samples::failure().message));
-  EXPECT_EQ("xgt_cnet/rss/n1, xgt_cnet/rss/n2, xgt_cnet/rss/n3",
-            page.text("//table[@class='list findings']//a[@href='#red-1']"));
-  EXPECT_EQ(3u, page.count("//details[starts-with(@id, 'red-')]"));
+  EXPECT_EQ("20 \u00D7 " + samples::failure().message, page.text("//section[@class='cause']/h3"));
+  EXPECT_THAT(page.texts("//section[@class='cause']/details/summary/b"),
+              ElementsAre("xgt_cnet/rss/n1", "xgt_cnet/rss/n2", "xgt_cnet/rss/n3"));
+  EXPECT_EQ(1u, page.count("//section[@class='cause']/details[@open='open']")) << "in full";
+  EXPECT_EQ("17 more are alike; their sections list them",
+            page.text("//section[@class='cause']/p[@class='ids']"));
   EXPECT_EQ(20u, page.count("//table[@class='lines']//tr")) << "each stands in its section";
   EXPECT_EQ(18u, page.count("//table[@class='lines']//a[@href='#red-1']"));
+}
+
+TEST_F(Html, CausesOfManyCasesStandFirst) {
+  std::vector<CaseResult> results;
+  const auto add = [&](const char* id, const char* message) {
+    results.push_back(with(Verdict::fail, id, message));
+  };
+  add("a/1", "no answer within 500 ms");
+  add("a/2", "BCC: expected 0F, got 09");
+  add("a/3", "BCC: expected 1A, got 14");
+  const ParsedHtml page(report(results));
+  EXPECT_EQ("2 \u00D7 BCC: expected \u2026, got \u2026", page.text("//section[@class='cause']/h3"));
+  EXPECT_THAT(page.texts("//details[starts-with(@id, 'red-')]/summary/b"),
+              ElementsAre("a/2", "a/3", "a/1"));
+}
+
+TEST_F(Html, BlockedIsGroupedByWhatWouldUnblock) {
+  const ParsedHtml page(
+      report({with(Verdict::blocked, "a/1", "needs delay_ms = 50; the profile declares 0"),
+              with(Verdict::blocked, "a/2", "needs neighbours = 2; the profile declares nothing"),
+              with(Verdict::blocked, "a/3",
+                   "needs a device fresh from power-on; give "
+                   "--power-cycle COMMAND"),
+              with(Verdict::skip, "a/4", "for xec-h; the profile declares xbc-h")}));
+  EXPECT_THAT(page.texts("//h3[span[contains(@class, 'verdict')]]"),
+              ElementsAre("BLOCKED 3 blocked, by what would let them run",
+                          "SKIP 1 skipped: outside the profile of the device"));
+  EXPECT_THAT(page.texts("//table[@class='list unjudged'][1]//td[1]"), ElementsAre("2", "1"));
+  EXPECT_THAT(page.texts("//table[@class='list unjudged'][1]//summary"),
+              ElementsAre("other settings of the device, declared in \"config\" of the profile",
+                          "a device fresh from power-on: --power-cycle COMMAND"));
+  EXPECT_THAT(page.texts("//table[@class='list unjudged'][1]//tr[1]//p"),
+              ElementsAre("1 \u00D7 needs delay_ms = 50; the profile declares 0a/1",
+                          "1 \u00D7 needs neighbours = 2; the profile declares nothinga/2"));
+}
+
+TEST_F(Html, SectionsHaveTheirTitles) {
+  RunInfo run = samples::run_info();
+  run.sections = {{"xgb-cnet-en-1.6", {{"7.1.5", "Detail of instruction"}}}};
+  const ParsedHtml page(report(run, {samples::failure()}, samples::run_end()));
+  EXPECT_EQ("7.1.5 (1)(e)Detail of instruction",
+            page.text("//details[@class='section']/summary/span[@class='name']"));
+  EXPECT_EQ("Detail of instruction", page.text("//p[@class='clause']/span[@class='of']"));
 }
 
 TEST_F(Html, OfAFloodThereIsAnExtract) {
@@ -247,8 +289,27 @@ TEST_F(Html, TheQualificationSheetCanBeSigned) {
   EXPECT_EQ("00ff", page.text(sheet + "//tr[th='SHA-256 of tool']/td"));
   EXPECT_EQ(*results::sha256_of_file(results_),
             page.text(sheet + "//tr[th='SHA-256 of the log']/td"));
-  EXPECT_EQ("needs M", page.text(sheet + "//table[@class='list']//details/summary"));
-  EXPECT_EQ("a/one", page.text(sheet + "//p[@class='ids']"));
+  EXPECT_THAT(page.texts(sheet + "//table[@class='list one-line']//td"),
+              ElementsAre("BLOCKED", "1", "needs M"));
+  EXPECT_THAT(page.text("//table[@class='list unjudged']//details"), HasSubstr("a/one"));
+}
+
+TEST_F(Html, TheSheetHasALineAReasonAndNoListOfOtherModels) {
+  std::vector<CaseResult> results;
+  for (int station = 0; station < 60; ++station) {
+    const std::string n = std::to_string(station);
+    results.push_back(with(Verdict::blocked, "a/b" + n, "is about station " + n));
+    results.push_back(with(Verdict::skip, "a/s" + n, "for model " + n));
+    results.push_back(with(Verdict::fail, "a/f" + n, "BCC: expected " + n + "0, got 00"));
+  }
+  const ParsedHtml page(report(results, {.qualify = true}));
+  const std::string sheet = "//section[@class='sheet']";
+  EXPECT_THAT(
+      page.texts(sheet + "//table[@class='list one-line']//td"),
+      ElementsAre("BLOCKED", "60", "a device set to the station that the case is about", "SKIP",
+                  "60", "other models and protocols: outside the profile of the device"));
+  EXPECT_THAT(page.texts(sheet + "//table[@class='list']//tbody/tr[1]/td"),
+              ElementsAre("60", "BCC: expected \u2026, got \u2026", "a/f0"));
 }
 
 TEST_F(Html, WithoutQualifyThereIsNothingToSign) {
@@ -300,7 +361,8 @@ TEST_F(Html, HostileBytesSurvive) {
   for (const bool qualify : {false, true}) {
     const std::string html =
         report(run, results, {hostile, 1, 3, false, hostile}, {.qualify = qualify});
-    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_EQ(html.find("<script"), html.rfind("<script")) << "ours alone";
+    EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
     EXPECT_THAT(html, Not(HasSubstr("<!--")));
     const ParsedHtml page(html);
     for (Verdict verdict : text::Tally::verdicts)

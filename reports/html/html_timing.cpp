@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace fieldproof::html {
 
@@ -118,6 +119,12 @@ void write_axis(HtmlWriter& out, const Scale& scale) {
       });
 }
 
+double limit_of(const results::RunInfo& run) {
+  const auto found = run.properties.find("response_max_ms");
+  return found == run.properties.end() ? 0
+                                       : std::max(0.0, std::strtod(found->second.c_str(), nullptr));
+}
+
 }  // namespace
 
 void write_timing(HtmlWriter& out, const std::map<std::string, ResponseTimes>& response_ms,
@@ -145,6 +152,21 @@ void write_timing(HtmlWriter& out, const std::map<std::string, ResponseTimes>& r
       }
     });
   });
+}
+
+void write_times(HtmlWriter& out, const std::map<std::string, ResponseTimes>& response_ms,
+                 const results::RunInfo& run) {
+  if (response_ms.empty()) return;
+  const double limit = limit_of(run);
+  out.element("h2", {}, "Response times");
+  out.element(
+      "p", {},
+      fmt::format("From the request's last byte to the reply's first, in milliseconds on a "
+                  "logarithmic scale{}. Bars count "
+                  "replies (by square root), the line below them spans the middle half, the tick "
+                  "is the median.",
+                  limit > 0 ? fmt::format("; dashed: the profile's limit of {:g} ms", limit) : ""));
+  write_timing(out, response_ms, limit);
 }
 
 }  // namespace fieldproof::html

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reports/results/reason.hpp"
+#include "reports/results/section_titles.hpp"
 #include "reports/results/verdict.hpp"
 #include "src/base/burst.hpp"
 #include "src/base/result.hpp"
@@ -93,6 +94,14 @@ struct Difference {
   std::string hint;
 };
 
+/// When the answer of a step was due: by `until`, counted from the end of what it answers.
+struct Due {
+  Time from{}, until{};
+
+  bool empty() const { return from == until; }
+  bool operator==(const Due&) const = default;
+};
+
 struct CaseResult {
   std::string id;    // "xgt_cnet/rss/two_words", unique in a run together with `line` and `repeat`
   std::string line;  // step of a line matrix: "38400-8N1"; empty: there is none
@@ -115,6 +124,7 @@ struct CaseResult {
   std::string received;            // notation of what came
   Bytes received_bytes;
   Extract received_extract;
+  Due due;  // of the failing step
   std::vector<Difference> differences;
   std::vector<Event> exchange;
   Recording recording;
@@ -177,6 +187,7 @@ struct RunInfo {
   std::vector<ErratumInfo> errata = {};            // of the selected cases
   std::vector<DutInfo> duts =
       {};  // where there are several; `identity` then holds what they have in common
+  std::map<std::string, SectionTitles> sections = {};  // of the selected cases, by manual
 };
 
 /// How a run ended: the last line of the NDJSON file; absent when it was killed.

@@ -132,6 +132,11 @@ void fields(auto& json, Of<Recording> auto& recording) {
   json.otherwise("link_floor_ms", recording.link_floor, recording.timing_floor);
 }
 
+void fields(auto& json, Of<Due> auto& due) {
+  json.always("from_ms", due.from);
+  json.always("until_ms", due.until);
+}
+
 void fields(auto& json, Of<Difference> auto& difference) {
   json.always("expected", difference.expected);
   json.must("field", difference.field);
@@ -142,6 +147,7 @@ void fields(auto& json, Of<Difference> auto& difference) {
 void fields(auto& json, Of<CaseResult> auto& result) {
   json.always("basis", result.basis);
   json.may("differences", result.differences);
+  json.may("due", result.due);
   json.may("dut", result.dut);
   json.may("exchange", result.exchange);
   json.may("expected", result.expected);
@@ -220,6 +226,7 @@ void fields(auto& json, Of<RunInfo> auto& info) {
   json.may("identity", info.identity);
   json.always("profile", info.profile);
   json.always("properties", info.properties);
+  json.may("sections", info.sections);
   json.must("started", info.started);
   json.must("tool_version", info.tool_version);
   json.always("vectors_hash", info.vectors_hash);

@@ -36,6 +36,7 @@ CaseResult full_result() {
   result.expected_hex = "06 30 ??";
   result.received = "ACK '1'";
   result.received_bytes = {0x06, 0x31};
+  result.due = {3ms, 503ms};
   result.received_extract = {2000, {0x07, 0x08}, std::string(64, 'b')};
   result.differences = {{"station", "00", "01", "the request's"}, {"BCC", "4C", "4D", ""}};
   result.exchange = {{Event::Kind::sent, 0ns, 1234567ns, {0x05, 0xFF}, "ENQ FF"},
@@ -75,6 +76,7 @@ TEST(CaseResultJson, EveryFieldComesBack) {
   EXPECT_EQ(result.exchange[0].bytes, again.exchange[0].bytes);
   EXPECT_EQ(result.exchange[1].extract, again.exchange[1].extract);
   EXPECT_EQ(result.received_extract, again.received_extract);
+  EXPECT_EQ(result.due, again.due);
   ASSERT_EQ(1u, again.trace.axes.size());
   EXPECT_EQ("B:1", again.trace.axes[0].axis);
   EXPECT_EQ(-5000, again.trace.axes[0].samples.at(1).speed);
@@ -112,9 +114,9 @@ TEST(CaseResultJson, NoFieldIsForgotten) {
   // then extend it, full_result() and `fields`.
   const auto& [id, repeat, dut, line, rev, protocol, title, level, basis, on_model, manual, section,
                quote, verdict, message, notes, expected, expected_bytes, expected_hex, received,
-               received_bytes, received_extract, differences, exchange, recording, trace, readings,
-               response_ms, seconds, replay] = full_result();
-  EXPECT_EQ(30u, as_json(full_result()).size());
+               received_bytes, received_extract, due, differences, exchange, recording, trace,
+               readings, response_ms, seconds, replay] = full_result();
+  EXPECT_EQ(31u, as_json(full_result()).size());
 }
 
 TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
@@ -176,6 +178,7 @@ TEST(RunJson, IdentityHashesAndErrataComeBack) {
   info.identity = {"bench-1", "LS",     "XBC-DN32H",         "S/N 7",           "V1.8",
                    "Kim",     "port 2", {{"areas", "PMLK"}}, {{"areas", "PML"}}};
   info.hashes = {{"tool", "00ff"}};
+  info.sections = {{"xgb-cnet-en-1.6", {{"7.1.5", "Detail of instruction"}}}, {"m", {}}};
   info.errata = {{"cnet_7/name",
                   "wrong bytes",
                   "H2550",
@@ -196,6 +199,7 @@ TEST(RunJson, IdentityHashesAndErrataComeBack) {
   EXPECT_EQ(info.identity.fingerprint, fingerprint);
   EXPECT_EQ(info.identity.fingerprint_found, fingerprint_found);
   EXPECT_EQ(info.hashes, again.hashes);
+  EXPECT_EQ(info.sections, again.sections);
   ASSERT_EQ(1u, again.errata.size());
   const auto& [id, kind, printed, right, why, effect, doubt, places, proof, vectors] =
       again.errata[0];

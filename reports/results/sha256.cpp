@@ -59,6 +59,12 @@ std::string Sha256::digits() const {
   return text;
 }
 
+std::string sha256_of(std::string_view bytes) {
+  Sha256 sum;
+  sum.add(bytes);
+  return sum.digits();
+}
+
 Result<std::string> sha256_of_file(const fs::path& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);

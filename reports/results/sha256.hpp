@@ -27,6 +27,9 @@ class Sha256 {
   std::unique_ptr<State> state_;
 };
 
+/// Of bytes that are there.
+std::string sha256_of(std::string_view bytes);
+
 /// 64 hex digits, as `sha256sum PATH` prints them.
 Result<std::string> sha256_of_file(const std::filesystem::path& path);
 

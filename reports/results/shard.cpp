@@ -1,6 +1,7 @@
 #include "reports/results/shard.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 
@@ -20,12 +21,44 @@ std::optional<Shard> sound(std::optional<int> index, std::optional<int> total) {
   return Shard{*index, *total};
 }
 
+std::optional<int> variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? number(value) : std::nullopt;
+}
+
+/// SLURM_ARRAY_TASK_ID need not begin at 0, nor go up by one (--array=1-7:2).
+Shard of_job_array() {
+  const std::optional<int> id = variable("SLURM_ARRAY_TASK_ID");
+  const int step = std::max(1, variable("SLURM_ARRAY_TASK_STEP").value_or(1));
+  const int index = (id.value_or(0) - variable("SLURM_ARRAY_TASK_MIN").value_or(0)) / step;
+  return sound(id ? std::optional(index) : std::nullopt, variable("SLURM_ARRAY_TASK_COUNT"))
+      .value_or(Shard{});
+}
+
+Shard of_tasks() {
+  const std::optional<int> step = variable("SLURM_STEP_NUM_TASKS");
+  return sound(variable("SLURM_PROCID"), step ? step : variable("SLURM_NTASKS")).value_or(Shard{});
+}
+
+/// Each task of each job of an array is one.
+std::optional<Shard> of_slurm() {
+  const Shard job = of_job_array(), task = of_tasks();
+  const Shard all{job.index * task.total + task.index, job.total * task.total};
+  return all.total > 1 ? std::optional(all) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Shard> shard_of_environment() {
   const char* index = std::getenv("GTEST_SHARD_INDEX");
   const char* total = std::getenv("GTEST_TOTAL_SHARDS");
+  if (!index && !total) return of_slurm();
   return index && total ? sound(number(index), number(total)) : std::nullopt;
+}
+
+void hand_to_googletest(const Shard& shard) {
+  ::setenv("GTEST_TOTAL_SHARDS", std::to_string(shard.total).c_str(), 1);
+  ::setenv("GTEST_SHARD_INDEX", std::to_string(shard.index).c_str(), 1);
 }
 
 Status check_shard_environment() {

@@ -1,5 +1,6 @@
 // Which part of a selection a run has done: GoogleTest deals the cases out by GTEST_TOTAL_SHARDS
-// and GTEST_SHARD_INDEX.
+// and GTEST_SHARD_INDEX; where they are not set, the tasks of a Slurm job array, or of an srun, are
+// the shards.
 #pragma once
 
 #include <compare>
@@ -22,6 +23,8 @@ struct Shard {
 Status check_shard_environment();
 /// Nothing where the environment asks for none.
 std::optional<Shard> shard_of_environment();
+/// Makes it GoogleTest's.
+void hand_to_googletest(const Shard& shard);
 
 /// "2/3", counted from 1.
 std::string to_string(const Shard& shard);

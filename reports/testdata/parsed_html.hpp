@@ -29,6 +29,13 @@ class ParsedHtml {
       all.push_back(text_of(node.node()));
     return all;
   }
+  /// An attribute of each.
+  std::vector<double> numbers(const std::string& path, const char* attribute) const {
+    std::vector<double> all;
+    for (const pugi::xpath_node& one : document_.select_nodes(path.c_str()))
+      all.push_back(one.node().attribute(attribute).as_double());
+    return all;
+  }
   std::size_t count(const std::string& path) const {
     return document_.select_nodes(path.c_str()).size();
   }

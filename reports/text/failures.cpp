@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <utility>
 
 #include "reports/text/case_text.hpp"
@@ -79,19 +80,18 @@ const Finding& Failures::add(const results::CaseResult& result) {
   return finding;
 }
 
-std::vector<const Finding*> Failures::repeated() const {
-  std::vector<const Finding*> again = all();
-  std::erase_if(again, [](const Finding* one) { return !one->is_again(); });
-  return again;
-}
-
 std::vector<const Finding*> Failures::all() const {
   std::vector<const Finding*> all;
   for (const auto& [kind, one] : known_) all.push_back(&one.finding);
-  std::ranges::sort(all, [](const Finding* a, const Finding* b) {
-    return std::pair(b->cases, a->number) < std::pair(a->cases, b->number);
-  });
+  std::ranges::sort(all, std::less<>{}, &Finding::number);
   return all;
+}
+
+std::vector<const Finding*> Failures::repeated() const {
+  std::vector<const Finding*> again = all();
+  std::erase_if(again, [](const Finding* one) { return !one->is_again(); });
+  std::ranges::stable_sort(again, std::greater<>{}, &Finding::cases);
+  return again;
 }
 
 std::vector<std::string> Failures::single() const {

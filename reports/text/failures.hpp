@@ -38,9 +38,9 @@ class Failures {
   /// One more; the finding that it belongs to, with it.
   const Finding& add(const results::CaseResult& result);
 
-  /// The greatest first.
+  /// In the order in which they came up.
   std::vector<const Finding*> all() const;
-  /// Those with more cases than are told in full.
+  /// With more cases than are told in full; the greatest first.
   std::vector<const Finding*> repeated() const;
   /// Labels of all other cases, in their order.
   std::vector<std::string> single() const;

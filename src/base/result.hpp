@@ -16,6 +16,8 @@ struct Error {
   bool interrupted = false;
   /// The hardware is not there (`run --skip-absent`).
   bool absent = false;
+  /// The other side says no, or cannot do it; nothing is wrong with the way to it.
+  bool refused = false;
 };
 
 template <typename T>
@@ -39,5 +41,6 @@ class [[nodiscard]] Result {
 using Status = Result<std::monostate>;
 inline Status ok() { return Status(std::monostate{}); }
 inline Error fail(std::string message) { return Error{std::move(message)}; }
+inline Error refuse(std::string message) { return Error{std::move(message), false, false, true}; }
 
 }  // namespace fieldproof

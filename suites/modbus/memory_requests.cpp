@@ -161,6 +161,16 @@ const Bases& default_bases() {
   return bases;
 }
 
+nlohmann::json default_base_config(std::string_view model) {
+  nlohmann::json config = nlohmann::json::object();
+  const plc::PlcModel* known = plc::find_plc_model(model);
+  if (!known) return config;
+  const modbus::ModbusBases bases = modbus::default_modbus_bases(*known);
+  for (std::size_t i = 0; i < bases.size(); ++i)
+    config[std::string(modbus::modbus_base_names[i]) + "_base"] = bases[i];
+  return config;
+}
+
 Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config) {
   const plc::PlcModel* known =
       model.empty() ? &plc::plc_models().front() : plc::find_plc_model(model);

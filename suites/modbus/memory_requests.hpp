@@ -25,6 +25,8 @@ modbus::ModbusBase base_of(const FunctionCode& function);
 std::uint32_t count_in(ByteView message, const FunctionCode& function);
 /// Of xbc-h: P0, M0, P0, M0.
 const Bases& default_bases();
+/// The same as keys of given.config; of a model without bases: none.
+nlohmann::json default_base_config(std::string_view model);
 /// `config`: bit_read_base and its like, tables (vectors/README.md). Errors name the model or the
 /// key.
 Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config);

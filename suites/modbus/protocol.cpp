@@ -162,6 +162,9 @@ class Modbus : public harness::PlcProtocol,
     if (!bases) return bases.error();
     return std::unique_ptr<Protocol>(std::make_unique<Modbus>(mode_, framing_, std::move(*bases)));
   }
+  nlohmann::json defaults(std::string_view model) const override {
+    return default_base_config(model);
+  }
   Result<Placed> placed(std::string_view address, std::string_view hex,
                         const std::vector<Bytes>& requests) const override {
     return modbus_suite::placed(framing_, bases_, address, hex, requests);

@@ -98,6 +98,16 @@ TEST(EmulatorRun, seed_settles_the_order) {
   EXPECT_THAT(seven, testing::UnorderedElementsAreArray(plain));
 }
 
+/// Each PLC has areas and sizes of its own: no case of it asks for others.
+TEST(EmulatorRun, each_model_is_green) {
+  for (const char* model : {"xbc-h", "xbm-s", "xec-h", "inverter", "xd", "xdc"}) {
+    const TestFolder folder;
+    const Finished finished =
+        run_tool({"run", "--endpoint", std::string("emulator:") + model, "--out", folder.path()});
+    EXPECT_EQ(finished.code, 0) << model << finished.out << finished.err;
+  }
+}
+
 TEST(EmulatorRun, shards_are_a_partition) {
   std::vector<std::string> all;
   for (int shard = 0; shard < 3; ++shard) {

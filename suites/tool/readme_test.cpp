@@ -60,6 +60,10 @@ const std::map<std::string, Special> specials{
     {"./run.sh lint --manuals DIR --lock",
      {.not_run = "the text of the manuals is not ours to ship, and vectors would be locked"}},
     {"fieldproof emulate", {.not_run = "the name of a command, in a sentence"}},
+    {"fieldproof init",
+     {.replaced = "init", .by = "init --yes --endpoint emulator:xbc-h --no-run"}},
+    {"./run.sh init",
+     {.replaced = "init", .by = "init --yes --endpoint emulator:xbc-h --name mine --no-run"}},
     {"cpack --config build/tool/CPackConfig.cmake", {.not_run = "Package makes one"}},
     {"./run.sh ARGUMENTS", {.replaced = "ARGUMENTS", .by = "list"}},
     {"./run.sh explore --endpoint 'exec:./my_plc {tty}' --profile xbc-dxxxh --requests 500 --seed "
@@ -151,7 +155,7 @@ class ReadmeRuns : public testing::Test {
     script("my_plc", "exec " FIELDPROOF_TOOL " emulate xbc-h --pty \"$1\"");
     script("bin/srun",
            "shift\n"
-           "for i in 0 1 2 3; do SLURM_PROCID=$i \"$@\" & all=\"$all $!\"; done\n"
+           "for i in 0 1 2 3; do SLURM_NTASKS=4 SLURM_PROCID=$i \"$@\" & all=\"$all $!\"; done\n"
            "for one in $all; do wait $one || exit; done");
     make_bench_file();
     make_results();

@@ -45,11 +45,9 @@ class BackDoor {
     EXPECT_TRUE(parsed.is_object() && !parsed.contains("error")) << line << answer;
     return parsed;
   }
-  void set(const std::string& address, const std::string& hex) {
-    ask({{"set", {{"address", address}, {"hex", hex}}}});
-  }
+  void set(const std::string& address, const std::string& hex) { ask({{"set", {{address, hex}}}}); }
   std::string get(const std::string& address, std::size_t digits = 0) {
-    return ask({{"get", {{"address", address}, {"digits", digits}}}}).value("value", "");
+    return ask({{"get", {{address, digits}}}})["values"].value(address, "");
   }
 
  private:

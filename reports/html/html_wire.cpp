@@ -1,0 +1,234 @@
+#include "reports/html/html_wire.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace fieldproof::html {
+
+using results::CaseResult;
+using results::Event;
+
+namespace {
+
+constexpr double wire_left = 62, wire_right = 748, wire_width = 760, wire_height = 124;
+constexpr double bench_lane = 26, device_lane = 62, bar = 20, axis = 96;
+constexpr double least_bar = 10, tick_room = 52;
+constexpr std::size_t most_frames = 24;
+constexpr double cut_width = 2;  // a longer silence is drawn as twice as long as all frames
+
+std::string pixels(double value) { return fmt::format("{:.1f}", value); }
+std::string in_ms(Duration time) { return fmt::format("{:.3f}", to_ms(time)); }
+
+bool is_frame(const Event& event) {
+  return event.kind == Event::Kind::sent || event.kind == Event::Kind::received;
+}
+
+bool is_judged(const Event& event, const CaseResult& result) {
+  return event.kind == Event::Kind::received && !event.bytes.empty() &&
+         event.bytes == result.received_bytes && event.extract == result.received_extract;
+}
+
+/// Those up to the judged one and some behind it, where there are too many.
+std::vector<const Event*> shown_frames(const CaseResult& result) {
+  std::vector<const Event*> frames;
+  std::size_t judged = 0;
+  for (const Event& event : result.exchange) {
+    if (!is_frame(event)) continue;
+    if (is_judged(event, result)) judged = frames.size();
+    frames.push_back(&event);
+  }
+  if (frames.size() <= most_frames) return frames;
+  const std::size_t last = std::min(frames.size(), std::max(judged + 3, most_frames));
+  return {frames.begin() + static_cast<std::ptrdiff_t>(last - most_frames),
+          frames.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+/// Where a moment is drawn: to scale, but for silences that would leave no room for frames.
+class Axis {
+ public:
+  Axis(const std::vector<const Event*>& frames, const results::Due& due) {
+    std::set<Time> moments;
+    Duration busy{};
+    for (const Event* frame : frames) {
+      moments.insert({frame->start, frame->end});
+      busy += frame->end - frame->start;
+    }
+    if (!due.empty()) moments.insert({due.from, due.until});
+    for (auto at = moments.begin(); at != moments.end(); ++at)
+      if (std::next(at) != moments.end()) pieces_.push_back({*at, *std::next(at)});
+    lay_out(frames, to_ms(busy));
+  }
+
+  double x(Time moment) const {
+    const auto found = x_.find(moment);
+    return found == x_.end() ? wire_left : found->second;
+  }
+  /// Silences that are drawn shorter than they are.
+  std::vector<double> cuts() const {
+    std::vector<double> middles;
+    for (const Piece& one : pieces_)
+      if (one.cut) middles.push_back((x(one.from) + x(one.to)) / 2);
+    return middles;
+  }
+
+ private:
+  struct Piece {
+    Time from{}, to{};
+    double wide = 0;
+    bool cut = false;
+  };
+
+  void lay_out(const std::vector<const Event*>& frames, double busy) {
+    const double longest = std::max(cut_width * busy, 0.01);
+    double all = 0;
+    for (Piece& one : pieces_) {
+      const double took = to_ms(one.to - one.from);
+      one.cut = took > longest && std::ranges::none_of(frames, [&](const Event* frame) {
+                  return frame->start <= one.from && one.to <= frame->end;
+                });
+      one.wide = one.cut ? longest : took;
+      all += one.wide;
+    }
+    // Each piece keeps some room, so that no label stands on another.
+    const double scale = all > 0 ? (wire_right - wire_left - least_bar * pieces()) / all : 0;
+    double at = wire_left;
+    if (!pieces_.empty()) x_[pieces_.front().from] = at;
+    for (const Piece& one : pieces_) x_[one.to] = at += least_bar + one.wide * std::max(scale, 0.0);
+  }
+  double pieces() const { return static_cast<double>(pieces_.size()); }
+
+  std::vector<Piece> pieces_;
+  std::map<Time, double> x_;
+};
+
+class Wire {
+ public:
+  Wire(HtmlWriter& out, const CaseResult& result)
+      : out_(out), result_(result), frames_(shown_frames(result)), axis_(frames_, result.due) {}
+
+  void write() {
+    if (frames_.empty()) return;
+    out_.element("figure", {{"class", "wire"}}, [&] {
+      const std::string box = fmt::format("0 0 {} {}", wire_width, wire_height);
+      out_.element("svg",
+                   {{"xmlns", "http://www.w3.org/2000/svg"},
+                    {"viewBox", box},
+                    {"role", "img"},
+                    {"aria-label", "the exchange on a time axis"}},
+                   [&] { write_picture(); });
+    });
+  }
+
+ private:
+  void write_picture() {
+    write_due();
+    for (const auto& [name, y] :
+         {std::pair{"bench", bench_lane}, std::pair{"device", device_lane}}) {
+      label("lane", 0, y + 14, name);
+      line("rail", wire_left, y + bar, wire_right, y + bar);
+    }
+    for (const double x : axis_.cuts()) label("cut", x, axis + 4, "\u2248");
+    for (const Event* frame : frames_) write_bar(*frame);
+    write_silences();
+    write_ticks();
+  }
+
+  void write_due() {
+    const results::Due& due = result_.due;
+    if (due.empty()) return;
+    const double from = axis_.x(due.from), until = axis_.x(due.until);
+    out_.empty("rect", {{"class", "due"},
+                        {"x", pixels(from)},
+                        {"y", "16"},
+                        {"width", pixels(until - from)},
+                        {"height", pixels(axis - 16)}});
+    line("limit", until, 16, until, axis);
+    const bool is_late = until > wire_width / 2;
+    out_.element("text",
+                 {{"class", "limit-text"},
+                  {"x", pixels(until)},
+                  {"y", "11"},
+                  {"text-anchor", is_late ? "end" : "start"}},
+                 fmt::format("answer due within {:g} ms", to_ms(due.until - due.from)));
+  }
+
+  void write_bar(const Event& frame) {
+    const bool sent = frame.kind == Event::Kind::sent;
+    const double x = axis_.x(frame.start), wide = std::max(axis_.x(frame.end) - x, 3.0);
+    const char* css = sent                        ? "bar sent"
+                      : is_judged(frame, result_) ? "bar judged"
+                      : frame.surplus             ? "bar surplus"
+                                                  : "bar received";
+    const std::size_t bytes =
+        frame.extract.empty() ? frame.bytes.size() : static_cast<std::size_t>(frame.extract.count);
+    out_.element("rect",
+                 {{"class", css},
+                  {"x", pixels(x)},
+                  {"y", pixels(sent ? bench_lane : device_lane)},
+                  {"width", pixels(wide)},
+                  {"height", pixels(bar)}},
+                 [&] {
+                   out_.element("title", {},
+                                fmt::format("{} bytes, {} to {} ms", bytes,
+                                            in_ms(since(frame.start)), in_ms(since(frame.end))));
+                 });
+  }
+
+  /// Between one frame and the next, above the rail of the one that ends it.
+  void write_silences() {
+    double free_from = 0;
+    for (std::size_t i = 1; i < frames_.size(); ++i) {
+      const Event &before = *frames_[i - 1], &after = *frames_[i];
+      const Duration silence = after.start - before.end;
+      const double middle = (axis_.x(before.end) + axis_.x(after.start)) / 2;
+      if (silence <= 0ns || middle < free_from) continue;
+      const bool same = before.kind == after.kind && after.kind == Event::Kind::received;
+      const bool too_long = same && result_.recording.max_gap > 0ns &&
+                            silence > result_.recording.max_gap && before.step == after.step;
+      label(too_long ? "silence over" : "silence", middle, device_lane - 5, in_ms(silence));
+      free_from = middle + tick_room;
+    }
+  }
+
+  void write_ticks() {
+    line("rail", wire_left, axis, wire_right, axis);
+    std::set<Time> moments;
+    for (const Event* frame : frames_) moments.insert(frame->start);
+    if (!result_.due.empty()) moments.insert(result_.due.until);
+    double free_from = 0;
+    for (const Time moment : moments) {
+      const double x = axis_.x(moment);
+      line("rail", x, axis - 3, x, axis + 3);
+      if (x < free_from) continue;
+      label(x > wire_right - tick_room / 2 ? "tick last" : "tick", x, axis + 16,
+            in_ms(since(moment)));
+      free_from = x + tick_room;
+    }
+    label("unit", wire_right, wire_height - 1, "ms, silences cut at \u2248");
+  }
+
+  Duration since(Time moment) const { return moment - results::shown_from(result_); }
+
+  void label(std::string_view css, double x, double y, std::string_view text) {
+    out_.element("text", {{"class", css}, {"x", pixels(x)}, {"y", pixels(y)}}, text);
+  }
+  void line(std::string_view css, double x1, double y1, double x2, double y2) {
+    out_.empty("path", {{"class", css},
+                        {"d", fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", x1, y1, x2, y2)}});
+  }
+
+  HtmlWriter& out_;
+  const CaseResult& result_;
+  std::vector<const Event*> frames_;
+  Axis axis_;
+};
+
+}  // namespace
+
+void write_wire(HtmlWriter& out, const CaseResult& result) { Wire(out, result).write(); }
+
+}  // namespace fieldproof::html

@@ -1,0 +1,14 @@
+// An exchange drawn on a time axis.
+#pragma once
+
+#include "reports/html/html_writer.hpp"
+#include "reports/results/case_result.hpp"
+
+namespace fieldproof::html {
+
+/// A figure with two lanes, what the bench sent above what the device sent, silences with their
+/// length, and the time within which the answer of the failing step was due. Long silences are cut.
+/// Nothing where no frame went over the line.
+void write_wire(HtmlWriter& out, const results::CaseResult& result);
+
+}  // namespace fieldproof::html

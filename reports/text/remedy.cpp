@@ -1,0 +1,46 @@
+#include "reports/text/remedy.hpp"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "reports/text/failures.hpp"
+
+namespace fieldproof::text {
+namespace {
+
+/// What a reason says, and what would end it; the first that fits. Options stand first: a reason
+/// that names one says what to do.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 19> remedies = {{
+    {"--stimulus",
+     "something that makes the device ask: --stimulus COMMAND, or what is prepared in the device "
+     "and listed in \"prepared_blocks\" of the profile"},
+    {"--power-cycle", "a device fresh from power-on: --power-cycle COMMAND"},
+    {"--allow-motion", "permission to move axes: --allow-motion AXES"},
+    {"allow", "permission to write: --allow-write RANGES"},
+    {"--aux", "another port of the same device: --aux ENDPOINT"},
+    {"--control", "a way to set the device up: --control COMMAND"},
+    {"line = ", "a line with these settings: serial:PORT, or --matrix"},
+    {"no room", "more words to write in: --allow-write RANGES"},
+    {"cannot be moved", "the very addresses of the manual's example: --allow-write RANGES"},
+    {"is about station", "a device set to the station that the case is about"},
+    {"no command reads", "somebody who looks at it in XG5000"},
+    {"read only over the protocol", "another way into memory that the protocol cannot write"},
+    {"cannot do ", "a device whose mode and power the bench can change"},
+    {"the profile declares", "other settings of the device, declared in \"config\" of the profile"},
+    {"needs connections", "a device on a network: tcp:HOST:PORT?udp=PORT"},
+    {"needs datagrams", "a device that takes datagrams: tcp:HOST:PORT?udp=PORT"},
+    {"behind a pty or socket", "a real line, which carries short times: serial:PORT"},
+    {"set-up: ", "a device that takes what sets the case up (see the failures)"},
+    {"not run: ", "a run that goes on to its end"},
+}};
+
+}  // namespace
+
+std::string remedy_of(const std::string& reason) {
+  for (const auto& [says, remedy] : remedies)
+    if (reason.find(says) != std::string::npos) return std::string(remedy);
+  return reason.empty() ? "no reason given" : kind_of(reason);
+}
+
+}  // namespace fieldproof::text
