@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include "reports/text/case_text.hpp"
@@ -81,7 +82,8 @@ std::string red_cases(const text::Failures& failures, const std::string& rest) {
 /// Where no case was judged at all: why.
 std::string why_nothing(const Summary& summary) {
   constexpr std::size_t most = 5;
-  const std::vector<const text::Finding*> reasons = summary.not_judged.all();
+  std::vector<const text::Finding*> reasons = summary.not_judged.all();
+  std::ranges::stable_sort(reasons, std::greater<>{}, &text::Finding::cases);
   std::size_t cases = 0;
   for (const text::Finding* one : reasons) cases += one->cases;
   if (cases == 0 || cases < summary.tally.total()) return "";

@@ -14,6 +14,7 @@
 #include "harness/endpoints/kinds.hpp"
 #include "harness/paths.hpp"
 #include "harness/probe/servers.hpp"
+#include "harness/run/run_report.hpp"
 #include "reports/compare/result_file.hpp"
 #include "reports/text/tally.hpp"
 
@@ -181,12 +182,12 @@ int write_ci_job(const Answers& answers, const std::string& arguments) {
   const endpoints::KindOf& kind = endpoints::kind_of(answers.endpoint);
   const CiJob job = ci_job(answers.ci, arguments, !kind.can_restart && !kind.emulated);
   if (fs::exists(job.file)) {
-    fmt::print("{} is there already; this would be the job:\n{}", job.file, job.text);
+    run::tell(fmt::format("{} is there already; this would be the job:\n{}", job.file, job.text));
     return run::exit_code::ok;
   }
   if (const Status written = write_file(job.file, job.text); !written)
     return run::complain(written.error().message, run::exit_code::trouble);
-  fmt::print("ci       {}\n", job.file);
+  run::tell(fmt::format("ci       {}\n", job.file));
   return run::exit_code::ok;
 }
 
@@ -220,7 +221,8 @@ int init_command(const InitOptions& options, const harness::Protocols& protocols
   const safety::WordReader words = [&](std::string_view text) { return protocols.read_word(text); };
   if (const Status added = add_to_bench(options.bench, *asked, words); !added)
     return wrong(added.error());
-  fmt::print("\nbench    {}: {} is {}\n", options.bench, asked->name, asked->found.endpoint);
+  run::tell(
+      fmt::format("\nbench    {}: {} is {}\n", options.bench, asked->name, asked->found.endpoint));
   std::string arguments = fmt::format("--bench {} --dut {} --role server",
                                       run::shell_word(options.bench), run::shell_word(asked->name));
   int code = run::exit_code::ok;
@@ -231,7 +233,7 @@ int init_command(const InitOptions& options, const harness::Protocols& protocols
     run.role = "server";
     run.out = options.out;
     run.command = "fieldproof run " + arguments;
-    fmt::print("run      {}\n\n", run.command);
+    run::tell(fmt::format("run      {}\n\n", run.command));
     code = run_command(run, protocols);
     const std::optional<int> share =
         judged_share((fs::path(options.out) / "results.ndjson").string());
@@ -240,11 +242,11 @@ int init_command(const InitOptions& options, const harness::Protocols& protocols
   const int written = write_ci_job(*asked, arguments);
   if (endpoints::kind_of(asked->endpoint).can_restart &&
       !endpoints::kind_of(asked->endpoint).emulated)
-    fmt::print(
+    run::tell(fmt::format(
         "more     what the program can be told, it is judged by: {{station}} and other marks in "
         "its "
-        "command, --control (README, \"A program that can be set up\")\n");
-  fmt::print("next     fieldproof run {}\n", arguments);
+        "command, --control (README, \"A program that can be set up\")\n"));
+  run::tell(fmt::format("next     fieldproof run {}\n", arguments));
   return code != run::exit_code::ok ? code : written;
 }
 

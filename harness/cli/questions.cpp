@@ -1,5 +1,7 @@
 #include "harness/cli/questions.hpp"
 
+#include "harness/run/run_report.hpp"
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -14,7 +16,7 @@ Result<std::string> Questions::answer(const Question& question, const std::strin
   if (!ask_)
     return fail(
         fmt::format("cannot ask '{}' without a terminal; give {}", question.text, question.option));
-  for (const std::string& hint : question.hints) fmt::print("  {}\n", hint);
+  for (const std::string& hint : question.hints) run::tell(fmt::format("  {}\n", hint));
   while (true) {
     fmt::print("{} ({}){}: ", question.text, question.option,
                question.usual.empty() ? "" : fmt::format(" [{}]", question.usual));

@@ -31,8 +31,10 @@ int printed(const std::string& text) {
 
 void format_help(CLI::App& app) {
   app.formatter_fn([](const CLI::App* one, const std::string&, CLI::AppFormatMode) {
-    const CLI::App* parent = one->get_parent();
-    return usage::help_text(usage::usage_of(*one, parent ? parent->get_name() : ""), help_width());
+    std::string above;
+    for (const CLI::App* parent = one->get_parent(); parent; parent = parent->get_parent())
+      above.insert(0, parent->get_name() + (above.empty() ? "" : " "));
+    return usage::help_text(usage::usage_of(*one, above), help_width());
   });
 }
 

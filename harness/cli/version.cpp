@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <openssl/crypto.h>
+#include <sqlite3.h>
 #include <CLI/Version.hpp>
 #include <boost/version.hpp>
 #include <nlohmann/json.hpp>
@@ -41,7 +42,7 @@ std::string version_text(const harness::Protocols& protocols) {
   return text::fold(
       fmt::format("fieldproof {} ({})\nvectors     {}\ncompiler    {}\nlibraries   Boost {}, CLI11 "
                   "{}, fmt {}, "
-                  "GoogleTest {}, nlohmann-json {}, OpenSSL {}, pugixml {}",
+                  "GoogleTest {}, nlohmann-json {}, OpenSSL {}, pugixml {}, SQLite {}",
                   FIELDPROOF_VERSION, FIELDPROOF_RELEASED, hash, compiler,
                   dotted(BOOST_VERSION / 100'000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100),
                   CLI11_VERSION,
@@ -50,7 +51,8 @@ std::string version_text(const harness::Protocols& protocols) {
                   dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
                          NLOHMANN_JSON_VERSION_PATCH),
                   openssl_version(),
-                  fmt::format("{}.{}", PUGIXML_VERSION / 1000, PUGIXML_VERSION / 10 % 100)),
+                  fmt::format("{}.{}", PUGIXML_VERSION / 1000, PUGIXML_VERSION / 10 % 100),
+                  sqlite3_libversion()),
       80);
 }
 

@@ -65,10 +65,13 @@ std::string options(const Command& command) {
   return text;
 }
 
+/// Of a command, and of those below it.
 std::string section(const Command& command) {
-  return fmt::format(".SS \"{}\"\n{}", roff(command.synopsis()),
-                     paragraph(command.description + ".")) +
-         options(command);
+  std::string text = fmt::format(".SS \"{}\"\n{}", roff(command.synopsis()),
+                                 paragraph(command.description + ".")) +
+                     options(command);
+  for (const Command& one : command.commands) text += section(one);
+  return text;
 }
 
 std::string upper(std::string text) {

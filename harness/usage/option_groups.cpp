@@ -24,7 +24,8 @@ const std::array<std::pair<const char*, std::vector<const char*>>, 7> groups{{
      {"--strict", "--fail-on", "--qualify", "--min-judged", "--waivers", "--baseline",
       "--skip-absent"}},
     {"When to stop", {"--fail-fast", "--max-failures", "--max-restarts"}},
-    {"Reports", {"--out", "--junit", "--json", "--html", "--capture", "--csv", "--verbose"}},
+    {"Reports",
+     {"--out", "--junit", "--json", "--html", "--capture", "--csv", "--history", "--verbose"}},
 }};
 
 }  // namespace

@@ -45,7 +45,7 @@ void write_unjudged(HtmlWriter& out, const HtmlSurvey& survey, const results::Ga
 
 std::vector<RedCause> red_causes(const HtmlSurvey& survey) {
   std::vector<RedCause> causes;
-  for (const text::Finding* finding : survey.failures.in_order())
+  for (const text::Finding* finding : survey.failures.all())
     if (const auto group = survey.red.find(finding->number); group != survey.red.end())
       causes.push_back({finding, &group->second});
   std::ranges::stable_sort(causes, [](const RedCause& a, const RedCause& b) {

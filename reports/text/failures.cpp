@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <utility>
 
 #include "reports/text/case_text.hpp"
@@ -79,7 +80,7 @@ const Finding& Failures::add(const results::CaseResult& result) {
   return finding;
 }
 
-std::vector<const Finding*> Failures::in_order() const {
+std::vector<const Finding*> Failures::all() const {
   std::vector<const Finding*> all;
   for (const auto& [kind, one] : known_) all.push_back(&one.finding);
   std::ranges::sort(all, std::less<>{}, &Finding::number);
@@ -89,16 +90,8 @@ std::vector<const Finding*> Failures::in_order() const {
 std::vector<const Finding*> Failures::repeated() const {
   std::vector<const Finding*> again = all();
   std::erase_if(again, [](const Finding* one) { return !one->is_again(); });
+  std::ranges::stable_sort(again, std::greater<>{}, &Finding::cases);
   return again;
-}
-
-std::vector<const Finding*> Failures::all() const {
-  std::vector<const Finding*> all;
-  for (const auto& [kind, one] : known_) all.push_back(&one.finding);
-  std::ranges::sort(all, [](const Finding* a, const Finding* b) {
-    return std::pair(b->cases, a->number) < std::pair(a->cases, b->number);
-  });
-  return all;
 }
 
 std::vector<std::string> Failures::single() const {

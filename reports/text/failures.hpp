@@ -39,10 +39,8 @@ class Failures {
   const Finding& add(const results::CaseResult& result);
 
   /// In the order in which they came up.
-  std::vector<const Finding*> in_order() const;
-  /// The greatest first.
   std::vector<const Finding*> all() const;
-  /// Those with more cases than are told in full.
+  /// With more cases than are told in full; the greatest first.
   std::vector<const Finding*> repeated() const;
   /// Labels of all other cases, in their order.
   std::vector<std::string> single() const;
