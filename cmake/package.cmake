@@ -17,6 +17,8 @@ speaks its protocols: XGT Cnet and FEnet, Modbus, LS Bus and others. Runs
 against an emulator, a program, a network device or a serial adapter, and
 reports as JUnit, HTML and JSON. Headers and libraries of the protocols are
 in it, too.")
+# Of the scripts for a farm alone.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3:any")
 # Of the headers alone.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "nlohmann-json3-dev, libfmt-dev")
 find_program(SHLIBDEPS dpkg-shlibdeps)

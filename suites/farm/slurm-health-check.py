@@ -9,7 +9,7 @@ and /etc/slurm/bench-health, where the bench file is not /etc/fieldproof/bench.j
     #!/bin/sh
     exec .../slurm-health-check.py '/shared/benches/{node}.json'
 A node that was drained for another reason is left alone. Exit codes: 0 each device answers or is in use,
-1 one does not, 2 usage.
+1 the node is drained.
 """
 import fcntl
 import json
@@ -27,14 +27,14 @@ os.environ.setdefault("PATH", "/usr/local/bin:/usr/bin:/bin")
 
 def question(device):
     """The arguments of probe. None: what asks by itself, or what each run starts anew, cannot be asked."""
-    endpoint = device["endpoint"]
+    endpoint = device.get("endpoint", "emulator:")
     if endpoint.startswith(("listen:", "exec:", "emulator:", "pty:")):
         return None
     words = [endpoint]
     if "station" in device:
         words += ["--station", str(device["station"])]
     if endpoint.startswith(("serial:", "rfc2217:")):
-        speed, frame = device.get("line", "9600-8N1").split("-")
+        speed, _, frame = device.get("line", "9600-8N1").partition("-")
         if "line" in device or "baud=" not in endpoint:
             words += ["--speed", speed]
         if "line" in device or "frame=" not in endpoint:
@@ -48,6 +48,8 @@ def probe(words):
         asked = subprocess.run([TOOL, "probe", *words], capture_output=True, text=True, timeout=PATIENCE_S)
     except subprocess.TimeoutExpired:
         return f"no answer in {PATIENCE_S} s"
+    except OSError as error:
+        return f"cannot start {TOOL} ({error.strerror})"
     if asked.returncode == 0:
         return ""
     if asked.returncode != 1:
@@ -102,17 +104,20 @@ def tell_slurm(node, wrong):
         slurm("scontrol", "update", "NodeName=" + node, "State=RESUME")
 
 
+def check_bench(bench):
+    """What is wrong, or nothing."""
+    try:
+        devices = dict(json.loads(bench.read_text())["devices"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        return f"cannot read the bench file {bench}: {error!r}"
+    with ThreadPoolExecutor(max(1, len(devices))) as pool:
+        return "; ".join(filter(None, pool.map(lambda name: check(bench, name, devices[name]), devices)))
+
+
 def main(words):
     node = os.environ.get("SLURMD_NODENAME", os.uname().nodename)
-    bench = Path((words or ["/etc/fieldproof/bench.json"])[0].replace("{node}", node))
-    try:
-        devices = json.loads(bench.read_text())["devices"]
-    except (OSError, ValueError, KeyError) as error:
-        print(f"slurm-health-check: cannot read the bench file {bench}: {error}", file=sys.stderr)
-        return 2
-    with ThreadPoolExecutor(max(1, len(devices))) as pool:
-        found = pool.map(lambda name: check(bench, name, devices[name]), devices)
-        wrong = "; ".join(filter(None, found))
+    bench = (words or ["/etc/fieldproof/bench.json"])[0].replace("{node}", node)
+    wrong = check_bench(Path(bench))
     tell_slurm(node, wrong)
     print(wrong or f"{node}: all devices answer or are in use")
     return 1 if wrong else 0

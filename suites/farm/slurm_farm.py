@@ -16,6 +16,7 @@ import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+ARRAY_SCRIPT = HERE / "fieldproof-array.sbatch"
 PR_SET_CHILD_SUBREAPER = 36
 PATIENCE_S = 60
 NODES = ["n1", "n2", "n3"]
@@ -160,6 +161,15 @@ exec {sys.executable} {HERE}/slurm-health-check.py '{self.folder}/{{node}}.json'
                     send(kill, left)
                 time.sleep(0.05)
             reap()
+        self.remove_port_locks()
+
+    def remove_port_locks(self):
+        """Of runs that were killed: a file with several names, one of which has our folder's."""
+        ours = {lock.stat().st_ino for lock in Path("/var/lock").glob(f"LCK..*{self.folder.name}*")}
+        for lock in Path("/var/lock").glob("LCK..*"):
+            with contextlib.suppress(FileNotFoundError):  # others come and go
+                if lock.stat().st_ino in ours:
+                    lock.unlink()
 
     # ---- what Slurm and the tool say
 
@@ -177,7 +187,7 @@ exec {sys.executable} {HERE}/slurm-health-check.py '{self.folder}/{{node}}.json'
         """The id of the job; its tasks write OUT-N.log."""
         submitted = self.run("sbatch", "--parsable", "--no-requeue", f"--array={tasks}", f"--gres=plc:{kind}:1",
                              "-C", "xbl-c41a", f"--output={self.folder}/{out}-%a.log", *options,
-                             HERE / "fieldproof-array.sbatch", self.folder / "{node}.json", out, *cases,
+                             ARRAY_SCRIPT, self.folder / "{node}.json", out, *cases,
                              FIELDPROOF_WAIT=str(wait_s))
         if submitted.returncode:
             raise AssertionError("sbatch: " + submitted.stderr)
@@ -239,7 +249,8 @@ exec {sys.executable} {HERE}/slurm-health-check.py '{self.folder}/{{node}}.json'
         self.daemons.pop(f"slurmd-{node}").wait()
         jobs = self.processes_of(node)
         managers = {parent for pid in jobs if b"slurmstepd" in read_process(parent := parent_of(pid), "cmdline")}
-        send(signal.SIGKILL, managers | set(jobs))
+        for pids in managers, jobs:  # in this order: nobody is left to tell the controller
+            send(signal.SIGKILL, pids)
 
 
 def adopt_orphans():

@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from slurm_farm import FEW, PATH, SLURM, Farm, adopt_orphans, until  # noqa: E402
+from slurm_farm import ARRAY_SCRIPT, FEW, PATH, SLURM, Farm, adopt_orphans, until  # noqa: E402
 
 SKIPPED = 77
 CASES = ["--filter", "xgt_cnet/*:-xgt_cnet/timing/*:-xgt_cnet/line/*", "--role", "server"]
@@ -72,6 +72,17 @@ def the_device_of_the_dead_node_is_put_back_first(farm):
     return f"{left} value(s)"
 
 
+def a_cancelled_task_puts_back(farm):
+    job = farm.submit("cancelled", "0", "--nodelist=n1", cases=CASES)
+    farm.stop_in_a_write("n1")
+    left = len(farm.open_entries("n1"))
+    farm.run("scancel", job)
+    expect("a cancelled task", farm.ends(job)["0"].split()[0], "CANCELLED")
+    until("the task to leave", lambda: not farm.processes_of("n1"))
+    expect("what it left: " + farm.log("cancelled", 0), farm.open_entries("n1"), set())
+    return f"{left} value(s)"
+
+
 def the_first_free_device_is_taken(farm):
     journals = farm.folder / "n1.journals"
     with open(journals / "program-1.lock", "w") as first, open(journals / "program-2.lock", "w") as second:
@@ -86,17 +97,21 @@ def the_first_free_device_is_taken(farm):
     return "program-2 while program-1 is locked, exit 3 while both are"
 
 
-def a_port_in_foreign_use_is_refused(farm):
-    farm.start("foreign", farm.tool, "run", "--bench", f"{farm.folder}/n1.json", "--dut", "xbc", "--out", "foreign",
-               "--duration", "1h", *FEW)
-    until("a run without Slurm", lambda: (farm.folder / "foreign/results.ndjson").exists())
-    job = farm.submit("foreign-busy", "0", "--nodelist=n1", wait_s=0)
-    expect("the port is in use", farm.ends(job), {"0": "FAILED 3"})
-    expect_in("the port is in use", farm.log("foreign-busy", 0), "the port is in use by process")
+def a_port_in_foreign_use_is_passed_over(farm):
+    """At a desk, without Slurm: the array script then takes any device."""
+    with open(farm.folder / "n1.journals/xbc.lock") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # the health check keeps off while the foreign run opens the port
+        farm.start("foreign", farm.tool, "run", "--bench", f"{farm.folder}/n1.json", "--dut", "xbc", "--out",
+                   "foreign", "--duration", "1h", *FEW)
+        until("a run without Slurm", lambda: (farm.folder / "foreign/results.ndjson").exists())
+    shutil.copy(farm.folder / "n1.json", farm.folder / "desk.json")
+    found = farm.run(ARRAY_SCRIPT, "desk.json", "desk", *FEW)
+    expect("the run on another device: " + found.stderr, found.returncode, 0)
+    expect_in("the port is in use", found.stderr, "plc-n1: the port is in use by process")
+    expect_in("another one is taken", found.stderr, "fieldproof-array: program-1 of")
     farm.daemons["foreign"].send_signal(signal.SIGINT)
-    farm.daemons["foreign"].wait()
-    expect("the port is free", farm.ends(farm.submit("free", "0", "--nodelist=n1")), {"0": "COMPLETED 0"})
-    return "exit 3, and 0 when it is free"
+    expect("the foreign run", farm.daemons["foreign"].wait(), 130)
+    return "program-1 instead"
 
 
 def a_new_run_wants_a_new_folder(farm):
@@ -106,17 +121,16 @@ def a_new_run_wants_a_new_folder(farm):
 
 
 def a_bench_that_does_not_answer_is_drained(farm):
-    farm.daemons["plc-n3"].kill()
-    farm.daemons["plc-n3"].wait()
-    drained = farm.wait_for_state("n3", "drained fieldproof: xbc: ")
-    farm.start_plc("n3")
+    farm.daemons["plc-n3"].send_signal(signal.SIGSTOP)
+    drained = farm.wait_for_state("n3", "drained fieldproof: xbc: silence ")
+    farm.daemons["plc-n3"].send_signal(signal.SIGCONT)
     farm.wait_for_state("n3", "idle none")
     return drained
 
 
 CHECKS = [a_killed_shard_is_missed_and_run_again, the_device_of_the_dead_node_is_put_back_first,
-          the_first_free_device_is_taken, a_port_in_foreign_use_is_refused, a_new_run_wants_a_new_folder,
-          a_bench_that_does_not_answer_is_drained]
+          a_cancelled_task_puts_back, the_first_free_device_is_taken, a_port_in_foreign_use_is_passed_over,
+          a_new_run_wants_a_new_folder, a_bench_that_does_not_answer_is_drained]
 
 
 def run_checks(farm):
