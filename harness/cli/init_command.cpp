@@ -40,7 +40,7 @@ std::vector<std::string> ports_here() {
   for (const auto& one : fs::directory_iterator("/dev/serial/by-id", none))
     ports.push_back("serial:" + one.path().string());
   std::ranges::sort(ports);
-  ports.insert(ports.end(), {"tcp:192.168.1.10", "exec:./my_plc {tty}", "emulator:xbc-h"});
+  ports.insert(ports.end(), {"tcp:192.168.1.10", "exec:./my_plc {tty}", "emulator:"});
   return ports;
 }
 

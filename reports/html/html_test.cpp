@@ -211,9 +211,9 @@ TEST_F(Html, BlockedIsGroupedByWhatWouldUnblock) {
   EXPECT_THAT(page.texts("//table[@class='list unjudged'][1]//td[1]"), ElementsAre("2", "1"));
   EXPECT_THAT(
       page.texts("//table[@class='list unjudged'][1]//summary"),
-      ElementsAre("other settings of the device: marks in the command of exec:, --control, or "
-                  "\"config\" of the profile",
-                  "a device fresh from power-on: --power-cycle COMMAND"));
+      ElementsAre(
+          "other settings: marks in the command of exec:, --control, \"config\" of the profile",
+          "a device fresh from power-on: --power-cycle COMMAND"));
   EXPECT_THAT(page.texts("//table[@class='list unjudged'][1]//tr[1]//p"),
               ElementsAre("1 \u00D7 needs delay_ms = 50; the profile declares 0a/1",
                           "1 \u00D7 needs neighbours = 2; the profile declares nothinga/2"));
@@ -308,10 +308,10 @@ TEST_F(Html, TheSheetHasALineAReasonAndNoListOfOtherModels) {
   const std::string sheet = "//section[@class='sheet']";
   EXPECT_THAT(
       page.texts(sheet + "//table[@class='list one-line']//td"),
-      ElementsAre("BLOCKED", "60",
-                  "a device set to the station that the case is about: {station} in the command of "
-                  "exec:, or --control",
-                  "SKIP", "60", "other models and protocols: outside the profile of the device"));
+      ElementsAre(
+          "BLOCKED", "60",
+          "the station that the case is about: {station} in the command of exec:, --control",
+          "SKIP", "60", "other models and protocols: outside the profile of the device"));
   EXPECT_THAT(page.texts(sheet + "//table[@class='list']//tbody/tr[1]/td"),
               ElementsAre("60", "BCC: expected \u2026, got \u2026", "a/f0"));
 }

@@ -35,6 +35,16 @@ Shard of_job_array() {
       .value_or(Shard{});
 }
 
+/// --array=1,3,7: which of them a task is, nobody says.
+bool has_gaps() {
+  const int count = variable("SLURM_ARRAY_TASK_COUNT").value_or(1);
+  const int step = std::max(1, variable("SLURM_ARRAY_TASK_STEP").value_or(1));
+  const std::optional<int> first = variable("SLURM_ARRAY_TASK_MIN");
+  const std::optional<int> last = variable("SLURM_ARRAY_TASK_MAX");
+  return variable("SLURM_ARRAY_TASK_ID") && first && last && count > 1 &&
+         (*last - *first) / step + 1 != count;
+}
+
 Shard of_tasks() {
   const std::optional<int> step = variable("SLURM_STEP_NUM_TASKS");
   return sound(variable("SLURM_PROCID"), step ? step : variable("SLURM_NTASKS")).value_or(Shard{});
@@ -64,6 +74,10 @@ void hand_to_googletest(const Shard& shard) {
 Status check_shard_environment() {
   const char* index = std::getenv("GTEST_SHARD_INDEX");
   const char* total = std::getenv("GTEST_TOTAL_SHARDS");
+  if (!index && !total && has_gaps())
+    return fail(
+        "the job array has gaps (--array=1,3,7), so which shard a task is cannot be told; give it "
+        "one step (--array=0-2), or set GTEST_SHARD_INDEX and GTEST_TOTAL_SHARDS");
   if ((!index && !total) || shard_of_environment()) return ok();
   return fail(
       fmt::format("GTEST_SHARD_INDEX={} of GTEST_TOTAL_SHARDS={} is no shard; set both, the index "

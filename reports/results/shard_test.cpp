@@ -18,22 +18,31 @@ TEST(Shard, IsCountedFromOneInText) {
 
 using Environment = std::map<std::string, std::string>;
 
-/// The shard that these variables alone make.
-std::optional<Shard> shard_of(const Environment& variables) {
-  const std::string names[] = {
-      "GTEST_TOTAL_SHARDS",     "GTEST_SHARD_INDEX",    "SLURM_ARRAY_TASK_ID",
-      "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_STEP",
-      "SLURM_PROCID",           "SLURM_NTASKS",         "SLURM_STEP_NUM_TASKS"};
+/// Calls `read` where these variables alone are set.
+template <typename Read>
+auto with(const Environment& variables, const Read& read) {
+  const std::string names[] = {"GTEST_TOTAL_SHARDS",   "GTEST_SHARD_INDEX",
+                               "SLURM_ARRAY_TASK_ID",  "SLURM_ARRAY_TASK_COUNT",
+                               "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_STEP",
+                               "SLURM_ARRAY_TASK_MAX", "SLURM_PROCID",
+                               "SLURM_NTASKS",         "SLURM_STEP_NUM_TASKS"};
   Environment before;
   for (const std::string& name : names) {
     if (const char* value = std::getenv(name.c_str())) before[name] = value;
     ::unsetenv(name.c_str());
   }
   for (const auto& [name, value] : variables) ::setenv(name.c_str(), value.c_str(), 1);
-  const std::optional<Shard> shard = shard_of_environment();
+  const auto result = read();
   for (const std::string& name : names) ::unsetenv(name.c_str());
   for (const auto& [name, value] : before) ::setenv(name.c_str(), value.c_str(), 1);
-  return shard;
+  return result;
+}
+
+std::optional<Shard> shard_of(const Environment& variables) {
+  return with(variables, shard_of_environment);
+}
+bool sound_environment(const Environment& variables) {
+  return with(variables, [] { return bool(check_shard_environment()); });
 }
 
 TEST(Shard, OfAJobArray) {
@@ -43,6 +52,18 @@ TEST(Shard, OfAJobArray) {
   EXPECT_EQ(shard_of(third), (Shard{2, 4}));
   EXPECT_EQ(shard_of({{"SLURM_ARRAY_TASK_ID", "0"}, {"SLURM_ARRAY_TASK_COUNT", "1"}}),
             std::nullopt);
+}
+
+TEST(Shard, OfAnArrayWithGapsCannotBeTold) {
+  const Environment gaps{{"SLURM_ARRAY_TASK_ID", "7"},
+                         {"SLURM_ARRAY_TASK_COUNT", "3"},
+                         {"SLURM_ARRAY_TASK_MIN", "1"},
+                         {"SLURM_ARRAY_TASK_MAX", "7"},
+                         {"SLURM_ARRAY_TASK_STEP", "1"}};
+  EXPECT_FALSE(sound_environment(gaps));
+  Environment whole = gaps;
+  whole["SLURM_ARRAY_TASK_COUNT"] = "7";
+  EXPECT_TRUE(sound_environment(whole));
 }
 
 TEST(Shard, OfTheTasksOfAStep) {

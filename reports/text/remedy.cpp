@@ -23,15 +23,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 21> remedies
     {"no room", "more words to write in: --allow-write RANGES"},
     {"cannot be moved", "the very addresses of the manual's example: --allow-write RANGES"},
     {"is about station",
-     "a device set to the station that the case is about: {station} in the command of exec:, or "
-     "--control"},
+     "the station that the case is about: {station} in the command of exec:, --control"},
     {"no command reads", "somebody who looks at it in XG5000"},
     {"read only over the protocol", "a way into memory that the protocol cannot write: --control"},
     {"read only with the bases", "a way into memory that the protocol cannot write: --control"},
     {"cannot do ", "a device whose mode and power the bench can change: --control"},
     {"the profile declares",
-     "other settings of the device: marks in the command of exec:, --control, or \"config\" of the "
-     "profile"},
+     "other settings: marks in the command of exec:, --control, \"config\" of the profile"},
     {"needs connections", "a device on a network: tcp:HOST:PORT?udp=PORT"},
     {"needs datagrams", "a device that takes datagrams: tcp:HOST:PORT?udp=PORT"},
     {"behind a pty or socket", "a real line, which carries short times: serial:PORT"},

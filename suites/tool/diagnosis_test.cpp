@@ -25,7 +25,7 @@ std::string device(const std::string& behaviour, const std::string& arguments = 
 /// The emulator as a program, over a line that echoes.
 std::string echoing(const std::string& emulated) {
   return "exec:/usr/bin/python3 " + std::string(testdata) + "echoing_line.py {tty} \"" +
-         FIELDPROOF_TOOL + " emulate '" + emulated + "' --pty {line}\"";
+         FIELDPROOF_TOOL + " emulate '" + emulated + "' --pty {device}\"";
 }
 
 std::string emulated(const std::string& name) {

@@ -121,7 +121,7 @@ TEST_F(HostileRuns, TheSameFailureIsToldOnce) {
   EXPECT_THAT(finished.out, HasSubstr(" (first: xgt_cnet/"));
   EXPECT_THAT(read_text(out_ + "/junit.xml"), AllOf(HasSubstr("<property name=\"finding 2\""),
                                                     HasSubstr("finding 2, as xgt_cnet/")));
-  EXPECT_THAT(read_text(out_ + "/report.html"), HasSubstr("class=\"list findings\""));
+  EXPECT_THAT(read_text(out_ + "/report.html"), HasSubstr("<section class=\"cause\">"));
 }
 
 }  // namespace

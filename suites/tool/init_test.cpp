@@ -91,7 +91,7 @@ TEST(Init, WhatNoOneAnswersIsNamed) {
 TEST(Init, WhereNothingAnswersNothingIsWritten) {
   const TestFolder folder;
   const Finished finished =
-      init(folder, {"--endpoint", "exec:sleep 100 # {tty}", "--protocol", "ls-bus"});
+      init(folder, {"--endpoint", "exec:sleep 100 # {tty}?station=1", "--protocol", "ls-bus"});
   EXPECT_EQ(finished.code, 3) << finished.out;
   EXPECT_THAT(finished.err, HasSubstr("nothing was written"));
   EXPECT_FALSE(std::filesystem::exists(folder / "bench.json"));

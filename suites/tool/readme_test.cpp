@@ -60,6 +60,10 @@ const std::map<std::string, Special> specials{
     {"./run.sh lint --manuals DIR --lock",
      {.not_run = "the text of the manuals is not ours to ship, and vectors would be locked"}},
     {"fieldproof emulate", {.not_run = "the name of a command, in a sentence"}},
+    {"sbatch --array=0-3 --gres=plc:xbc:1 -C xbl-c41a "
+     "/usr/share/fieldproof/farm/fieldproof-array.sbatch '/shared/benches/{node}.json' OUT --role "
+     "server",
+     {.not_run = "it wants a farm; suites/farm/slurm_test.py makes one"}},
     {"fieldproof init",
      {.replaced = "init", .by = "init --yes --endpoint emulator:xbc-h --no-run"}},
     {"./run.sh init",

@@ -33,16 +33,16 @@ class Generator {
   Generator(int runs, int cases, int devices) : runs_(runs), devices_(devices) {
     for (int i = 0; i < cases; ++i) {
       compare::CaseSummary& one =
-          run_.cases[fmt::format("xgt_cnet/topic_{:02}/case_{:05}", i % topics, i)];
+          run_.cases[fmt::format("protocol/topic_{:02}/case_{:05}", i % topics, i)];
       one.title = fmt::format("Case {}", i);
-      one.manual = "xgb-cnet-en-1.6";
+      one.manual = "manual";
       one.section = fmt::format("7.{}.{}", i % topics / 10 + 1, i % 10 + 1);
       one.rev = one.repetitions = one.with_verdict = 1;
     }
     run_.run.tool_version = "0.1.0";
     run_.run.vectors_hash = "a9139e5e0165ddf7";
-    run_.run.profile = "xbc-dxxxh";
-    run_.run.properties = {{"gate", "default"}, {"protocol", "xgt-cnet"}, {"station", "1"}};
+    run_.run.profile = "profile";
+    run_.run.properties = {{"gate", "default"}, {"protocol", "protocol"}, {"station", "1"}};
   }
 
   /// Times that scatter, some cases skipped, a few that fail now and then with a time in the text.
@@ -50,7 +50,7 @@ class Generator {
     const int device = count_ % devices_, version = count_ * versions / runs_;
     run_.run.identity = {fmt::format("plc{}", device),
                          "LS ELECTRIC",
-                         "XBL-C41A",
+                         "C41A",
                          fmt::format("2219-{:05}", device),
                          fmt::format("V1.{}", version),
                          "",

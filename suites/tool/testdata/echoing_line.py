@@ -1,4 +1,4 @@
-"""A two-wire line that the bench hears itself on: echoing_line.py TTY COMMAND, {line} in COMMAND is the device's end.
+"""A two-wire line that the bench hears itself on: echoing_line.py TTY COMMAND, {device} in COMMAND is the device's end.
 
 Each byte from TTY comes back at once, and goes to the device; what the device sends goes to TTY.
 """
@@ -17,7 +17,7 @@ def main():
     for port in (bench, line, slave):
         tty.setraw(port, 0)  # TCSANOW: what waits already is kept
     libc = ctypes.CDLL(None)
-    subprocess.Popen(sys.argv[2].replace("{line}", os.ttyname(slave)), shell=True, stdout=subprocess.DEVNULL,
+    subprocess.Popen(sys.argv[2].replace("{device}", os.ttyname(slave)), shell=True, stdout=subprocess.DEVNULL,
                      preexec_fn=lambda: libc.prctl(1, signal.SIGKILL))  # PR_SET_PDEATHSIG: it ends with us
     while True:
         for port in select.select([bench, line], [], [])[0]:
