@@ -10,8 +10,8 @@
 namespace fieldproof::tool_tests {
 namespace {
 
-constexpr std::array<std::string_view, 7> programs{"./run.sh", "./test.sh", "fieldproof", "cpack",
-                                                   "cmake",    "socat",     "srun"};
+constexpr std::array<std::string_view, 8> programs{"./run.sh", "./test.sh", "fieldproof", "cpack",
+                                                   "cmake",    "socat",     "srun",       "sbatch"};
 
 bool is_command(std::string_view text) {
   const std::string_view program = text.substr(0, text.find(' '));
