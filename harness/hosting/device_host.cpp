@@ -98,10 +98,12 @@ Status DeviceHost::begin(const json& config) {
   if (const Status listens = check_listens(*party, model); !listens) return listens;
   if (bus_ && !(*device)->bus_end())
     return fail(fmt::format("cannot emulate {}: it has no fieldbus; leave --bus out", model));
+  // Who has connected since the port is open talks to the first device.
+  const bool of_another = device_ || options_.port == 0;
   party_ = std::move(party);
   device_ = std::move(*device);
   if (bus_) bus_->begin(*device_->bus_end());
-  port_.flush();
+  if (of_another) port_.flush();
   return ok();
 }
 
