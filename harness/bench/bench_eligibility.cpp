@@ -14,6 +14,7 @@
 
 namespace fieldproof::bench {
 
+using endpoints::plain;
 using exchange::PreparedCase;
 using harness::Protocol;
 using nlohmann::json;

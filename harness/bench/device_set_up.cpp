@@ -8,6 +8,8 @@ namespace fieldproof::bench {
 using nlohmann::json;
 using vectors::Case;
 
+using endpoints::plain;
+
 namespace {
 
 /// Not what a device under test is given: both ends of a line have them, they want a second line,
@@ -23,10 +25,6 @@ std::string model_for(const Case& source, const harness::Protocol& protocol) {
 }
 
 }  // namespace
-
-std::string plain(const json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
 
 const json& default_config() {
   static const json config{{"role", "server"},

@@ -6,14 +6,12 @@
 #include <string>
 
 #include "harness/bench/profile.hpp"
+#include "harness/endpoints/command_marks.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/protocol.hpp"
 #include "harness/vectors/case.hpp"
 
 namespace fieldproof::bench {
-
-/// A value of a configuration as text: 10 and "10" are the same.
-std::string plain(const nlohmann::json& value);
 
 /// What a device has that declares nothing.
 const nlohmann::json& default_config();

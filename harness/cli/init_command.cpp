@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 #include "harness/bench/bench_file.hpp"
@@ -16,6 +15,8 @@
 #include "harness/probe/servers.hpp"
 #include "harness/run/run_report.hpp"
 #include "reports/compare/result_file.hpp"
+#include "reports/results/whole_file.hpp"
+#include "reports/text/report_file.hpp"
 #include "reports/text/tally.hpp"
 
 namespace fieldproof::cli {
@@ -134,18 +135,14 @@ ordered_json device_of(const Answers& answers) {
   return device;
 }
 
-Result<std::string> text_of(const std::string& path) {
-  std::ifstream in(path);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
 Status write_file(const std::string& path, const std::string& text) {
   std::error_code none;
   if (const fs::path folder = fs::path(path).parent_path(); !folder.empty())
-    fs::create_directories(folder, none);
-  std::ofstream out(path);
-  out << text;
-  return out.flush() ? ok() : Status(fail("cannot write " + path));
+    fs::create_directories(folder, none);  // opening tells what failed
+  Result<text::ReportFile> file = text::ReportFile::create(path);
+  if (!file) return file.error();
+  file->out() << text;
+  return file->commit();
 }
 
 /// Adds the device to the bench file, which may be there already.
@@ -159,7 +156,9 @@ Status add_to_bench(const std::string& path, const Answers& answers,
       return fail(
           fmt::format("{} has a device '{}' already; give another --name, or another --bench", path,
                       answers.name));
-    bench = ordered_json::parse(*text_of(path));
+    const Result<std::string> text = results::read_whole_file(path, "bench file");
+    if (!text) return text.error();
+    bench = ordered_json::parse(*text);
   }
   bench["devices"][answers.name] = device_of(answers);
   const std::string text = bench.dump(2) + "\n";

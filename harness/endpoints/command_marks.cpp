@@ -74,21 +74,26 @@ void for_each_word(const std::string& text, const Each& each) {
   }
 }
 
-std::string plain(const json& value) {
-  if (value.is_null()) return {};
-  return value.is_string() ? value.get<std::string>() : value.dump();
+/// Empty where there is none.
+std::string value_text(const json& config, const std::string& key) {
+  const json value = config.value(key, json());
+  return value.is_null() ? "" : plain(value);
 }
 
 std::string value_of(const std::string& word, const json& config) {
   if (word == "config") return config.dump();
-  if (word != "bases") return plain(config.value(word, json()));
+  if (word != "bases") return value_text(config, word);
   std::vector<std::string> bases;
   for (const std::string_view key : base_keys)
-    bases.push_back(plain(config.value(std::string(key), json())));
+    bases.push_back(value_text(config, std::string(key)));
   return fmt::format("{}", fmt::join(bases, ","));
 }
 
 }  // namespace
+
+std::string plain(const json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
 
 Status CommandMarks::check(std::string_view command) {
   std::vector<std::string_view> known(config_keys.begin(), config_keys.end());

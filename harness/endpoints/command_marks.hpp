@@ -9,6 +9,9 @@
 
 namespace fieldproof::endpoints {
 
+/// A value of a configuration as text: 10 and "10" are the same.
+std::string plain(const nlohmann::json& value);
+
 /// A command with marks. A mark is a key of `given.config` (vectors/README.md), `model`,
 /// `protocol`, `bases` (the four of Modbus: bit read, bit write, word read, word write) or `config`
 /// (all of it, as JSON) in braces. `${station}` is the shell's.

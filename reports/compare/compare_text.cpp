@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/text/fold.hpp"
 #include "reports/text/xml_text.hpp"
 
 namespace fieldproof::compare {
@@ -65,19 +66,6 @@ std::string changes_text(const Comparison& comparison, const CompareTextOptions&
   return text;
 }
 
-std::string wrapped(const std::string& text, std::size_t width) {
-  std::string lines;
-  std::size_t column = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    if (column > 0 && column + 1 + end - at > width) column = 0, lines += '\n';
-    lines += (column == 0 ? "  " : " ") + text.substr(at, end - at);
-    column += end - at + (column == 0 ? 2 : 1);
-    at = end + 1;
-  }
-  return lines + '\n';
-}
-
 std::string times_text(const Comparison& comparison, const CompareTextOptions& options) {
   const TimingTest& timing = comparison.timing;
   if (timing.tested + timing.too_few == 0) return "";
@@ -90,7 +78,7 @@ std::string times_text(const Comparison& comparison, const CompareTextOptions& o
   if (text.empty())
     text = timing.tested > 0 ? "\nreply times: no shift that is more than chance\n"
                              : "\nreply times: not tested\n";
-  return text + wrapped(describe(timing), 110);
+  return text + text::paragraph(describe(timing), 110);
 }
 
 std::string matrix_text(const ComparisonSet& set, const CompareTextOptions& options) {

@@ -116,22 +116,16 @@ void write_trend_plot(HtmlWriter& out, const Trend& trend, const Series& series)
   const std::vector<std::pair<double, double>> points = points_of(series);
   const double greatest = std::ranges::max(points | std::views::values);
   const Frame frame{trend.runs.size(), round_up(greatest * 1.05)};
-  const std::string box = fmt::format("0 0 {} {}", plot_width, plot_height);
   const char* unit = series.is_time ? "ms, median of a run" : "results of a run";
   const std::string what =
       series.change ? fmt::format("{}: {}", series.name, shift_of(series)) : series.name;
   out.element("figure", {{"class", "trace"}}, [&] {
-    out.element("svg",
-                {{"xmlns", "http://www.w3.org/2000/svg"},
-                 {"viewBox", box},
-                 {"role", "img"},
-                 {"aria-label", what}},
-                [&] {
-                  write_scale(out, frame, trend);
-                  write_versions(out, frame, trend);
-                  write_curve(out, frame, points);
-                  write_change(out, frame, series);
-                });
+    out.picture(fmt::format("{} {}", plot_width, plot_height), what, [&] {
+      write_scale(out, frame, trend);
+      write_versions(out, frame, trend);
+      write_curve(out, frame, points);
+      write_change(out, frame, series);
+    });
     out.element("figcaption", {}, [&] {
       out.element("b", {{"class", "a0"}}, series.name);
       out.text(unit);

@@ -8,6 +8,7 @@
 #include "reports/compare/compare_statistics.hpp"
 #include "reports/history/counts_json.hpp"
 #include "reports/history/table.hpp"
+#include "reports/text/fold.hpp"
 
 namespace fieldproof::history {
 
@@ -88,21 +89,6 @@ std::string changes_text(const Trend& trend) {
   return text;
 }
 
-/// Lines of a paragraph.
-std::string wrapped_text(const std::string& text) {
-  constexpr std::size_t width = 108;
-  std::string lines;
-  std::size_t column = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    if (column > 0 && column + 1 + end - at > width) column = 0, lines += '\n';
-    lines += (column == 0 ? "  " : " ") + text.substr(at, end - at);
-    column += 1 + end - at;
-    at = end + 1;
-  }
-  return lines + '\n';
-}
-
 }  // namespace
 
 std::string direction_of(const Series& series) {
@@ -154,7 +140,7 @@ std::string trend_text(const Trend& trend) {
   const std::string changes = changes_text(trend);
   text +=
       changes.empty() ? "\nno change in reply times or counts that is more than chance\n" : changes;
-  text += wrapped_text(tested_text(trend));
+  text += text::paragraph(tested_text(trend), 109);
   text += table_text("from run to run", steps_table(trend));
   text += table_text("flaky: same device, firmware and vectors, and yet other verdicts",
                      flaky_table(trend), console_cases, "; --json has all");

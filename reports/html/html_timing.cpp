@@ -77,46 +77,30 @@ void decades(HtmlWriter& out, const Scale& scale) {
 void write_plot(HtmlWriter& out, const ResponseTimes& times, const Scale& scale, double limit_ms) {
   const std::string what = fmt::format("{:.3f} to {:.3f} ms, median {:.3f} ms", times.least(),
                                        times.greatest(), times.median());
-  const std::string box = fmt::format("0 0 {} {}", width, height);
-  out.element("svg",
-              {{"xmlns", "http://www.w3.org/2000/svg"},
-               {"viewBox", box},
-               {"role", "img"},
-               {"aria-label", what}},
-              [&] {
-                decades(out, scale);
-                out.empty("path", {{"class", "bars"}, {"d", histogram(times, scale)}});
-                const double low = scale.x(times.percentile(0.25)),
-                             high = scale.x(times.percentile(0.75));
-                out.empty("path", {{"class", "box"},
-                                   {"d", fmt::format("M{:.1f} {}H{:.1f}", low, base + 3,
-                                                     std::max(high, low + 1))}});
-                line(out, "median", scale.x(times.median()), base, height);
-                if (limit_ms > 0) line(out, "limit", scale.x(limit_ms), 0, height);
-              });
+  out.picture(fmt::format("{} {}", width, height), what, [&] {
+    decades(out, scale);
+    out.empty("path", {{"class", "bars"}, {"d", histogram(times, scale)}});
+    const double low = scale.x(times.percentile(0.25)), high = scale.x(times.percentile(0.75));
+    out.empty("path",
+              {{"class", "box"},
+               {"d", fmt::format("M{:.1f} {}H{:.1f}", low, base + 3, std::max(high, low + 1))}});
+    line(out, "median", scale.x(times.median()), base, height);
+    if (limit_ms > 0) line(out, "limit", scale.x(limit_ms), 0, height);
+  });
 }
 
 void write_axis(HtmlWriter& out, const Scale& scale) {
-  const std::string box = fmt::format("0 0 {} 14", width);
-  out.element(
-      "svg",
-      {{"xmlns", "http://www.w3.org/2000/svg"},
-       {"viewBox", box},
-       {"role", "img"},
-       {"aria-label", "milliseconds"}},
-      [&] {
-        for (int power = scale.first; power <= scale.last; ++power) {
-          const char* anchor = power == scale.first  ? "start"
-                               : power == scale.last ? "end"
-                                                     : "middle";
-          const double x = power == scale.first  ? 0
-                           : power == scale.last ? width
-                                                 : scale.x(std::pow(10, power));
-          const std::string label =
-              fmt::format("{:g}{}", std::pow(10, power), power == scale.last ? " ms" : "");
-          out.element("text", {{"x", number(x)}, {"y", "11"}, {"text-anchor", anchor}}, label);
-        }
-      });
+  out.picture(fmt::format("{} 14", width), "milliseconds", [&] {
+    for (int power = scale.first; power <= scale.last; ++power) {
+      const char* anchor = power == scale.first ? "start" : power == scale.last ? "end" : "middle";
+      const double x = power == scale.first  ? 0
+                       : power == scale.last ? width
+                                             : scale.x(std::pow(10, power));
+      const std::string label =
+          fmt::format("{:g}{}", std::pow(10, power), power == scale.last ? " ms" : "");
+      out.element("text", {{"x", number(x)}, {"y", "11"}, {"text-anchor", anchor}}, label);
+    }
+  });
 }
 
 double limit_of(const results::RunInfo& run) {

@@ -93,12 +93,7 @@ void write_steps(HtmlWriter& out, const auto& body) {
 }
 
 void write_picture(HtmlWriter& out, double tall, const std::string& what, const auto& body) {
-  out.element("svg",
-              {{"xmlns", "http://www.w3.org/2000/svg"},
-               {"viewBox", fmt::format("0 0 {} {}", picture_width, units(tall))},
-               {"role", "img"},
-               {"aria-label", what}},
-              body);
+  out.picture(fmt::format("{} {}", picture_width, units(tall)), what, body);
 }
 
 /// Ticks along the bottom, with the unit at the last.

@@ -61,12 +61,7 @@ class Wire {
   void write() {
     if (frames_.empty()) return;
     out_.element("figure", {{"class", "wire"}}, [&] {
-      const std::string box = fmt::format("0 0 {} {}", wire_width, wire_height);
-      out_.element("svg",
-                   {{"xmlns", "http://www.w3.org/2000/svg"},
-                    {"viewBox", box},
-                    {"role", "img"},
-                    {"aria-label", "the exchange on a time axis"}},
+      out_.picture(fmt::format("{} {}", wire_width, wire_height), "the exchange on a time axis",
                    [&] { write_picture(); });
     });
   }

@@ -25,6 +25,17 @@ class HtmlWriter {
       text(body);
     close(tag);
   }
+  /// A drawing of this `size` ("720 120"); `label` is what it shows, for who cannot see it.
+  template <typename Body>
+  void picture(std::string_view size, std::string_view label, const Body& body) {
+    const std::string box = "0 0 " + std::string(size);
+    element("svg",
+            {{"xmlns", "http://www.w3.org/2000/svg"},
+             {"viewBox", box},
+             {"role", "img"},
+             {"aria-label", label}},
+            body);
+  }
   /// An element that HTML knows as empty (br, hr, meta) or a shape of SVG.
   void empty(std::string_view tag, Attributes attributes = {});
 

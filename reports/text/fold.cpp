@@ -152,4 +152,17 @@ std::string cut(std::string_view line, std::size_t width) {
   return std::string(head) + "...";
 }
 
+std::string paragraph(const std::string& words, std::size_t width) {
+  std::string lines;
+  std::size_t column = 0;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t end = std::min(words.find(' ', at), words.size());
+    if (column > 0 && column + 1 + end - at > width) column = 0, lines += '\n';
+    lines += (column == 0 ? "  " : " ") + words.substr(at, end - at);
+    column += end - at + (column == 0 ? 2 : 1);
+    at = end + 1;
+  }
+  return lines + '\n';
+}
+
 }  // namespace fieldproof::text

@@ -17,9 +17,13 @@ std::size_t columns_of(std::string_view utf8);
 ///   clause    xgb-cnet-en-1.6, 7.1.5 (1)(e)
 ///             (must, printed rule)
 ///
-/// Commands of the tool behind a label are broken between words of the shell and can be pasted. Names
-/// (whatever has a slash) are never broken; other words only where they are wider than a line.
+/// Commands of the tool behind a label are broken between words of the shell and can be pasted.
+/// Names (whatever has a slash) are never broken; other words only where they are wider than a
+/// line.
 std::string fold(std::string_view text, std::size_t width);
+
+/// Words as a paragraph of lines that are indented by two, each ended.
+std::string paragraph(const std::string& words, std::size_t width);
 
 /// The first columns of a line, with "..." where there is more.
 std::string cut(std::string_view line, std::size_t width);
