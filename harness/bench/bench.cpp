@@ -354,6 +354,7 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
       return give_up(Verdict::error, quiet.error());
   if (begin_case(prepared, result)) return true;
   if (!real || prepared.is_client() || known_->interrupted) return false;
+  if (!memory_.refused() && result.verdict == Verdict::blocked) return false;  // --control says no
   if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
   if (memory_.silent()) look_for_device(result, result.message);
   return false;

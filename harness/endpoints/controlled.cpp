@@ -47,7 +47,8 @@ Controlled::Controlled(std::unique_ptr<Endpoint> device, const harness::Protocol
       protocol_(protocol),
       program_(std::move(program)),
       capabilities_(device_->capabilities()),
-      starts_(device_->starts()) {
+      starts_(device_->starts()),
+      beside_(static_cast<bool>(program_)) {
   capabilities_.control = true;
   if (program_) return;
   program_.tell = [this](const std::string& line) { return device_->tell(line); };
@@ -67,8 +68,11 @@ Result<json> Controlled::ask(const json& wish) {
   while (!program_.answer(0ns).empty()) {
   }  // what it has said unasked
   const std::string line = as_line(wish);
-  if (const Status told = program_.tell(line); !told)
-    return fail("--control: " + told.error().message);
+  if (const Status told = program_.tell(line); !told) {
+    if (!beside_) return fail("--control: " + told.error().message);
+    mute_ = "--control: " + told.error().message;
+    return refuse(mute_);
+  }
   const std::string said = program_.answer(answer_patience);
   if (said.empty()) {
     mute_ = fmt::format(

@@ -68,6 +68,7 @@ class Controlled final : public Forwarding {
   std::set<std::string, std::less<>> unsupported_;
   unsigned starts_ = 0;
   std::string mute_;  // why it is asked no more
+  bool beside_;       // it is not the device itself: its end is not that of the device
   Values before_;     // what set() has changed, the latest last
 };
 

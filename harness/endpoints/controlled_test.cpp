@@ -170,10 +170,10 @@ TEST_F(ControlledTest, WhoDoesNotAnswerIsAskedNoMoreUntilItIsStartedAnew) {
   EXPECT_TRUE(device().get("%PW0", 4));
 }
 
-TEST_F(ControlledTest, OneThatHasEndedIsTrouble) {
+TEST_F(ControlledTest, TheEndOfAProgramBesideTheDeviceIsNotThatOfTheDevice) {
   ended = true;
   const Result<std::string> value = device().get("%PW0", 4);
-  EXPECT_FALSE(value.error().refused);
+  EXPECT_TRUE(value.error().refused);
   EXPECT_EQ(value.error().message, "--control: it has ended");
 }
 
