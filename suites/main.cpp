@@ -387,9 +387,13 @@ int run_tool(int argc, char** argv) {
   CLI::Option* tcp = emulate_app->add_option(
       "--tcp", emulate.tcp, "Listen on [HOST:]PORT; without HOST for programs here alone");
   CLI::Option* udp = emulate_app->add_option("--udp", emulate.udp, "The same for datagrams");
-  emulate_app->add_option("--pty", emulate.pty, "A terminal to open, or the link to a new pty")
+  CLI::Option* pty = emulate_app->add_option(
+      "--pty", emulate.pty, "A link to a new pty, or somebody's pty that is there");
+  pty->excludes(tcp)->excludes(udp);
+  emulate_app->add_option("--tty", emulate.tty, "A real serial port, with MODEL?line=9600-8N1, ...")
       ->excludes(tcp)
-      ->excludes(udp);
+      ->excludes(udp)
+      ->excludes(pty);
   emulate_app->add_option("--config", emulate.config,
                           "What is set up in it, a JSON file: keys of given.config");
   emulate_app->add_option("--p2p", emulate.p2p,
@@ -403,7 +407,6 @@ int run_tool(int argc, char** argv) {
       ->add_option("--control", emulate.control,
                    "-: set up by lines of JSON on standard input, as by the bench's --control")
       ->transform([](std::string text) { return text == "-" ? std::string("0") : text; });
-  emulate_app->add_option("--tty", emulate.tty, "Slave that the harness made")->group("");
   emulate_app->add_flag("-v,--verbose", emulate.verbose, "Print each frame");
 
   cli::ProbeOptions probe;

@@ -11,7 +11,7 @@ Duration AdapterFloor::floor() const {
     case Source::loop: return from_ms(std::max(0.0, times.percentile(0.99)));
     case Source::device: break;
   }
-  return from_ms(std::max(0.0, times.least()));
+  return from_ms(std::max({0.0, times.least(), times.percentile(0.95) - times.least()}));
 }
 
 Duration timing_floor(Duration declared, Duration response_max,
@@ -23,8 +23,7 @@ Duration timing_floor(Duration declared, Duration response_max,
 
 Duration gap_floor(Duration declared, const std::optional<AdapterFloor>& measured) {
   if (!measured || measured->source == AdapterFloor::Source::device) return declared;
-  return measured->source == AdapterFloor::Source::by_hand ? measured->given
-                                                           : std::max(declared, measured->floor());
+  return given_by_hand(measured) ? measured->given : std::max(declared, measured->floor());
 }
 
 std::string to_string(const AdapterFloor& measured, Duration floor) {
@@ -35,8 +34,9 @@ std::string to_string(const AdapterFloor& measured, Duration floor) {
   const char* from = measured.source == AdapterFloor::Source::loop
                          ? "over the loop"
                          : "by the device, its own time included";
-  return fmt::format("{} ({} answers {}: min {:.3f}, median {:.3f}, p99 {:.3f} ms)", value,
-                     figures.count, from, figures.least, figures.median, figures.p99);
+  return fmt::format("{} ({} answers {}: min {:.3f}, median {:.3f}, p99 {:.3f} ms){}", value,
+                     figures.count, from, figures.least, figures.median, figures.p99,
+                     measured.remark.empty() ? "" : "; " + measured.remark);
 }
 
 }  // namespace fieldproof::bench

@@ -12,8 +12,9 @@ namespace fieldproof::bench {
 /// Answers to the probe, measured before the first case.
 struct AdapterFloor {
   enum class Source {
-    device,  // its fastest answer: the device's own time is in it, so that it bounds no silence
-             // inside a reply
+    device,  // its fastest answer, or how far its answers scatter (but for one in twenty) where
+             // that is more: the device's own time is in it, so that it bounds no silence inside a
+             // reply
     loop,  // an emulator answers at once over the same kind of link (--loop): 99 of 100 answers are
            // no slower
     by_hand  // --floor
@@ -21,6 +22,7 @@ struct AdapterFloor {
   Source source = Source::device;
   Duration given{};  // by_hand
   results::ResponseTimes times = {};
+  std::string remark = {};  // what was noticed while it was measured
 
   Duration floor() const;
 };
@@ -36,6 +38,10 @@ Duration timing_floor(Duration declared, Duration response_max,
                       const std::optional<AdapterFloor>& measured);
 /// The same for silence inside a reply, which the answer time of a device says nothing about.
 Duration gap_floor(Duration declared, const std::optional<AdapterFloor>& measured);
+
+inline bool given_by_hand(const std::optional<AdapterFloor>& measured) {
+  return measured && measured->source == AdapterFloor::Source::by_hand;
+}
 
 /// "20.0 ms (the device's fastest of 20 answers took 0.412 ms, its own time included: median 0.5,
 /// p99 1.2 ms)"

@@ -26,6 +26,16 @@ TEST(AdapterFloor, ByHandBeatsWhatIsDeclared) {
   EXPECT_EQ(2ms, gap_floor(20ms, measured(AdapterFloor::Source::by_hand)));
 }
 
+TEST(AdapterFloor, FollowsHowFarAnswersScatter) {
+  AdapterFloor floor;
+  for (int i = 0; i < 10; ++i) floor.times.add(2), floor.times.add(162);
+  EXPECT_EQ(160ms, timing_floor(20ms, 500ms, floor));
+  AdapterFloor one_late;
+  for (int i = 0; i < 19; ++i) one_late.times.add(2);
+  one_late.times.add(162);
+  EXPECT_EQ(20ms, timing_floor(20ms, 500ms, one_late)) << "one in twenty says nothing";
+}
+
 TEST(AdapterFloor, ASlowDeviceIsNotExcusedFromItsLimit) {
   EXPECT_EQ(10ms, timing_floor(1ms, 10ms, measured(AdapterFloor::Source::device)))
       << "answers of 25 ms are late, not inconclusive";

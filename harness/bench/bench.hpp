@@ -82,6 +82,8 @@ class Bench {
   /// How fast this device answers; none on simulated time, which has no floor, and where start()
   /// found no answer.
   Result<std::optional<AdapterFloor>> measure_floor();
+  /// "; silence inside a reply from 1.0 ms (rx_trig_bytes 1 for this run, else 8)", or empty.
+  std::string driver_silence() const;
   void use_floor(AdapterFloor floor) { known_->floor = std::move(floor); }
   /// A limit below it is INCONCLUSIVE.
   Duration floor() const { return rules().timing_floor; }

@@ -112,7 +112,10 @@ std::string Bench::undeclared(const json& config) const {
     if (asks && arming_.tells(key)) continue;
     const bool of_wire = key == "line" || key == "bench_line";
     if (of_wire && !asks && !endpoint_.capabilities().wire) continue;  // below_floor tells
-    const json has = declared_value(options_.profile, key);
+    json has = declared_value(options_.profile, key);
+    // Nothing is declared: then the device speaks as the port is open, or it would not answer.
+    if (key == "line" && has.is_null() && !endpoint_.capabilities().line.empty())
+      has = endpoint_.capabilities().line;
     if (!has.is_null() && plain(without_programs(has)) == plain(value)) continue;
     const bool refused = endpoint_.capabilities().control && !endpoint_.configures(key);
     return fmt::format("needs {} = {}; the profile declares {}{}", key, plain(value),

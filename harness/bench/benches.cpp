@@ -152,12 +152,14 @@ Result<std::string> Benches::measure_floor() {
                 ? own
                 : (text.empty() ? "" : "; ") + std::string(member.protocol->name()) + ' ' + own;
   }
+  if (!text.empty()) text += members_.front().bench().driver_silence();
   return text;
 }
 
 std::string Benches::use_floor(const AdapterFloor& floor) {
   for (Member& member : members_) member.bench().use_floor(floor);
-  return to_string(floor, members_.front().bench().floor());
+  const Bench& bench = members_.front().bench();
+  return to_string(floor, bench.floor()) + bench.driver_silence();
 }
 
 Status Benches::start_those_that_answer() {

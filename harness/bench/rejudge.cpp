@@ -75,6 +75,9 @@ Rejudge::Outcome Rejudge::judge(const results::CaseResult& recorded) {
   rules.binding_decisions = rules.binding_timing = profile_.binding_decisions;
   rules.timing_floor = std::max(profile_.floor, recorded.recording.timing_floor);
   rules.turnaround_min = profile_.turnaround_min;
+  rules.earliest = recorded.recording.earliest;
+  rules.gap_floor = recorded.recording.gap_floor;
+  rules.gap_stated = profile_.max_gap > 0ns;
   rules.max_gap = profile_.max_gap > 0ns ? profile_.max_gap : recorded.recording.max_gap;
   rules.period_tolerance = recorded.recording.period_tolerance;
   judging::take_judgement(fieldproof::judging::judge(*prepared, *transcript, rules, *protocol),

@@ -42,13 +42,12 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
 struct EmulateOptions {
   std::string model;     // "xbc-h?station=1&protocol=xgt-cnet"
   std::string tcp, udp;  // [HOST]:PORT, or HOST where the protocol has a port of its own
-  std::string pty;       // PATH
+  std::string pty, tty;  // PATH
   std::string config;    // JSON file of keys of given.config
   std::string p2p;       // JSON file of P2P parameters: the device is the client
   std::string bus;       // [HOST]:PORT where a second device joins its fieldbus
   std::string monitor;   // CSV file of the frames that cross the line
   int control = -1;      // internal: the harness' back door
-  std::string tty;       // internal: the slave that the harness made
   bool verbose = false;
 };
 int emulate_command(const EmulateOptions& options, const harness::Protocols& protocols);

@@ -123,7 +123,8 @@ int emulate_command(const EmulateOptions& options, const harness::Protocols& pro
     return run::complain(address.error().message, run::exit_code::usage);
   host.tcp = options.tcp;
   host.udp = options.udp;
-  host.tty = options.tty.empty() ? options.pty : options.tty;
+  host.pty = options.pty;
+  host.tty = options.tty;
   host.bus = options.bus;
   host.control = options.control;
   if (options.verbose) host.monitor = print_traffic;

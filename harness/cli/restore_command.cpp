@@ -56,6 +56,13 @@ Result<Connection> connect(const safety::JournalDevice& device, const std::strin
   return connection;
 }
 
+/// An adapter that was pulled out comes back as the next free number.
+std::string under_another_name(const std::string& endpoint) {
+  const std::size_t options = std::min(endpoint.find('?'), endpoint.size());
+  return "; where it came back under another name, add --endpoint " +
+         run::shell_word("serial:/dev/NAME" + endpoint.substr(options));
+}
+
 class Restoration {
  public:
   Restoration(safety::Journal& journal, std::string endpoint, const harness::Protocols& protocols)
@@ -88,8 +95,11 @@ class Restoration {
       connection_.reset();  // before the same port is opened again
       Result<Connection> opened = connect(entry.device, endpoint_of(entry.device), protocols_);
       if (!opened) {
-        failed_ = {entry.device, opened.error()};
-        return opened.error();
+        Error why = opened.error();
+        if (why.absent && endpoint_.empty())
+          why.message += under_another_name(entry.device.endpoint);
+        failed_ = {entry.device, why};
+        return why;
       }
       connection_ = std::move(*opened);
     }

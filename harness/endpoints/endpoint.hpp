@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,11 @@ struct Capabilities {
   bool datagrams = false;    // one send is one packet (UDP)
   /// Differences in time below this cannot be judged (0 in simulation).
   Duration timing_floor{};
+  /// Silence inside a frame that the driver may make itself; nothing: not known, timing_floor
+  /// holds.
+  std::optional<Duration> driver_silence{};
+  std::string driver_silence_by{};  // "rx_trig_bytes 8, which root can set to 1"
+  std::string line{};               // that a real port was opened with: "9600-8N1"
 };
 
 class Endpoint {
@@ -43,6 +49,10 @@ class Endpoint {
   virtual Time now() const = 0;
   /// One character on this line.
   virtual Duration character_time() const = 0;
+
+  /// Answers came before a request could be over at this speed: no wire paces what goes over this
+  /// port, whatever its driver says of itself.
+  virtual void has_no_wire() {}
 
   /// Starts a case. Emulators become a fresh device with `config` (vectors/README.md,
   /// `given.config`, with "model"). Real devices are given what they can be given of it: it is all

@@ -16,6 +16,7 @@ class Forwarding : public Endpoint {
   std::string describe() const override { return to_.describe(); }
   Time now() const override { return to_.now(); }
   Duration character_time() const override { return to_.character_time(); }
+  void has_no_wire() override { to_.has_no_wire(); }
   Status begin(const nlohmann::json& config) override { return to_.begin(config); }
   bool configures(std::string_view key) const override { return to_.configures(key); }
   unsigned starts() const override { return to_.starts(); }

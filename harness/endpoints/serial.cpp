@@ -14,6 +14,7 @@
 
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
+#include "harness/endpoints/receive_latency.hpp"
 #include "harness/endpoints/serial_settings.hpp"
 #include "harness/system/fd_link.hpp"
 #include "harness/system/port_lock.hpp"
@@ -61,6 +62,7 @@ Error open_error(const std::string& path, int error) {
                   "; end that process or choose another port");
     case ENODEV:
     case ENXIO:
+    case EIO:
       return absent(start + "no adapter behind this name; plug it in or choose another port");
     default:
       return fail(start + os::errno_text(error) + "; name a terminal device such as /dev/ttyUSB0");
@@ -70,17 +72,19 @@ Error open_error(const std::string& path, int error) {
 class SerialEndpoint final : public Endpoint {
  public:
   SerialEndpoint(const os::SystemCalls& calls, os::UniqueFd fd, os::PortLock lock,
-                 const EndpointName& name, const SerialOptions& options)
+                 std::unique_ptr<ReceiveLatency> latency, const EndpointName& name,
+                 const SerialOptions& options)
       : calls_(calls),
         lock_(std::move(lock)),
         path_(name.target),
         settings_(options.settings),
         direction_(options.direction),
-        link_(std::move(fd), "serial:" + path_) {
+        link_(std::move(fd), "serial:" + path_),
+        latency_(std::move(latency)) {
     capabilities_ = capabilities_of(name);
     capabilities_.wire = !is_pty(calls_, link_.fd());
     capabilities_.timing_floor = options.floor;
-    if (capabilities_.wire) link_.set_character_time(settings_.character_time());
+    if (capabilities_.wire) use_wire();
     counting_ = read_line_errors(calls_, link_.fd(), counted_);
   }
   ~SerialEndpoint() override {
@@ -94,6 +98,11 @@ class SerialEndpoint final : public Endpoint {
   }
   Time now() const override { return link_.now(); }
   Duration character_time() const override { return settings_.character_time(); }
+  void has_no_wire() override {
+    capabilities_.wire = false;
+    capabilities_.driver_silence.reset();
+    link_.set_character_time({});
+  }
   Status begin(const nlohmann::json&) override { return ok(); }
   Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
@@ -117,6 +126,13 @@ class SerialEndpoint final : public Endpoint {
   }
 
  private:
+  void use_wire() {
+    link_.set_character_time(settings_.character_time());
+    capabilities_.line = line::to_string(settings_);
+    capabilities_.driver_silence = latency_->silence(settings_.character_time());
+    capabilities_.driver_silence_by = latency_->describe();
+  }
+
   os::SystemCalls calls_;
   os::PortLock lock_;  // outlives link_: the port is free when its lock is
   Capabilities capabilities_;
@@ -124,6 +140,7 @@ class SerialEndpoint final : public Endpoint {
   line::LineSettings settings_;
   Direction direction_;
   os::FdLink link_;
+  std::unique_ptr<ReceiveLatency> latency_;  // nullptr: a pty
   LineErrorCounts counted_;
   bool counting_ = false;
 };
@@ -135,7 +152,12 @@ Status make_exclusive(const os::SystemCalls& calls, os::UniqueFd& fd, const std:
     return open_error(path, error);
   }
   calls.ioctl(fd.get(), TIOCEXCL, nullptr);
-  return ok();
+  // Root opens what another has for itself. Both ends of a pty belong to whoever made it.
+  const std::string other = is_pty(calls, fd.get()) ? "" : os::other_port_user(path);
+  if (other.empty()) return ok();
+  calls.ioctl(fd.get(), TIOCNXCL, nullptr);
+  return fail("cannot open " + path + ": the port is in use" + other +
+              "; end that process or choose another port");
 }
 
 }  // namespace
@@ -160,13 +182,16 @@ Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name,
   os::UniqueFd fd(calls.open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!fd) return open_error(path, errno);
   if (const Status done = make_exclusive(calls, fd, path); !done) return done.error();
+  // Before the speed is set: at a low one the kernel changes the trigger level, and leaves it so.
+  std::unique_ptr<ReceiveLatency> latency;
+  if (!is_pty(calls, fd.get())) latency = std::make_unique<ReceiveLatency>(calls, fd.get(), path);
   if (const Status done = apply_settings(calls, fd.get(), path, options->settings); !done)
     return done.error();
   if (const Status done = apply_direction(calls, fd.get(), path, options->direction); !done)
     return done.error();
   calls.ioctl(fd.get(), TCFLSH, number(TCIOFLUSH));
-  return std::unique_ptr<Endpoint>(
-      std::make_unique<SerialEndpoint>(calls, std::move(fd), std::move(*lock), name, *options));
+  return std::unique_ptr<Endpoint>(std::make_unique<SerialEndpoint>(
+      calls, std::move(fd), std::move(*lock), std::move(latency), name, *options));
 }
 
 }  // namespace fieldproof::endpoints

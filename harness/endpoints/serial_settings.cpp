@@ -57,6 +57,13 @@ Status apply_settings(const SystemCalls& calls, int fd, const std::string& port,
                       const line::LineSettings& settings) {
   os::KernelTermios wanted{};
   if (calls.ioctl(fd, os::get_kernel_termios, &wanted) != 0) {
+    // /dev/ttyS4 to ttyS31 are there whether or not the machine has such UARTs.
+    if (errno == EIO) {
+      Error none =
+          fail("cannot open " + port + ": there is no UART behind this name; choose another port");
+      none.absent = true;
+      return none;
+    }
     return fail("cannot use " + port + " as a serial port: " + os::errno_text(errno) +
                 "; name a terminal device such as /dev/ttyUSB0");
   }

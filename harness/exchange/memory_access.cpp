@@ -85,9 +85,12 @@ Status MemoryAccess::let_pass(const Channel& server, Duration silence) {
   return ok();
 }
 
-/// Once more where the line has damaged the answer.
+/// Once more where the line has damaged or lost the answer: what reads or sets memory does the same
+/// twice. Who was silent both times is asked once from then on, until it answers.
 Result<Bytes> MemoryAccess::ask_again(const Channel& server, ByteView request) {
   Result<Bytes> reply = ask(server, request);
+  if (reply && silent_ && !mute_) reply = ask(server, request);
+  mute_ = silent_;
   for (int i = 0; i < repeats && reply && !reply->empty() && !unsound_; ++i) {
     if (server.protocol->sound_reply(request, *reply)) break;
     if (const Status over = let_pass(server, ExchangeTiming().quiet); !over) return over.error();

@@ -79,6 +79,7 @@ class MemoryAccess {
   Visit visit_;
   std::optional<Visit> aux_visit_;
   bool refused_ = false, unserved_ = false, silent_ = false;
+  bool mute_ = false;     // it was silent, and was so when it was asked again
   bool unsound_ = false;  // what the device answers does not become sound by asking again
   Bytes asked_, answered_;
 };

@@ -33,6 +33,7 @@ class ScriptedEndpoint : public endpoints::Endpoint {
   std::string describe() const override { return "scripted"; }
   Time now() const override { return now_; }
   Duration character_time() const override { return 1ms; }
+  void has_no_wire() override { can.wire = false; }
   Status begin(const nlohmann::json& config) override {
     begun.push_back(config);
     return ok();

@@ -86,7 +86,7 @@ Status DeviceHost::begin(const json& config) {
   merged.update(config);
   if (!options_.model.empty()) merged["model"] = options_.model;
   merged.emplace("station", 1);  // as the in-process emulator, and as a bench asks by default
-  merged.emplace("inter_character_floor_ms", options_.inter_character_floor_ms);
+  merged.emplace("inter_character_floor_ms", to_ms(port_.own_silence()));
   Result<std::unique_ptr<plc::EmulatedDevice>> device = options_.make_device(merged);
   if (!device) return device.error();
   const std::string model = merged.value("model", "the device");
@@ -333,6 +333,7 @@ std::string monitor_line(const Traffic& traffic) {
 }
 
 int host_on_tty(const HostOptions& options) {
+  if (options.tty.empty()) return host(options, open_pty_port(options.pty));
   const auto line = options.config.find("line");
   const bool given = line != options.config.end() && line->is_string();
   return host(options, open_tty_port(options.tty, given ? line->get<std::string>()

@@ -41,14 +41,13 @@ struct HostOptions {
   std::string model;  // empty: "model" of the configuration
   nlohmann::json config =
       nlohmann::json::object();  // of the first device, and defaults for those of `begin`
-  std::string tty;               // --tty PATH, see host_on_tty
+  std::string pty, tty;          // --pty and --tty PATH, see host_on_tty
   std::string tcp, udp;          // --tcp and --udp HOST:PORT; port 0: any; no host: loopback
   std::uint16_t port = 0;        // of the device's protocol: it runs on a network; 0: on a line
   std::uint16_t udp_port = 0;    // where it takes datagrams
   std::string bus;               // --bus HOST:PORT: BusLink; empty: its fieldbus ends here
   int control = -1;  // --control FD, taken over; its end ends the host. 0: standard input,
                      // answered on standard output
-  int inter_character_floor_ms = 20;
   std::function<void(const Traffic&)> monitor;     // -v; may be empty
   std::function<void(std::string_view line)> say;  // where it listens; empty: standard output
 };
@@ -57,9 +56,10 @@ struct HostOptions {
 /// switches the device off and on. 2: the options make no device; 3: trouble of the port. Reasons
 /// go to standard error.
 ///
-/// A `tty` that is a terminal is opened raw (a real one with config "line"). Where there is nothing
-/// at that path, or a link to nothing, a new pty is made and the path becomes a link to its slave,
-/// removed at the end. Without `tty`, a new pty is made and its path said.
+/// `tty` is a terminal that is there: a real port is opened with config "line", locked against
+/// others. Where there is nothing at the path `pty`, or a link to nothing, a new pty is made and
+/// the path becomes a link to its slave, removed at the end. Without both, a new pty is made and
+/// its path said.
 int host_on_tty(const HostOptions& options);
 
 /// The same behind a listening socket. To a device on a line several clients may be connected: it

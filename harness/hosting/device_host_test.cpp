@@ -96,30 +96,30 @@ TEST(DeviceHost, MakesAPtyAndSaysItsPath) {
 
 TEST(DeviceHost, ANewPathBecomesALinkUntilTheEnd) {
   HostOptions options;
-  options.tty = new_path("link");
-  fs::create_symlink("/dev/pts/no_such", options.tty);  // left by a host that was killed
+  options.pty = new_path("link");
+  fs::create_symlink("/dev/pts/no_such", options.pty);  // left by a host that was killed
   Hosted host(options);
-  EXPECT_THAT(host.where, HasSubstr("linked from " + options.tty));
+  EXPECT_THAT(host.where, HasSubstr("linked from " + options.pty));
   {
-    FdLink client = open_client(options.tty);
+    FdLink client = open_client(options.pty);
     ASSERT_TRUE(client.send(to_bytes("one.")));
     EXPECT_EQ(receive_text(client, ">"), "<one>");
   }
-  FdLink again = open_client(options.tty);
+  FdLink again = open_client(options.pty);
   ASSERT_TRUE(again.send(to_bytes("two.")));
   EXPECT_EQ(receive_text(again, ">"), "<two>");
   EXPECT_EQ(host.end(), 0);
-  EXPECT_FALSE(fs::is_symlink(options.tty));
+  EXPECT_FALSE(fs::is_symlink(options.pty));
 }
 
 TEST(DeviceHost, AFileIsRefusedAndKept) {
   HostOptions options;
   options.make_device = hosting::test::make_tiny_device;
-  options.tty = new_path("file");
-  std::ofstream(options.tty) << "precious";
+  options.pty = new_path("file");
+  std::ofstream(options.pty) << "precious";
   EXPECT_EQ(host_on_tty(options), 3);
-  EXPECT_TRUE(fs::is_regular_file(options.tty));
-  fs::remove(options.tty);
+  EXPECT_TRUE(fs::is_regular_file(options.pty));
+  fs::remove(options.pty);
 }
 
 TEST(DeviceHost, ATerminalIsOpenedRaw) {

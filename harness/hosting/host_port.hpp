@@ -22,6 +22,8 @@ class HostPort {
 
   /// "pty /dev/pts/4, linked from /tmp/plc", "tcp 127.0.0.1:2004".
   virtual std::string describe() const = 0;
+  /// Silence that the link makes itself between bytes that came without a pause.
+  virtual Duration own_silence() const { return 20ms; }
   /// What to wait for.
   virtual void add_to(std::vector<pollfd>& fds) const = 0;
   /// What came next, of one speaker; nothing: nothing is there. An error ends the host.
@@ -32,7 +34,11 @@ class HostPort {
   virtual void flush() = 0;
 };
 
-/// See host_on_tty; `line` is for a real terminal ("9600-8N1").
+/// A pty of our own, linked from `path` where that is not empty; or what is there: the slave of
+/// somebody's pty.
+Result<std::unique_ptr<HostPort>> open_pty_port(const std::string& path);
+/// A terminal that is there: somebody's pty, or a real port, which is locked, set to `line`
+/// ("9600-8N1") and told to hand over at once.
 Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const std::string& line);
 /// The clients of a listening socket, on one line together. HOST:PORT; without HOST: loopback.
 Result<std::unique_ptr<HostPort>> open_line_socket(const std::string& host_and_port);

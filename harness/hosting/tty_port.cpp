@@ -1,12 +1,16 @@
 #include "harness/hosting/host_port.hpp"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 
 #include <array>
 #include <cerrno>
 #include <filesystem>
 
+#include "harness/endpoints/receive_latency.hpp"
 #include "harness/endpoints/serial_settings.hpp"
+#include "harness/system/port_lock.hpp"
+#include "harness/system/port_user.hpp"
 #include "harness/system/pty_pair.hpp"
 #include "harness/system/system_calls.hpp"
 #include "src/line/settings.hpp"
@@ -19,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A terminal: the slave of somebody's pty, a real port, or the master of our own pty.
+/// A terminal: the slave of somebody's pty, the master of our own, or what RealPort adds to.
 class TtyPort final : public HostPort {
  public:
   TtyPort(UniqueFd fd, UniqueFd slave, std::string description, fs::path link)
@@ -48,6 +52,7 @@ class TtyPort final : public HostPort {
     [[maybe_unused]] const ssize_t n = ::write(fd_.get(), burst.bytes.data(), burst.bytes.size());
   }
   void flush() override { os::drop_waiting_bytes(fd_.get()); }
+  int fd() const { return fd_.get(); }
 
  private:
   UniqueFd fd_;
@@ -56,20 +61,72 @@ class TtyPort final : public HostPort {
   fs::path link_;
 };
 
-Result<std::unique_ptr<HostPort>> use_terminal(UniqueFd fd, const std::string& path,
-                                               const std::string& line) {
-  if (endpoints::is_pty(os::real_system_calls(), fd.get())) {
-    if (!os::set_raw(fd.get())) return fail("cannot use " + path + ": " + os::errno_text(errno));
-  } else {
-    const Result<line::LineSettings> settings = line::parse_line_settings(line);
-    if (!settings) return settings.error();
-    if (const Status done =
-            endpoints::apply_settings(os::real_system_calls(), fd.get(), path, *settings);
-        !done)
-      return done.error();
+/// A port with a UART behind it, for this process alone.
+class RealPort final : public HostPort {
+ public:
+  RealPort(UniqueFd fd, os::PortLock lock, std::unique_ptr<endpoints::ReceiveLatency> latency,
+           const std::string& path, line::LineSettings settings)
+      : lock_(std::move(lock)),
+        path_(path),
+        settings_(settings),
+        port_(std::move(fd), UniqueFd(), path, fs::path()),
+        latency_(std::move(latency)) {}
+  ~RealPort() override { os::real_system_calls().ioctl(port_.fd(), TIOCNXCL, nullptr); }
+
+  std::string describe() const override {
+    const std::string driver = latency_->describe();
+    return path_ + ' ' + line::to_string(settings_) + (driver.empty() ? "" : " (" + driver + ')');
   }
+  Duration own_silence() const override {
+    return latency_->pause(settings_.character_time()).value_or(HostPort::own_silence());
+  }
+  void add_to(std::vector<pollfd>& fds) const override { port_.add_to(fds); }
+  Result<std::optional<Burst>> read() override { return port_.read(); }
+  void write(const Burst& burst) override { port_.write(burst); }
+  void flush() override { port_.flush(); }
+
+ private:
+  os::PortLock lock_;  // outlives port_: the port is free when its lock is
+  std::string path_;
+  line::LineSettings settings_;
+  TtyPort port_;
+  std::unique_ptr<endpoints::ReceiveLatency> latency_;
+};
+
+Result<std::unique_ptr<HostPort>> use_pty(UniqueFd fd, const std::string& path) {
+  if (!os::set_raw(fd.get())) return fail("cannot use " + path + ": " + os::errno_text(errno));
   return std::unique_ptr<HostPort>(
       std::make_unique<TtyPort>(std::move(fd), UniqueFd(), path, fs::path()));
+}
+
+Result<std::unique_ptr<HostPort>> use_real_port(UniqueFd fd, const std::string& path,
+                                                const std::string& line) {
+  const Result<line::LineSettings> settings = line::parse_line_settings(line);
+  if (!settings) return settings.error();
+  Result<os::PortLock> lock = os::PortLock::acquire(path);
+  if (!lock) return lock.error();
+  const os::SystemCalls& calls = os::real_system_calls();
+  if (const std::string other = os::other_port_user(path); !other.empty())
+    return fail("cannot open " + path + ": the port is in use" + other +
+                "; end that process or choose another port");
+  auto latency = std::make_unique<endpoints::ReceiveLatency>(calls, fd.get(), path);
+  const Status done = endpoints::apply_settings(calls, fd.get(), path, *settings);
+  if (!done) return done.error();
+  calls.ioctl(fd.get(), TIOCEXCL, nullptr);
+  return std::unique_ptr<HostPort>(std::make_unique<RealPort>(std::move(fd), std::move(*lock),
+                                                              std::move(latency), path, *settings));
+}
+
+constexpr std::string_view advice = "; choose a terminal, or a path where there is nothing yet";
+
+/// Nothing: there is nothing at this path.
+Result<std::optional<UniqueFd>> open_terminal(const std::string& path) {
+  UniqueFd fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!fd && errno == ENOENT) return std::optional<UniqueFd>();
+  if (!fd) return fail("cannot open " + path + ": " + os::errno_text(errno).append(advice));
+  if (!::isatty(fd.get()))
+    return fail("cannot use " + path + ": it is no terminal" + std::string(advice));
+  return std::optional(std::move(fd));
 }
 
 Result<std::unique_ptr<HostPort>> make_pty(const std::string& path) {
@@ -92,15 +149,25 @@ Result<std::unique_ptr<HostPort>> make_pty(const std::string& path) {
 
 }  // namespace
 
-Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const std::string& line) {
+Result<std::unique_ptr<HostPort>> open_pty_port(const std::string& path) {
   if (path.empty()) return make_pty(path);
-  UniqueFd fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!fd && errno == ENOENT) return make_pty(path);
-  constexpr std::string_view advice = "; choose a terminal, or a path where there is nothing yet";
-  if (!fd) return fail("cannot open " + path + ": " + os::errno_text(errno).append(advice));
-  if (!::isatty(fd.get()))
-    return fail("cannot use " + path + ": it is no terminal" + std::string(advice));
-  return use_terminal(std::move(fd), path, line);
+  Result<std::optional<UniqueFd>> fd = open_terminal(path);
+  if (!fd) return fd.error();
+  if (!*fd) return make_pty(path);
+  if (!endpoints::is_pty(os::real_system_calls(), (*fd)->get()))
+    return fail("cannot use " + path + " as a pty: it is a real port; write --tty " + path);
+  return use_pty(std::move(**fd), path);
+}
+
+Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const std::string& line) {
+  Result<std::optional<UniqueFd>> fd = open_terminal(path);
+  if (!fd) return fd.error();
+  if (!*fd)
+    return fail("cannot open " + path +
+                ": there is no such port; write --pty for a new pty, linked from there");
+  if (endpoints::is_pty(os::real_system_calls(), (*fd)->get()))
+    return use_pty(std::move(**fd), path);
+  return use_real_port(std::move(**fd), path, line);
 }
 
 }  // namespace fieldproof::hosting

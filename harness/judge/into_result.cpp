@@ -22,6 +22,26 @@ std::string in_notation(ByteView bytes, const results::Extract& extract) {
                      notation::print_bytes(extract.tail));
 }
 
+bool follows(const results::Event& event, const results::Event& before, Duration apart) {
+  constexpr auto received = results::Event::Kind::received;
+  return event.kind == received && before.kind == received && !event.bytes.empty() &&
+         event.start - before.end <= apart && event.step == before.step &&
+         event.surplus == before.surplus && event.link == before.link;
+}
+
+void join_pieces(std::vector<results::Event>& events, Duration apart) {
+  std::vector<results::Event> joined;
+  for (results::Event& event : events) {
+    if (joined.empty() || !follows(event, joined.back(), apart)) {
+      joined.push_back(std::move(event));
+      continue;
+    }
+    joined.back().end = event.end;
+    joined.back().bytes.insert(joined.back().bytes.end(), event.bytes.begin(), event.bytes.end());
+  }
+  events = std::move(joined);
+}
+
 }  // namespace
 
 results::CaseResult result_of(const vectors::Case& source) {
@@ -67,12 +87,13 @@ void take_judgement(Judgement judgement, results::CaseResult& result) {
 }
 
 void take_exchange(const exchange::Transcript& transcript, std::size_t longest_frame,
-                   results::CaseResult& result) {
+                   results::CaseResult& result, Duration apart) {
   const std::size_t most = 2 * longest_frame;  // a frame, and one that nobody waits for
   result.received_extract = results::cut(result.received_bytes, most);
   if (!result.received_extract.empty())
     result.received = in_notation(result.received_bytes, result.received_extract);
   std::vector<results::Event> events(transcript.events.begin(), transcript.events.end());
+  if (apart > 0ns) join_pieces(events, apart);
   results::cut_runs(events, most);
   for (results::Event& event : events) {
     if (event.kind == results::Event::Kind::sent || event.kind == results::Event::Kind::received)

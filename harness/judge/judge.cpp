@@ -138,6 +138,12 @@ class Judge {
                       pipelining, -to_ms(took)));
       return false;
     }
+    if (!client_ && rules_.earliest < 0ns && took < rules_.earliest)
+      findings_.lower_to(
+          Verdict::inconclusive,
+          fmt::format("the reply began {:.1f} ms before the request was over: it is that to an "
+                      "earlier request, or this port has no wire behind it",
+                      -to_ms(took)));
     findings_.result.response_ms.push_back(to_ms(took));
     const PreparedFrame* match = matching(step, received.bytes);
     if (!match && client_) match = in_other_letters(step, received.bytes);
@@ -151,9 +157,13 @@ class Judge {
     // Nobody shares a connection with the bench, and its bytes may come in any pieces.
     if (judge_limit(limit, rules_, findings_) && !step.network)
       judge_turnaround(took, rules_, findings_);
-    if (!step.network || step.step->max_gap)
-      judge_gaps(received, step.step->max_gap.value_or(rules_.max_gap), findings_);
+    if (!step.network || step.step->max_gap) judge_gaps(received, gap_limit(step), findings_);
     return true;
+  }
+
+  GapLimit gap_limit(const PreparedStep& step) const {
+    if (step.step->max_gap) return {*step.step->max_gap, rules_.gap_floor, true};
+    return {rules_.max_gap, rules_.gap_stated ? rules_.gap_floor : Duration{}};
   }
 
   static constexpr const char* pipelining = "pipelining: the request came too early";

@@ -14,10 +14,14 @@ struct JudgeRules {
   double guard_band = 0.1;    // the last part of a limit that is MARGINAL
   Duration timing_floor{};    // a limit below it is INCONCLUSIVE
   Duration link_floor{};      // the part of it that is not the device's own answer time
+  Duration gap_floor{};       // silence inside a frame that the link may make itself, by its driver
   Duration turnaround_min{};  // a reply that begins sooner collides with a partner that still
                               // drives the line
   Duration max_gap =
       4010417ns;  // silence allowed inside a reply (Cnet KO 4.3.1: 3.5 characters of 11 bits)
+  Duration
+      earliest{};  // below 0, on a real wire: a reply that begins earlier is not of this request
+  bool gap_stated = false;      // by the profile: the floor of the link is not in it
   Duration period_tolerance{};  // of `every`; 0: a twentieth of it, or the timing floor where that
                                 // is more
   bool binding_decisions = true;  // a missed `decision` is FAIL, else NON-STRICT
@@ -50,8 +54,10 @@ void note_transposition(const exchange::PreparedCase& prepared, results::CaseRes
 void take_judgement(Judgement judgement, results::CaseResult& result);
 /// Writes what happened into it, in notation too. What came is bounded, there and in the judgement
 /// that it has: of a run of more than twice the protocol's longest frame there is an extract.
+/// Bytes that came no further apart than `apart`, one after the other, are one line: a driver that
+/// hands over each byte makes no frames of one byte.
 void take_exchange(const exchange::Transcript& transcript, std::size_t longest_frame,
-                   results::CaseResult& result);
+                   results::CaseResult& result, Duration apart = {});
 
 /// The fields in which two frames differ, named by the protocol. `requests`: both are those of a
 /// client, else replies.

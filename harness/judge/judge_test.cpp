@@ -218,6 +218,51 @@ TEST_F(JudgeTest, ASplitAnswerFailsAtTheGap) {
             "split answer: 20.0 ms of silence before byte 4 of the reply, the limit is 4.0 ms");
 }
 
+TEST_F(JudgeTest, SilenceThatTheDriverMayMakeIsNoFault) {
+  rules.max_gap = 3ms;
+  rules.gap_stated = true;
+  rules.gap_floor = 5ms;
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<ans"}, {11ms, "wer>"}};  // 6 ms of silence
+  const Judgement result = judged(ask());
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_EQ(result.message,
+            "split answer: 6.0 ms of silence before byte 4 of the reply, the limit is 3.0 ms: the "
+            "driver of this port may make 5.0 ms itself");
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<ans"}, {14ms, "wer>"}};
+  EXPECT_EQ(judged(ask()).verdict, Verdict::fail) << "9 ms";
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
+  EXPECT_EQ(judged(ask()).verdict, Verdict::pass) << "nothing speaks against it";
+}
+
+TEST_F(JudgeTest, ACaseAboutAGapIsNotPassedWhereTheLinkCannotShowIt) {
+  rules.gap_floor = 5ms;
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};
+  const std::string steps = R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "max_gap": "3ms"})";
+  EXPECT_EQ(judged(steps).verdict, Verdict::inconclusive);
+  rules.gap_floor = 2ms;
+  EXPECT_EQ(judged(steps).verdict, Verdict::pass);
+}
+
+TEST_F(JudgeTest, AReplyThatBeginsBeforeItsRequestIsOverIsOfAnotherOne) {
+  endpoint.answers["<ask>"] = Pieces{{-4ms, "<answer>"}};
+  EXPECT_EQ(judged(ask()).verdict, Verdict::pass) << "no wire";
+  rules.earliest = -1ms;
+  const Judgement result = judged(ask());
+  EXPECT_EQ(result.verdict, Verdict::inconclusive);
+  EXPECT_THAT(result.message, HasSubstr("the reply began 4.0 ms before the request was over"));
+}
+
+TEST_F(JudgeTest, BytesThatADriverHandsOverOneByOneAreOneLineOfTheExchange) {
+  endpoint.answers["<ask>"] = Pieces{{1ms, "<"}, {2ms, "ans"}, {15ms, "wer>"}};
+  judged(ask());
+  results::CaseResult result;
+  take_exchange(transcript, 100, result, 2ms);
+  std::vector<std::string> came;
+  for (const results::Event& event : result.exchange)
+    if (event.kind == results::Event::Kind::received) came.push_back(to_text(event.bytes));
+  EXPECT_THAT(came, testing::ElementsAre("<ans", "wer>"));
+}
+
 TEST_F(JudgeTest, ABytePerSecondIsNoReply) {
   endpoint.answers["<ask>"] = Pieces{{1s, "<"}, {2s, "a"}, {3s, "n"}};
   EXPECT_EQ(judged(ask()).verdict, Verdict::fail);

@@ -33,6 +33,8 @@ results::Recording make_recording(const PreparedCase& prepared, const Transcript
   recording.dead = transcript.dead;
   recording.timing_floor = rules.timing_floor;
   recording.link_floor = rules.link_floor;
+  recording.earliest = rules.earliest;
+  recording.gap_floor = rules.gap_floor;
   recording.max_gap = rules.max_gap;
   recording.period_tolerance = rules.period_tolerance;
   return recording;

@@ -68,15 +68,27 @@ void judge_turnaround(Duration took, const JudgeRules& rules, Findings& findings
                     to_ms(took), to_ms(least)));
 }
 
-void judge_gaps(const exchange::Received& received, Duration limit, Findings& findings) {
+void judge_gaps(const exchange::Received& received, const GapLimit& gap, Findings& findings) {
+  if (gap.of_case && gap.limit < gap.floor)
+    findings.lower_to(Verdict::inconclusive,
+                      fmt::format("the limit of {:.1f} ms for silence inside a frame is below what "
+                                  "this link can show, {:.1f} ms",
+                                  to_ms(gap.limit), to_ms(gap.floor)));
+  Duration longest{};
+  std::size_t before = 0;
   for (std::size_t i = 1; i < received.arrivals.size(); ++i) {
-    const Duration gap = received.arrivals[i].start - received.arrivals[i - 1].end;
-    if (gap > limit)
-      return findings.miss(
-          fmt::format("split answer: {:.1f} ms of silence before byte {} of the reply, the limit "
-                      "is {:.1f} ms",
-                      to_ms(gap), received.arrivals[i].offset, to_ms(limit)));
+    const Duration silence = received.arrivals[i].start - received.arrivals[i - 1].end;
+    if (silence > longest) longest = silence, before = received.arrivals[i].offset;
   }
+  if (longest <= gap.limit) return;
+  const std::string came = fmt::format(
+      "split answer: {:.1f} ms of silence before byte {} of the reply, the limit is "
+      "{:.1f} ms",
+      to_ms(longest), before, to_ms(gap.limit));
+  if (longest > gap.limit + gap.floor) return findings.miss(came);
+  findings.lower_to(
+      Verdict::inconclusive,
+      fmt::format("{}: the driver of this port may make {:.1f} ms itself", came, to_ms(gap.floor)));
 }
 
 void Periods::add(Duration every, const exchange::Received& previous,

@@ -22,8 +22,13 @@ bool judge_limit(const Limit& one, const JudgeRules& rules, Findings& findings);
 /// On a line that several drive: a reply that comes too soon.
 void judge_turnaround(Duration took, const JudgeRules& rules, Findings& findings);
 
-/// Silence inside a frame.
-void judge_gaps(const exchange::Received& received, Duration limit, Findings& findings);
+/// The longest silence inside a frame that is allowed, and what the link itself may add to it.
+struct GapLimit {
+  Duration limit{};
+  Duration floor{};      // 0: it is in the limit
+  bool of_case = false;  // the case is about this limit: what the link cannot show is not passed
+};
+void judge_gaps(const exchange::Received& received, const GapLimit& gap, Findings& findings);
 
 /// What comes at the pace of a clock.
 class Periods {

@@ -1,6 +1,7 @@
 #include "harness/system/port_user.hpp"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -39,11 +40,12 @@ bool has_open(const fs::path& process, const struct stat& port) {
   return false;
 }
 
-std::string opener(const struct stat& port) {
+std::string opener(const struct stat& port, const std::string& but = "") {
   std::error_code none;
   for (fs::directory_iterator one("/proc", none), end; one != end; one.increment(none)) {
     const std::string name = one->path().filename();
-    if (name.find_first_not_of("0123456789") == std::string::npos && has_open(one->path(), port))
+    if (name.find_first_not_of("0123456789") == std::string::npos && name != but &&
+        has_open(one->path(), port))
       return name;
   }
   return "";
@@ -56,6 +58,13 @@ std::string port_user(const std::string& path) {
   if (::stat(path.c_str(), &port) != 0) return "";
   std::string process = lock_holder(port);
   if (process.empty()) process = opener(port);
+  return process.empty() ? "" : " by " + process_name(process);
+}
+
+std::string other_port_user(const std::string& path) {
+  struct stat port {};
+  if (::stat(path.c_str(), &port) != 0) return "";
+  const std::string process = opener(port, std::to_string(::getpid()));
   return process.empty() ? "" : " by " + process_name(process);
 }
 

@@ -80,6 +80,8 @@ struct Recording {
   Duration timing_floor{};  // what this link could show: JudgeRules
   Duration link_floor{};    // the part of it that is not the device's own: no smaller shift between
                             // runs counts
+  Duration earliest{};      // below 0: a reply that begins earlier is not of its request
+  Duration gap_floor{};     // silence inside a frame that the link may make itself
   Duration max_gap{};
   Duration period_tolerance{};
 

@@ -120,7 +120,9 @@ void fields(auto& json, Of<Move> auto& move) {
 
 void fields(auto& json, Of<Recording> auto& recording) {
   json.may("dead", recording.dead);
+  json.may("earliest_ms", recording.earliest);
   json.may("flooded", recording.flooded);
+  json.may("gap_floor_ms", recording.gap_floor);
   json.always("link_floor_ms", recording.link_floor);
   json.always("max_gap_ms", recording.max_gap);
   json.may("moves", recording.moves);
