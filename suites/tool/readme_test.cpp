@@ -64,6 +64,8 @@ const std::map<std::string, Special> specials{
      "/usr/share/fieldproof/farm/fieldproof-array.sbatch '/shared/benches/{node}.json' OUT --role "
      "server",
      {.not_run = "it wants a farm; suites/farm/slurm_test.py makes one"}},
+    {"./run.sh emulate 'xbc-h?line=38400-8E1' --tty /dev/ttyUSB1",
+     {.not_run = "it wants a real port; suites/uart/uart_test.py has two"}},
     {"fieldproof init",
      {.replaced = "init", .by = "init --yes --endpoint emulator:xbc-h --no-run"}},
     {"./run.sh init",
