@@ -147,7 +147,12 @@ Result<std::string> Benches::measure_floor() {
     if (!measured) return measured.error();
     if (!*measured) continue;
     member.bench().use_floor(**measured);
-    const std::string own = to_string(**measured, member.bench().floor());
+    std::string own = to_string(**measured, member.bench().floor());
+    const endpoints::Capabilities& can = member.endpoint->capabilities();
+    if (const std::string held =
+            can.shared ? held_by_server(**measured, can.round_trip) : std::string();
+        !held.empty())
+      own += "; " + held;
     text += members_.size() == 1
                 ? own
                 : (text.empty() ? "" : "; ") + std::string(member.protocol->name()) + ' ' + own;

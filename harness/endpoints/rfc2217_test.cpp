@@ -121,7 +121,7 @@ TEST_F(Rfc2217, ThePortOfAServerIsInUseForOthers) {
 }
 
 TEST_F(Rfc2217, AServerWithoutRfc2217IsSaid) {
-  const Ser2net plain(path, "telnet");
+  const Ser2net plain(path, {"telnet"});
   EXPECT_THAT(refusal(plain.where()),
               HasSubstr("cannot open rfc2217:" + plain.where() +
                         ": the server refuses RFC 2217 (COM-PORT-OPTION); in its "
