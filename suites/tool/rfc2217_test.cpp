@@ -169,6 +169,14 @@ TEST_F(RemotePort, a_second_user_is_told_of_the_first) {
                                           ": the port is in use by process "),
                                 HasSubstr(" (fieldproof) since 20"),
                                 HasSubstr("end that process or choose another port")));
+  Process fourth([&] {
+    std::vector<std::string> all = user("fourth");
+    all.insert(all.end(), {"--wait-port", "10m"});
+    return all;
+  }());
+  EXPECT_TRUE(fourth.wait_for("waiting: cannot open " + (folder_ / "bench")));
+  fourth.signal(SIGINT);
+  EXPECT_EQ(fourth.wait().code, 130) << "Ctrl-C ends the waiting";
   // Killed, it leaves its lock: the next user takes it over and says so.
   first.signal(SIGKILL);
   EXPECT_EQ(first.wait().code, 128 + SIGKILL);
