@@ -68,14 +68,15 @@ bool PortWatch::take_events() {
   return any;
 }
 
-void PortWatch::wait(Duration limit) {
+bool PortWatch::wait(Duration limit) {
   const auto deadline = std::chrono::steady_clock::now() + limit;
   while (!interrupted()) {
     const Duration left = deadline - std::chrono::steady_clock::now();
-    if (left <= 0ns) return;
+    if (left <= 0ns) return false;
     std::array<pollfd, 2> fds{pollfd{fd_.get(), POLLIN, 0}, pollfd{interrupt_fd(), POLLIN, 0}};
-    if (::poll(fds.data(), fds.size(), milliseconds(left)) == 1 && take_events()) return;
+    if (::poll(fds.data(), fds.size(), milliseconds(left)) == 1 && take_events()) return true;
   }
+  return false;
 }
 
 void pause_for(Duration time) {

@@ -18,8 +18,8 @@ class PortWatch {
   /// From now on nothing is missed: to be called before the port is tried.
   void arm();
   /// Until the port may be there or free, as the system tells: its file or a folder above it is
-  /// made, it is closed by somebody, a lock file goes. At most `limit`, or until Ctrl-C.
-  void wait(Duration limit);
+  /// made, it is closed by somebody, a lock file goes. False: `limit` is over, or Ctrl-C.
+  bool wait(Duration limit);
 
  private:
   void watch(const std::string& path, unsigned events);

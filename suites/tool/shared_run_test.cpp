@@ -222,6 +222,19 @@ TEST_F(SharedRuns, DevicesAreChosenByWhatTheyAre) {
   EXPECT_THAT(run_on("colour=red").err, HasSubstr("write model=, maker=, serial= or firmware="));
 }
 
+TEST_F(SharedRuns, TheLongestCaseIsTakenFirst) {
+  std::vector<nlohmann::ordered_json> vectors = slow_vectors(20);
+  vectors.back()["steps"][0]["wait"] = "1s";
+  const std::string bench = folder_.write(
+      "bench.json",
+      nlohmann::ordered_json{{"devices", {{"a", device("good")}, {"b", device("good")}}}}.dump());
+  EXPECT_EQ(run_tool({"run", "--bench", bench, "--dut", "a,b", "--vectors",
+                      write_vectors(folder_, vectors), "--out", folder_ / "out"})
+                .code,
+            0);
+  EXPECT_NE(results().ids().back(), vectors.back()["id"]) << "one port would wait for it";
+}
+
 TEST_F(SharedRuns, AnAbsentDeviceLeavesThePool) {
   nlohmann::ordered_json absent = device("good");
   absent["endpoint"] = "serial:" + (folder_ / "nothing");
