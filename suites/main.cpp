@@ -79,7 +79,8 @@ void add_run(CLI::App& app, run::RunOptions& run) {
       "JSON file of the devices on this bench; --dut names one, and other options override it");
   app.add_option("--dut", run.duts,
                  "Device of the bench file: gives endpoint, profile, --allow-write and identity; "
-                 "several (--dut A --dut B) share the cases")
+                 "several (--dut A --dut B) share the cases; model=XBL-C41A (maker=, serial=, "
+                 "firmware=) names all that are so")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--profile", run.profile,
@@ -148,6 +149,9 @@ void add_run(CLI::App& app, run::RunOptions& run) {
                  "Command that sets the device for a step of --matrix (SPEED FRAME behind it); "
                  "else the engineer is asked");
   app.add_option("--duration", run.duration, "Soak: repeat the cases for so long: 90s, 30m, 8h");
+  app.add_option("--wait-port", run.wait_port,
+                 "How long a port that is absent or in use is waited for: 10m; of a server on the "
+                 "network it is asked once a second");
   app.add_option("--seed", run.seed, "Shuffle the cases by this seed")
       ->check(CLI::Range(0, 99'999));
   app.add_option("--repeat", run.repeat, "Run the selection so many times")

@@ -39,4 +39,17 @@ std::string to_string(const AdapterFloor& measured, Duration floor) {
                      measured.remark.empty() ? "" : "; " + measured.remark);
 }
 
+std::string held_by_server(const AdapterFloor& measured, Duration round_trip) {
+  // ser2net 4.3 holds an answer for 3.2 ms by default (never less than 1, nor more than 20).
+  constexpr double least_held_ms = 1, most_held_ms = 20;
+  if (measured.source != AdapterFloor::Source::device || measured.times.count() == 0) return {};
+  const double later = measured.times.least() - to_ms(round_trip);
+  if (later < least_held_ms || later > most_held_ms) return {};
+  return fmt::format(
+      "the fastest answer took {:.1f} ms, a packet to the serial server and back {:.1f} ms: if "
+      "ser2net is between, it holds each answer back for about 3 ms by default; `chardelay: false` "
+      "under `options:` of its connection ends that. Else it is the device's own time",
+      measured.times.least(), to_ms(round_trip));
+}
+
 }  // namespace fieldproof::bench

@@ -47,4 +47,8 @@ inline bool given_by_hand(const std::optional<AdapterFloor>& measured) {
 /// p99 1.2 ms)"
 std::string to_string(const AdapterFloor& measured, Duration floor);
 
+/// Behind a serial server whose packets take `round_trip`: what may hold the answers back, and what
+/// to write there; empty where they come at once, or so late that it makes no difference.
+std::string held_by_server(const AdapterFloor& measured, Duration round_trip);
+
 }  // namespace fieldproof::bench

@@ -46,6 +46,20 @@ TEST(AdapterFloor, AnswerTimeOfTheDeviceLoosensNoGap) {
   EXPECT_EQ(30ms, gap_floor(1ms, measured(AdapterFloor::Source::loop)));
 }
 
+TEST(AdapterFloor, WhatASerialServerMayHoldIsNamed) {
+  const auto answered_after = [](double ms) {
+    AdapterFloor floor;
+    floor.times.add(ms);
+    return floor;
+  };
+  EXPECT_EQ("", held_by_server(answered_after(0.2), 100us)) << "at once";
+  EXPECT_NE("", held_by_server(answered_after(3.3), 100us));
+  EXPECT_EQ("", held_by_server(answered_after(3.3), 3ms)) << "the network is as slow";
+  EXPECT_EQ("", held_by_server(answered_after(25), 100us)) << "the device is slow by itself";
+  EXPECT_EQ("", held_by_server(AdapterFloor{}, 100us)) << "nothing answered";
+  EXPECT_EQ("", held_by_server(measured(AdapterFloor::Source::loop), 24ms));
+}
+
 TEST(AdapterFloor, InWords) {
   EXPECT_EQ(
       "25.0 ms (101 answers by the device, its own time included: min 25.000, median 30.000, p99 "

@@ -101,7 +101,7 @@ Status Bench::start() {
   if (!sign) return sign.error();
   known_->answers = *sign == exchange::Sign::alive;
   silent_ = *sign == exchange::Sign::silent;
-  return known_->answers ? ok()
+  return known_->answers ? claim()
                          : Status(fail(why_silent({&endpoint_, &protocol_, station}, *sign)));
 }
 
@@ -206,9 +206,10 @@ CaseResult Bench::run(const Case& source) {
   set_up_answered_ = true;
   execute(*ready.prepared, result);
   if (known_->port_failed && !known_->interrupted) start_again(result);
+  if (endpoint_.capabilities().shared) look_for_others(*ready.prepared, result);
   known_->set_up_findings.note(result);
   if (endpoint_.capabilities().real_device && !ready.prepared->is_client() &&
-      known_->stopped.empty())
+      known_->stopped.empty() && known_->disturbed == 0)
     known_->stopped = known_->worth_asking.after(result, protocol_, set_up_answered_);
   if (!result.recording.stimulus.empty()) result.recording.moves = ready.moves;
   known_->errors_in_a_row = result.verdict == Verdict::error ? known_->errors_in_a_row + 1 : 0;

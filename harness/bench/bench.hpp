@@ -1,5 +1,5 @@
 // Runs one case after another against one endpoint: eligibility, starting state, exchange,
-// judgement, recovery. (Also in bench_eligibility.cpp and bench_recovery.cpp.)
+// judgement, recovery. (Also in bench_eligibility.cpp, bench_others.cpp and bench_recovery.cpp.)
 #pragma once
 
 #include <map>
@@ -63,6 +63,9 @@ struct Standing {
   bool answers = false;  // the device answers probes
   bool interrupted = false;
   bool client_gave_up = false;  // the program under test, in some case
+  bool claimed = false;         // a shared line: nobody else was heard before the first case
+  int disturbed = 0;            // cases in which somebody else was heard, without a pause
+  Time doubt_until{};           // what fails until then may be the work of who was heard last
 };
 
 class Bench {
@@ -183,6 +186,10 @@ class Bench {
   void after(const exchange::PreparedCase& prepared, const exchange::Transcript& transcript,
              results::CaseResult& result);
   void stop(std::string why, const Error* error = nullptr);
+
+  Status claim();
+  Result<bool> is_disturbed(const results::CaseResult& result);
+  void look_for_others(const exchange::PreparedCase& prepared, results::CaseResult& result);
 
   endpoints::Endpoint& endpoint_;
   const harness::Protocol& protocol_;

@@ -201,6 +201,33 @@ Result<BenchDevice> find_device(const BenchFile& file, const std::string& name) 
                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
+Result<std::vector<std::string>> find_devices(const BenchFile& file, const std::string& wanted) {
+  if (file.devices.contains(wanted)) return std::vector{wanted};
+  static const std::map<std::string, std::string results::Identity::*, std::less<>> fields{
+      {"maker", &results::Identity::maker},
+      {"model", &results::Identity::model},
+      {"serial", &results::Identity::serial},
+      {"firmware", &results::Identity::firmware}};
+  const std::size_t equals = wanted.find('=');
+  const auto field = fields.find(wanted.substr(0, equals));
+  if (field == fields.end())
+    return fail(
+        fmt::format("cannot choose devices by '{}': write model=, maker=, serial= or "
+                    "firmware= and what the bench file says there",
+                    wanted));
+  std::vector<std::string> found;
+  std::set<std::string> there;
+  for (const auto& [name, device] : file.devices) {
+    const std::string& value = device.identity.*field->second;
+    if (value == wanted.substr(equals + 1)) found.push_back(name);
+    if (!value.empty()) there.insert(value);
+  }
+  if (!found.empty()) return found;
+  return fail(fmt::format(
+      "no device of bench file {} has {}; there is {}", file.path, wanted,
+      there.empty() ? "none with a " + field->first : fmt::format("{}", fmt::join(there, ", "))));
+}
+
 std::string endpoint_of(const BenchDevice& device) {
   std::string options;
   const auto add = [&](const std::string& option) {

@@ -45,6 +45,10 @@ Result<BenchFile> parse_bench_file(const std::string& text, const std::string& p
 /// The device of that name; the error says which there are.
 Result<BenchDevice> find_device(const BenchFile& file, const std::string& name);
 
+/// The devices whose identity is so: "model=XBL-C41A" (or maker, serial, firmware). Those that are
+/// named by a whole name with '=' are themselves. The error says what there is.
+Result<std::vector<std::string>> find_devices(const BenchFile& file, const std::string& wanted);
+
 /// The endpoint with station and line as its options:
 /// "serial:/dev/ttyUSB0?station=3&baud=38400&frame=8N1". A kind that sets no line (tcp, exec) takes
 /// the station alone.

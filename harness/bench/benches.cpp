@@ -119,19 +119,29 @@ results::CaseResult Benches::run(const vectors::Case& source) {
   return bench_for(source).run(source);
 }
 
-std::size_t Benches::could_run(const std::vector<const vectors::Case*>& cases,
-                               const BenchOptions& options) const {
-  std::size_t count = 0;
+std::vector<bool> Benches::which_could_run(const std::vector<const vectors::Case*>& cases,
+                                           const BenchOptions* options) const {
+  std::vector<bool> could;
   std::map<std::string, Result<SetUp>> others;
   for (const vectors::Case* one : cases) {
     const Member& member = member_for(*one);
     const json needed = needed_by(*one, member);
     const std::string key = fmt::format("{}{}", member.protocol->name(), needed.dump());
-    if (!others.contains(key)) others.emplace(key, make_set_up(member, needed, options));
+    if (!others.contains(key))
+      others.emplace(key, make_set_up(member, needed, options ? *options : member.options));
     const Result<SetUp>& other = others.at(key);
-    if (other && other->bench->could_run(*one)) ++count;
+    could.push_back(other && other->bench->could_run(*one));
   }
-  return count;
+  return could;
+}
+
+std::vector<bool> Benches::could_each_run(const std::vector<const vectors::Case*>& cases) const {
+  return which_could_run(cases, nullptr);
+}
+
+std::size_t Benches::could_run(const std::vector<const vectors::Case*>& cases,
+                               const BenchOptions& options) const {
+  return static_cast<std::size_t>(std::ranges::count(which_could_run(cases, &options), true));
 }
 
 std::pair<const harness::Protocol*, std::vector<harness::Protocol::Written>> Benches::written_by(
@@ -147,7 +157,12 @@ Result<std::string> Benches::measure_floor() {
     if (!measured) return measured.error();
     if (!*measured) continue;
     member.bench().use_floor(**measured);
-    const std::string own = to_string(**measured, member.bench().floor());
+    std::string own = to_string(**measured, member.bench().floor());
+    const endpoints::Capabilities& can = member.endpoint->capabilities();
+    if (const std::string held =
+            can.shared ? held_by_server(**measured, can.round_trip) : std::string();
+        !held.empty())
+      own += "; " + held;
     text += members_.size() == 1
                 ? own
                 : (text.empty() ? "" : "; ") + std::string(member.protocol->name()) + ' ' + own;

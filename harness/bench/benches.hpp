@@ -49,6 +49,8 @@ class Benches {
   /// How many of these cases could run if the options were others; nothing is sent.
   std::size_t could_run(const std::vector<const vectors::Case*>& cases,
                         const BenchOptions& options) const;
+  /// Could this device run it, for all that can be known before?
+  std::vector<bool> could_each_run(const std::vector<const vectors::Case*>& cases) const;
   /// What a case of one of the protocols writes, and the protocol that says it.
   std::pair<const harness::Protocol*, std::vector<harness::Protocol::Written>> written_by(
       const vectors::Case& source) const;
@@ -95,6 +97,9 @@ class Benches {
     return members_[index_for(source)];
   }
 
+  /// nullptr: with those of the device.
+  std::vector<bool> which_could_run(const std::vector<const vectors::Case*>& cases,
+                                    const BenchOptions* options) const;
   static Result<SetUp> make_set_up(const Member& member, const nlohmann::json& needed,
                                    const BenchOptions& options);
   static nlohmann::json needed_by(const vectors::Case& source, const Member& member);

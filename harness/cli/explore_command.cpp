@@ -250,15 +250,16 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
   if (!options.run.capture.empty()) paths->emplace_back("capture", options.run.capture);
   if (const Status opened = run::open_journals(options.run, *plan); !opened)
     return run::complain(opened.error().message, run::exit_code::usage);
-  Result<std::vector<Benches>> ports = run::open_ports(*plan);
-  if (!ports)
-    return run::complain(ports.error().message, options.run.skip_absent && ports.error().absent
-                                                    ? run::exit_code::absent
-                                                    : run::exit_code::trouble);
+  Result<run::Devices> devices = run::open_devices(*plan);
+  if (!devices)
+    return run::complain(devices.error().message, options.run.skip_absent && devices.error().absent
+                                                      ? run::exit_code::absent
+                                                      : run::exit_code::trouble);
+  std::vector<Benches>& ports = devices->ports;
   Result<RunReport> report = RunReport::create(
       std::move(*paths), run::console_options(run::gate_of(options.run), options.run.verbose));
   if (!report) return run::complain(report.error().message, run::exit_code::trouble);
-  Explorer explorer(device_of(*plan, ports->front(), *configured ? **configured : protocol),
+  Explorer explorer(device_of(*plan, ports.front(), *configured ? **configured : protocol),
                     std::move(*oracle), std::move(requests),
                     static_cast<std::uint64_t>(options.run.seed));
   if (!explorer.can_explore())
@@ -266,7 +267,7 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
         "nothing can be explored: each request names memory that it may not set up; give "
         "--allow-write RANGES",
         run::exit_code::nothing);
-  return execute(options, *plan, *ports, *report, explorer);
+  return execute(options, *plan, ports, *report, explorer);
 }
 
 }  // namespace fieldproof::cli

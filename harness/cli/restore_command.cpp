@@ -7,6 +7,7 @@
 #include "harness/endpoints/kinds.hpp"
 #include "harness/exchange/exchange.hpp"
 #include "harness/run/run_report.hpp"
+#include "harness/safety/journal_note.hpp"
 #include "harness/safety/saved_memory.hpp"
 #include "harness/system/interrupt.hpp"
 
@@ -127,11 +128,15 @@ int restore_command(const RestoreOptions& options, const harness::Protocols& pro
   Result<safety::Journal> journal = safety::Journal::open(options.journal);
   if (!journal) return run::complain(journal.error().message, run::exit_code::usage);
   if (journal->open_entries().empty()) {
+    safety::JournalNote::drop_all(journal->path());
     run::tell(fmt::format("nothing to put back: {} has no open entry\n", options.journal));
     return run::exit_code::ok;
   }
   os::catch_interrupts();
-  if (Restoration(*journal, options.endpoint, protocols).run()) return run::exit_code::ok;
+  if (Restoration(*journal, options.endpoint, protocols).run()) {
+    safety::JournalNote::drop_all(journal->path());
+    return run::exit_code::ok;
+  }
   if (os::interrupted()) return run::exit_code::interrupted;
   return run::complain(
       fmt::format(

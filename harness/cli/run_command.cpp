@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -15,10 +17,12 @@
 #include "harness/cli/last_run.hpp"
 #include "harness/cli/run_baseline.hpp"
 #include "harness/judge/judge.hpp"
+#include "harness/run/case_length.hpp"
 #include "harness/run/coverage_hint.hpp"
 #include "harness/run/line_steps.hpp"
 #include "harness/run/long_texts.hpp"
 #include "harness/run/look_on.hpp"
+#include "harness/run/port_wait.hpp"
 #include "harness/run/ports.hpp"
 #include "harness/run/run_info.hpp"
 #include "harness/run/run_plan.hpp"
@@ -179,10 +183,12 @@ class Run {
   /// taken.
   RunReport::End share_out() {
     std::deque<run::SharedRun::Task> tasks;
+    const std::map<const Case*, std::vector<std::size_t>> only = those_that_could_run();
     bench::run_with_gtest(plan_.selected, runner_options(), [&](const Case& source, int repeat) {
-      tasks.push_back({&source, repeat});
+      tasks.push_back({&source, repeat, {}, only.at(&source)});
       return true;
     });
+    if (options_.seed < 0) put_longest_first(tasks);
     const std::size_t total = tasks.size();
     std::vector<run::SharedRun::Port> ports;
     for (std::size_t i = 0; i < ports_.size(); ++i)
@@ -205,6 +211,29 @@ class Run {
     end_.trouble = fmt::format("{}", fmt::join(shared.troubles(), "; "));
     finish_up();
     return end_;
+  }
+
+  /// The ports that could run each case; none where all can, or none.
+  std::map<const Case*, std::vector<std::size_t>> those_that_could_run() const {
+    std::map<const Case*, std::vector<std::size_t>> only;
+    for (std::size_t port = 0; port < ports_.size(); ++port) {
+      const std::vector<bool> could = ports_[port].could_each_run(plan_.selected);
+      for (std::size_t i = 0; i < could.size(); ++i) {
+        std::vector<std::size_t>& able = only[plan_.selected[i]];
+        if (could[i]) able.push_back(port);
+      }
+    }
+    for (auto& [source, able] : only)
+      if (able.size() == ports_.size()) able.clear();
+    return only;
+  }
+
+  /// So that all ports end at about the same time. Those of less than a second stay in their order.
+  void put_longest_first(std::deque<run::SharedRun::Task>& tasks) const {
+    const auto seconds = [&](const run::SharedRun::Task& task) {
+      return run::least_length(*task.source, plan_.bench.profile.response_max) / 1s;
+    };
+    std::ranges::stable_sort(tasks, std::ranges::greater(), seconds);
   }
 
   /// False: stop here. GoogleTest would swallow what is thrown, and the run would stay green.
@@ -272,6 +301,11 @@ class Run {
 
   void finish_up() {
     put_back();
+    for (const Error& one : plan_.missing)
+      if (one.absent && options_.skip_absent)
+        report_.say("left out (--skip-absent): " + one.message);
+      else
+        end_.trouble += (end_.trouble.empty() ? "" : "; ") + one.message;
     if (!blocked_.empty() && plan_.matrix.empty() && end_.trouble.empty() && !end_.interrupted)
       end_.hint = run::coverage_hint(benches_, plan_.bench, plan_.known,
                                      {blocked_.begin(), blocked_.end()});
@@ -298,6 +332,9 @@ class Run {
 
   /// As it goes to the reports.
   void settle(CaseResult& result) {
+    if (result.verdict == results::Verdict::blocked)
+      for (const Error& one : plan_.missing)
+        result.notes.push_back("not there to run it: " + one.message);
     waivers_.apply(result);
     long_texts_.shorten(result);
   }
@@ -381,7 +418,8 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
     return run::complain(fit.error().message, run::exit_code::usage);
   os::catch_interrupts();
   const auto trouble = [&](const Error& error) {
-    return run::complain(error.message, options.skip_absent && error.absent
+    return run::complain(error.message, error.interrupted ? run::exit_code::interrupted
+                                        : options.skip_absent && error.absent
                                             ? run::exit_code::absent
                                             : run::exit_code::trouble);
   };
@@ -390,14 +428,13 @@ int run_command(const RunOptions& options, const harness::Protocols& protocols) 
   if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
   if (!options.capture.empty()) paths->emplace_back("capture", options.capture);
   if (!options.csv.empty()) paths->emplace_back("csv", options.csv);
+  if (const Status free = run::await_ports(*plan); !free) return trouble(free.error());
   if (const Status opened = run::open_journals(options, *plan); !opened)
     return run::complain(opened.error().message, run::exit_code::usage);
-  const Result<std::vector<run::Fixtures>> fixtures = run::open_fixtures(*plan);
-  if (!fixtures) return trouble(fixtures.error());
-  Result<std::vector<Benches>> ports = run::open_ports(*plan);
-  if (!ports) return trouble(ports.error());
-  plan->selected = ports->front().grouped(plan->selected);
-  return execute(options, *plan, *ports, std::move(*paths), std::move(*baseline));
+  Result<run::Devices> devices = run::open_devices(*plan);
+  if (!devices) return trouble(devices.error());
+  plan->selected = devices->ports.front().grouped(plan->selected);
+  return execute(options, *plan, devices->ports, std::move(*paths), std::move(*baseline));
 }
 
 int report_command(const ReportOptions& options) {

@@ -30,6 +30,8 @@ struct Capabilities {
   bool can_power_cycle = false;
   bool connections = false;  // links are opened and closed (TCP); there is no line 0
   bool datagrams = false;    // one send is one packet (UDP)
+  bool shared = false;       // a line behind a serial server, which may let others in, too
+  Duration round_trip{};     // to that server, as TCP has measured it
   /// Differences in time below this cannot be judged (0 in simulation).
   Duration timing_floor{};
   /// Silence inside a frame that the driver may make itself; nothing: not known, timing_floor
@@ -102,6 +104,10 @@ class Endpoint {
   virtual Status tell(std::string_view line);
   /// The first line of its standard output that begins with '{'; empty: none came within that time.
   virtual std::string answer(Duration patience);
+
+  /// capabilities().shared: does the server take one more client now? Then somebody else may be
+  /// heard on the line.
+  virtual bool lets_others_in() { return false; }
 
   /// Errors that the driver has counted since the last call ("3 parity errors, 1 break"), or empty.
   virtual std::string line_errors();

@@ -41,6 +41,7 @@ class Forwarding : public Endpoint {
   Trace trace() const override { return to_.trace(); }
   Status tell(std::string_view line) override { return to_.tell(line); }
   std::string answer(Duration patience) override { return to_.answer(patience); }
+  bool lets_others_in() override { return to_.lets_others_in(); }
   std::string line_errors() override { return to_.line_errors(); }
 
  protected:

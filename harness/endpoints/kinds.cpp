@@ -21,12 +21,14 @@ namespace fieldproof::endpoints {
 namespace {
 
 constexpr std::array<std::string_view, 4> exec_keys{"protocol", "station", "floor_ms", "echo"};
-constexpr std::array<std::string_view, 6> tcp_keys{"protocol", "station", "floor_ms",
-                                                   "udp",      "line",    "echo"};
+constexpr std::array<std::string_view, 7> tcp_keys{"protocol", "station", "floor_ms", "udp",
+                                                   "line",     "echo",    "shared"};
 constexpr std::array<std::string_view, 4> udp_keys{"protocol", "station", "floor_ms", "line"};
 constexpr std::array<std::string_view, 4> listen_keys{"protocol", "station", "floor_ms", "udp"};
 constexpr std::array<std::string_view, 7> serial_keys{"protocol", "station", "floor_ms", "baud",
                                                       "frame",    "rs485",   "echo"};
+constexpr std::array<std::string_view, 8> rfc2217_keys{"protocol", "station", "floor_ms", "baud",
+                                                       "frame",    "rs485",   "echo",     "shared"};
 
 /// Ways that carry bytes, whatever protocol they are of.
 template <Result<std::unique_ptr<Endpoint>> (*open)(const EndpointName&)>
@@ -97,7 +99,7 @@ constexpr std::array kinds{
            .open = open_listen},
     KindOf{.name = "rfc2217",
            .target = "HOST:PORT",
-           .options = serial_keys,
+           .options = rfc2217_keys,
            .line = LineOption::port,
            .lines = true,
            .check = check_network_name,

@@ -21,6 +21,10 @@ std::uint16_t udp_option(const EndpointName& name) {
 Status check_options(const EndpointName& name) {
   if (name.options.contains("udp") && udp_option(name) == 0)
     return fail(fmt::format("udp is '{}', which is no port; {}", name.option("udp", ""), ports));
+  if (const std::string shared = name.option("shared", "on"); shared != "on" && shared != "off")
+    return fail(fmt::format(
+        "shared is '{}'; write shared=off where the server lets nobody else in, or leave it out",
+        shared));
   const std::string line = name.option("line", "raw");
   if (line != "raw")
     return fail(
@@ -55,6 +59,8 @@ Status check_network_use(const EndpointName& name, const harness::Protocol& prot
                     name.kind, name.target));
   if (is_network(protocol) && name.options.contains("line"))
     return fail("it needs links, and line=raw makes one line of a connection; leave line=raw out");
+  if (is_network(protocol) && name.options.contains("shared"))
+    return fail("its connections are shared with nobody; leave shared out");
   return ok();
 }
 

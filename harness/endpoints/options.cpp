@@ -16,6 +16,8 @@ Result<Duration> timing_floor(const EndpointName& name) {
   return Duration(std::chrono::milliseconds(value));
 }
 
+bool is_shared(const EndpointName& name) { return name.option("shared", "on") == "on"; }
+
 Result<SerialOptions> serial_options(const EndpointName& name) {
   const auto wrong = [&](const Error& error) {
     return fail("cannot open " + name.kind + ':' + name.target + ": " + error.message);

@@ -22,9 +22,14 @@ class Rfc2217Endpoint final : public Endpoint {
         session_(name.target, options.settings, options.direction, patience) {
     capabilities_ = capabilities_of(name);
     capabilities_.timing_floor = options.floor;
+    capabilities_.shared = is_shared(name);
   }
 
-  Status open() { return session_.open(); }
+  Status open() {
+    Status opened = session_.open();
+    if (opened) capabilities_.round_trip = session_.round_trip();
+    return opened;
+  }
 
   const Capabilities& capabilities() const override { return capabilities_; }
   std::string describe() const override {
@@ -41,6 +46,8 @@ class Rfc2217Endpoint final : public Endpoint {
     ++reconnections_;
     return session_.open();
   }
+
+  bool lets_others_in() override { return os::takes_another_client(where_); }
 
   std::string line_errors() override {
     std::string text = line_errors_between({}, session_.take_line_errors());

@@ -9,6 +9,7 @@
 #include "harness/endpoints/rfc2217_telnet.hpp"
 #include "harness/endpoints/serial_settings.hpp"
 #include "harness/system/fd_link.hpp"
+#include "harness/system/socket_connect.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof::endpoints {
@@ -25,6 +26,8 @@ class Rfc2217Session {
   Status open();
   /// Has the connection ended? Looks, without waiting.
   bool ended();
+
+  Duration round_trip() const { return os::round_trip(link_->fd()); }
 
   Time now() const { return clock_.now(); }
   /// The end is that of the last stop bit at the set speed, as far as a network lets one tell.

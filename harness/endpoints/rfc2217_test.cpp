@@ -22,6 +22,7 @@ using os::test::receive_text;
 using test::FakeServer;
 using test::FakeServerOptions;
 using test::Ser2net;
+using test::Ser2netOptions;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
@@ -121,7 +122,7 @@ TEST_F(Rfc2217, ThePortOfAServerIsInUseForOthers) {
 }
 
 TEST_F(Rfc2217, AServerWithoutRfc2217IsSaid) {
-  const Ser2net plain(path, "telnet");
+  const Ser2net plain(path, {"telnet"});
   EXPECT_THAT(refusal(plain.where()),
               HasSubstr("cannot open rfc2217:" + plain.where() +
                         ": the server refuses RFC 2217 (COM-PORT-OPTION); in its "
@@ -145,7 +146,7 @@ TEST_F(Rfc2217, AKilledServerIsTroubleUntilItIsBack) {
                     HasSubstr("see that the device or serial server still runs")));
   EXPECT_THAT((*port)->begin(no_config).error().message,
               HasSubstr("cannot connect to " + server->where() + ": nothing listens there"));
-  server.emplace(path, "telnet(rfc2217)", number);
+  server.emplace(path, Ser2netOptions{.port = number});
   const Status back = (*port)->begin(no_config);
   ASSERT_TRUE(back) << back.error().message;
   ASSERT_TRUE((*port)->send(to_bytes("again")));

@@ -36,21 +36,34 @@ inline os::UniqueFd listen_anywhere(int& port) {
   return fd;
 }
 
+/// How a ser2net serves its port.
+struct Ser2netOptions {
+  std::string accepter = "telnet(rfc2217)";
+  int port = 0;  // one that is free
+  std::string connector = "serialdev";
+  std::vector<std::string> options{"chardelay: false"};
+
+  /// As labgrid's exporter writes it.
+  static Ser2netOptions of_labgrid() {
+    return {
+        "telnet(rfc2217,mode=server)", 0, "serialdev(nouucplock=true)", {"max-connections: 10"}};
+  }
+};
+
 /// ser2net in front of one terminal. It listens when the constructor is over, and has ended when
 /// the object is gone.
 class Ser2net {
  public:
-  /// `port` 0: one that is free.
-  explicit Ser2net(const std::string& tty, const std::string& accepter = "telnet(rfc2217)",
-                   int port = 0)
-      : port_(port) {
+  explicit Ser2net(const std::string& tty, const Ser2netOptions& served = {}) : port_(served.port) {
     if (port_ == 0) listen_anywhere(port_);
     std::string pattern = (std::filesystem::temp_directory_path() / "ser2net_XXXXXX").string();
     folder_ = ::mkdtemp(pattern.data());
-    std::ofstream(folder_ / "ser2net.yaml")
-        << "%YAML 1.1\n---\nconnection: &bench\n  accepter: " << accepter << ",tcp,127.0.0.1,"
-        << port_ << "\n  connector: serialdev," << tty
-        << ",9600n81,local\n  options:\n    chardelay: false\n";
+    std::ofstream file(folder_ / "ser2net.yaml");
+    file << "%YAML 1.1\n---\nconnection: &bench\n  accepter: " << served.accepter
+         << ",tcp,127.0.0.1," << port_ << "\n  connector: " << served.connector << ',' << tty
+         << ",9600n81,local\n  options:\n";
+    for (const std::string& option : served.options) file << "    " << option << '\n';
+    file.close();
     // It writes its pid file when it listens: into this pipe.
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);

@@ -26,12 +26,14 @@ class SocketLine final : public Endpoint {
       : name_(name.kind + ':' + name.target), where_(name.target), type_(type) {
     capabilities_ = capabilities_of(name);
     capabilities_.timing_floor = floor;
+    capabilities_.shared = type == SOCK_STREAM && is_shared(name);
   }
 
   Status open() {
     Result<os::UniqueFd> fd = os::connect_socket(where_, type_);
     if (!fd) return fd.error();
     link_.emplace(std::move(*fd), name_, clock_);
+    if (capabilities_.shared) capabilities_.round_trip = os::round_trip(link_->fd());
     return ok();
   }
 
@@ -48,6 +50,8 @@ class SocketLine final : public Endpoint {
   using Endpoint::send;
   Result<Sent> send(ByteView bytes, LinkId) override { return link_->send(bytes); }
   Result<Burst> receive(Time deadline) override { return link_->receive(deadline); }
+
+  bool lets_others_in() override { return os::takes_another_client(where_); }
 
   std::string line_errors() override {
     const int count = std::exchange(reconnections_, 0);

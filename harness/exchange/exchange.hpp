@@ -1,6 +1,7 @@
 // Drives one endpoint through the steps of a case. Sends, listens and keeps time; judges nothing.
 #pragma once
 
+#include "harness/exchange/others.hpp"
 #include "harness/exchange/prepared_case.hpp"
 #include "harness/exchange/sanity.hpp"
 #include "harness/exchange/transcript.hpp"
@@ -33,6 +34,10 @@ class Exchange {
   /// Client role: listens until the device is silent for so long; at most ten seconds. Nothing of
   /// it is judged.
   Status settle(Duration silence) { return exchange::settle(*device_.endpoint, silence); }
+  /// What somebody else has asked for: unasked_bytes() at this station.
+  Result<Bytes> unasked_bytes(int station, Duration watch) {
+    return exchange::unasked_bytes(at(station), watch, timing_);
+  }
   /// How long answers to the probe take: so many, or fewer when `budget` is over first.
   Result<results::ResponseTimes> time_probes(int station, int count, Duration budget);
 

@@ -26,6 +26,7 @@ class ScriptedEndpoint : public endpoints::Endpoint {
   std::vector<nlohmann::json> begun;
   int fails_after = -1;  // transmissions until the port fails
   int power_cycles = 0;
+  bool lets_in = true;  // others, where the line is shared
   std::string forgets;  // answered so often, then never again
   int forgets_after = 1;
 
@@ -62,6 +63,8 @@ class ScriptedEndpoint : public endpoints::Endpoint {
     now_ = std::max(now_, burst.end());
     return burst;
   }
+
+  bool lets_others_in() override { return lets_in; }
 
   Status set(std::string_view address, std::string_view hex) override {
     memory[std::string(address)] = hex;

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <filesystem>
 #include <tuple>
 
 #include "harness/bench/what_to_check.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/run/exit_code.hpp"
 #include "harness/run/look_on.hpp"
+#include "harness/safety/journal_note.hpp"
 
 namespace fieldproof::run {
 
@@ -15,25 +17,77 @@ using bench::Benches;
 
 namespace {
 
+/// Whose memory the plan's journal may hold. What a device that ended with its run had is gone.
+std::vector<safety::JournalDevice> lasting_devices(const DutPlan& plan) {
+  std::vector<safety::JournalDevice> devices;
+  if (!plan.ends_with_run) devices.push_back(plan.bench.device);
+  if (plan.aux) devices.push_back(plan.bench.aux_device);
+  return devices;
+}
+
+Status check_open(const std::vector<safety::OpenEntry>& entries,
+                  const safety::JournalDevice& device, const std::string& journal) {
+  const auto open = std::ranges::count_if(entries, [&](const safety::OpenEntry& one) {
+    return safety::is_same_device(one.device, device);
+  });
+  if (open == 0) return ok();
+  return fail(
+      fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of its "
+                  "values; type: fieldproof restore {}\n"
+                  "(or forget them: --discard-journal)",
+                  device.endpoint, open, shell_word(journal)));
+}
+
+/// What an earlier run has left of this device, whatever folder it wrote to.
+Status check_noted_journal(const RunOptions& options, const safety::JournalDevice& device,
+                           const std::string& own) {
+  const std::string other = safety::JournalNote(device).journal();
+  std::error_code failed;
+  const bool there = std::filesystem::exists(other, failed);
+  if (other.empty() || (options.discard_journal && !there)) return ok();
+  if (std::filesystem::equivalent(other, own, failed)) return ok();  // opened and looked at next
+  if (options.discard_journal) {
+    Result<safety::Journal> journal = safety::Journal::open(other);
+    return journal ? journal->discard(device) : Status(journal.error());
+  }
+  if (!there)
+    return fail(
+        fmt::format("cannot write to {}: an earlier run was cut off, and what it had not put back "
+                    "stood in {}, which is gone; see that the device is as it should be, then "
+                    "forget it: --discard-journal",
+                    device.endpoint, other));
+  const Result<std::vector<safety::OpenEntry>> entries = safety::read_journal(other);
+  return entries ? check_open(*entries, device, other) : Status(entries.error());
+}
+
+/// The notes of a device end with a run that has put back all.
+std::shared_ptr<safety::Journal> noted(safety::Journal journal,
+                                       std::vector<safety::JournalDevice> devices) {
+  for (const safety::JournalDevice& device : devices)
+    safety::JournalNote(device).keep(journal.path());
+  return {new safety::Journal(std::move(journal)),
+          [devices = std::move(devices)](safety::Journal* used) {
+            const std::unique_ptr<safety::Journal> owned(used);
+            for (const safety::JournalDevice& device : devices)
+              if (used->open_entries().empty()) safety::JournalNote(device).drop(used->path());
+          }};
+}
+
 Status open_journal(const RunOptions& options, DutPlan& plan) {
   if (plan.journal.empty()) return ok();
+  const std::vector<safety::JournalDevice> devices = lasting_devices(plan);
+  for (const safety::JournalDevice& device : devices)
+    if (const Status none = check_noted_journal(options, device, plan.journal); !none) return none;
   Result<safety::Journal> journal = safety::Journal::open(plan.journal);
   if (!journal) return journal.error();
   for (const safety::JournalDevice& device : {plan.bench.device, plan.bench.aux_device}) {
     // What a device that ended with its run had is gone with it.
     if (options.discard_journal || (plan.ends_with_run && !plan.aux))
       if (Status discarded = journal->discard(device); !discarded) return discarded;
-    const auto open = std::ranges::count_if(
-        journal->open_entries(),
-        [&](const safety::OpenEntry& one) { return safety::is_same_device(one.device, device); });
-    if (open > 0)
-      return fail(
-          fmt::format("cannot write to {}: an earlier run was cut off before it had put back {} of "
-                      "its values; type: fieldproof restore {}\n"
-                      "(or forget them: --discard-journal)",
-                      device.endpoint, open, shell_word(plan.journal)));
+    if (const Status none = check_open(journal->open_entries(), device, plan.journal); !none)
+      return none;
   }
-  plan.bench.journal = std::make_shared<safety::Journal>(std::move(*journal));
+  plan.bench.journal = noted(std::move(*journal), devices);
   return ok();
 }
 
@@ -98,36 +152,53 @@ Status Fixtures::open_aux(const endpoints::EndpointName& name, const safety::Jou
                                        aux_->describe(), aux_station_)));
 }
 
-Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan) {
-  std::vector<Fixtures> all;
-  const auto open = [&](DutPlan& dut) -> Status {
-    Result<Fixtures> fixtures = Fixtures::open(dut);
-    if (!fixtures) return fixtures.error();
-    fixtures->give(dut.bench, dut);
-    all.push_back(std::move(*fixtures));
-    return ok();
-  };
-  Status opened = open(plan);
-  for (std::size_t i = 0; i < plan.others.size() && opened; ++i) opened = open(plan.others[i]);
-  if (!opened) return opened.error();
+namespace {
+
+Status open_device(DutPlan& dut, const RunPlan& plan, Devices& opened) {
+  Result<Fixtures> fixtures = Fixtures::open(dut);
+  if (!fixtures) return fixtures.error();
+  fixtures->give(dut.bench, dut);
+  Result<Benches> port = Benches::open(
+      plan.matrix.empty() ? dut.endpoint : endpoints::with_line(dut.endpoint, plan.matrix.front()),
+      dut.protocols, dut.bench);
+  if (!port) return port.error();
+  opened.fixtures.push_back(std::move(*fixtures));
+  opened.ports.push_back(std::move(*port));
+  return ok();
+}
+
+/// None of them can be opened.
+Error all_missing(const std::vector<Error>& missing) {
+  Error all{{}, false, true};
+  for (const Error& one : missing) {
+    all.message += (all.message.empty() ? "" : "; ") + one.message;
+    all.absent &= one.absent;
+  }
   return all;
 }
 
-Result<std::vector<Benches>> open_ports(const RunPlan& plan) {
-  std::vector<Benches> ports;
-  const auto open = [&](const DutPlan& dut) -> Status {
-    Result<Benches> port =
-        Benches::open(plan.matrix.empty() ? dut.endpoint
-                                          : endpoints::with_line(dut.endpoint, plan.matrix.front()),
-                      dut.protocols, dut.bench);
-    if (!port) return port.error();
-    ports.push_back(std::move(*port));
-    return ok();
-  };
-  if (const Status opened = open(plan); !opened) return opened.error();
-  for (const DutPlan& other : plan.others)
-    if (const Status opened = open(other); !opened) return opened.error();
-  return ports;
+}  // namespace
+
+Result<Devices> open_devices(RunPlan& plan) {
+  std::vector<DutPlan> duts;
+  duts.push_back(std::move(static_cast<DutPlan&>(plan)));
+  std::ranges::move(plan.others, std::back_inserter(duts));
+  plan.others.clear();
+  Devices opened;
+  const bool alone = duts.size() == 1;
+  for (DutPlan& dut : duts) {
+    const Status there = open_device(dut, plan, opened);
+    if (!there && (alone || there.error().interrupted)) return there.error();
+    if (!there)
+      plan.missing.push_back(
+          {dut.identity.name + ": " + there.error().message, false, there.error().absent});
+    else if (opened.ports.size() == 1)
+      static_cast<DutPlan&>(plan) = std::move(dut);
+    else
+      plan.others.push_back(std::move(dut));
+  }
+  if (opened.ports.empty()) return all_missing(plan.missing);
+  return opened;
 }
 
 namespace {

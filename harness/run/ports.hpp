@@ -34,11 +34,15 @@ class Fixtures {
 /// and what to type.
 Status open_journals(const RunOptions& options, RunPlan& plan);
 
-/// Opens what stands beside each device of the plan, and gives it to its bench.
-Result<std::vector<Fixtures>> open_fixtures(RunPlan& plan);
+/// By the number of a device in the plan.
+struct Devices {
+  std::vector<Fixtures> fixtures;  // outlive the ports
+  std::vector<bench::Benches> ports;
+};
 
-/// One port a device; the error is that of the first that cannot be opened.
-Result<std::vector<bench::Benches>> open_ports(const RunPlan& plan);
+/// Opens each device of the plan and what stands beside it. Of several, one that cannot be opened
+/// leaves the plan and is told in its `missing`; the error is that of a device alone, or of all.
+Result<Devices> open_devices(RunPlan& plan);
 
 /// Another device on the desk than the bench file has? Also looked at for a sheet to sign
 /// (`wanted`), which then shows it.

@@ -38,6 +38,7 @@ struct RunOptions {
   std::string reconfigure;  // command that sets the device for a step of the matrix; empty: the
                             // engineer does
   std::string duration;     // soak: "8h"
+  std::string wait_port;    // how long a port that is absent or in use is waited for: "10m"
   int seed = -1;            // >= 0: shuffled by it
   int repeat = 1;
   int max_restarts = 20;  // of a device that the bench starts itself

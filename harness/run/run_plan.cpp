@@ -202,6 +202,11 @@ Status read_timing_options(const RunOptions& options, RunPlan& plan) {
                                     {"--loop", !options.loop.empty()}})
     if (given && !plan.others.empty())
       return fail(fmt::format("{} is of one device; give one --dut", name));
+  if (!options.wait_port.empty()) {
+    const Result<Duration> wait = parse_duration(options.wait_port);
+    if (!wait) return fail("--wait-port: " + wait.error().message);
+    plan.wait_port = *wait;
+  }
   if (!options.floor.empty()) {
     const Result<Duration> floor = parse_duration(options.floor);
     if (!floor) return fail("--floor: " + floor.error().message);
@@ -444,6 +449,25 @@ Status derive(const RunOptions& options, const harness::Protocols& known, vector
   return ok();
 }
 
+/// "model=XBL-C41A" stands for all devices of the bench file whose identity says so.
+Result<RunOptions> with_duts_by_name(RunOptions options, const harness::Protocols& known) {
+  std::vector<std::string> names;
+  for (const std::string& dut : options.duts) {
+    if (options.bench.empty() || dut.find('=') == dut.npos) {
+      names.push_back(dut);
+      continue;
+    }
+    const Result<bench::BenchFile> file = bench::load_bench_file(options.bench, words_of(known));
+    if (!file) return file.error();
+    const Result<std::vector<std::string>> found = bench::find_devices(*file, dut);
+    if (!found) return found.error();
+    for (const std::string& name : *found)
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  options.duts = std::move(names);
+  return options;
+}
+
 Status check_duts(const RunOptions& options) {
   if (options.bench.empty() != options.duts.empty())
     return fail("--bench FILE and --dut NAME go together; give both");
@@ -459,9 +483,12 @@ Status check_duts(const RunOptions& options) {
 
 }  // namespace
 
-Result<RunPlan> make_run_plan(const RunOptions& options, const harness::Protocols& known) {
+Result<RunPlan> make_run_plan(const RunOptions& given, const harness::Protocols& known) {
   RunPlan plan;
   if (const Status shard = results::check_shard_environment(); !shard) return shard.error();
+  const Result<RunOptions> named = with_duts_by_name(given, known);
+  if (!named) return named.error();
+  const RunOptions& options = *named;
   if (const Status duts = check_duts(options); !duts) return duts.error();
   if (options.read_only && !options.allow_write.empty())
     return fail("--read-only and --allow-write exclude each other; give one");

@@ -40,8 +40,10 @@ struct RunPlan : DutPlan {
   std::vector<line::LineSettings> matrix;      // --matrix: steps of the line; empty: there is none
   std::optional<bench::AdapterFloor> floor;    // --floor
   std::optional<endpoints::EndpointName>
-      loop;         // --loop: where an emulator answers over the same kind of link
-  Duration soak{};  // --duration; 0: no soak
+      loop;                      // --loop: where an emulator answers over the same kind of link
+  Duration soak{};               // --duration; 0: no soak
+  Duration wait_port{};          // --wait-port: for a port that is absent or in use
+  std::vector<Error> missing{};  // of several devices: what could not be opened, and why
   std::map<std::string, std::string> hashes;  // with --qualify: SHA-256 of tool, vectors, profile
 
   /// By the number of its port: this one, then `others`.

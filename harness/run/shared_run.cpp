@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -20,23 +21,32 @@ SharedRun::SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult o
 void SharedRun::execute() {
   {
     std::vector<std::jthread> threads;
-    for (const Port& port : ports_) threads.emplace_back([this, &port] { serve(port); });
+    for (std::size_t i = 0; i < ports_.size(); ++i) threads.emplace_back([this, i] { serve(i); });
   }
   interrupted_ = interrupted_ && !hung_;  // the watchdog ends a hanging case in the way of Ctrl-C
   if (interrupted_ || hung_) return;
-  for (Task task; take(task);) try {
+  for (Task task; !over_ && !tasks_.empty();) try {
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+      ++running_;
       finish(task);
     } catch (const std::exception& error) {
       return give_up(task, error);
     }
 }
 
-/// No port is left.
+/// No port is left that could run it.
 void SharedRun::finish(const Task& task) {
   if (task.earlier) return report({task.source, task.repeat}, *task.earlier);
   results::CaseResult result = judging::result_of(*task.source);
   result.verdict = results::Verdict::blocked;
-  result.message = fmt::format("no port is left: {}", fmt::join(stops_, "; "));
+  std::vector<std::string> names;
+  for (const std::size_t port : task.only) names.push_back(ports_[port].name);
+  result.message =
+      fmt::format("{}: {}",
+                  names.empty() ? "no port is left"
+                                : fmt::format("only {} could run it", fmt::join(names, ", ")),
+                  fmt::join(stops_, "; "));
   report(task, std::move(result));
 }
 
@@ -50,7 +60,8 @@ void SharedRun::give_up(const Task& task, const std::exception& error) {
   changed_.notify_all();
 }
 
-void SharedRun::serve(const Port& port) {
+void SharedRun::serve(std::size_t number) {
+  const Port& port = ports_[number];
   const auto cannot = [&](const std::string& when, const Error& error) {
     const std::lock_guard lock(mutex_);
     interrupted_ |= error.interrupted;
@@ -59,8 +70,8 @@ void SharedRun::serve(const Port& port) {
   };
   if (!port.unable.empty()) return cannot("", Error{port.unable});
   bench::Watchdog watchdog;
-  for (Task task; take(task);) try {
-      if (!run(port, task, watchdog)) return;
+  for (Task task; take(number, task);) try {
+      if (!run(number, task, watchdog)) return;
     } catch (const std::exception& error) {
       return give_up(task, error);
     }
@@ -70,17 +81,24 @@ void SharedRun::serve(const Port& port) {
 }
 
 /// Waits while another port may still give its case back.
-bool SharedRun::take(Task& task) {
+bool SharedRun::take(std::size_t port, Task& task) {
+  const auto mine = [&] {
+    return std::ranges::find_if(tasks_, [&](const Task& one) {
+      return one.only.empty() || std::ranges::find(one.only, port) != one.only.end();
+    });
+  };
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return over_ || !tasks_.empty() || running_ == 0; });
-  if (over_ || tasks_.empty()) return false;
-  task = std::move(tasks_.front());
-  tasks_.pop_front();
+  changed_.wait(lock, [&] { return over_ || mine() != tasks_.end() || running_ == 0; });
+  const auto next = mine();
+  if (over_ || next == tasks_.end()) return false;
+  task = std::move(*next);
+  tasks_.erase(next);
   ++running_;
   return true;
 }
 
-bool SharedRun::run(const Port& port, const Task& task, bench::Watchdog& watchdog) {
+bool SharedRun::run(std::size_t number, const Task& task, bench::Watchdog& watchdog) {
+  const Port& port = ports_[number];
   watchdog.watch(task.source->id);
   const auto started = std::chrono::steady_clock::now();
   results::CaseResult result = port.benches->run(*task.source);
@@ -103,7 +121,7 @@ bool SharedRun::run(const Port& port, const Task& task, bench::Watchdog& watchdo
       stops_.push_back(port.name + ": " +
                        (hung ? "hung in " + result.id : port.benches->stopped()));
     if (done && !ended) troubles_.push_back(stops_.back());
-    if (lost) tasks_.push_front({task.source, task.repeat, std::move(result)});
+    if (lost) tasks_.push_front({task.source, task.repeat, std::move(result), task.only});
     if (ended || lost) --running_;
   }
   changed_.notify_all();

@@ -30,15 +30,18 @@ class SharedRun {
     const vectors::Case* source = nullptr;
     int repeat = 0;
     std::optional<results::CaseResult> earlier = {};  // of a port that failed in it
+    std::vector<std::size_t> only =
+        {};  // the ports that could run it; empty: it makes no difference
   };
   /// Takes a result, one at a time; false: stop here.
   using OnResult = std::function<bool(const vectors::Case& source, results::CaseResult result)>;
 
   SharedRun(std::vector<Port> ports, std::deque<Task> tasks, OnResult on_result);
 
-  /// Until every case has its result. What a port that vanishes leaves goes to the others; what no
-  /// port is left for is BLOCKED. The case in which a port failed is run elsewhere, but only once
-  /// more: it may be the case that does it.
+  /// Until every case has its result. A port takes the next case that it could run. What a port
+  /// that vanishes leaves goes to the others; what none of those left could run is BLOCKED. The
+  /// case in which a port failed is run elsewhere, but only once more: it may be the case that does
+  /// it.
   void execute();
 
   const std::vector<std::string>& troubles() const {
@@ -49,10 +52,10 @@ class SharedRun {
   const std::deque<Task>& left() const { return tasks_; }
 
  private:
-  void serve(const Port& port);
-  bool take(Task& task);
+  void serve(std::size_t port);
+  bool take(std::size_t port, Task& task);
   /// False: the port is done.
-  bool run(const Port& port, const Task& task, bench::Watchdog& watchdog);
+  bool run(std::size_t number, const Task& task, bench::Watchdog& watchdog);
   void finish(const Task& task);
   void report(const Task& task, results::CaseResult result);
   /// What was thrown ends the run.

@@ -21,15 +21,6 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-/// Kind and target, links followed.
-std::string port_of(const std::string& endpoint) {
-  const Result<endpoints::EndpointName> name = endpoints::parse_endpoint(endpoint);
-  if (!name) return endpoint;
-  std::error_code failed;
-  const fs::path real = fs::canonical(name->target, failed);
-  return name->kind + ":" + (failed ? name->target : real.string());
-}
-
 json to_json(const OpenEntry& entry) {
   const JournalDevice& device = entry.device;
   return {{"number", entry.number},      {"endpoint", device.endpoint}, {"station", device.station},
@@ -133,6 +124,14 @@ Result<os::UniqueFd> open_locked(const std::string& path, int flags) {
 }
 
 }  // namespace
+
+std::string port_of(const std::string& endpoint) {
+  const Result<endpoints::EndpointName> name = endpoints::parse_endpoint(endpoint);
+  if (!name) return endpoint;
+  std::error_code failed;
+  const fs::path real = fs::canonical(name->target, failed);
+  return name->kind + ":" + (failed ? name->target : real.string());
+}
 
 bool is_same_device(const JournalDevice& one, const JournalDevice& other) {
   return one.station == other.station && port_of(one.endpoint) == port_of(other.endpoint);

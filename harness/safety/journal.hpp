@@ -30,6 +30,9 @@ struct JournalDevice {
   bool operator==(const JournalDevice&) const = default;
 };
 
+/// Kind and target of an endpoint, links followed.
+std::string port_of(const std::string& endpoint);
+
 /// The same endpoint, whatever its options, and station?
 bool is_same_device(const JournalDevice& one, const JournalDevice& other);
 

@@ -114,4 +114,23 @@ Result<UniqueFd> connect_socket(const std::string& where, int type) {
   return fd;
 }
 
+bool takes_another_client(const std::string& where) {
+  constexpr int says_no_within_ms = 300;  // "Port already in use", and the end
+  const Result<UniqueFd> fd = connect_socket(where, SOCK_STREAM);
+  if (!fd) return false;
+  pollfd one{fd->get(), POLLIN, 0};
+  while (::poll(&one, 1, says_no_within_ms) == 1) {
+    char words[256];
+    if (::recv(fd->get(), words, sizeof words, 0) <= 0) return false;
+  }
+  return !interrupted();
+}
+
+Duration round_trip(int fd) {
+  tcp_info info{};
+  socklen_t size = sizeof info;
+  if (::getsockopt(fd, IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return {};
+  return std::chrono::microseconds(info.tcpi_rtt);
+}
+
 }  // namespace fieldproof::os

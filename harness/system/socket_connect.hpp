@@ -8,6 +8,7 @@
 #include "harness/system/socket_address.hpp"
 #include "harness/system/unique_fd.hpp"
 #include "src/base/result.hpp"
+#include "src/base/time.hpp"
 
 namespace fieldproof::os {
 
@@ -35,6 +36,12 @@ UniqueFd begin_connecting(const SocketName& name, int type);
 /// A socket to "HOST:PORT" as `RemoteHost::connect` makes it; a refusal is an error: "cannot
 /// connect to plc:2004: nothing listens there; start ...".
 Result<UniqueFd> connect_socket(const std::string& where, int type);
+
+/// Does the server there take one more client? Not: it refuses, or closes before it says so.
+bool takes_another_client(const std::string& where);
+
+/// How long TCP has found the way there and back to take.
+Duration round_trip(int fd);
 
 /// What a refused connection means to an engineer.
 inline constexpr const char* refused_advice =

@@ -12,7 +12,7 @@ namespace {
 const std::array<std::pair<const char*, std::vector<const char*>>, 7> groups{{
     {"The device",
      {"--endpoint", "--bench", "--dut", "--profile", "--protocol", "--role", "--stimulus", "--aux",
-      "--control"}},
+      "--control", "--wait-port"}},
     {"The cases",
      {"--filter", "--vectors", "--derived", "--requests", "--seed", "--repeat", "--matrix",
       "--reconfigure", "--duration", "--dry-run"}},

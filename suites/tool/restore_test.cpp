@@ -14,6 +14,21 @@ using Memory = std::map<std::string, std::string>;
 
 const plc::PlcModel& xbc() { return plc::plc_models().front(); }
 
+/// These tests kill runs: what is noted of their devices is not for the user's own runs to find.
+class StateFolder : public testing::Environment {
+ public:
+  void SetUp() override {
+    folder_ = std::make_unique<TestFolder>();
+    ::setenv("XDG_STATE_HOME", folder_->path().c_str(), 1);
+  }
+  void TearDown() override { folder_.reset(); }
+
+ private:
+  std::unique_ptr<TestFolder> folder_;
+};
+[[maybe_unused]] const testing::Environment* const state_folder =
+    testing::AddGlobalTestEnvironment(new StateFolder);
+
 class Restore : public testing::Test {
  protected:
   Restore() : device_({FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"}) {
@@ -119,6 +134,38 @@ TEST_F(Restore, AfterAKillAtAnyMomentRestorePutsBack) {
   for (const int lines : {1, 2, 3, 8, 25, 60}) kill_behind(lines);
   for (int lines = 4; left_open == 0 && lines < 30; ++lines) kill_behind(lines);  // all between two
   EXPECT_GT(left_open, 0u) << "no kill hit a case that was writing";
+}
+
+TEST_F(Restore, ARunToAnotherFolderFindsWhatIsOpen) {
+  const auto run_elsewhere = [&](const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments =
+        run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/wsb/*"});
+    arguments[6] = folder_ / "elsewhere";
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(arguments);
+  };
+  const auto kill_one = [&] {
+    const std::unique_ptr<Process> run = writing_run(8);
+    run->signal(SIGKILL);
+    run->wait();
+  };
+  kill_one();
+  folder_.write("out/journal.ndjson",
+                R"({"saved":{"address":"%MW105","config":{},"endpoint":")" + endpoint() +
+                    R"(","model":"xbc-h","number":1,"protocol":"xgt-cnet","station":1,)" +
+                    R"("value":"1234"}})" + "\n");
+  const Finished refused = run_elsewhere();
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("type: fieldproof restore " + journal()));
+  EXPECT_EQ(run_tool({"restore", journal()}).code, 0);
+  EXPECT_EQ(run_elsewhere().code, 0);
+  kill_one();
+  std::filesystem::remove_all(folder_ / "out");
+  const Finished gone = run_elsewhere();
+  EXPECT_EQ(gone.code, 2);
+  EXPECT_THAT(gone.err, HasSubstr("stood in " + journal() + ", which is gone"));
+  EXPECT_EQ(run_elsewhere({"--discard-journal"}).code, 0);
+  EXPECT_EQ(run_elsewhere().code, 0) << "a run that ends leaves no note";
 }
 
 /// Unplugged: the master end of the port closes.

@@ -11,6 +11,7 @@ namespace fieldproof::tool_tests {
 namespace {
 
 using endpoints::test::Ser2net;
+using endpoints::test::Ser2netOptions;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -28,6 +29,10 @@ class RemotePort : public testing::Test {
   static std::vector<std::string> arguments(const std::string& endpoint, const std::string& out) {
     return {"run",           "--endpoint", endpoint, "--profile", "xbc-h",
             "--allow-write", "all,P,Q,U",  "--out",  out};
+  }
+  void serve_as_labgrid() {
+    server_.reset();
+    server_ = std::make_unique<Ser2net>(folder_ / "bench", Ser2netOptions::of_labgrid());
   }
   Results run(const std::string& endpoint, const std::string& filter) {
     std::vector<std::string> all = arguments(endpoint, folder_ / "out");
@@ -106,6 +111,43 @@ TEST_F(RemotePort, a_server_that_is_not_there_is_trouble) {
                     HasSubstr("nothing listens there; start the device or serial server")));
 }
 
+/// labgrid's exporter lets ten clients in. Whichever of the two is there first, the other one meets
+/// it in its claim.
+TEST_F(RemotePort, two_runs_on_one_port_fail_nothing_and_say_why) {
+  serve_as_labgrid();
+  Process device({FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
+  ASSERT_TRUE(device.wait_for(folder_ / "device"));
+  const std::string vectors = write_vectors(folder_, many_vectors(600));
+  const auto begin = [&](const std::string& out) {
+    std::vector<std::string> all = arguments(endpoint(), folder_ / out);
+    all.insert(all.end(), {"--vectors", vectors});
+    return std::make_unique<Process>(tool_arguments(all));
+  };
+  const auto first = begin("first"), second = begin("second");
+  const Finished ends[] = {first->wait(), second->wait()};
+  int told = 0;
+  for (int i = 0; i < 2; ++i) {
+    const Results results =
+        read_results(folder_ / (i == 0 ? "first/results.ndjson" : "second/results.ndjson"));
+    EXPECT_EQ(results.counts().count("FAIL"), 0u) << ends[i].out << ends[i].err;
+    EXPECT_EQ(results.counts().count("ERROR"), 0u) << ends[i].out << ends[i].err;
+    const bool says = ends[i].err.find("somebody else speaks on rfc2217:") != std::string::npos;
+    EXPECT_EQ(ends[i].code, says ? 3 : 0) << ends[i].out << ends[i].err;
+    told += says;
+  }
+  EXPECT_GE(told, 1);
+}
+
+TEST_F(RemotePort, the_delay_of_ser2net_is_named_with_the_line_that_ends_it) {
+  Process device({FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
+  ASSERT_TRUE(device.wait_for(folder_ / "device"));
+  const std::string filter = "xgt_cnet/rss/two_words/lower";
+  const auto floor = [&] { return run(endpoint(), filter).run["properties"].at("floor").dump(); };
+  EXPECT_THAT(floor(), testing::Not(HasSubstr("ser2net")));
+  serve_as_labgrid();
+  EXPECT_THAT(floor(), AllOf(HasSubstr("if ser2net is between"), HasSubstr("`chardelay: false`")));
+}
+
 /// The first one waits for an answer for longer than the others take to start, on a busy machine
 /// too: the sanity exchange and the floor are 21 requests, and the next is not answered.
 TEST_F(RemotePort, a_second_user_is_told_of_the_first) {
@@ -127,6 +169,14 @@ TEST_F(RemotePort, a_second_user_is_told_of_the_first) {
                                           ": the port is in use by process "),
                                 HasSubstr(" (fieldproof) since 20"),
                                 HasSubstr("end that process or choose another port")));
+  Process fourth([&] {
+    std::vector<std::string> all = user("fourth");
+    all.insert(all.end(), {"--wait-port", "10m"});
+    return all;
+  }());
+  EXPECT_TRUE(fourth.wait_for("waiting: cannot open " + (folder_ / "bench")));
+  fourth.signal(SIGINT);
+  EXPECT_EQ(fourth.wait().code, 130) << "Ctrl-C ends the waiting";
   // Killed, it leaves its lock: the next user takes it over and says so.
   first.signal(SIGKILL);
   EXPECT_EQ(first.wait().code, 128 + SIGKILL);

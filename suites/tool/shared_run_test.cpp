@@ -202,6 +202,94 @@ TEST_F(SharedRuns, WhatIsOfOneDeviceIsRefused) {
   }
 }
 
+TEST_F(SharedRuns, DevicesAreChosenByWhatTheyAre) {
+  nlohmann::ordered_json devices{
+      {"a", device("good")}, {"b", device("good")}, {"c", device("good")}};
+  for (const char* name : {"a", "b"}) devices[name]["identity"]["model"] = "XBL-C41A";
+  devices["c"]["identity"]["model"] = "XBL-C21A";
+  const std::string bench =
+      folder_.write("bench.json", nlohmann::ordered_json{{"devices", devices}}.dump());
+  const auto run_on = [&](const std::string& dut) {
+    return run_tool({"run", "--bench", bench, "--dut", dut, "--vectors",
+                     write_vectors(folder_, slow_vectors(6)), "--out", folder_ / "out"});
+  };
+  EXPECT_EQ(run_on("model=XBL-C41A").code, 0);
+  EXPECT_EQ(results().run["duts"].size(), 2u);
+  EXPECT_EQ(run_on("model=XBL-C21A").code, 0);
+  EXPECT_EQ(results().run["identity"]["name"], "c") << "one alone";
+  EXPECT_THAT(run_on("model=XBL-C42A").err,
+              HasSubstr("has model=XBL-C42A; there is XBL-C21A, XBL-C41A"));
+  EXPECT_THAT(run_on("colour=red").err, HasSubstr("write model=, maker=, serial= or firmware="));
+}
+
+TEST_F(SharedRuns, TheLongestCaseIsTakenFirst) {
+  std::vector<nlohmann::ordered_json> vectors = slow_vectors(20);
+  vectors.back()["steps"][0]["wait"] = "1s";
+  const std::string bench = folder_.write(
+      "bench.json",
+      nlohmann::ordered_json{{"devices", {{"a", device("good")}, {"b", device("good")}}}}.dump());
+  EXPECT_EQ(run_tool({"run", "--bench", bench, "--dut", "a,b", "--vectors",
+                      write_vectors(folder_, vectors), "--out", folder_ / "out"})
+                .code,
+            0);
+  EXPECT_NE(results().ids().back(), vectors.back()["id"]) << "one port would wait for it";
+}
+
+TEST_F(SharedRuns, AnAbsentDeviceLeavesThePool) {
+  nlohmann::ordered_json absent = device("good");
+  absent["endpoint"] = "serial:" + (folder_ / "nothing");
+  const nlohmann::ordered_json devices{{"a", absent}, {"b", device("good")}, {"c", device("good")}};
+  const Finished finished = run(devices, 10);
+  EXPECT_EQ(finished.code, 3) << finished.out;
+  EXPECT_THAT(finished.err, HasSubstr("a: cannot open " + (folder_ / "nothing")));
+  EXPECT_EQ(results().counts(), (std::map<std::string, std::size_t>{{"PASS", 10}}));
+  EXPECT_EQ(results().run["duts"].size(), 2u);
+  EXPECT_EQ(run(devices, 10, {"--skip-absent"}).code, 0);
+  const Finished all = run({{"a", absent}, {"b", absent}}, 10, {"--skip-absent"});
+  EXPECT_EQ(all.code, 77) << all.out;
+  EXPECT_THAT(all.err, AllOf(HasSubstr("a: cannot open"), HasSubstr("b: cannot open")));
+}
+
+TEST_F(SharedRuns, ACaseGoesToWhoCouldRunIt) {
+  const auto emulated = [&](const char* writes) {
+    nlohmann::ordered_json one = device("good");
+    one["endpoint"] = "exec:" FIELDPROOF_TOOL " emulate xbc-h --pty {tty}";
+    one["allow_write"] = {writes};
+    return one;
+  };
+  std::vector<nlohmann::ordered_json> vectors = slow_vectors(12);
+  for (int i = 0; i < 12; i += 2)
+    vectors[i]["steps"] = {{{"send", "[ENQ st 'wSS' '01' name(%MW100) '1234' EOT BCC]"}},
+                           {{"expect", "[ACK st 'wSS' ETX BCC]"}}};
+  const std::string bench = folder_.write(
+      "bench.json",
+      nlohmann::ordered_json{{"devices", {{"a", emulated("M100")}, {"b", emulated("D0")}}}}.dump());
+  EXPECT_EQ(run_tool({"run", "--bench", bench, "--dut", "b,a", "--vectors",
+                      write_vectors(folder_, vectors), "--out", folder_ / "out"})
+                .code,
+            0);
+  EXPECT_EQ(results().counts(), (std::map<std::string, std::size_t>{{"PASS", 12}}));
+  for (int i = 0; i < 12; i += 2) EXPECT_EQ(results().of(vectors[i]["id"])["dut"], "a");
+}
+
+TEST_F(SharedRuns, WhatOnlyADeadDeviceCouldRunIsBlockedWithItsName) {
+  nlohmann::ordered_json mortal = device("die", "23"), other = device("good");
+  mortal["allow_write"] = {"M100"};
+  other["allow_write"] = {"D0"};
+  std::vector<nlohmann::ordered_json> vectors = slow_vectors(12);
+  for (int i = 6; i < 12; ++i)
+    vectors[i]["steps"].push_back({{"send", "[ENQ st 'wSS' '01' name(%MW100) '1234' EOT BCC]"}});
+  const std::string bench = folder_.write(
+      "bench.json", nlohmann::ordered_json{{"devices", {{"a", mortal}, {"b", other}}}}.dump());
+  const Finished finished =
+      run_tool({"run", "--bench", bench, "--dut", "a,b", "--max-restarts", "0", "--vectors",
+                write_vectors(folder_, vectors), "--out", folder_ / "out"});
+  EXPECT_EQ(finished.code, 3) << finished.out;
+  EXPECT_EQ(results().cases.size(), 12u);
+  EXPECT_THAT(results().of(vectors[11]["id"])["message"].get<std::string>(),
+              HasSubstr("only a could run it: a: the port failed in"));
+}
+
 /// Each device has a journal of its own: what is open of one is put back, or forgotten, without the
 /// other.
 TEST_F(SharedRuns, EachDeviceHasItsJournal) {
