@@ -93,6 +93,27 @@ void feed_device(ByteView input) {
   must_live(device, protocol);
 }
 
+void feed_memory(ByteView input) {
+  if (input.empty()) return;
+  const Protocol& protocol = protocol_of(input.front());
+  const std::string text = to_text(input.subspan(1));
+  const std::string address = text.substr(0, text.find('='));
+  const std::string hex = text.substr(std::min(address.size() + 1, text.size()));
+  [[maybe_unused]] const auto writes = protocol.write_requests(1, address, hex);
+  [[maybe_unused]] const auto reads = protocol.read_requests(1, address, hex.size());
+  protocol.named(address, hex.size());
+  protocol.moved(address, 1);
+}
+
+std::vector<Bytes> memory_of_vectors() {
+  std::set<Bytes> all;
+  for (const vectors::Case& one : cases_of_vectors())
+    for (const auto& [address, hex] : one.memory)
+      if (const auto number = number_of(one.protocol); number && hex.size() < 200)
+        all.insert(behind(*number, to_bytes(address + '=' + hex)));
+  return {all.begin(), all.end()};
+}
+
 void feed_telnet(ByteView input) {
   if (input.empty()) return;
   const ByteView stream = input.subspan(1);
