@@ -13,6 +13,7 @@
 #include "harness/endpoints/kinds.hpp"
 #include "harness/safety/fence.hpp"
 #include "reports/results/whole_file.hpp"
+#include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 #include "src/line/settings.hpp"
 
@@ -157,7 +158,7 @@ BenchDevice read_device(const json& object, const std::string& name, const fs::p
 /// copied from.
 json parse_without_twins(const std::string& text) {
   std::vector<std::set<std::string>> keys;
-  return json::parse(text, [&](int, json::parse_event_t event, json& value) {
+  return json::parse(not_too_deep(text), [&](int, json::parse_event_t event, json& value) {
     if (event == json::parse_event_t::object_start) keys.emplace_back();
     if (event == json::parse_event_t::object_end) keys.pop_back();
     if (event == json::parse_event_t::key && !keys.back().insert(value).second)

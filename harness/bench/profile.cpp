@@ -8,6 +8,7 @@
 
 #include "reports/results/whole_file.hpp"
 #include "src/base/duration.hpp"
+#include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof::bench {
@@ -111,7 +112,7 @@ bool names_a_path(const std::string& name) {
 
 /// What `path` extends, or nothing; what is no name is an error of its own.
 Result<std::optional<std::string>> extended_by(const std::string& text, const fs::path& path) {
-  const json value = json::parse(text, nullptr, false);
+  const json value = json::parse(not_too_deep(text), nullptr, false);
   if (!value.is_object() || !value.contains("extends")) return std::optional<std::string>();
   if (!value["extends"].is_string())
     return fail(fmt::format("cannot read profile {}: \"extends\" is the name of another profile",
@@ -153,7 +154,7 @@ Result<Profile> load(const std::string& name, const fs::path& folder,
 
 Result<Profile> parse_profile(const std::string& text, const std::string& file, Profile base) {
   try {
-    const json value = json::parse(text);
+    const json value = json::parse(not_too_deep(text));
     if (!value.is_object()) return fail(fmt::format("{}: a profile is a JSON object", file));
     for (const auto& [key, entry] : value.items()) try {
         read_key(key, entry, base);

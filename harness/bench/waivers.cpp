@@ -9,6 +9,7 @@
 
 #include "harness/vectors/loader.hpp"
 #include "reports/results/whole_file.hpp"
+#include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof::bench {
@@ -112,7 +113,7 @@ Result<std::vector<Waiver>> parse_waivers(const std::string& text, const std::st
   std::vector<Waiver> waivers;
   std::string place;
   try {
-    const json entries = json::parse(text);
+    const json entries = json::parse(not_too_deep(text));
     if (!entries.is_array())
       return fail(
           fmt::format("cannot read waivers {}: it is not an array; write [{{\"id\": ...}}]", file));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reports/results/whole_file.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::cli {
 
@@ -10,7 +11,7 @@ Result<nlohmann::json> read_config_file(const std::string& path) {
   const Result<std::string> text = results::read_whole_file(path);
   if (!text) return text.error();
   try {
-    nlohmann::json config = nlohmann::json::parse(*text);
+    nlohmann::json config = nlohmann::json::parse(not_too_deep(*text));
     if (config.is_object()) return config;
   } catch (const nlohmann::json::parse_error& error) {
     return fail(fmt::format("cannot read {}: it is no JSON: {}", path, error.what()));

@@ -8,6 +8,7 @@
 
 #include "harness/device_names.hpp"
 #include "src/base/letters.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::endpoints {
 
@@ -81,7 +82,7 @@ Result<json> Controlled::ask(const json& wish) {
         line, answer_patience / 1s);
     return refuse(mute_);
   }
-  json answer = json::parse(said, nullptr, false);
+  json answer = json::parse(not_too_deep(said), nullptr, false);
   if (!answer.is_object())
     return refuse(fmt::format("--control: the answer to {} is no JSON object: {}", line, said));
   if (const auto error = answer.find("error"); error != answer.end())

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "src/base/nesting.hpp"
+
 namespace fieldproof::endpoints {
 
 namespace {
@@ -49,7 +51,7 @@ json ask(plc::EmulatedDevice& device, const std::string& verb, const json& what)
 }
 
 json answer(std::string_view line, const ControlledDevice& controlled) {
-  const json request = json::parse(line, nullptr, false);
+  const json request = json::parse(not_too_deep(line), nullptr, false);
   if (!request.is_object() || request.size() != 1) {
     return {{"error", "cannot read the control line: write one JSON object with one key"}};
   }
@@ -73,7 +75,7 @@ std::string answer_control(std::string_view line, const ControlledDevice& device
 }
 
 Result<json> read_control_answer(std::string_view line) {
-  const json object = json::parse(line, nullptr, false);
+  const json object = json::parse(not_too_deep(line), nullptr, false);
   if (!object.is_object())
     return fail("cannot read the emulator's answer '" + std::string(line) +
                 "': it is no JSON object");

@@ -6,6 +6,7 @@
 
 #include "harness/monitored_device.hpp"
 #include "harness/protocols.hpp"
+#include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof::endpoints {
@@ -25,7 +26,7 @@ Capabilities emulator_capabilities() {
 
 json option_value(const std::string& text) {
   if (!text.starts_with('[') && !text.starts_with('{')) return text;
-  json value = json::parse(text, nullptr, false);
+  json value = json::parse(not_too_deep(text), nullptr, false);
   return value.is_discarded() ? json(text) : value;
 }
 

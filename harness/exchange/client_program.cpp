@@ -9,6 +9,7 @@
 
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/exchange/prepared_case.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::exchange {
 
@@ -136,7 +137,7 @@ Result<Declared> read_declaration(const std::string& answer) {
                     "[...], \"time_out_ms\": 200}} with any of {}",
                     answer.substr(0, 200), why, fmt::join(abilities, ", ")));
   };
-  const json said = json::parse(answer, nullptr, false);
+  const json said = json::parse(not_too_deep(answer), nullptr, false);
   if (!said.is_object()) return wrong("this is no JSON object");
   const json follows = said.value("follows", json());
   if (!follows.is_array()) return wrong("\"follows\" is not a list");

@@ -118,6 +118,8 @@ class Parser {
       item.pause.amount *= 1000;
     else if (unit != "ms")
       error_at(begin, "a pause is ~20ms, ~1s or ~1.6c");
+    if (!(item.pause.amount >= 0 && item.pause.amount <= longest_pause))
+      error_at(begin, "a pause lasts an hour at most");
     item.text = text_.substr(begin, pos_ - begin);
     return item;
   }
@@ -151,6 +153,8 @@ class Parser {
     const std::size_t begin = pos_++;
     Item item;
     item.kind = Item::Kind::alternatives;
+    if (++nested_ > most_nested)
+      error_at(begin, fmt::format("alternatives stand at most {} deep", most_nested));
     while (!failed()) {
       skip_space();
       Item::Alternative alternative;
@@ -166,6 +170,7 @@ class Parser {
       if (failed()) break;
       if (text_[pos_++] == ')') break;
     }
+    --nested_;
     return item;
   }
 
@@ -229,6 +234,7 @@ class Parser {
     if (peek() == '+') {
       ++pos_;
       item.number = take_number();
+      if (item.number < 0) error_at(pos_, "another station is written st+1");
     }
     return item;
   }
@@ -288,8 +294,11 @@ class Parser {
   }
 
   std::string_view text_;
+  static constexpr int most_nested = 8;
+  static constexpr double longest_pause = 3'600'000;
   std::size_t pos_ = 0;
-  int depth_ = 0;
+  int depth_ = 0;   // of brackets
+  int nested_ = 0;  // alternatives within alternatives
   std::string error_;
 };
 
@@ -340,8 +349,8 @@ std::string print(const Notation& notation) {
     if (!tight && item.kind != Item::Kind::close) text += ' ';
     text += print_item(item);
     // Several bytes without quotes are a word only with their repetition.
-    const bool run = item.kind == Item::Kind::literal && item.bytes.size() > 1 &&
-                     !item.text.starts_with('\'');
+    const bool run =
+        item.kind == Item::Kind::literal && item.bytes.size() > 1 && !item.text.starts_with('\'');
     if (item.repeat != 1 || run) text += fmt::format("*{}", item.repeat);
     tight = item.kind == Item::Kind::open;
   }

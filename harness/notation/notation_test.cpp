@@ -58,6 +58,30 @@ TEST(Notation, AnyTextIsParsedOrRefusedButNeverCrashes) {
   }
 }
 
+/// Found by ./fuzz.sh: it was printed as st+-1.
+TEST(Notation, AnotherStationHasANumber) {
+  EXPECT_FALSE(parse_notation("[st+ACKC]"));
+  EXPECT_FALSE(parse_notation("[st+]"));
+  EXPECT_TRUE(parse_notation("[st+0]"));
+}
+
+TEST(Notation, APauseEnds) {
+  for (const char* text : {"~infms", "~nanms", "~-1ms", "~1e300c", "~3601s"})
+    EXPECT_FALSE(parse_notation(text)) << text;
+  EXPECT_TRUE(parse_notation("~3600s"));
+}
+
+/// Each level was one of the stack.
+TEST(Notation, AlternativesDoNotNestForEver) {
+  std::string open, close;
+  for (int i = 0; i < 8; ++i) open += "(a:", close += ")";
+  EXPECT_TRUE(parse_notation("[" + open + "00" + close + "]"));
+  EXPECT_EQ(parse_notation("[(a:" + open + "00" + close + ")]").error().message,
+            "cannot read the notation at column 26: alternatives stand at most 8 deep");
+  for (int i = 0; i < 100'000; ++i) open += "(a:";
+  EXPECT_FALSE(parse_notation(open));
+}
+
 TEST(PrintBytes, ShowsControlsTextAndTheRestInHex) {
   EXPECT_EQ(print_bytes(to_bytes("\x05"
                                  "01rSS'"

@@ -88,7 +88,7 @@ std::string LineSteps::names_other_line(const vectors::Case& source) const {
   const auto line = source.config.find("line");
   if (line == source.config.end() || !line->is_string() || *line == name()) return {};
   const bool has_step = std::ranges::any_of(
-      plan_.matrix, [&](const LineSettings& one) { return line::to_string(one) == *line; });
+      plan_.matrix, [&](const LineSettings& one) { return *line == line::to_string(one); });
   if (has_step || endpoints::kind_of(plan_.endpoint).emulated)
     return fmt::format("names its own line, {}; this step is {}", line->get<std::string>(), name());
   return {};

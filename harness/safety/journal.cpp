@@ -13,6 +13,7 @@
 
 #include "harness/endpoints/endpoint.hpp"
 #include "reports/results/file_error.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::safety {
 
@@ -72,7 +73,7 @@ Result<Contents> read(const std::string& path) {
   std::string text;
   for (std::size_t number = 1; std::getline(in, text) && !in.eof(); ++number) {
     try {
-      take(json::parse(text), contents);
+      take(json::parse(not_too_deep(text)), contents);
     } catch (const json::exception& error) {
       return fail(
           fmt::format("cannot read journal {}, line {}: {}; repair the line, it may be all that is "
@@ -85,11 +86,18 @@ Result<Contents> read(const std::string& path) {
   return contents;
 }
 
+/// All of it, or, where the disk is full, nothing: the next line is not glued to a half one.
 Status write_all(int fd, const std::string& path, std::string_view lines) {
+  struct stat before {};
+  if (::fstat(fd, &before) != 0) return results::file_error("write", path, errno);
   while (!lines.empty()) {
     const ssize_t count = ::write(fd, lines.data(), lines.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return results::file_error("write", path, errno);
+    if (count < 0) {
+      const int error = errno;
+      [[maybe_unused]] const int rc = ::ftruncate(fd, before.st_size);
+      return results::file_error("write", path, error);
+    }
     lines.remove_prefix(static_cast<std::size_t>(count));
   }
   if (::fdatasync(fd) != 0 && errno != EINVAL && errno != EROFS)

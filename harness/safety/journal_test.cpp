@@ -4,6 +4,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -68,6 +69,43 @@ TEST_F(JournalTest, ALineThatIsCutShortIsNone) {
   { ASSERT_TRUE(Journal::open(path_)->save(more)); }
   EXPECT_THAT(*read_journal(path_), SizeIs(3)) << "the next line is not glued to it";
   EXPECT_EQ(more[0].number, 3u);
+}
+
+/// Files may not grow beyond `bytes` while it lives.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+/// The disk had room for half of the lines: what was saved before is still known, and what is
+/// written behind it, too.
+TEST_F(JournalTest, AFullDiskTakesAllLinesOrNone) {
+  std::vector<OpenEntry> first = two(), second = two();
+  Result<Journal> journal = Journal::open(path_);
+  ASSERT_TRUE(journal->save(first));
+  const auto size = std::filesystem::file_size(path_);
+  {
+    const FullDisk full(size + size / 4 * 3);
+    EXPECT_THAT(journal->save(second).error().message, HasSubstr("cannot write " + path_));
+  }
+  EXPECT_EQ(std::filesystem::file_size(path_), size);
+  ASSERT_TRUE(journal->restored(first[0]));
+  const Result<std::vector<OpenEntry>> open = read_journal(path_);
+  ASSERT_TRUE(open) << open.error().message;
+  ASSERT_THAT(*open, SizeIs(1));
+  EXPECT_EQ((*open)[0].address, "%MW101");
 }
 
 TEST_F(JournalTest, OtherDamageIsNamedByItsLine) {

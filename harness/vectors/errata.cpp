@@ -9,6 +9,7 @@
 #include "harness/vectors/broken.hpp"
 #include "harness/vectors/citations.hpp"
 #include "harness/vectors/pieces.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::vectors {
 
@@ -84,12 +85,13 @@ const Shape& erratum_shape() { return erratum; }
 void load_errata(std::string_view file_text, const std::string& file, VectorSet& set) {
   const std::optional<std::vector<Piece>> pieces = cut(file_text);
   if (!pieces) {
-    [[maybe_unused]] const json whole = json::parse(file_text);  // throws what is wrong, mostly
+    [[maybe_unused]] const json whole =
+        json::parse(not_too_deep(file_text));  // throws what is wrong, mostly
     throw Broken("is no list of objects, as a file of errata is; see vectors/README.md");
   }
   for (const Piece& piece : *pieces) {
     const std::string at = fmt::format("{}:{}", file, piece.line);
-    const json value = json::parse(piece.text);
+    const json value = json::parse(not_too_deep(piece.text));
     const std::vector<std::string> problems = shape_problems(value, erratum);
     for (const std::string& problem : problems)
       set.problems.push_back(

@@ -14,6 +14,7 @@
 #include "harness/vectors/framings.hpp"
 #include "harness/vectors/pieces.hpp"
 #include "harness/vectors/vector_shape.hpp"
+#include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 
 namespace fieldproof::vectors {
@@ -26,16 +27,17 @@ namespace fs = std::filesystem;
 /// An element that is no JSON: the position is that in the whole file.
 json parse_piece(const Piece& piece, std::string_view file_text) {
   try {
-    return json::parse(piece.text);
+    return json::parse(not_too_deep(piece.text));
   } catch (const json::exception&) {
-    return json::parse(file_text);  // throws the better message
+    return json::parse(not_too_deep(file_text));  // throws the better message
   }
 }
 
 /// Where the objects of a file are; throws what is wrong with it where they cannot be told.
 std::vector<Piece> pieces_of(std::string_view file_text) {
   if (std::optional<std::vector<Piece>> pieces = cut(file_text)) return std::move(*pieces);
-  [[maybe_unused]] const json whole = json::parse(file_text);  // throws what is wrong, mostly
+  [[maybe_unused]] const json whole =
+      json::parse(not_too_deep(file_text));  // throws what is wrong, mostly
   throw Broken("is no list of objects, as a file of vectors is; see vectors/README.md");
 }
 
@@ -150,7 +152,7 @@ class FolderLoader {
       if (name == "manuals.json")
         load_manuals(text);
       else if (name == "sections.json")
-        set_.sections = json::parse(text).get<decltype(set_.sections)>();
+        set_.sections = json::parse(not_too_deep(text)).get<decltype(set_.sections)>();
       else if (name.starts_with("statements/"))
         statement_files_.emplace_back(name, std::move(text));
       else if (name.starts_with("errata/"))
@@ -218,7 +220,7 @@ class FolderLoader {
   }
 
   void load_manuals(std::string_view text) {
-    for (const json& value : json::parse(text))
+    for (const json& value : json::parse(not_too_deep(text)))
       set_.manuals.push_back(
           {value.at("id"), value.at("file"), value.at("title"), value.at("edition")});
   }

@@ -5,6 +5,7 @@
 #include "harness/vectors/broken.hpp"
 #include "harness/vectors/files.hpp"
 #include "harness/vectors/loader.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::vectors {
 
@@ -32,7 +33,8 @@ void take_wires(const json& wires, Case& one) {
 }
 
 void load_wire_file(const fs::path& path, const std::string& name, VectorSet& set) {
-  const json document = json::parse(text_of_file(path));
+  const std::string text = text_of_file(path);
+  const json document = json::parse(not_too_deep(text));
   for (const auto& [id, wires] : document.items()) try {
       const auto one = std::ranges::lower_bound(set.cases, id, {}, &Case::id);
       if (one == set.cases.end() || one->id != id) throw Broken("no such case");

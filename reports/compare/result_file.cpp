@@ -6,8 +6,9 @@
 
 #include "reports/compare/junit_reader.hpp"
 #include "reports/results/ndjson.hpp"
-#include "reports/results/whole_file.hpp"
 #include "reports/results/result_json.hpp"
+#include "reports/results/whole_file.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::compare {
 namespace {
@@ -44,7 +45,7 @@ Result<ResultFile> from_json_text(const std::string& path, const std::string& te
   ResultFile file;
   std::string place;
   try {
-    const json document = json::parse(text);
+    const json document = json::parse(not_too_deep(text));
     if (!document.is_object() || !document.contains("cases") || !document.contains("run"))
       return broken("", "it is JSON, but no result of a run");
     const int schema = document.value("schema", 0);

@@ -13,6 +13,7 @@
 
 #include "reports/results/file_error.hpp"
 #include "reports/results/result_json.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::results {
 namespace {
@@ -54,7 +55,7 @@ class Reader {
 
  private:
   Status take(const std::string& line, bool complete) {
-    const json parsed = json::parse(line, nullptr, false);
+    const json parsed = json::parse(not_too_deep(line), nullptr, false);
     if (parsed.is_discarded()) {
       if (complete) return damaged("it is not JSON");
       log_.truncated = true;

@@ -301,7 +301,10 @@ void append_json(std::string& out, const std::map<std::string, ResponseFigures>&
   FieldWriter(out).value(figures);
 }
 
-void from_json(const nlohmann::json& json, CaseResult& result) { read_fields(json, result); }
+void from_json(const nlohmann::json& json, CaseResult& result) {
+  read_fields(json, result);
+  if (result.id.empty()) refuse("the id is empty");  // JUnit of it would have a case without a name
+}
 void from_json(const nlohmann::json& json, RunInfo& info) { read_fields(json, info); }
 void from_json(const nlohmann::json& json, RunEnd& end) { read_fields(json, end); }
 void from_json(const nlohmann::json& json, SoakSample& sample) { read_fields(json, sample); }

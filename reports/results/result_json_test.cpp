@@ -131,6 +131,7 @@ TEST(CaseResultJson, EmptyFieldsAreLeftOut) {
 
 TEST(CaseResultJson, BytesAreHex) {
   CaseResult result;
+  result.id = "a/b";
   for (int b = 0; b < 256; ++b) result.received_bytes.push_back(static_cast<Byte>(b));
   const json object = as_json(result);
   EXPECT_EQ("00 01 02", object["received_bytes"].get<std::string>().substr(0, 8));
@@ -141,6 +142,7 @@ TEST(CaseResultJson, ForeignShapesThrow) {
   const auto read = [](const char* text) { return json::parse(text).get<CaseResult>(); };
   EXPECT_THROW(read(R"({"verdict":"PASS"})"), json::exception);
   EXPECT_THROW(read(R"({"id":"a/b"})"), json::exception);
+  EXPECT_THROW(read(R"({"id":"","verdict":"PASS"})"), json::exception);  // found by fieldproof_fuzz
   EXPECT_THROW(read(R"({"id":"a/b","verdict":"GREEN"})"), json::exception);
   EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","notes":"x"})"), json::exception);
   EXPECT_THROW(read(R"({"id":"a/b","verdict":"PASS","received_bytes":"0G"})"), json::exception);

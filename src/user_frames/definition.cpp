@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 #include "src/user_frames/segment_reader.hpp"
 
@@ -24,7 +25,7 @@ Result<Json> parse_json(const std::string& text, const std::string& file) {
     return true;
   };
   try {
-    Json json = Json::parse(text, watch);
+    Json json = Json::parse(not_too_deep(text), watch);
     if (!twice.empty())
       return wrong(
           file, fmt::format("'{}' stands twice in one object; give each a name of its own", twice));

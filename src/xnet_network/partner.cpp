@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "src/base/nesting.hpp"
+
 #include "src/xnet_network/network.hpp"
 
 namespace fieldproof::xnet {
@@ -50,7 +52,7 @@ std::string XnetNetwork::hello() const {
 }
 
 Status XnetNetwork::hear(std::string_view line) {
-  const json told = json::parse(line, nullptr, false);
+  const json told = json::parse(not_too_deep(line), nullptr, false);
   if (!told.is_object()) return fail("the other end of the bus tells no line of JSON");
   if (told.contains("hello")) return join(told["hello"]);
   if (told.contains("ask")) answer_partner(told);

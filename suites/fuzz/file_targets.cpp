@@ -1,8 +1,5 @@
 #include "suites/fuzz/file_targets.hpp"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <string>
 
@@ -12,13 +9,13 @@
 #include "harness/notation/notation.hpp"
 #include "harness/paths.hpp"
 #include "harness/safety/journal.hpp"
-#include "harness/system/unique_fd.hpp"
 #include "harness/vectors/loader.hpp"
 #include "reports/results/ndjson.hpp"
 #include "reports/results/whole_file.hpp"
 #include "src/user_frames/definition.hpp"
+#include "suites/fuzz/chosen.hpp"
 #include "suites/fuzz/rule.hpp"
-#include "suites/protocols.hpp"
+#include "suites/fuzz/unnamed.hpp"
 
 namespace fieldproof::fuzz {
 
@@ -38,19 +35,6 @@ std::vector<Bytes> files_of(const fs::path& folder, std::size_t most = 20'000) {
         all.push_back(bytes_of(*text));
   return all;
 }
-
-/// A file that has no name: what reads paths reads this.
-class Unnamed {
- public:
-  explicit Unnamed(ByteView content) : fd_(::memfd_create("input", MFD_CLOEXEC)) {
-    const auto written = ::write(fd_.get(), content.data(), content.size());
-    rule(written == static_cast<ssize_t>(content.size()), "there is memory for the input");
-  }
-  std::string path() const { return "/proc/self/fd/" + std::to_string(fd_.get()); }
-
- private:
-  os::UniqueFd fd_;
-};
 
 std::optional<harness::Protocol::WordName> any_word(std::string_view text) {
   return suites::protocols().read_word(text);
@@ -108,9 +92,7 @@ void feed_results(ByteView input) {
 
 std::vector<Bytes> good_notation() {
   std::vector<Bytes> all;
-  const vectors::VectorSet set =
-      vectors::load_vectors(harness::find_data().vectors, {.protocols = suites::protocols()});
-  for (const vectors::Case& one : set.cases)
+  for (const vectors::Case& one : cases_of_vectors())
     for (const vectors::Step& step : one.steps)
       for (const vectors::Frame& frame : step.frames) all.push_back(bytes_of(frame.text));
   return all;

@@ -1,11 +1,14 @@
 // fieldproof_fuzz [TARGET...] [--inputs N] [--seed S] [--from I]: feeds each target with inputs
 // that are nearly right. Ends with 0, or as a crash does; what was fed last is said then, with the
-// command that feeds it again.
+// command that feeds it again. fieldproof_fuzz --write-seeds FOLDER: the good inputs, for
+// libFuzzer.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -33,7 +36,19 @@ void on_abort(int) {
 struct Options {
   std::vector<std::string> targets;
   std::uint64_t inputs = 100'000, seed = 1, from = 0;
+  std::string seeds;  // a folder
 };
+
+/// The good inputs as files: FOLDER/TARGET/0001.
+void write_seeds(const fuzz::Target& target, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / target.name);
+  std::size_t number = 0;
+  for (const Bytes& one : target.seeds()) {
+    const auto path = folder / target.name / fmt::format("{:04}", ++number);
+    std::ofstream(path, std::ios::binary) << to_text(one);
+  }
+  fmt::print("{:<11} {}\n", target.name, number);
+}
 
 void feed(const fuzz::Target& target, const Options& options) {
   const fuzz::Mutator mutator(target.seeds(), options.seed);
@@ -52,9 +67,9 @@ int main(int argc, char** argv) {
   CLI::App app("Feeds what reads bytes of others with inputs that are nearly right.",
                "fieldproof_fuzz");
   Options options;
+  std::vector<fuzz::Target> targets(fuzz::targets().begin(), fuzz::targets().end());
   std::string known;
-  for (const fuzz::Target& one : fuzz::targets())
-    known += fmt::format("\n  {:<11} {}", one.name, one.what);
+  for (const fuzz::Target& one : targets) known += fmt::format("\n  {:<11} {}", one.name, one.what);
   app.add_option("targets", options.targets, "All, where none is given:" + known)
       ->check([](const std::string& name) {
         return fuzz::find_target(name) ? "" : "there is no target '" + name + "'";
@@ -62,13 +77,16 @@ int main(int argc, char** argv) {
   app.add_option("--inputs", options.inputs, "For each target");
   app.add_option("--seed", options.seed, "Another one gives other inputs");
   app.add_option("--from", options.from, "The number of the first input");
+  app.add_option("--write-seeds", options.seeds, "Feed nothing, write the good inputs to a folder");
   CLI11_PARSE(app, argc, argv);
+  std::erase_if(targets, [&](const fuzz::Target& one) {
+    return !options.targets.empty() && std::ranges::count(options.targets, one.name) == 0;
+  });
 #if defined(__SANITIZE_ADDRESS__)
   __sanitizer_set_death_callback(last_words);
 #endif
   std::signal(SIGABRT, on_abort);
   std::signal(SIGSEGV, on_abort);
-  for (const fuzz::Target& one : fuzz::targets())
-    if (options.targets.empty() || std::ranges::count(options.targets, one.name) > 0)
-      feed(one, options);
+  for (const fuzz::Target& one : targets)
+    options.seeds.empty() ? feed(one, options) : write_seeds(one, options.seeds);
 }

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "harness/paths.hpp"
-#include "harness/vectors/loader.hpp"
+#include "harness/endpoints/rfc2217_telnet.hpp"
+#include "suites/fuzz/chosen.hpp"
+#include "suites/fuzz/fed_device.hpp"
 #include "suites/fuzz/rule.hpp"
-#include "suites/protocols.hpp"
 
 namespace fieldproof::fuzz {
 
@@ -14,13 +15,7 @@ namespace {
 
 using harness::Protocol;
 
-constexpr std::size_t most_frames = 64, most_wakes = 200'000;
-constexpr Duration quiet = 60s;  // by then every time-out of a device is over
-
-const Protocol& protocol_of(Byte number) {
-  const harness::Protocols all = suites::protocols();
-  return **(all.begin() + number % (all.end() - all.begin()));
-}
+constexpr std::size_t most_frames = 64;
 
 void look_at(const Protocol& protocol, ByteView frame) {
   for (const std::vector<harness::Field>& fields :
@@ -51,85 +46,23 @@ void look_at(const Protocol& protocol, ByteView frame) {
   if (!probe.empty()) protocol.is_reply_to_probe(probe, frame);
 }
 
-/// One emulated device on given time, and all that it has sent.
-class Fed {
- public:
-  explicit Fed(const Protocol& protocol) : protocol_(protocol) {
-    Result<std::unique_ptr<plc::EmulatedDevice>> made =
-        protocol.make_device(protocol.models().front(), {{"station", 1}});
-    rule(bool(made), "there is a device of each protocol");
-    device_ = std::move(*made);
-    tell(1, LinkEvent::opened);
-  }
+/// Does it answer as a fresh one would?
+void must_live(FedDevice& device, const Protocol& protocol) {
+  const Bytes probe = protocol.probe(1, {});
+  if (probe.empty()) return;
+  device.pause(quiet);
+  device.disconnect();
+  device.connect();
+  device.has_sent();
+  device.feed(probe);
+  device.pause(2s);
+  rule(device.has_sent(), "a device lives on, whatever came");
+}
 
-  void feed(ByteView bytes) {
-    run(now_);
-    Burst burst;
-    burst.bytes.assign(bytes.begin(), bytes.end());
-    burst.start = now_;
-    if (net::Host* const host = network()) {
-      burst.link = link_;
-      host->receive(burst);
-    } else if (line::Device* const line = device_->line()) {
-      burst.character_time = 100us;
-      line->receive(burst);
-      now_ = burst.end();
-    }
-    run(now_);
-  }
-  void pause(Duration time) { run(now_ + time); }
-
-  /// Does it answer as a fresh one would?
-  void must_live() {
-    const Bytes probe = protocol_.probe(1, {});
-    if (probe.empty()) return;
-    pause(quiet);
-    tell(link_, LinkEvent::reset);
-    tell(++link_, LinkEvent::opened);
-    sent_.clear();
-    feed(probe);
-    pause(2s);
-    rule(!sent_.empty(), "a device lives on, whatever came");
-  }
-
- private:
-  void tell(LinkId link, LinkEvent event) {
-    net::Host* const host = network();
-    if (!host) return;
-    Burst burst;
-    burst.start = now_;
-    burst.link = link;
-    burst.event = event;
-    burst.port = protocol_.default_port();
-    host->receive(burst);
-    run(now_);
-  }
-  net::Host* network() { return protocol_.default_port() == 0 ? nullptr : device_->network(); }
-  std::optional<Time> wake() {
-    if (net::Host* const host = network()) return host->wake_at();
-    line::Device* const line = device_->line();
-    return line ? line->wake_at() : std::nullopt;
-  }
-  void take(ByteView bytes) { sent_.insert(sent_.end(), bytes.begin(), bytes.end()); }
-  void run(Time until) {
-    std::size_t wakes = 0;
-    for (auto at = wake(); at && *at <= until; at = wake()) {
-      rule(++wakes < most_wakes, "a device comes to rest");
-      now_ = std::max(now_, *at);
-      if (net::Host* const host = network())
-        for (const Burst& burst : host->advance(now_)) take(burst.bytes);
-      else
-        take(device_->line()->advance(now_));
-    }
-    now_ = std::max(now_, until);
-  }
-
-  const Protocol& protocol_;
-  std::unique_ptr<plc::EmulatedDevice> device_;
-  Time now_{};
-  LinkId link_ = 1;
-  Bytes sent_;
-};
+void take_data(const endpoints::telnet::Message& message, Bytes& data) {
+  if (const auto* more = std::get_if<Bytes>(&message))
+    data.insert(data.end(), more->begin(), more->end());
+}
 
 }  // namespace
 
@@ -147,45 +80,83 @@ void feed_frames(ByteView input) {
   }
 }
 
-/// Pieces: a byte for the length of each, and for the pause behind it.
 void feed_device(ByteView input) {
   if (input.empty()) return;
   const Protocol& protocol = protocol_of(input.front());
   if (!protocol.has_frames()) return;
-  Fed device(protocol);
-  ByteView rest = input.subspan(1);
-  while (rest.size() > 2) {
-    const std::size_t count = std::min<std::size_t>(rest[0] + 1, rest.size() - 2);
-    const Duration pause = rest[1] * 200us;
-    device.feed(rest.subspan(2, count));
-    device.pause(pause);
-    rest = rest.subspan(2 + count);
+  Result<std::unique_ptr<plc::EmulatedDevice>> made =
+      protocol.make_device(protocol.models().front(), {{"station", 1}});
+  rule(bool(made), "there is a device of each protocol");
+  FedDevice device(protocol, std::move(*made));
+  device.connect();
+  device.feed_pieces(input.subspan(1));
+  must_live(device, protocol);
+}
+
+void feed_memory(ByteView input) {
+  if (input.empty()) return;
+  const Protocol& protocol = protocol_of(input.front());
+  const std::string text = to_text(input.subspan(1));
+  const std::string address = text.substr(0, text.find('='));
+  const std::string hex = text.substr(std::min(address.size() + 1, text.size()));
+  [[maybe_unused]] const auto writes = protocol.write_requests(1, address, hex);
+  [[maybe_unused]] const auto reads = protocol.read_requests(1, address, hex.size());
+  protocol.named(address, hex.size());
+  protocol.moved(address, 1);
+}
+
+std::vector<Bytes> memory_of_vectors() {
+  std::set<Bytes> all;
+  for (const vectors::Case& one : cases_of_vectors())
+    for (const auto& [address, hex] : one.memory)
+      if (const auto number = number_of(one.protocol); number && hex.size() < 200)
+        all.insert(behind(*number, to_bytes(address + '=' + hex)));
+  return {all.begin(), all.end()};
+}
+
+void feed_telnet(ByteView input) {
+  if (input.empty()) return;
+  const ByteView stream = input.subspan(1);
+  endpoints::telnet::Decoder cut, whole;
+  endpoints::telnet::Negotiator negotiator;
+  Bytes in_pieces, at_once;
+  for (const endpoints::telnet::Message& one : whole.decode(stream)) take_data(one, at_once);
+  for (ByteView rest = stream; !rest.empty();) {
+    const ByteView piece = rest.first(std::min<std::size_t>(input[0] + 1, rest.size()));
+    for (const endpoints::telnet::Message& one : cut.decode(piece)) {
+      take_data(one, in_pieces);
+      if (const auto* said = std::get_if<endpoints::telnet::Negotiation>(&one))
+        negotiator.answer(*said);
+    }
+    rest = rest.subspan(piece.size());
   }
-  device.must_live();
+  rule(in_pieces == at_once, "a stream says the same however it is cut");
+  endpoints::telnet::Decoder other;
+  Bytes back;
+  for (const endpoints::telnet::Message& one : other.decode(endpoints::telnet::escaped(stream)))
+    take_data(one, back);
+  rule(std::ranges::equal(back, stream), "data comes out as it went in");
+}
+
+std::vector<Bytes> good_telnet() {
+  using namespace endpoints::telnet;
+  Bytes all = Negotiator::opening();
+  for (const Bytes& more :
+       {command(answer + set_baud_rate, Bytes{0, 0, 0x25, 0x80}), escaped(Bytes{5, 0xFF, 4}),
+        command(answer + notify_line_state, Bytes{parity_error}), negotiation(dont, com_port)})
+    all.insert(all.end(), more.begin(), more.end());
+  return {behind(0, all), behind(6, all)};
 }
 
 std::vector<Bytes> frames_of_vectors() {
-  const harness::Protocols all = suites::protocols();
-  vectors::VectorSet set = vectors::load_vectors(harness::find_data().vectors, {.protocols = all});
-  vectors::load_wires(harness::find_data().vectors, set);
-  std::vector<Bytes> frames;
-  for (const vectors::Case& one : set.cases) {
-    const Protocol* const protocol = all.find(one.protocol);
-    if (!protocol) continue;
-    const auto number = std::ranges::find(all.begin(), all.end(), protocol) - all.begin();
+  std::set<Bytes> frames;
+  for (const vectors::Case& one : cases_of_vectors()) {
+    const std::optional<Byte> number = number_of(one.protocol);
     for (const vectors::Step& step : one.steps)
-      for (const vectors::Frame& frame : step.frames) {
-        std::string hex = frame.wire.value_or("");
-        std::ranges::replace(hex, '?', '0');
-        std::optional<Bytes> bytes = from_hex(hex);
-        if (!bytes || bytes->empty()) continue;
-        bytes->insert(bytes->begin(), static_cast<Byte>(number));
-        frames.push_back(std::move(*bytes));
-      }
+      for (const Bytes& bytes : wires_of(step))
+        if (number) frames.insert(behind(*number, bytes));
   }
-  std::ranges::sort(frames);
-  frames.erase(std::ranges::unique(frames).begin(), frames.end());
-  return frames;
+  return {frames.begin(), frames.end()};
 }
 
 std::vector<Bytes> streams_of_vectors() {

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 8> keys{"error",     "exists",    "first"
 std::optional<unsigned> address_in(const json& facts, const char* key) {
   const std::string text = facts.value(key, "");
   const std::optional<Bytes> bytes = from_hex(text);
-  if (text.size() != 4 || !bytes) return std::nullopt;
+  if (text.size() != 4 || !bytes || bytes->size() != 2) return std::nullopt;
   return (*bytes)[0] << 8 | (*bytes)[1];
 }
 

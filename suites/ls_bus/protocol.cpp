@@ -152,7 +152,7 @@ class LsBus : public Protocol,
     const std::string_view number = text.substr(marked ? 1 : 0);
     if (marked && number.empty()) return WordName{std::string(parameter_area), {}};
     const std::optional<Bytes> word = from_hex(number);
-    if (number.size() != 4 || !word) return std::nullopt;
+    if (number.size() != 4 || !word || word->size() != 2) return std::nullopt;
     return WordName{std::string(parameter_area), (*word)[0] * 256u + (*word)[1]};
   }
   std::string spell(std::string_view, std::uint32_t word) const override {

@@ -122,7 +122,8 @@ TEST(LsBusProtocol, ParametersAreNamedByTheirHexAddress) {
     EXPECT_EQ(name->word, 0x1230u);
   }
   EXPECT_FALSE(protocol().read_word("h")->word);
-  for (const char* text : {"", "M100", "h12", "h12345", "12G0"})
+  for (const char* text :
+       {"", "M100", "h12", "h12345", "12G0", "\r\r21", "h1 30"})  // found by fuzz.sh
     EXPECT_FALSE(protocol().read_word(text)) << text;
 }
 

@@ -381,7 +381,8 @@ TEST(BadEmulate, protocol_without_frames) {
   const Finished served = run_tool({"emulate", "xdc?protocol=xnet", "--tcp", "127.0.0.1:0"});
   EXPECT_EQ(served.code, 2);
   EXPECT_THAT(served.err, HasSubstr("xnet has no frame that a manual prints"));
-  const Finished asked = run_tool({"run", "--protocol", "hs-link", "--endpoint", "tcp:127.0.0.1:1"});
+  const Finished asked =
+      run_tool({"run", "--protocol", "hs-link", "--endpoint", "tcp:127.0.0.1:1"});
   EXPECT_EQ(asked.code, 2);
   EXPECT_THAT(asked.err, HasSubstr("tested on a model alone; write emulator:"));
 }
@@ -502,6 +503,57 @@ TEST_F(BadDevices, pty_that_closes) {
   EXPECT_THAT(finished.out, AllOf(HasSubstr(link), HasSubstr("the far end is gone")));
   expect_reports(folder_ / "out");
 }
+
+// ---- nested without end
+// ------------------------------------------------------------------------------------------------
+
+/// A value within a value, so deep that who goes down the levels one by one runs out of stack.
+std::string deep(const std::string& before = "", const std::string& behind = "") {
+  constexpr int levels = 100'000;
+  std::string text = before;
+  for (int i = 0; i < levels; ++i) text += "{\"a\":";
+  return text + '1' + std::string(levels, '}') + behind;
+}
+
+struct DeepFile {
+  const char* name;
+  std::string text;
+  std::vector<std::string> arguments;  // FILE stands for it
+};
+void PrintTo(const DeepFile& file, std::ostream* out) { *out << file.name; }
+
+class Deep : public testing::TestWithParam<DeepFile> {};
+
+TEST_P(Deep, IsRefused) {
+  const TestFolder folder;
+  const std::string file = folder.write("vectors.json", GetParam().text);
+  std::vector<std::string> arguments = GetParam().arguments;
+  std::ranges::replace(arguments, std::string("FILE"), file);
+  const Finished finished = run_tool(arguments, {.environment = {}, .folder = folder.path()});
+  EXPECT_EQ(finished.code, 2) << finished.out << finished.err;
+  EXPECT_THAT(finished.out + finished.err, HasSubstr("vectors.json"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    By, Deep,
+    testing::Values(
+        DeepFile{"bench", deep("{\"devices\": ", "}"), {"run", "--bench", "FILE", "--dut", "a"}},
+        DeepFile{"profile", deep(), {"run", "--profile", "FILE"}},
+        DeepFile{"waivers", deep("[", "]"), {"run", "--waivers", "FILE"}},
+        DeepFile{"vectors",
+                 deep("[{\"id\": \"xgt_cnet/a/b\", \"given\": {\"config\": ",
+                      "}, \"steps\": [{\"send\": \"[ENQ]\"}]}]"),
+                 {"run", "--vectors", "FILE"}},
+        DeepFile{"definition", deep(), {"emulate", "FILE", "--tcp", "0"}},
+        DeepFile{"config",
+                 deep("{\"station\": ", "}"),
+                 {"emulate", "xbc-h", "--config", "FILE", "--tcp", "0"}},
+        DeepFile{
+            "p2p", deep("{\"p2p\": ", "}"), {"emulate", "xbc-h", "--p2p", "FILE", "--tcp", "0"}},
+        DeepFile{"results", deep("{\"run\": ", "}\n"), {"report", "FILE", "--json", "r.json"}},
+        DeepFile{"journal", deep("{\"saved\": ", "}\n"), {"restore", "FILE"}},
+        DeepFile{"compared", deep(), {"compare", "FILE", "FILE"}}),
+    [](const auto& one) { return std::string(one.param.name); });
 
 // ---- interrupted and killed
 // ----------------------------------------------------------------------------------------

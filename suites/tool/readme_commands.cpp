@@ -10,8 +10,9 @@
 namespace fieldproof::tool_tests {
 namespace {
 
-constexpr std::array<std::string_view, 8> programs{"./run.sh", "./test.sh", "fieldproof", "cpack",
-                                                   "cmake",    "socat",     "srun",       "sbatch"};
+constexpr std::array<std::string_view, 9> programs{"./run.sh",   "./test.sh", "./fuzz.sh",
+                                                   "fieldproof", "cpack",     "cmake",
+                                                   "socat",      "srun",      "sbatch"};
 
 bool is_command(std::string_view text) {
   const std::string_view program = text.substr(0, text.find(' '));

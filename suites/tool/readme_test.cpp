@@ -55,6 +55,9 @@ constexpr const char* a_few = "xgt_cnet/rs*/*refused/*";
 
 const std::map<std::string, Special> specials{
     {"./test.sh", {.not_run = "it is what runs this test"}},
+    {"./fuzz.sh 1", {.not_run = "it builds with another compiler and takes twenty minutes"}},
+    {"cmake --preset tsan && cmake --build --preset tsan && ctest --preset tsan",
+     {.not_run = "it builds all of the tests anew"}},
     {"cmake --build --preset plain && build/plain/fieldproof_bench",
      {.not_run = "fieldproof_bench is a test itself"}},
     {"./run.sh lint --manuals DIR --lock",

@@ -168,6 +168,22 @@ TEST_F(Restore, ARunToAnotherFolderFindsWhatIsOpen) {
   EXPECT_EQ(run_elsewhere().code, 0) << "a run that ends leaves no note";
 }
 
+/// No value is overwritten that the journal could not take.
+TEST_F(Restore, AfterAFullDiskAtAnyMomentRestorePutsBack) {
+  std::size_t left_open = 0;
+  for (const int moment : {40, 90, 171, 332}) {
+    SCOPED_TRACE(moment);
+    std::filesystem::remove_all(folder_ / "out");
+    const Finished finished =
+        run_tool(run_arguments({"--allow-write", "M100-M119", "--filter", "xgt_cnet/w*"}),
+                 {.environment = at_moment(moment, "full"), .folder = ""});
+    EXPECT_EQ(finished.code, 3) << finished.out << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr("no space left on device"));
+    left_open += restores();
+  }
+  EXPECT_GT(left_open, 0u) << "the disk was never full while a case was writing";
+}
+
 /// Unplugged: the master end of the port closes.
 TEST_F(Restore, AfterTheAdapterIsPulledOutRestorePutsBack) {
   std::size_t left_open = 0;

@@ -147,7 +147,8 @@ std::size_t digits_asked_for(ByteView request) {
   std::size_t count = 1, element = 0;
   for (const Field& field : explain(request)) {
     if (field.name == "number of data")
-      if (const std::optional<Bytes> value = from_hex(field.text)) count = value->front();
+      if (const std::optional<Bytes> value = from_hex(field.text); value && value->size() == 1)
+        count = value->front();
     if (field.name == "name")
       if (const std::optional<ElementName> name = harness::read_element_name(field.text))
         element = name->element_bytes() * 2;

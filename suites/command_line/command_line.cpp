@@ -1,9 +1,10 @@
+#include "suites/command_line/command_line.hpp"
+
 #include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
-#include <exception>
-#include <functional>
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/usage_commands.hpp"
@@ -13,9 +14,9 @@
 #include "src/base/spelling.hpp"
 #include "suites/protocols.hpp"
 
-namespace {
+namespace fieldproof::suites {
 
-using namespace fieldproof;
+namespace {
 
 /// Appears in every help text, so that a pipeline's author need not open the README.
 constexpr const char* exit_codes =
@@ -323,7 +324,9 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
-int run_tool(int argc, char** argv) {
+}  // namespace
+
+int with_command(int argc, char** argv, const Start& start) {
   CLI::App app(
       "fieldproof proves, clause by clause of the manual, that a PLC communication module speaks "
       "its protocols.",
@@ -604,17 +607,7 @@ int run_tool(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return run::complain(error.what() + slip_of(app, argc, argv), run::exit_code::usage);
   }
-  return chosen();
+  return start(chosen);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  try {
-    return run_tool(argc, argv);
-  } catch (const std::exception& error) {
-    return run::complain(
-        fmt::format("internal error: {}; please report it with the command line", error.what()),
-        run::exit_code::trouble);
-  }
-}
+}  // namespace fieldproof::suites
