@@ -8,7 +8,7 @@ list(FILTER device_sources EXCLUDE REGEX "(_test\\.cpp|/test_[a-z_]*\\.hpp)$")
 list(TRANSFORM device_sources PREPEND ${mutants}/ OUTPUT_VARIABLE mutated_sources)
 add_custom_command(OUTPUT ${mutated_sources} ${mutants}/mutants.json
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/suites/mutants/generate.py ${PROJECT_SOURCE_DIR} ${mutants}
-  DEPENDS ${device_sources} ${mutants_tools} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
+  DEPENDS ${device_sources} ${mutants_tools} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Making mutants" VERBATIM)
 add_custom_target(mutated_sources DEPENDS ${mutated_sources} ${mutants}/mutants.json)
 
 # Nothing of it may meet its healthy twin: no name leaves the library but one.

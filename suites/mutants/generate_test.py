@@ -64,6 +64,12 @@ class Generated(unittest.TestCase):
         self.assertTrue(all(row["once"] for row in rows))
         self.assertIn("const int table[2] = {(is_mutant(1) ? (5 + 1) : is_mutant(2) ? (5 - 1) : (5))", text)
 
+    def test_tables_of_such_rows_follow_them(self):
+        rows, text = self.generate("struct Row { int n; };\nconstexpr Row first{5};\n"
+                                   "struct Table { Row rows[1]; };\nconstexpr Table all{{first}};\nint f() { return all.rows[0].n; }")
+        self.assertIn("5 + 1", {row["after"] for row in rows})
+        self.assertIn("const Table all", text)
+
     def test_what_must_stay_constant_is_left_alone(self):
         rows, text = self.generate("constexpr int size = 4;\nint f() { int a[size] = {}; return a[0] + size; }\n"
                                    "static_assert(size == 4);")

@@ -48,8 +48,9 @@ int run(const Options& options) {
   for (std::size_t i = 0; i < all; ++i)
     if (!vectors::matches_filter((*mutants)[i].file, options.only)) outcomes[i].fate = Fate::red;
 
-  HuntOptions how{
-      options.library, {options.jobs, options.seconds, std::size_t{4} << 30}, show_progress};
+  HuntOptions how{from_library(options.library),
+                  {options.jobs, options.seconds, std::size_t{4} << 30},
+                  show_progress};
   std::vector<std::string> stages;
   const auto stage = [&](const std::string& name, std::vector<Trial> trials, double patience) {
     how.effort.seconds = patience * options.seconds;

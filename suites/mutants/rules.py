@@ -55,8 +55,8 @@ def inside(cursor):
 
 
 class Rules:
-    def __init__(self, text):
-        self.text = text
+    def __init__(self, text, is_header=False):
+        self.text, self.is_header = text, is_header
         self.edits = {}
         self.function, self.once, self.constant = "", False, None
 
@@ -109,11 +109,16 @@ class Rules:
 
     def visit_variable(self, cursor):
         """Its initialiser: what stands behind its name and the size of an array."""
+        if self.is_header and kind_of(cursor) in INTEGERS and self.constexpr_of(cursor):
+            return  # on_decl_ref_expr: others make cases and sizes of it
         before = self.once, self.constant
         local = cursor.semantic_parent.kind in FUNCTIONS
         self.constant = self.constexpr_of(cursor) or self.constant
         self.once = self.once or (cursor.kind == Kind.VAR_DECL and
                                   (not local or cursor.storage_class == StorageClass.STATIC))
+        if self.constant and self.once and kind_of(cursor) == TypeKind.RECORD:  # others may be made of it
+            at = cursor.location.offset
+            self.edits[at, at, False] = Edit(at, at, constant=self.constant)
         initialiser = re.compile(r"[={(]").search(self.text, cursor.location.offset)
         for child in cursor.get_children():
             if initialiser and child.extent.start.offset >= initialiser.start():

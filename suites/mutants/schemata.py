@@ -53,6 +53,8 @@ class Schemata:
         self.copy(start, end)
 
     def one(self, edit):
+        if not edit.mutants:
+            return
         first, number = self.length, self.numbers[id(edit)]
         if edit.is_statement:
             self.put(f"{{ if (!is_mutant({number})) {{ ")
