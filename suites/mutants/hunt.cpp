@@ -33,18 +33,24 @@ class Killers {
 
 /// The number of the trial that is red, counted from 1; 0: none. A step that does not end is noted
 /// as its negative.
-int first_red(const HuntOptions& options, const std::vector<Trial>& trials, const Mutant& mutant,
-              const std::vector<std::size_t>& order, std::size_t mutants, Steps& steps) {
-  std::vector<unsigned char> reached(mutants + 1);
-  become(mutant.id, reached.data());
-  const Result<MutatedDevices> devices = options.load();
-  if (!devices) std::abort();
+int first_red(const MutatedDevices& devices, const std::vector<Trial>& trials,
+              const std::vector<std::size_t>& order, Steps& steps) {
   for (const std::size_t one : order) {
     const int number = static_cast<int>(one) + 1;
     steps.next(-number);
-    if (trials[one].red(*devices)) return number;
+    if (trials[one].red(devices)) return number;
   }
   return 0;
+}
+
+/// The devices of a child that becomes this mutant.
+MutatedDevices devices_of(const Mutant& mutant, bool once, const HuntOptions& options,
+                          std::vector<unsigned char>& reached) {
+  become(mutant.id, reached.data());
+  if (!once) return *options.devices;
+  Result<MutatedDevices> fresh = options.fresh();
+  if (!fresh) std::abort();
+  return *fresh;
 }
 
 Fate fate_of(const Ended& ended) {
@@ -71,27 +77,28 @@ std::string_view to_string(Fate fate) {
 
 Status hunt(const Stage& stage, const std::vector<Mutant>& mutants, const HuntOptions& options,
             std::vector<Outcome>& outcomes) {
-  const Result<Coverage> coverage =
-      Coverage::measure(options.load, stage.trials, mutants, 60 * options.effort.seconds);
-  if (!coverage) return coverage.error();
-  if (coverage->red() == stage.trials.size() && !stage.trials.empty())
+  const Coverage coverage(*options.devices, options.numbers, stage.trials, mutants);
+  if (coverage.red() == stage.trials.size() && !stage.trials.empty())
     return fail(stage.name + ": every trial is red on the healthy device");
   fmt::print("{}: {} trials, {} of them red on the healthy device\n", stage.name,
-             stage.trials.size(), coverage->red());
+             stage.trials.size(), coverage.red());
 
   std::vector<std::size_t> todo;
   for (std::size_t i = 0; i < mutants.size(); ++i)
-    if (!is_killed(outcomes[i].fate) && !coverage->showing(mutants[i]).empty()) todo.push_back(i);
+    if (!is_killed(outcomes[i].fate) && !coverage.showing(mutants[i]).empty()) todo.push_back(i);
   Killers killers;
   std::vector<std::size_t> order;
   const auto begin = [&](std::size_t i) {
-    order = coverage->showing(mutants[todo[i]]);
+    order = coverage.showing(mutants[todo[i]]);
     Outcome& outcome = outcomes[todo[i]];
     if (outcome.section.empty()) outcome.section = stage.trials[order.front()].section;
     killers.put_first(order);
   };
   const auto work = [&](std::size_t i, Steps& steps) {
-    return first_red(options, stage.trials, mutants[todo[i]], order, mutants.size(), steps);
+    std::vector<unsigned char> reached(options.numbers + 1);
+    const Mutant& mutant = mutants[todo[i]];
+    const MutatedDevices devices = devices_of(mutant, coverage.is_once(mutant), options, reached);
+    return first_red(devices, stage.trials, order, steps);
   };
   const auto end = [&](std::size_t i, const Ended& ended) {
     Outcome& outcome = outcomes[todo[i]];

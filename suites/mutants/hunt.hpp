@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "suites/mutants/children.hpp"
 #include "suites/mutants/coverage.hpp"
 
 namespace fieldproof::mutants {
@@ -26,13 +27,15 @@ struct Stage {
 };
 
 struct HuntOptions {
-  Load load;
+  const MutatedDevices* devices = nullptr;  // healthy until a child becomes another
+  Load fresh;                               // the same once more, with what a program sets up once
+  std::size_t numbers = 0;                  // how many mutants the devices have: the highest number
   Effort effort;
   std::function<void(std::size_t done, std::size_t of)> progress;
 };
 
-/// Mutants that earlier stages have killed are left alone. Errors are those of Coverage::measure,
-/// and a healthy device on which every trial is red.
+/// Mutants that earlier stages have killed are left alone. The error: on the
+/// healthy device every trial is red.
 Status hunt(const Stage& stage, const std::vector<Mutant>& mutants, const HuntOptions& options,
             std::vector<Outcome>& outcomes);
 

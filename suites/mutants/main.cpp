@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "harness/explore/derived.hpp"
@@ -25,65 +26,83 @@ struct Options {
   double seconds = 1;
 };
 
-int complain(const std::string& message) {
-  fmt::print(stderr, "fieldproof_mutants: {}\n", message);
-  return 3;
-}
-
 void show_progress(std::size_t done, std::size_t of) {
   if (done % 500 == 0 || done == of) fmt::print(stderr, "  {} of {}\n", done, of);
 }
 
-int run(const Options& options) {
+/// The hunt through all stages; the report is written after each.
+class Run {
+ public:
+  /// `numbers`: of all mutants, wanted or not.
+  Run(const Options& options, MutatedDevices devices, std::string copy, std::size_t numbers,
+      std::vector<Mutant> mutants)
+      : options_(options),
+        devices_(devices),
+        copy_(std::move(copy)),
+        numbers_(numbers),
+        mutants_(std::move(mutants)),
+        outcomes_(mutants_.size()) {}
+
+  /// `patience`: how much longer than a case one of these trials may take.
+  Status stage(const std::string& name, std::vector<Trial> trials, double patience) {
+    const HuntOptions how{&devices_,
+                          from_library(copy_),
+                          numbers_,
+                          {options_.jobs, patience * options_.seconds, std::size_t{4} << 30},
+                          show_progress};
+    stages_.push_back(name);
+    const Status done = hunt({name, std::move(trials)}, mutants_, how, outcomes_);
+    if (!done) return done;
+    std::ofstream(options_.out + "/mutants.md") << markdown(mutants_, outcomes_, stages_);
+    std::ofstream(options_.out + "/outcomes.json") << json_text(mutants_, outcomes_);
+    fmt::print("{}", summary(mutants_, outcomes_, stages_));
+    std::fflush(stdout);
+    return ok();
+  }
+
+ private:
+  const Options& options_;
+  MutatedDevices devices_;
+  std::string copy_;  // of the library
+  std::size_t numbers_;
+  std::vector<Mutant> mutants_;
+  std::vector<Outcome> outcomes_;
+  std::vector<std::string> stages_;
+};
+
+Status run_all(const Options& options) {
   Result<std::vector<Mutant>> mutants = load_table(options.table);
-  if (!mutants) return complain(mutants.error().message);
+  if (!mutants) return mutants.error();
   if (!options.equivalent.empty())
-    if (const Status loaded = load_equivalent(options.equivalent, *mutants); !loaded)
-      return complain(loaded.error().message);
-  const vectors::VectorSet set = vectors::load_vectors(options.vectors, {suites::protocols()});
-  if (!set.problems.empty()) return complain(set.problems.front());
-
-  const std::size_t all = mutants->size();
-  std::vector<Outcome> outcomes(all);
-  for (std::size_t i = 0; i < all; ++i)
-    if (!vectors::matches_filter((*mutants)[i].file, options.only)) outcomes[i].fate = Fate::red;
-
-  HuntOptions how{from_library(options.library),
-                  {options.jobs, options.seconds, std::size_t{4} << 30},
-                  show_progress};
-  std::vector<std::string> stages;
-  const auto stage = [&](const std::string& name, std::vector<Trial> trials, double patience) {
-    how.effort.seconds = patience * options.seconds;
-    stages.push_back(name);
-    return hunt({name, std::move(trials)}, *mutants, how, outcomes);
-  };
-  if (const Status done = stage("vectors", trials_of(set.cases), 1); !done)
-    return complain(done.error().message);
-  std::vector<vectors::Case> derived;
-  if (options.derived) {
-    Result<std::vector<vectors::Case>> made = explore::derived_cases(
-        set.cases, suites::protocols(), 0, 0, [](const std::string&) { return true; });
-    if (!made) return complain(made.error().message);
-    derived = std::move(*made);
-    if (const Status done = stage("derived", trials_of(derived), 2); !done)
-      return complain(done.error().message);
-  }
-  if (options.explore) {
-    const auto requests = static_cast<double>(options.explore);
-    if (const Status done =
-            stage("explore", explorations(set.cases, options.explore), 10 + requests / 1000);
-        !done)
-      return complain(done.error().message);
-  }
-  std::erase_if(outcomes,
-                [](const Outcome& one) { return one.fate == Fate::red && one.stage.empty(); });
+    if (Status loaded = load_equivalent(options.equivalent, *mutants); !loaded) return loaded;
+  const std::size_t numbers = mutants->size();
   std::erase_if(*mutants, [&](const Mutant& one) {
     return !vectors::matches_filter(one.file, options.only);
   });
-  std::ofstream(options.out + "/mutants.md") << markdown(*mutants, outcomes, stages);
-  std::ofstream(options.out + "/outcomes.json") << json_text(*mutants, outcomes);
-  fmt::print("{}", summary(*mutants, outcomes, stages));
-  return 0;
+  if (mutants->empty()) return fail("--file " + options.only + " names no file with mutants");
+  const vectors::VectorSet set = vectors::load_vectors(options.vectors, {suites::protocols()});
+  if (!set.problems.empty()) return fail(set.problems.front());
+
+  // A file of another name is loaded beside the first.
+  const std::string copy = options.out + "/mutated_devices_again.so";
+  std::filesystem::copy_file(options.library, copy,
+                             std::filesystem::copy_options::overwrite_existing);
+  std::vector<unsigned char> reached(numbers + 1);
+  become(0, reached.data());
+  const Result<MutatedDevices> devices = from_library(options.library)();
+  if (!devices) return devices.error();
+  Run run(options, *devices, copy, numbers, std::move(*mutants));
+  Status done = run.stage("vectors", trials_of(set.cases), 1);
+  if (done && options.derived) {
+    const Result<std::vector<vectors::Case>> derived = explore::derived_cases(
+        set.cases, suites::protocols(), 0, 0, [](const std::string&) { return true; });
+    if (!derived) return derived.error();
+    done = run.stage("derived", trials_of(*derived), 2);
+  }
+  if (done && options.explore)
+    done = run.stage("explore", explorations(set.cases, options.explore),
+                     10 + static_cast<double>(options.explore) / 1000);
+  return done;
 }
 
 }  // namespace
@@ -102,5 +121,8 @@ int main(int count, char** arguments) {
   app.add_option("--jobs", options.jobs, "processes");
   app.add_option("--seconds", options.seconds, "of processor time that a case may take");
   CLI11_PARSE(app, count, arguments);
-  return run(options);
+  const Status done = run_all(options);
+  if (done) return 0;
+  fmt::print(stderr, "fieldproof_mutants: {}\n", done.error().message);
+  return 3;
 }
