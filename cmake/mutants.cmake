@@ -7,7 +7,7 @@ file(GLOB device_sources RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS src/*/
 list(FILTER device_sources EXCLUDE REGEX "(_test\\.cpp|/test_[a-z_]*\\.hpp)$")
 list(TRANSFORM device_sources PREPEND ${mutants}/ OUTPUT_VARIABLE mutated_sources)
 add_custom_command(OUTPUT ${mutated_sources} ${mutants}/mutants.json
-  COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/suites/mutants/generate.py ${PROJECT_SOURCE_DIR} ${mutants}
+  COMMAND /usr/bin/python3 -B ${PROJECT_SOURCE_DIR}/suites/mutants/generate.py ${PROJECT_SOURCE_DIR} ${mutants}
   DEPENDS ${device_sources} ${mutants_tools} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Making mutants" VERBATIM)
 add_custom_target(mutated_sources DEPENDS ${mutated_sources} ${mutants}/mutants.json)
 

@@ -86,6 +86,15 @@ class Generated(unittest.TestCase):
         self.assertIn(("constant", '"RSS"', '"RST"'), found)
         self.assertFalse([after for _, before, after in found if "registered" in before])
 
+    def test_what_only_saves_time_is_left_alone(self):
+        found = self.mutants("struct S { void reserve(int n); }; void f(S& s) { s.reserve(1 + 2); }")
+        self.assertEqual(found, set())
+
+    def test_refusing_a_set_up_is_left_alone(self):
+        found = self.mutants("int fail(const char*); struct R { int error(); explicit operator bool(); };\n"
+                             'int f(int a, R r) { if (a > 2) return fail("too much"); if (!r) { return r.error(); } return a; }')
+        self.assertEqual(found, set())
+
     def test_numbers_follow_each_other_over_files(self):
         rows, _ = self.generate("int f() { return 0; }", {"src/plc/b.cpp": "int g() { return 0; }"})
         self.assertEqual([(row["id"], row["file"]) for row in rows], [(1, "src/plc/a.cpp"), (2, "src/plc/b.cpp")])

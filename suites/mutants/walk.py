@@ -69,7 +69,7 @@ class Walk:
         self.add(cursor.extent.start.offset, cursor.extent.end.offset, rule, replacement)
 
     def visit(self, cursor):
-        if cursor.kind in NEVER:
+        if cursor.kind in NEVER or self.only_saves_time(cursor):
             return
         if cursor.kind in FUNCTIONS:
             return self.visit_function(cursor)
@@ -87,6 +87,11 @@ class Walk:
         if cursor.kind not in (Kind.IF_STMT, Kind.WHILE_STMT, Kind.FOR_STMT, Kind.COMPOUND_STMT):
             for child in cursor.get_children():
                 self.visit(child)
+
+    @staticmethod
+    def only_saves_time(cursor):
+        """No device can be told from another by it."""
+        return cursor.kind == Kind.CALL_EXPR and cursor.spelling == "reserve"
 
     def visit_function(self, cursor):
         children = [c for c in cursor.get_children() if c.kind not in NEVER]
@@ -141,6 +146,8 @@ class Walk:
         drops = (Kind.CALL_EXPR, Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR, Kind.UNARY_OPERATOR)
         leaves = (Kind.RETURN_STMT, Kind.CONTINUE_STMT)
         end = self.text.find(";", cursor.extent.end.offset)
+        if self.only_saves_time(inner):
+            return
         whole = end >= 0 and not self.text[cursor.extent.end.offset:end].strip()
         if whole and ((inner.kind in drops and kind_of(inner) != TypeKind.INVALID) or (inner.kind in leaves and not last)):
             self.add(cursor.extent.start.offset, end + 1, "dropped", "", True)
@@ -167,7 +174,17 @@ class Walk:
                 return i
         return len(self.text)
 
+    def refuses_set_up(self, cursor):
+        """An `if` that returns an Error alone: what is told to run so in words is no device yet."""
+        begin, close = cursor.extent.start.offset, self.closing(cursor.extent.start.offset)
+        head, body = self.text[begin:close], self.text[close + 1:cursor.extent.end.offset].strip(" \n{};")
+        named = re.search(r"\bStatus (\w+) =", head)
+        return re.match(r"return (fail|wrong)\(", body) or re.fullmatch(r"return \*?[\w.>()-]*error\(\)", body) or \
+            (named and body == f"return {named[1]}")
+
     def on_if_stmt(self, cursor):
+        if self.refuses_set_up(cursor):
+            return
         begin = cursor.extent.start.offset
         close = self.closing(begin)
         children = list(cursor.get_children())
