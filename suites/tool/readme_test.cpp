@@ -57,8 +57,10 @@ const std::map<std::string, Special> specials{
     {"./test.sh", {.not_run = "it is what runs this test"}},
     {"cmake --build --preset plain && build/plain/fieldproof_bench",
      {.not_run = "fieldproof_bench is a test itself"}},
-    {"cmake --preset plain -DFIELDPROOF_MUTANTS=ON && cmake --build --preset plain --target mutants",
-     {.not_run = "it takes half an hour; suites_mutants_tests and suites_mutants_rules test its parts"}},
+    {"cmake --preset plain -DFIELDPROOF_MUTANTS=ON && cmake --build --preset plain --target "
+     "mutants",
+     {.not_run =
+          "it takes too long; suites_mutants_tests and suites_mutants_rules test its parts"}},
     {"./run.sh lint --manuals DIR --lock",
      {.not_run = "the text of the manuals is not ours to ship, and vectors would be locked"}},
     {"fieldproof emulate", {.not_run = "the name of a command, in a sentence"}},
