@@ -60,6 +60,10 @@ const std::map<std::string, Special> specials{
      {.not_run = "it builds all of the tests anew"}},
     {"cmake --build --preset plain && build/plain/fieldproof_bench",
      {.not_run = "fieldproof_bench is a test itself"}},
+    {"cmake --preset plain -DFIELDPROOF_MUTANTS=ON && cmake --build --preset plain --target "
+     "mutants",
+     {.not_run =
+          "it takes too long; suites_mutants_tests and suites_mutants_rules test its parts"}},
     {"./run.sh lint --manuals DIR --lock",
      {.not_run = "the text of the manuals is not ours to ship, and vectors would be locked"}},
     {"fieldproof emulate", {.not_run = "the name of a command, in a sentence"}},
