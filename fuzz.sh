@@ -11,17 +11,17 @@ shift
 install_packages build fuzz || exit $?
 build fuzz || exit $?
 
-# The folder of this clone may be seen under another name while it builds.
-here=build/fuzz
+export here=build/fuzz
+export ASAN_SYMBOLIZER_PATH=/usr/bin/llvm-symbolizer-16
 mkdir -p $here/{corpus,findings,logs}
 seeds=$($here/fieldproof_fuzz "$@" --write-seeds $here/seeds) || exit 2
 
 # feed TARGET SECONDS
 feed() {
-  mkdir -p "build/fuzz/corpus/$1"
-  FIELDPROOF_FUZZ_TARGET=$1 build/fuzz/fieldproof_libfuzzer -max_total_time="$2" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
-    -artifact_prefix="build/fuzz/findings/$1-" "build/fuzz/corpus/$1" "build/fuzz/seeds/$1" >"build/fuzz/logs/$1" 2>&1
-  echo $? >"build/fuzz/logs/$1.code"
+  mkdir -p "$here/corpus/$1"
+  FIELDPROOF_FUZZ_TARGET=$1 $here/fieldproof_libfuzzer -max_total_time="$2" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="$here/findings/$1-" "$here/corpus/$1" "$here/seeds/$1" >"$here/logs/$1" 2>&1
+  echo $? >"$here/logs/$1.code"
 }
 export -f feed
 say "Feeding $(wc -l <<<"$seeds") targets for $seconds s each ..."

@@ -41,6 +41,9 @@ Error no_request(const Protocol& protocol, std::string_view address) {
 Result<std::vector<Bytes>> Protocol::write_requests(int station, std::string_view address,
                                                     std::string_view hex) const {
   if (!memory()) return no_request(*this, address);
+  // From here on digits are counted: blanks between them would count as some.
+  if (!std::ranges::all_of(hex, [](char c) { return hex_digit(c) >= 0; }))
+    return fail(fmt::format("'{}' is not hex", hex));
   return memory()->requests_to_write(station, address, hex);
 }
 Result<std::vector<Bytes>> Protocol::read_requests(int station, std::string_view address,

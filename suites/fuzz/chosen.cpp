@@ -5,6 +5,7 @@
 
 #include "harness/paths.hpp"
 #include "harness/vectors/loader.hpp"
+#include "suites/fuzz/rule.hpp"
 
 namespace fieldproof::fuzz {
 
@@ -32,6 +33,7 @@ const std::vector<vectors::Case>& cases_of_vectors() {
     const auto folder = harness::find_data().vectors;
     vectors::VectorSet read = vectors::load_vectors(folder, {.protocols = suites::protocols()});
     vectors::load_wires(folder, read);
+    rule(!read.cases.empty(), "there are vectors to begin with; is FIELDPROOF_DATA right?");
     return read;
   }();
   return set.cases;

@@ -220,5 +220,11 @@ TEST(FenetProbe, HasAnInvokeIdThatTheTestedFrameDoesNotHave) {
   EXPECT_TRUE(protocol().is_reply_to_probe(first, reply));
 }
 
+/// Found by fuzz.sh: blanks were counted as digits, and bytes behind the last one were sent.
+TEST(Memory, BlanksAreNoDigits) {
+  for (const char* hex : {"3D4B\t\t\t\t", "12 4", "    "})
+    EXPECT_FALSE(protocol().write_requests(1, "%MW99", hex)) << hex;
+}
+
 }  // namespace
 }  // namespace fieldproof::xgt_fenet_suite
