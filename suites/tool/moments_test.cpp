@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "suites/tool/at_moment.hpp"
 #include "suites/tool/tool_files.hpp"
 
 namespace fieldproof::tool_tests {

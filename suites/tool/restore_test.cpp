@@ -3,6 +3,7 @@
 // survives the run.
 #include <gmock/gmock.h>
 
+#include "suites/tool/at_moment.hpp"
 #include "suites/tool/plc_client.hpp"
 #include "suites/tool/tool_files.hpp"
 

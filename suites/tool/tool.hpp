@@ -241,16 +241,6 @@ inline Finished run_tool(std::vector<std::string> arguments, const ProcessOption
   return run_program(tool_arguments(std::move(arguments)), options);
 }
 
-/// Makes something happen in the tool at its N-th call that changes a file (moments/moments.cpp).
-inline std::vector<std::pair<std::string, std::string>> at_moment(int moment,
-                                                                  const std::string& act) {
-  const char* const asan = std::getenv("ASAN_OPTIONS");  // which wants to be loaded first
-  return {{"LD_PRELOAD", FIELDPROOF_MOMENTS},
-          {"ASAN_OPTIONS", (asan ? std::string(asan) + ':' : "") + "verify_asan_link_order=0"},
-          {"MOMENT", std::to_string(moment)},
-          {"ACT", act}};
-}
-
 /// Sees a file grow. Makes it, in a folder that is there.
 class FileWatch {
  public:
