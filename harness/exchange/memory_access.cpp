@@ -85,12 +85,22 @@ Status MemoryAccess::let_pass(const Channel& server, Duration silence) {
   return ok();
 }
 
-/// Once more where the line has damaged or lost the answer: what reads or sets memory does the same
-/// twice. Who was silent both times is asked once from then on, until it answers.
+/// Once more where the line has damaged the answer.
 Result<Bytes> MemoryAccess::ask_again(const Channel& server, ByteView request) {
+  Result<Bytes> reply = ask(server, request);
+  return sound(server, request, std::move(reply));
+}
+
+/// The same, and once more where the answer was lost: what sets memory does the same twice. Who was
+/// silent both times is asked once from then on, until it answers.
+Result<Bytes> MemoryAccess::set_again(const Channel& server, ByteView request) {
   Result<Bytes> reply = ask(server, request);
   if (reply && silent_ && !mute_) reply = ask(server, request);
   mute_ = silent_;
+  return sound(server, request, std::move(reply));
+}
+
+Result<Bytes> MemoryAccess::sound(const Channel& server, ByteView request, Result<Bytes> reply) {
   for (int i = 0; i < repeats && reply && !reply->empty() && !unsound_; ++i) {
     if (server.protocol->sound_reply(request, *reply)) break;
     if (const Status over = let_pass(server, ExchangeTiming().quiet); !over) return over.error();
@@ -124,7 +134,7 @@ Status MemoryAccess::write(const Channel& server, const std::string& address,
   const auto taken = [&](ByteView reply) { return bool(server.protocol->write_reply(reply)); };
   for (const Bytes& request : *requests) {
     const Result<Bytes> reply =
-        in_any_mode ? ask_in_any_mode(server, request, taken) : ask_again(server, request);
+        in_any_mode ? ask_in_any_mode(server, request, taken) : set_again(server, request);
     if (!reply) return reply.error();
     const Status accepted = server.protocol->write_reply(*reply);
     refused_ = !accepted;

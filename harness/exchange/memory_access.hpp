@@ -66,6 +66,8 @@ class MemoryAccess {
   Result<std::string> read(const Channel& server, const std::string& address, std::size_t digits);
   Result<Bytes> ask(const Channel& server, ByteView request);
   Result<Bytes> ask_again(const Channel& server, ByteView request);
+  Result<Bytes> set_again(const Channel& server, ByteView request);
+  Result<Bytes> sound(const Channel& server, ByteView request, Result<Bytes> reply);
   Result<Bytes> ask_in_any_mode(const Channel& server, ByteView request,
                                 const std::function<bool(ByteView)>& taken);
   Result<Channel> partner(const PlaceName& name) const;

@@ -52,6 +52,7 @@ class LinksTest : public testing::Test {
   void expect_recording_judged_alike(const exchange::PreparedCase& prepared,
                                      const Judgement& live) {
     results::CaseResult recorded;
+    recorded.id = "xgt_cnet/a/b";
     recorded.exchange = {transcript.events.begin(), transcript.events.end()};
     recorded.recording = make_recording(prepared, transcript, rules);
     std::string written;

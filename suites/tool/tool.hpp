@@ -169,6 +169,10 @@ class Process {
       if (text.starts_with("GTEST_") || text.starts_with("FIELDPROOF_") ||
           text.starts_with("XML_OUTPUT_FILE") || text.starts_with("COLUMNS="))
         continue;
+      const std::string key = text.substr(0, text.find('='));
+      if (std::ranges::any_of(options.environment,
+                              [&](const auto& given) { return given.first == key; }))
+        continue;
       result.push_back(text);
     }
     for (const auto& [key, value] : options.environment) result.push_back(key + '=' + value);

@@ -1,6 +1,7 @@
 // ls_bus_broken_server: an inverter with a known fault on a terminal, in real time. For the tests
 // of the suite, and for whoever writes a client and wants to see it meet a bad inverter.
 #include <fmt/format.h>
+#include <filesystem>
 
 #include <cstdio>
 #include <string>
@@ -38,7 +39,7 @@ int main(int count, char** arguments) {
   if (given.size() == 1 && given[0] == "--list") return list();
   if (given.size() < 2 || given.size() > 3) return usage();
   hosting::HostOptions host;
-  host.tty = given[1];
+  (std::filesystem::exists(given[1]) ? host.tty : host.pty) = given[1];
   host.config["station"] = given.size() > 2 ? given[2] : "1";
   host.make_device = [&](const nlohmann::json& config) {
     return ls_bus_broken::make_broken_inverter(given[0], config);

@@ -1,6 +1,7 @@
 // modbus_broken_server: a device with a known fault on a terminal, in real time. For the tests of
 // the suite, and for whoever writes a driver and wants to see it meet a bad device.
 #include <fmt/format.h>
+#include <filesystem>
 
 #include <cstdio>
 #include <string>
@@ -39,7 +40,7 @@ int main(int count, char** arguments) {
   if (given.size() == 1 && given[0] == "--list") return list();
   if (given.size() < 3) return usage();
   hosting::HostOptions host;
-  host.tty = given[2];
+  (std::filesystem::exists(given[2]) ? host.tty : host.pty) = given[2];
   host.model = "xbc-h";
   host.config["station"] = given.size() > 3 ? given[3] : "1";
   for (std::size_t i = 4; i < given.size(); ++i) {

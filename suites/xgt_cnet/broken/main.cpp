@@ -1,6 +1,7 @@
 // xgt_cnet_broken_server: a device with a known fault on a terminal, in real time. For the tests of
 // the suite, and for whoever writes a driver and wants to see it meet a bad device.
 #include <fmt/format.h>
+#include <filesystem>
 
 #include <cstdio>
 #include <fstream>
@@ -55,7 +56,7 @@ int main(int count, char** arguments) {
   xgt_cnet_broken::Storage storage = storage_in(given.size() > 3 ? given[3] : "");
   hosting::HostOptions host;
   host.model = "xbc-h";
-  host.tty = given[1];
+  (std::filesystem::exists(given[1]) ? host.tty : host.pty) = given[1];
   host.config["station"] = given.size() > 2 ? given[2] : "1";
   host.make_device =
       [&](const nlohmann::json& config) -> Result<std::unique_ptr<plc::EmulatedDevice>> {
