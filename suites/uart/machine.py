@@ -1,7 +1,7 @@
 """A small virtual machine with real UART drivers: the kernel of Debian, busybox and fieldproof, started from memory.
 
 Two 8250 ports (/dev/ttyS1, /dev/ttyS2) are the ends of one paced line, two FTDI adapters (/dev/ttyUSB0, /dev/ttyUSB1) those of
-another; one adapter can be pulled out. Commands run in its shell, over its console. Needs no KVM and no root.
+another; one adapter can be pulled out. Commands run in its shell, over its console. Needs no KVM.
 """
 import glob
 import json

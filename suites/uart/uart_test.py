@@ -4,7 +4,7 @@
     suites/uart/uart_test.py FIELDPROOF BROKEN_SERVER [PART OF A TEST'S NAME]
 
 BROKEN_SERVER is the xgt_cnet_broken_server of the same build. Exit codes: 0 all holds, 1 something does not, 77 skipped. Needs
-qemu-system-x86, busybox-static and cpio; the kernel is fetched as a package and not installed. Without root, and without KVM.
+qemu-system-x86, busybox-static and cpio; the kernel is fetched as a package and not installed. Without KVM.
 """
 import json
 import re
