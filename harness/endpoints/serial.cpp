@@ -1,24 +1,15 @@
 #include "harness/endpoints/serial.hpp"
 
-#include <fcntl.h>
-#include <grp.h>
-#include <sys/file.h>
 #include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <termios.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
-#include "harness/endpoints/receive_latency.hpp"
+#include "harness/endpoints/serial_port.hpp"
 #include "harness/endpoints/serial_settings.hpp"
 #include "harness/system/fd_link.hpp"
-#include "harness/system/port_lock.hpp"
-#include "harness/system/port_user.hpp"
 
 namespace fieldproof::endpoints {
 
@@ -27,60 +18,17 @@ namespace {
 /// An argument of ioctl that is a number.
 void* number(std::intptr_t value) { return reinterpret_cast<void*>(value); }
 
-std::string group_of(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return "dialout";
-  const group* entry = ::getgrgid(status.st_gid);  // start-up, one thread
-  return entry && std::string_view(entry->gr_name) != "root" ? entry->gr_name : "dialout";
-}
-
-std::string ports_there() {
-  std::string list;
-  std::error_code none;
-  for (const auto& one : std::filesystem::directory_iterator("/dev/serial/by-id", none)) {
-    list += (list.empty() ? "" : ", ") + one.path().string();
-  }
-  return list.empty() ? "plug in the adapter (none is listed in /dev/serial/by-id)"
-                      : "these are there: " + list;
-}
-
-Error absent(std::string message) {
-  Error error = fail(std::move(message));
-  error.absent = true;
-  return error;
-}
-
-Error open_error(const std::string& path, int error) {
-  const std::string start = "cannot open " + path + ": ";
-  switch (error) {
-    case EACCES:
-      return fail(start + "permission denied; add yourself to the group " + group_of(path));
-    case ENOENT: return absent(start + "there is no such port; " + ports_there());
-    case EBUSY:
-    case EWOULDBLOCK:
-      return fail(start + "the port is in use" + os::port_user(path) +
-                  "; end that process or choose another port");
-    case ENODEV:
-    case ENXIO:
-    case EIO:
-      return absent(start + "no adapter behind this name; plug it in or choose another port");
-    default:
-      return fail(start + os::errno_text(error) + "; name a terminal device such as /dev/ttyUSB0");
-  }
-}
-
 class SerialEndpoint final : public Endpoint {
  public:
-  SerialEndpoint(const os::SystemCalls& calls, os::UniqueFd fd, os::PortLock lock,
-                 std::unique_ptr<ReceiveLatency> latency, const EndpointName& name,
+  SerialEndpoint(const os::SystemCalls& calls, SerialPort port, const EndpointName& name,
                  const SerialOptions& options)
       : calls_(calls),
-        lock_(std::move(lock)),
+        lock_(std::move(port.lock)),
         path_(name.target),
         settings_(options.settings),
         direction_(options.direction),
-        link_(std::move(fd), "serial:" + path_),
-        latency_(std::move(latency)) {
+        link_(std::move(port.fd), "serial:" + path_),
+        latency_(std::move(port.latency)) {
     capabilities_ = capabilities_of(name);
     capabilities_.wire = !is_pty(calls_, link_.fd());
     capabilities_.timing_floor = options.floor;
@@ -145,21 +93,6 @@ class SerialEndpoint final : public Endpoint {
   bool counting_ = false;
 };
 
-Status make_exclusive(const os::SystemCalls& calls, os::UniqueFd& fd, const std::string& path) {
-  if (calls.flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
-    const int error = errno;
-    fd.reset();  // so that it is not found as the port's user
-    return open_error(path, error);
-  }
-  calls.ioctl(fd.get(), TIOCEXCL, nullptr);
-  // Root opens what another has for itself. Both ends of a pty belong to whoever made it.
-  const std::string other = is_pty(calls, fd.get()) ? "" : os::other_port_user(path);
-  if (other.empty()) return ok();
-  calls.ioctl(fd.get(), TIOCNXCL, nullptr);
-  return fail("cannot open " + path + ": the port is in use" + other +
-              "; end that process or choose another port");
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name) {
@@ -173,25 +106,15 @@ Result<std::unique_ptr<Endpoint>> open_serial(const EndpointName& name,
   if (!options) return options.error();
   if (path.empty())
     return fail("cannot open serial: there is no port; write serial:/dev/ttyUSB0; " +
-                ports_there());
+                serial_ports_there());
 
-  Result<os::PortLock> lock = os::PortLock::acquire(path);
-  if (!lock) return lock.error();
-  if (!lock->notice().empty()) std::fprintf(stderr, "fieldproof: %s\n", lock->notice().c_str());
-  // O_NONBLOCK: a port without carrier must not block.
-  os::UniqueFd fd(calls.open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!fd) return open_error(path, errno);
-  if (const Status done = make_exclusive(calls, fd, path); !done) return done.error();
-  // Before the speed is set: at a low one the kernel changes the trigger level, and leaves it so.
-  std::unique_ptr<ReceiveLatency> latency;
-  if (!is_pty(calls, fd.get())) latency = std::make_unique<ReceiveLatency>(calls, fd.get(), path);
-  if (const Status done = apply_settings(calls, fd.get(), path, options->settings); !done)
+  Result<SerialPort> port = open_serial_port(calls, path, options->settings);
+  if (!port) return port.error();
+  if (const Status done = apply_direction(calls, port->fd.get(), path, options->direction); !done)
     return done.error();
-  if (const Status done = apply_direction(calls, fd.get(), path, options->direction); !done)
-    return done.error();
-  calls.ioctl(fd.get(), TCFLSH, number(TCIOFLUSH));
-  return std::unique_ptr<Endpoint>(std::make_unique<SerialEndpoint>(
-      calls, std::move(fd), std::move(*lock), std::move(latency), name, *options));
+  calls.ioctl(port->fd.get(), TCFLSH, number(TCIOFLUSH));
+  return std::unique_ptr<Endpoint>(
+      std::make_unique<SerialEndpoint>(calls, std::move(*port), name, *options));
 }
 
 }  // namespace fieldproof::endpoints

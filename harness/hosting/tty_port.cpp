@@ -7,10 +7,8 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "harness/endpoints/receive_latency.hpp"
+#include "harness/endpoints/serial_port.hpp"
 #include "harness/endpoints/serial_settings.hpp"
-#include "harness/system/port_lock.hpp"
-#include "harness/system/port_user.hpp"
 #include "harness/system/pty_pair.hpp"
 #include "harness/system/system_calls.hpp"
 #include "src/line/settings.hpp"
@@ -64,13 +62,12 @@ class TtyPort final : public HostPort {
 /// A port with a UART behind it, for this process alone.
 class RealPort final : public HostPort {
  public:
-  RealPort(UniqueFd fd, os::PortLock lock, std::unique_ptr<endpoints::ReceiveLatency> latency,
-           const std::string& path, line::LineSettings settings)
-      : lock_(std::move(lock)),
+  RealPort(endpoints::SerialPort port, const std::string& path, line::LineSettings settings)
+      : lock_(std::move(port.lock)),
         path_(path),
         settings_(settings),
-        port_(std::move(fd), UniqueFd(), path, fs::path()),
-        latency_(std::move(latency)) {}
+        port_(std::move(port.fd), UniqueFd(), path, fs::path()),
+        latency_(std::move(port.latency)) {}
   ~RealPort() override { os::real_system_calls().ioctl(port_.fd(), TIOCNXCL, nullptr); }
 
   std::string describe() const override {
@@ -99,22 +96,13 @@ Result<std::unique_ptr<HostPort>> use_pty(UniqueFd fd, const std::string& path) 
       std::make_unique<TtyPort>(std::move(fd), UniqueFd(), path, fs::path()));
 }
 
-Result<std::unique_ptr<HostPort>> use_real_port(UniqueFd fd, const std::string& path,
-                                                const std::string& line) {
+Result<std::unique_ptr<HostPort>> open_real_port(const std::string& path, const std::string& line) {
   const Result<line::LineSettings> settings = line::parse_line_settings(line);
   if (!settings) return settings.error();
-  Result<os::PortLock> lock = os::PortLock::acquire(path);
-  if (!lock) return lock.error();
-  const os::SystemCalls& calls = os::real_system_calls();
-  if (const std::string other = os::other_port_user(path); !other.empty())
-    return fail("cannot open " + path + ": the port is in use" + other +
-                "; end that process or choose another port");
-  auto latency = std::make_unique<endpoints::ReceiveLatency>(calls, fd.get(), path);
-  const Status done = endpoints::apply_settings(calls, fd.get(), path, *settings);
-  if (!done) return done.error();
-  calls.ioctl(fd.get(), TIOCEXCL, nullptr);
-  return std::unique_ptr<HostPort>(std::make_unique<RealPort>(std::move(fd), std::move(*lock),
-                                                              std::move(latency), path, *settings));
+  Result<endpoints::SerialPort> port =
+      endpoints::open_serial_port(os::real_system_calls(), path, *settings);
+  if (!port) return port.error();
+  return std::unique_ptr<HostPort>(std::make_unique<RealPort>(std::move(*port), path, *settings));
 }
 
 constexpr std::string_view advice = "; choose a terminal, or a path where there is nothing yet";
@@ -160,14 +148,15 @@ Result<std::unique_ptr<HostPort>> open_pty_port(const std::string& path) {
 }
 
 Result<std::unique_ptr<HostPort>> open_tty_port(const std::string& path, const std::string& line) {
+  const UniqueFd name(::open(path.c_str(), O_PATH | O_CLOEXEC));  // touches no line
+  if (name && !endpoints::is_pty(os::real_system_calls(), name.get()))
+    return open_real_port(path, line);
   Result<std::optional<UniqueFd>> fd = open_terminal(path);
   if (!fd) return fd.error();
   if (!*fd)
     return fail("cannot open " + path +
                 ": there is no such port; write --pty for a new pty, linked from there");
-  if (endpoints::is_pty(os::real_system_calls(), (*fd)->get()))
-    return use_pty(std::move(**fd), path);
-  return use_real_port(std::move(**fd), path, line);
+  return use_pty(std::move(**fd), path);
 }
 
 }  // namespace fieldproof::hosting
