@@ -68,12 +68,12 @@ judging::JudgeRules Bench::rules() const {
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
   // Simulated time is exact, but for the moment at which a character counts as come.
   if (can.simulated) rules.period_tolerance = endpoint_.character_time();
-  // Cnet KO 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   if (can.wire && can.real_device) rules.earliest = -endpoint_.character_time();
   rules.gap_floor = can.simulated                  ? Duration{}
                     : given_by_hand(known_->floor) ? known_->floor->given
                                                    : can.driver_silence.value_or(rules.link_floor);
   rules.gap_stated = options_.profile.max_gap > 0ns;
+  // Cnet KO 4.3.1: 3.5 characters of 11 bits, that is 3.85 characters of 10.
   const auto wire_gap = Duration(endpoint_.character_time().count() * 385 / 100);
   rules.max_gap = options_.profile.max_gap > 0ns ? options_.profile.max_gap
                   : can.wire ? std::max({wire_gap, rules.link_floor, rules.gap_floor})
@@ -154,27 +154,34 @@ Result<bool> Bench::wait_for_request() {
 Result<std::optional<AdapterFloor>> Bench::measure_floor() {
   if (endpoint_.capabilities().simulated || !known_->answers) return std::optional<AdapterFloor>();
   AdapterFloor floor;
-  for (int attempt = 0;; ++attempt) {
+  const auto measure = [&]() -> Status {
     Result<results::ResponseTimes> times =
         exchange_.time_probes(options_.station, floor_probes, floor_budget);
     if (!times) return times.error();
     floor.times = std::move(*times);
-    const double character = to_ms(endpoint_.character_time());
-    if (!endpoint_.capabilities().wire || floor.times.count() == 0 ||
-        floor.times.least() >= -character || attempt == 2)
-      return std::optional(std::move(floor));
-    // The answer to a request before these came late, and each was taken for that of the next.
-    if (attempt == 0) {
-      floor.remark = "answers were one request behind, and were brought in step again";
-      const Status quiet = exchange_.settle(options_.profile.response_max);
-      if (!quiet) return quiet.error();
-      continue;
-    }
+    return ok();
+  };
+  /// Before their requests can have been over.
+  const auto answers_too_early = [&] {
+    return endpoint_.capabilities().wire && floor.times.count() > 0 &&
+           floor.times.least() < -to_ms(endpoint_.character_time());
+  };
+  Status measured = measure();
+  if (measured && answers_too_early()) {
+    // The answer to an earlier request came late, and each was taken for that of the next.
+    floor.remark = "answers were one request behind, and were brought in step again";
+    measured = exchange_.settle(options_.profile.response_max);
+    if (measured) measured = measure();
+  }
+  if (measured && answers_too_early()) {
     floor.remark = fmt::format(
         "no wire: answers came up to {:.1f} ms before the request can have been sent at {}",
         -floor.times.least(), endpoint_.capabilities().line);
     endpoint_.has_no_wire();
+    measured = measure();
   }
+  if (!measured) return measured.error();
+  return std::optional(std::move(floor));
 }
 
 std::string Bench::driver_silence() const {
@@ -239,7 +246,7 @@ void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
   judge_exchange(prepared, transcript, result);
   after(prepared, transcript, result);
   // The device is one answer behind: what is still to come is not the next case's.
-  const double earliest = to_ms(rules().earliest);
+  const double earliest = to_ms(result.recording.earliest);
   if (earliest < 0 &&
       std::ranges::any_of(result.response_ms, [&](double ms) { return ms < earliest; }))
     if (const Status quiet = exchange_.settle(options_.profile.response_max); !quiet)
@@ -472,11 +479,12 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
 
 void Bench::judge_exchange(const PreparedCase& prepared, const exchange::Transcript& transcript,
                            CaseResult& result) {
-  judging::take_judgement(judging::judge(prepared, transcript, rules(), protocol_), result);
-  result.recording = judging::make_recording(prepared, transcript, rules());
+  const judging::JudgeRules by = rules();
+  judging::take_judgement(judging::judge(prepared, transcript, by, protocol_), result);
+  result.recording = judging::make_recording(prepared, transcript, by);
   const Duration driver = endpoint_.capabilities().driver_silence.value_or(Duration{});
   judging::take_exchange(transcript, protocol_.longest_frame(), result,
-                         std::min(driver, rules().max_gap));
+                         std::min(driver, by.max_gap));
   if (const std::string errors = endpoint_.line_errors(); !errors.empty())
     result.notes.push_back("the driver counted " + errors);
 }

@@ -100,6 +100,7 @@ Result<Bytes> MemoryAccess::set_again(const Channel& server, ByteView request) {
   return sound(server, request, std::move(reply));
 }
 
+/// That answer, or what came in its place when it was asked for again.
 Result<Bytes> MemoryAccess::sound(const Channel& server, ByteView request, Result<Bytes> reply) {
   for (int i = 0; i < repeats && reply && !reply->empty() && !unsound_; ++i) {
     if (server.protocol->sound_reply(request, *reply)) break;
