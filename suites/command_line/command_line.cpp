@@ -573,31 +573,25 @@ int with_command(int argc, char** argv, const Start& start) {
                            : run::complain(wrong, run::exit_code::usage);
     };
   });
-  explore_app->callback(
-      [&] { chosen = [&] { return cli::explore_command(explore, suites::protocols()); }; });
-  list_app->callback(
-      [&] { chosen = [&] { return cli::list_command(list, suites::protocols()); }; });
-  lint_app->callback(
-      [&] { chosen = [&] { return cli::lint_command(lint, suites::protocols()); }; });
-  emulate_app->callback(
-      [&] { chosen = [&] { return cli::emulate_command(emulate, suites::protocols()); }; });
-  probe_app->callback(
-      [&] { chosen = [&] { return cli::probe_command(probe, suites::protocols()); }; });
-  init_app->callback(
-      [&] { chosen = [&] { return cli::init_command(init, suites::protocols()); }; });
-  frame_app->callback(
-      [&] { chosen = [&] { return cli::frame_command(frame, suites::protocols()); }; });
-  errata_app->callback(
-      [&] { chosen = [&] { return cli::errata_command(errata, suites::protocols()); }; });
-  compare_app->callback([&] { chosen = [&] { return cli::compare_command(compare); }; });
-  merge_app->callback([&] { chosen = [&] { return cli::merge_command(merge); }; });
-  judge_app->callback(
-      [&] { chosen = [&] { return cli::judge_command(judge, suites::protocols()); }; });
-  restore_app->callback(
-      [&] { chosen = [&] { return cli::restore_command(restore, suites::protocols()); }; });
-  completion_app->callback([&] { chosen = [&] { return cli::completion_command(app, shell); }; });
-  man_app->callback([&] { chosen = [&] { return cli::man_command(app); }; });
-  report_app->callback([&] { chosen = [&] { return cli::report_command(report); }; });
+  // Called when all words are read.
+  const auto runs = [&chosen](CLI::App* command, const Command& run_it) {
+    command->callback([&chosen, run_it] { chosen = run_it; });
+  };
+  runs(explore_app, [&] { return cli::explore_command(explore, suites::protocols()); });
+  runs(list_app, [&] { return cli::list_command(list, suites::protocols()); });
+  runs(lint_app, [&] { return cli::lint_command(lint, suites::protocols()); });
+  runs(emulate_app, [&] { return cli::emulate_command(emulate, suites::protocols()); });
+  runs(probe_app, [&] { return cli::probe_command(probe, suites::protocols()); });
+  runs(init_app, [&] { return cli::init_command(init, suites::protocols()); });
+  runs(frame_app, [&] { return cli::frame_command(frame, suites::protocols()); });
+  runs(errata_app, [&] { return cli::errata_command(errata, suites::protocols()); });
+  runs(compare_app, [&] { return cli::compare_command(compare); });
+  runs(merge_app, [&] { return cli::merge_command(merge); });
+  runs(judge_app, [&] { return cli::judge_command(judge, suites::protocols()); });
+  runs(restore_app, [&] { return cli::restore_command(restore, suites::protocols()); });
+  runs(completion_app, [&] { return cli::completion_command(app, shell); });
+  runs(man_app, [&] { return cli::man_command(app); });
+  runs(report_app, [&] { return cli::report_command(report); });
 
   if (argc > 1 && std::string_view(argv[1]) == "__complete")
     return cli::complete_command(app, {argv + 2, argv + argc}, suites::protocols());
