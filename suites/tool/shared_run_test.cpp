@@ -38,13 +38,21 @@ class SharedRuns : public testing::Test {
 
   Finished run(const nlohmann::ordered_json& devices, int cases,
                const std::vector<std::string>& more = {}, const ProcessOptions& options = {}) {
+    std::vector<std::string> duts;
+    for (const auto& [name, ignored] : devices.items()) duts.insert(duts.end(), {"--dut", name});
+    duts.insert(duts.end(), more.begin(), more.end());
+    return run_on(devices, slow_vectors(cases), duts, options);
+  }
+
+  /// The devices are chosen by `more`.
+  Finished run_on(const nlohmann::ordered_json& devices,
+                  const std::vector<nlohmann::ordered_json>& vectors,
+                  const std::vector<std::string>& more, const ProcessOptions& options = {}) {
     const std::string bench =
         folder_.write("bench.json", nlohmann::ordered_json{{"devices", devices}}.dump(1));
     std::vector<std::string> arguments{
-        "run",   "--bench",      bench, "--vectors", write_vectors(folder_, slow_vectors(cases)),
+        "run",   "--bench",      bench, "--vectors", write_vectors(folder_, vectors),
         "--out", folder_ / "out"};
-    for (const auto& [name, ignored] : devices.items())
-      arguments.insert(arguments.end(), {"--dut", name});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_tool(arguments, options);
   }
@@ -53,21 +61,12 @@ class SharedRuns : public testing::Test {
   Finished run_with_wrong_words(int cases, const std::vector<std::string>& more) {
     std::vector<nlohmann::ordered_json> vectors = slow_vectors(cases);
     for (auto& vector : vectors) vector["steps"][2]["expect"] = wrong_word;
-    const std::string bench = folder_.write(
-        "bench.json",
-        nlohmann::ordered_json{{"devices", {{"a", device("good")}, {"b", device("good")}}}}.dump());
-    std::vector<std::string> arguments{"run",
-                                       "--bench",
-                                       bench,
-                                       "--dut",
-                                       "a,b",
-                                       "--vectors",
-                                       write_vectors(folder_, vectors),
-                                       "--out",
-                                       folder_ / "out"};
+    std::vector<std::string> arguments{"--dut", "a,b"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_tool(arguments);
+    return run_on(two_good(), vectors, arguments);
   }
+
+  nlohmann::ordered_json two_good() { return {{"a", device("good")}, {"b", device("good")}}; }
 
   Results results() { return read_results(folder_ / "out/results.ndjson"); }
   static std::vector<std::string> ids(int cases) {
@@ -207,31 +206,23 @@ TEST_F(SharedRuns, DevicesAreChosenByWhatTheyAre) {
       {"a", device("good")}, {"b", device("good")}, {"c", device("good")}};
   for (const char* name : {"a", "b"}) devices[name]["identity"]["model"] = "XBL-C41A";
   devices["c"]["identity"]["model"] = "XBL-C21A";
-  const std::string bench =
-      folder_.write("bench.json", nlohmann::ordered_json{{"devices", devices}}.dump());
-  const auto run_on = [&](const std::string& dut) {
-    return run_tool({"run", "--bench", bench, "--dut", dut, "--vectors",
-                     write_vectors(folder_, slow_vectors(6)), "--out", folder_ / "out"});
+  const auto run_chosen = [&](const std::string& dut) {
+    return run_on(devices, slow_vectors(6), {"--dut", dut});
   };
-  EXPECT_EQ(run_on("model=XBL-C41A").code, 0);
+  EXPECT_EQ(run_chosen("model=XBL-C41A").code, 0);
   EXPECT_EQ(results().run["duts"].size(), 2u);
-  EXPECT_EQ(run_on("model=XBL-C21A").code, 0);
+  EXPECT_EQ(run_chosen("model=XBL-C21A").code, 0);
   EXPECT_EQ(results().run["identity"]["name"], "c") << "one alone";
-  EXPECT_THAT(run_on("model=XBL-C42A").err,
+  EXPECT_THAT(run_chosen("model=XBL-C42A").err,
               HasSubstr("has model=XBL-C42A; there is XBL-C21A, XBL-C41A"));
-  EXPECT_THAT(run_on("colour=red").err, HasSubstr("write model=, maker=, serial= or firmware="));
+  EXPECT_THAT(run_chosen("colour=red").err,
+              HasSubstr("write model=, maker=, serial= or firmware="));
 }
 
 TEST_F(SharedRuns, TheLongestCaseIsTakenFirst) {
   std::vector<nlohmann::ordered_json> vectors = slow_vectors(20);
   vectors.back()["steps"][0]["wait"] = "1s";
-  const std::string bench = folder_.write(
-      "bench.json",
-      nlohmann::ordered_json{{"devices", {{"a", device("good")}, {"b", device("good")}}}}.dump());
-  EXPECT_EQ(run_tool({"run", "--bench", bench, "--dut", "a,b", "--vectors",
-                      write_vectors(folder_, vectors), "--out", folder_ / "out"})
-                .code,
-            0);
+  EXPECT_EQ(run_on(two_good(), vectors, {"--dut", "a,b"}).code, 0);
   EXPECT_NE(results().ids().back(), vectors.back()["id"]) << "one port would wait for it";
 }
 
@@ -261,13 +252,8 @@ TEST_F(SharedRuns, ACaseGoesToWhoCouldRunIt) {
   for (int i = 0; i < 12; i += 2)
     vectors[i]["steps"] = {{{"send", "[ENQ st 'wSS' '01' name(%MW100) '1234' EOT BCC]"}},
                            {{"expect", "[ACK st 'wSS' ETX BCC]"}}};
-  const std::string bench = folder_.write(
-      "bench.json",
-      nlohmann::ordered_json{{"devices", {{"a", emulated("M100")}, {"b", emulated("D0")}}}}.dump());
-  EXPECT_EQ(run_tool({"run", "--bench", bench, "--dut", "b,a", "--vectors",
-                      write_vectors(folder_, vectors), "--out", folder_ / "out"})
-                .code,
-            0);
+  const nlohmann::ordered_json devices{{"a", emulated("M100")}, {"b", emulated("D0")}};
+  EXPECT_EQ(run_on(devices, vectors, {"--dut", "b,a"}).code, 0);
   EXPECT_EQ(results().counts(), (std::map<std::string, std::size_t>{{"PASS", 12}}));
   for (int i = 0; i < 12; i += 2) EXPECT_EQ(results().of(vectors[i]["id"])["dut"], "a");
 }
@@ -279,11 +265,8 @@ TEST_F(SharedRuns, WhatOnlyADeadDeviceCouldRunIsBlockedWithItsName) {
   std::vector<nlohmann::ordered_json> vectors = slow_vectors(12);
   for (int i = 6; i < 12; ++i)
     vectors[i]["steps"].push_back({{"send", "[ENQ st 'wSS' '01' name(%MW100) '1234' EOT BCC]"}});
-  const std::string bench = folder_.write(
-      "bench.json", nlohmann::ordered_json{{"devices", {{"a", mortal}, {"b", other}}}}.dump());
   const Finished finished =
-      run_tool({"run", "--bench", bench, "--dut", "a,b", "--max-restarts", "0", "--vectors",
-                write_vectors(folder_, vectors), "--out", folder_ / "out"});
+      run_on({{"a", mortal}, {"b", other}}, vectors, {"--dut", "a,b", "--max-restarts", "0"});
   EXPECT_EQ(finished.code, 3) << finished.out;
   EXPECT_EQ(results().cases.size(), 12u);
   EXPECT_THAT(results().of(vectors[11]["id"])["message"].get<std::string>(),
