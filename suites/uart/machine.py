@@ -22,9 +22,12 @@ INIT = """#!/bin/busybox sh
 mkdir -p /proc /sys /dev /tmp /root; mount -t proc none /proc; mount -t sysfs none /sys; mount -t devtmpfs none /dev; mkdir -p /dev/pts /dev/shm /run /var/lock /tmp
 mount -t devpts none /dev/pts
 for m in %s; do insmod /modules/$m.ko; done
-export HOME=/root TERM=dumb FIELDPROOF_VECTORS=
-stty -echo -F /dev/ttyS0
-exec setsid sh -c 'exec sh </dev/ttyS0 >/dev/ttyS0 2>&1'
+export HOME=/root TERM=dumb
+exec 3<>/dev/ttyS0  # open from here on: what comes to a port that nobody has open is lost
+stty -echo <&3
+echo MACHINE-IS-READY >&3
+# Not on a terminal, where it would take the end of a background process for that of its input.
+sh <&3 2>&1 | cat >&3
 """
 
 
@@ -129,8 +132,7 @@ class Machine:
         self._monitor.readline()
         self._ask("qmp_capabilities")
         self._seen = b""
-        self._until(b"# ", 120)
-        self.run("stty -echo; PS1=; PS2=", check=False)
+        self._until(b"MACHINE-IS-READY", 120)
         for i in range(len(self.adapters.ends)):
             self.plug(i)
 
@@ -180,14 +182,17 @@ class Machine:
         return before.decode(errors="replace").replace("\r", "")
 
     def start(self, command):
-        """Runs a command in the background; its output goes to /tmp/background.log."""
+        """In the background; its output goes to /tmp/background.log, which is empty until it says something."""
         self.run(f"({command}) >/tmp/background.log 2>&1 &")
 
-    def run(self, command, limit=120, check=True):
+    def run(self, command, limit=60, check=True):
         """What the command printed. Its exit code is not 0: Failed, or both are returned where not `check`."""
-        self._console.sendall(f"{command}\ncode=$?; echo; echo END-OF-COMMAND:$code:\n".replace("END-OF", 'END""-OF').encode())
-        text = self._until(b"END-OF-COMMAND:", limit)
-        code = int(self._until(b":", 10))
+        self._console.sendall(f"{{ {command}\n}} </dev/null\ncode=$?; echo; echo END-OF-COMMAND:$code:\n".replace("END-OF", 'END""-OF').encode())
+        try:
+            text = self._until(b"END-OF-COMMAND:", limit)
+            code = int(self._until(b":", 10))
+        except Failed as trouble:
+            raise Failed(f"{trouble}\nin: {command}") from None
         if not check:
             return text, code
         if code != 0:
