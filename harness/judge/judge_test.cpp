@@ -226,8 +226,8 @@ TEST_F(JudgeTest, SilenceThatTheDriverMayMakeIsNoFault) {
   const Judgement result = judged(ask());
   EXPECT_EQ(result.verdict, Verdict::inconclusive);
   EXPECT_EQ(result.message,
-            "split answer: 6.0 ms of silence before byte 4 of the reply, the limit is 3.0 ms: the "
-            "driver of this port may make 5.0 ms itself");
+            "split answer: 6.0 ms of silence before byte 4 of the reply, the limit is 3.0 ms: this "
+            "link may make 5.0 ms itself");
   endpoint.answers["<ask>"] = Pieces{{1ms, "<ans"}, {14ms, "wer>"}};
   EXPECT_EQ(judged(ask()).verdict, Verdict::fail) << "9 ms";
   endpoint.answers["<ask>"] = Pieces{{1ms, "<answer>"}};

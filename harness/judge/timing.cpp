@@ -86,9 +86,8 @@ void judge_gaps(const exchange::Received& received, const GapLimit& gap, Finding
       "{:.1f} ms",
       to_ms(longest), before, to_ms(gap.limit));
   if (longest > gap.limit + gap.floor) return findings.miss(came);
-  findings.lower_to(
-      Verdict::inconclusive,
-      fmt::format("{}: the driver of this port may make {:.1f} ms itself", came, to_ms(gap.floor)));
+  findings.lower_to(Verdict::inconclusive,
+                    fmt::format("{}: this link may make {:.1f} ms itself", came, to_ms(gap.floor)));
 }
 
 void Periods::add(Duration every, const exchange::Received& previous,

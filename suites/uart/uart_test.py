@@ -106,7 +106,7 @@ def a_fifo_that_gathers_is_no_fault_of_the_device(machine):
         with Emulated(machine, UARTS[1]):
             text = run(machine, UARTS[0], more="--profile /tmp/short_gap.json", code=4)
             expect_in(text, "rx_trig_bytes 8, which root can set to 1", "3 INCONCLUSIVE",
-                      "the driver of this port may make 6.2 ms itself")
+                      "this link may make 6.2 ms itself")
     finally:
         machine.run("mount -o remount,rw /sys")
 
