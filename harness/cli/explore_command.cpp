@@ -6,7 +6,10 @@
 #include "harness/bench/benches.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/endpoints/kinds.hpp"
+#include "harness/explore/client_sequences.hpp"
 #include "harness/explore/explorer.hpp"
+#include "harness/explore/server_sequences.hpp"
+#include "harness/explore/vector_text.hpp"
 #include "harness/judge/judge.hpp"
 #include "harness/run/long_texts.hpp"
 #include "harness/run/look_on.hpp"
@@ -40,22 +43,30 @@ std::string model_of(const RunPlan& plan) {
   return protocol.has_model(model) ? model : protocol.models().front();
 }
 
-explore::Device device_of(const RunPlan& plan, Benches& bench,
-                          const harness::Protocol& configured) {
-  explore::Device device{
+explore::Device device_of(const RunPlan& plan, Benches& bench) {
+  return {.protocol = plan.protocols.front(),
+          .run = [&bench](const vectors::Case& one) { return bench.run(one); },
+          .alive = [&bench] { return bench.stopped().empty() && !bench.interrupted(); }};
+}
+
+bool over_the_wire(const RunPlan& plan) {
+  return !endpoints::capabilities_of(plan.endpoint).back_door;
+}
+
+/// Where requests may go to.
+explore::Server server_of(const RunPlan& plan, const harness::Protocol& configured) {
+  const bool emulated = endpoints::kind_of(plan.endpoint).emulated;
+  explore::Server server{
       .protocol = &configured,
       .station = plan.bench.station,
-      .over_the_wire = !endpoints::capabilities_of(plan.endpoint).back_door,
-      .run = [&bench](const vectors::Case& one) { return bench.run(one); },
+      .over_the_wire = over_the_wire(plan),
       .room = {},
-      .allowed =
-          [&plan, &configured](ByteView request) {
-            return endpoints::kind_of(plan.endpoint).emulated ||
-                   plan.bench.fence.objection(configured.written_by(request), configured).empty();
-          },
-      .alive = [&bench] { return bench.stopped().empty() && !bench.interrupted(); }};
-  if (!endpoints::kind_of(plan.endpoint).emulated)
-    device.room = [&plan, &configured](const std::string& area) {
+      .allowed = [&plan, &configured, emulated](ByteView request) {
+        return emulated ||
+               plan.bench.fence.objection(configured.written_by(request), configured).empty();
+      }};
+  if (!emulated)
+    server.room = [&plan, &configured](const std::string& area) {
       std::vector<safety::WriteFence::Words> room =
           plan.bench.fence.allowed(area, configured.output_areas());
       const std::uint32_t words = configured.words_of(area);
@@ -63,7 +74,54 @@ explore::Device device_of(const RunPlan& plan, Benches& bench,
       std::erase_if(room, [&](const auto& one) { return words == 0 || one.first > one.last; });
       return room;
     };
-  return device;
+  return server;
+}
+
+Error nothing_to_explore(const harness::Protocol& protocol, std::string_view role) {
+  const std::string why = protocol.has_frames()
+                              ? fmt::format("no vector has a request for such a {}", role)
+                              : "no manual prints its frames";
+  return fail(fmt::format("{} cannot be explored: {}", protocol.name(), why));
+}
+
+/// Requests to a server. `configured` outlives it.
+Result<std::unique_ptr<explore::Inventor>> server_sequences(const RunPlan& plan,
+                                                            const harness::Protocol& configured,
+                                                            std::uint64_t seed) {
+  const harness::Protocol& protocol = *plan.protocols.front();
+  const std::string model = model_of(plan);
+  std::vector<explore::Request> requests =
+      explore::requests_of(plan.vectors.cases, protocol, model);
+  if (requests.empty() || !protocol.memory()) return nothing_to_explore(protocol, "server");
+  Result<explore::Oracle> oracle = explore::Oracle::open(protocol, model, plan.bench.station);
+  if (!oracle) return oracle.error();
+  std::unique_ptr<explore::Inventor> inventor = std::make_unique<explore::ServerSequences>(
+      server_of(plan, configured), std::move(*oracle), std::move(requests), seed);
+  if (!inventor->can_invent())
+    return fail(
+        "nothing can be explored: each request names memory that it may not set up; give "
+        "--allow-write RANGES");
+  return inventor;
+}
+
+/// Blocks of a client.
+Result<std::unique_ptr<explore::Inventor>> client_sequences(const RunPlan& plan,
+                                                            std::uint64_t seed) {
+  const harness::Protocol& protocol = *plan.protocols.front();
+  std::string model = model_of(plan);
+  explore::ClientPool pool = explore::client_pool(plan.vectors.cases, protocol, model);
+  // What answers is not always what asks: an inverter, and a PLC.
+  for (const vectors::Case& one : plan.vectors.cases) {
+    if (!pool.groups.empty()) break;
+    if (one.models.empty() || one.models.front() == model) continue;
+    model = one.models.front();
+    pool = explore::client_pool(plan.vectors.cases, protocol, model);
+  }
+  if (pool.groups.empty()) return nothing_to_explore(protocol, "client");
+  Result<std::unique_ptr<explore::ClientSequences>> made = explore::ClientSequences::open(
+      {&protocol, model, over_the_wire(plan)}, std::move(pool), seed);
+  if (!made) return made.error();
+  return std::unique_ptr<explore::Inventor>(std::move(*made));
 }
 
 /// What is known of one kind of request: how it was answered.
@@ -233,16 +291,12 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
   const Result<std::unique_ptr<harness::Protocol>> configured =
       protocol.configured(model, nlohmann::json::object());
   if (!configured) return run::complain(configured.error().message, run::exit_code::usage);
-  std::vector<explore::Request> requests =
-      explore::requests_of(plan->vectors.cases, protocol, model);
-  if (requests.empty() || !protocol.memory())
-    return run::complain(
-        fmt::format("{} cannot be explored: {}", protocol.name(),
-                    protocol.has_frames() ? "no vector has a request for such a server"
-                                          : "no manual prints its frames"),
-        run::exit_code::nothing);
-  Result<explore::Oracle> oracle = explore::Oracle::open(protocol, model, plan->bench.station);
-  if (!oracle) return run::complain(oracle.error().message, run::exit_code::usage);
+  const std::uint64_t seed = static_cast<std::uint64_t>(options.run.seed);
+  Result<std::unique_ptr<explore::Inventor>> inventor =
+      options.run.role == "client"
+          ? client_sequences(*plan, seed)
+          : server_sequences(*plan, *configured ? **configured : protocol, seed);
+  if (!inventor) return run::complain(inventor.error().message, run::exit_code::nothing);
   os::catch_interrupts();
   Result<run::ReportPaths> paths = run::make_report_paths(options.run.out, options.run.json,
                                                           options.run.junit, options.run.html);
@@ -259,14 +313,7 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
   Result<RunReport> report = RunReport::create(
       std::move(*paths), run::console_options(run::gate_of(options.run), options.run.verbose));
   if (!report) return run::complain(report.error().message, run::exit_code::trouble);
-  Explorer explorer(device_of(*plan, ports.front(), *configured ? **configured : protocol),
-                    std::move(*oracle), std::move(requests),
-                    static_cast<std::uint64_t>(options.run.seed));
-  if (!explorer.can_explore())
-    return run::complain(
-        "nothing can be explored: each request names memory that it may not set up; give "
-        "--allow-write RANGES",
-        run::exit_code::nothing);
+  Explorer explorer(device_of(*plan, ports.front()), std::move(*inventor));
   return execute(options, *plan, ports, *report, explorer);
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/explore/sequence.hpp"
+#include "harness/explore/oracle.hpp"
 #include "harness/protocols.hpp"
 
 namespace fieldproof::explore {

@@ -7,7 +7,10 @@
 
 #include "harness/bench/bench.hpp"
 #include "harness/endpoints/emulator.hpp"
+#include "harness/explore/client_sequences.hpp"
 #include "harness/explore/explorer.hpp"
+#include "harness/explore/server_sequences.hpp"
+#include "harness/explore/vector_text.hpp"
 #include "harness/vectors/loader.hpp"
 #include "suites/broken/wrapped_device.hpp"
 #include "suites/protocols.hpp"
@@ -74,8 +77,10 @@ class InProcess {
 Explorer explorer(const Protocol& own, InProcess& device, const std::vector<Case>& from,
                   std::uint64_t seed = 1) {
   const std::string model = own.models().front();
-  return Explorer({&own, 1, false, [&device](const Case& one) { return device.run(one); }, {}},
-                  std::move(*Oracle::open(own, model, 1)), requests_of(from, own, model), seed);
+  return Explorer({&own, [&device](const Case& one) { return device.run(one); }},
+                  std::make_unique<ServerSequences>(Server{.protocol = &own},
+                                                    std::move(*Oracle::open(own, model, 1)),
+                                                    requests_of(from, own, model), seed));
 }
 
 TEST(RequestsOf, AreThoseThatSayAllOfTheirBytes) {
@@ -243,8 +248,10 @@ TEST(Explorer, IsRepeatable) {
         if (!step.frames.empty()) sent->push_back(step.frames.front().text);
       return device.run(one);
     };
-    Explorer one({&cnet, 1, false, run, {}}, std::move(*Oracle::open(cnet, model, 1)),
-                 requests_of(from, cnet, model), 5);
+    Explorer one({&cnet, run},
+                 std::make_unique<ServerSequences>(Server{.protocol = &cnet},
+                                                   std::move(*Oracle::open(cnet, model, 1)),
+                                                   requests_of(from, cnet, model), 5));
     while (one.requests_sent() < 200) one.step();
   }
   EXPECT_EQ(first, second);

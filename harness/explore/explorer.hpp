@@ -1,29 +1,25 @@
-// Seeded sequences of requests against a device and our own model of it; each difference is a
-// finding, made as short as it still shows.
+// Seeded sequences against a device and our own model of it; each difference is a finding, made as
+// short as it still shows.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
-#include <set>
+#include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
-#include "harness/explore/changes.hpp"
 #include "harness/explore/sequence.hpp"
+#include "harness/protocol.hpp"
 #include "reports/results/case_result.hpp"
 
 namespace fieldproof::explore {
 
+/// The device under test.
 struct Device {
-  const harness::Protocol* protocol = nullptr;  // that knows where the model has its memory
-  int station = 1;
-  bool over_the_wire = false;  // memory is set by requests; what it did before, it remembers
+  const harness::Protocol* protocol = nullptr;
   std::function<results::CaseResult(const vectors::Case&)> run;
-  Room room;  // where requests may go to; none: to all of the memory
-  std::function<bool(ByteView request)> allowed = [](ByteView) { return true; };
   std::function<bool()> alive = [] { return true; };  // false: no further case can run
 };
 
@@ -37,11 +33,10 @@ struct Finding {
 
 class Explorer {
  public:
-  /// Requests that name memory where there is no room are left out; `can_explore` tells whether any
-  /// is left.
-  Explorer(Device device, Oracle oracle, std::vector<Request> requests, std::uint64_t seed);
+  Explorer(Device device, std::unique_ptr<Inventor> inventor)
+      : device_(std::move(device)), inventor_(std::move(inventor)) {}
 
-  bool can_explore() const { return !requests_.empty(); }
+  bool can_explore() const { return inventor_->can_invent(); }
   /// One more sequence.
   void step();
 
@@ -53,7 +48,7 @@ class Explorer {
 
   /// How many of the sequences could be judged.
   std::uint64_t judged() const { return judged_; }
-  /// What the device was seen to do: by topic and kind of change, how often which sort of answer.
+  /// What the device was seen to do: by topic and kind of change, how often which outcome.
   using Seen = std::map<std::pair<std::string, std::string>, std::map<std::string, std::uint64_t>>;
   const Seen& seen() const { return seen_; }
   /// Sequences that were not judged, by verdict and reason.
@@ -61,33 +56,15 @@ class Explorer {
   const Unjudged& unjudged() const { return unjudged_; }
 
  private:
-  struct Sequence {
-    std::vector<Request> requests;
-    Memory memory;
-    std::vector<Answer> answers;
-  };
-  std::vector<Request> invent();
-  std::optional<Request> invent_one(bool faultless, HotWords& hot);
-  bool has_room(const Request& request) const;
-  bool can_be_sent(const Request& request) const;
-  const Request& chosen();
-  std::optional<Sequence> answered(std::vector<Request> requests, const Memory* memory);
   results::CaseResult run(const Sequence& sequence, const std::string& id);
-  void note(const Sequence& sequence, const results::CaseResult& result);
-  Sequence shortest(const Sequence& sequence, std::size_t failing, results::Verdict verdict);
-  void note_finding(const Sequence& sequence, const results::CaseResult& result);
-  Sequence shortened(Sequence sequence, results::Verdict verdict);
-  Sequence without_needless_memory(Sequence sequence, results::Verdict verdict);
+  void note(Sequence::Own sequence, const results::CaseResult& result);
+  void note_finding(Sequence::Own sequence, const results::CaseResult& result);
+  Sequence::Own shortest(Sequence::Own sequence, std::size_t failing, results::Verdict verdict);
+  Sequence::Own without_needless_settings(Sequence::Own sequence, results::Verdict verdict);
   bool shows(const Sequence& sequence, results::Verdict verdict);
-  void weigh(const Request& request, const std::string& sort);
 
   Device device_;
-  Oracle oracle_;
-  std::vector<Request> requests_;
-  std::map<std::string, std::vector<std::size_t>> by_topic_;
-  std::map<std::string, std::size_t> weights_;  // of topics: what showed something new weighs more
-  Changes changes_;
-  Random random_;
+  std::unique_ptr<Inventor> inventor_;
   std::uint64_t sent_ = 0, sequences_ = 0, judged_ = 0, barren_ = 0;
   Seen seen_;
   Unjudged unjudged_;

@@ -1,64 +1,82 @@
-// Requests one after another, as a case: what must come back is what our own device answers.
+// What `explore` sends to a device, one part after another, and the rule by which it is invented.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "harness/endpoints/endpoint.hpp"
 #include "harness/explore/random.hpp"
-#include "harness/explore/request.hpp"
+#include "harness/protocol.hpp"
 #include "harness/vectors/case.hpp"
+#include "reports/results/case_result.hpp"
 
 namespace fieldproof::explore {
 
-/// Address and hex digits, as given.memory has them.
-using Memory = std::vector<std::pair<std::string, std::string>>;
-
-/// Memory that these requests name, each word once, filled by chance. What nobody can set through
-/// the protocol is left out where `over_the_wire`; `unsettable` then tells that there is such.
-Memory memory_of(const std::vector<Request>& requests, const harness::Protocol& protocol,
-                 int station, bool over_the_wire, Random& random, bool& unsettable);
-
-/// What came back to one request.
-struct Answer {
-  Bytes bytes;         // empty: silence
-  bool ended = false;  // and then the device closed the connection
+/// What a part is about: "rss", "field"; of a client "read single", "late".
+struct Topic {
+  std::string name, kind;
 };
 
-/// How an answer reads where only its sort counts: "answered", "silence", "0003", "closed".
-std::string sort_of(const Answer& answer, const harness::Protocol& protocol);
-
-/// Our own device, which answers a sequence on simulated time. Two of them differ in what they did
-/// before.
-class Oracle {
+/// Parts that can be left out one by one: requests to a server, or stimuli of a client. It holds
+/// what our own device did with them; it never changes. Refers to its Inventor.
+class Sequence {
  public:
-  /// Errors: the model cannot be made.
-  static Result<Oracle> open(const harness::Protocol& protocol, const std::string& model,
-                             int station);
+  using Own = std::unique_ptr<const Sequence>;
+  virtual ~Sequence() = default;
 
-  /// One answer a request; fewer where the device ended the connection. `fresh`: a device that has
-  /// done nothing yet, else the one that has answered all sequences before.
-  Result<std::vector<Answer>> ask(const std::vector<Request>& requests, const Memory& memory,
-                                  bool fresh);
+  virtual std::size_t parts() const = 0;
+  /// Requests that the device gets, or should send.
+  virtual std::uint64_t requests() const = 0;
+  virtual Topic topic(std::size_t part) const = 0;
+  /// How our own device took it: "answered", "silence", "0003", "closed".
+  virtual std::string outcome(std::size_t part) const = 0;
+  /// Holds another device to what ours did.
+  virtual vectors::Case as_case(std::string id) const = 0;
+  /// The part in which a device did otherwise; the last where nobody says.
+  virtual std::size_t failing_part(const results::CaseResult& result) const = 0;
+
+  /// The same without so many parts, of which one is left at least: our own device is asked anew.
+  /// Nothing: what it then does cannot be told in order.
+  virtual Own without(std::size_t from, std::size_t count) const = 0;
+  /// Things that are set up for it, and could be left out, too.
+  virtual std::size_t settings() const = 0;
+  virtual Own without_setting(std::size_t at) const = 0;
+};
+
+/// Makes sequences by seed.
+class Inventor {
+ public:
+  virtual ~Inventor() = default;
+
+  /// There is something to send.
+  virtual bool can_invent() const = 0;
+  /// Nothing: nothing that may be sent came to mind.
+  virtual Sequence::Own invent() = 0;
+  /// A part of this topic had this outcome for the first, second, .. time: what showed something
+  /// new comes more often.
+  virtual void note(const Topic& topic, std::uint64_t times) = 0;
+};
+
+/// How often topics come.
+class Weights {
+ public:
+  void add(const std::string& topic) { weights_[topic] = first; }
+  const std::string& choose(Random& random) const;
+  /// Of one that was not added: nothing.
+  void note(const std::string& topic, std::uint64_t times);
 
  private:
-  Oracle(const harness::Protocol& protocol, std::string model, int station)
-      : protocol_(&protocol), model_(std::move(model)), station_(station) {}
-  const harness::Protocol* protocol_;
-  std::string model_;
-  int station_;
-  std::unique_ptr<endpoints::Endpoint> fresh_, used_;
+  static constexpr std::size_t first = 4, news = 16, least = 1;
+  std::map<std::string, std::size_t> weights_;
 };
 
-/// The case that expects these answers of a device: `derived` where each is granted, else
-/// `decision`, since no manual prints an answer to most of what is wrong. Requests past the last
-/// answer are left out.
-vectors::Case case_of(const std::vector<Request>& requests, const std::vector<Answer>& answers,
-                      const Memory& memory, const harness::Protocol& protocol, int station,
-                      std::string id);
+/// A step of this kind, and no more.
+vectors::Step step_of(vectors::Step::Kind kind);
 
-/// The same case as a vector file that `run --vectors` takes.
-std::string vector_text(const vectors::Case& source);
+/// What a case of `explore` rests on.
+inline constexpr const char* own_model_decision = "explore/own-model";
+/// A case that is held to our own model, without id, steps and basis.
+vectors::Case case_of_own_model(const harness::Protocol& protocol);
 
 }  // namespace fieldproof::explore

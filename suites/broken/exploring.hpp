@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "harness/explore/explorer.hpp"
+#include "harness/explore/server_sequences.hpp"
 
 namespace fieldproof::broken {
 
@@ -33,7 +34,9 @@ class Exploring {
     if (!oracle) return false;
     const auto configured = protocol_->configured(model_, nlohmann::json::object());
     const harness::Protocol& own = *configured ? **configured : *protocol_;
-    explore::Explorer explorer({&own, 1, false, run, {}}, std::move(*oracle), requests_, 1);
+    explore::Explorer explorer(
+        {&own, run}, std::make_unique<explore::ServerSequences>(explore::Server{.protocol = &own},
+                                                                std::move(*oracle), requests_, 1));
     while (explorer.requests_sent() < most && explorer.findings().empty()) explorer.step();
     return !explorer.findings().empty();
   }

@@ -180,6 +180,13 @@ void add_explore(CLI::App& app, cli::ExploreOptions& explore) {
                  "What the device declares: a name from the profiles folder, or a JSON file");
   app.add_option("--bench", run.bench, "JSON file of the devices on this bench");
   app.add_option("--dut", run.duts, "Device of the bench file")->expected(1);
+  app.add_option("--role", run.role,
+                 "client: the device asks, and is answered well or badly; else it answers")
+      ->check(CLI::IsMember({"client", "server"}));
+  app.add_option("--stimulus", run.stimulus, "Client role: what makes the device ask, as `run`");
+  app.add_option("--control", run.control, "What sets the device up, as `run`");
+  app.add_option("--aux", run.aux, "A second port of the same PLC, as `run`");
+  app.add_option("--wait-port", run.wait_port, "How long for a port that is absent, as `run`");
   app.add_option("--seed", run.seed, "The same seed sends the same requests")
       ->check(CLI::Range(0, 99'999));
   app.add_option("--requests", explore.requests, "How many (100000)")

@@ -1,0 +1,53 @@
+// Requests to a server: those of the vectors, sent elsewhere, with other data, or with a fault.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/explore/changes.hpp"
+#include "harness/explore/oracle.hpp"
+#include "harness/explore/sequence.hpp"
+
+namespace fieldproof::explore {
+
+struct Server {
+  const harness::Protocol* protocol = nullptr;  // that knows where the model has its memory
+  int station = 1;
+  bool over_the_wire = false;  // memory is set by requests; what it did before, it remembers
+  Room room{};                 // where requests may go to; none: to all of the memory
+  std::function<bool(ByteView request)> allowed = [](ByteView) { return true; };
+};
+
+class ServerSequences : public Inventor {
+ public:
+  /// Requests that name memory where there is no room are left out.
+  ServerSequences(Server server, Oracle oracle, std::vector<Request> requests, std::uint64_t seed);
+
+  bool can_invent() const override { return !requests_.empty(); }
+  Sequence::Own invent() override;
+  void note(const Topic& topic, std::uint64_t times) override { weights_.note(topic.name, times); }
+
+  /// Nothing: the model refuses to be asked so, or what it answers depends on what was before,
+  /// which nobody knows of a real device. Without `memory` what they name is filled by chance.
+  Sequence::Own answered(std::vector<Request> requests, const Memory* memory);
+  const Server& server() const { return server_; }
+
+ private:
+  std::vector<Request> requests_of_one();
+  std::optional<Request> invent_one(bool faultless, HotWords& hot);
+  bool has_room(const Request& request) const;
+  bool can_be_sent(const Request& request) const;
+
+  Server server_;
+  Oracle oracle_;
+  std::vector<Request> requests_;
+  std::map<std::string, std::vector<std::size_t>> by_topic_;
+  Weights weights_;
+  Changes changes_;
+  Random random_;
+};
+
+}  // namespace fieldproof::explore
