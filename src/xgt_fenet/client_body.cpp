@@ -32,7 +32,7 @@ Bytes encode_request(const Request& request) {
   }
   for (const Request::Block& block : request.blocks) {
     if (request.writes() || request.is_continuous()) put_word(body, block.size);
-    if (request.writes()) body.insert(body.end(), block.data.begin(), block.data.end());
+    body.insert(body.end(), block.data.begin(), block.data.end());  // none of a read
   }
   return body;
 }
