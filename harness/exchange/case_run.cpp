@@ -59,7 +59,10 @@ void CaseRun::step(const PreparedStep& step) {
       return;
     case Step::Kind::partner: return partner(step);
     case Step::Kind::silence: return silence(*links_.find(step.link));
-    case Step::Kind::wait: wait_until(now() + step.step->duration, nullptr); return;
+    case Step::Kind::wait:
+      record().cause = now() + step.step->duration;
+      wait_until(record().cause, nullptr);
+      return;
     case Step::Kind::set: return set_memory(step.step->memory);
     case Step::Kind::check: return look_at_memory(*step.step);
     case Step::Kind::act: return act(step.step->action);

@@ -16,7 +16,7 @@ namespace fieldproof::exchange {
 /// What an executed step came to, besides its events.
 struct StepRecord {
   Time cause{};  // expect, expect_open or _close: the end of what it answers (a transmission, the
-                 // reply before it, a set, do, open or close)
+                 // reply before it, a set, do, open or close); wait: when it is over
   Time deadline{};  // the same: the limit for the first byte, or for the event
   std::vector<std::pair<std::string, std::string>> memory;  // check: address and what it held
   std::string refused;                                      // any step: why it could not be done

@@ -89,8 +89,8 @@ class Judge {
     switch (step.step->kind) {
       case Step::Kind::expect: return judge_reply(step, record, share);
       case Step::Kind::partner: return true;
-      case Step::Kind::silence:
-      case Step::Kind::wait: judge_silence(share.received); return false;
+      case Step::Kind::wait: waited_until_ = record.cause; [[fallthrough]];
+      case Step::Kind::silence: judge_silence(share.received); return false;
       case Step::Kind::check: judge_memory(*step.step, record); return false;
       case Step::Kind::expect_close: judge_ending(step, record, share.ending); return false;
       case Step::Kind::expect_open: judge_opening(step, record, share.opened); return false;
@@ -328,7 +328,8 @@ class Judge {
                                         to_ms(record.deadline - record.cause)));
     // What makes it ask may take its time on another port.
     constexpr Duration margin = 100ms;
-    if (const Duration early = record.cause - opened->start; early > margin)
+    const Time reason = std::max(record.cause, waited_until_);
+    if (const Duration early = reason - opened->start; early > margin)
       return findings_.miss(fmt::format(
           "the device opened the connection {:.1f} ms before it had a reason to", to_ms(early)));
     judge_limit({"connection", "what it follows", step.step->within.has_value(),
@@ -401,6 +402,7 @@ class Judge {
   std::set<std::string> unread_;  // memory that was to be checked
   std::size_t record_ = 0;
   std::map<Bytes, const Received*> paced_;  // what came at the pace of a clock last
+  Time waited_until_{};                     // the end of the last wait: nothing was due before
 };
 
 }  // namespace

@@ -273,6 +273,12 @@ TEST_F(LinksTest, AConnectionOfTheDeviceIsNamed) {
             "the device did not open a connection within 20 ms");
 }
 
+TEST_F(LinksTest, AConnectionOfTheDeviceDuringAWaitHasNoReason) {
+  network.of_device = {{{}, 1ms, {}, first_own_link, LinkEvent::opened, 502, "192.0.2.1:4711"}};
+  EXPECT_EQ(judged(R"({"wait": "201ms"}, {"expect_open": "a"})", R"({"role": "client"})").message,
+            "the device opened the connection 200.0 ms before it had a reason to");
+}
+
 TEST_F(LinksTest, AnEndThatMayComeMayStayAway) {
   const std::string may = R"({"send": "'<bad>'"}, {"silence": true}, {"expect_close": "may"})";
   EXPECT_EQ(judged(may).verdict, Verdict::pass);

@@ -53,7 +53,7 @@ std::string_view to_string(Event::Kind kind);
 
 /// What an executed step came to, besides the frames in the exchange.
 struct StepOutcome {
-  Time stimulus{};  // expect: the end of what the reply answers
+  Time stimulus{};  // expect: the end of what the reply answers; wait: when it is over
   std::vector<std::pair<std::string, std::string>> memory;  // check: address, and what it held
   std::string refused;  // set, check, do: why it could not be done
   bool refused_by_device = false;

@@ -159,7 +159,7 @@ void EmailService::power_cycle() {
   blocks_.power_cycle();
   waiting_.clear();
   doings_.clear();
-  if (sending_ && sending_->link != line_link) old_[sending_->link] = false;
+  if (sending_) old_[sending_->link] = false;
   sending_.reset();
   powered_ = false;
 }

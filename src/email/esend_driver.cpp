@@ -45,7 +45,7 @@ Result<Bytes> EsendDriver::request(const p2p::P2pBlock& block, const plc::PlcMem
 
 std::optional<std::uint16_t> EsendDriver::take(const p2p::P2pBlock&, ByteView frame,
                                                plc::PlcMemory&) const {
-  return static_cast<std::uint16_t>(frame[0] | frame[1] << 8);
+  return frame[0];
 }
 
 void EsendDriver::receive(const Burst& burst, plc::FrameSink& sink) {
@@ -53,7 +53,7 @@ void EsendDriver::receive(const Burst& burst, plc::FrameSink& sink) {
 }
 
 Bytes ended_with(std::uint16_t status) {
-  return {static_cast<Byte>(status), static_cast<Byte>(status >> 8)};
+  return {static_cast<Byte>(status)};  // none has a high byte
 }
 
 }  // namespace fieldproof::email

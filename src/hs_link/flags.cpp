@@ -25,7 +25,7 @@ unsigned first_word(Flag flag) {
 plc::DeviceAddress flag_address(const plc::PlcModel& model, unsigned link, Flag flag,
                                 unsigned block) {
   const auto area = std::ranges::find(model.areas, 'L', &plc::DeviceArea::letter);
-  const unsigned bit = flag == Flag::rlink ? 0 : flag == Flag::ltrbl ? 1 : block;
+  const unsigned bit = flag == Flag::ltrbl ? 1 : block;
   const unsigned word = (link == 2 ? 26 : 0) + first_word(flag);
   return {static_cast<std::uint8_t>(area - model.areas.begin()), 'X', false, word * 16 + bit};
 }

@@ -10,7 +10,7 @@ namespace fieldproof::hs_link {
 
 enum class Flag { rlink, ltrbl, state, mod, trx, err, setblock };
 
-/// A bit of L. `block`: 0 to 63; of no meaning for RLINK and LTRBL.
+/// A bit of L. `block`: 0 to 63; 0 for RLINK and LTRBL.
 plc::DeviceAddress flag_address(const plc::PlcModel& model, unsigned link, Flag flag,
                                 unsigned block = 0);
 

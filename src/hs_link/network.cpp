@@ -39,7 +39,7 @@ void HsNetwork::exchange() {
     for (Broadcast& block : station->advance(now_))
       sent.emplace_back(station.get(), std::move(block));
   deliver(sent);
-  for (auto& [sender, block] : sent) block.communicates = sender->communicates(now_);
+  for (auto& [sender, block] : sent) block.communicates = sender->communicates();
   deliver(sent);
   show_flags();
 }
@@ -51,7 +51,7 @@ void HsNetwork::deliver(const std::vector<std::pair<Station*, Broadcast>>& sent)
 }
 
 void HsNetwork::show_flags() {
-  for (const auto& station : stations_) station->show_flags(now_);
+  for (const auto& station : stations_) station->show_flags();
 }
 
 Station* HsNetwork::named(std::string_view& text, std::string_view head, char tail) const {

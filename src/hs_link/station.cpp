@@ -48,7 +48,7 @@ std::vector<Broadcast> Station::advance(Time now) {
   std::vector<Broadcast> sent;
   if (!begun_) begin(now);
   for (Heard& heard : heard_)
-    if (heard.at && !is_heard(heard, now)) heard = {};
+    if (!is_heard(heard, now)) heard = {};
   if (!next_sending_ || now < *next_sending_) return sent;
   *next_sending_ += parameter_.period;
   for (std::size_t k = 0; k < parameter_.blocks.size(); ++k) {
@@ -60,8 +60,8 @@ std::vector<Broadcast> Station::advance(Time now) {
   return sent;
 }
 
-bool Station::communicates(Time now) const {
-  return std::ranges::all_of(heard_, [&](const Heard& heard) { return is_heard(heard, now); });
+bool Station::communicates() const {
+  return std::ranges::all_of(heard_, [](const Heard& heard) { return heard.at.has_value(); });
 }
 
 Broadcast Station::broadcast_of(const Block& block) const {
@@ -91,19 +91,18 @@ void Station::show(Flag flag, bool on, unsigned block) {
   memory_.write(flag_address(memory_.model(), parameter_.link, flag, block), on);
 }
 
-void Station::show_flags(Time now) {
-  bool all_well = works() && !parameter_.blocks.empty(), all_communicate = true;
+/// What is not heard is forgotten: its mode is not RUN, and it has no error.
+void Station::show_flags() {
+  bool all_well = !parameter_.blocks.empty(), all_communicate = true;
   for (unsigned k = 0; k < parameter_.blocks.size(); ++k) {
     const Heard& heard = heard_[k];
-    const bool own = parameter_.blocks[k].sends;
-    const bool trx = works() && is_heard(heard, now);
-    const bool mod = trx && (own ? run_ : heard.run), err = trx && (own ? error_ : heard.error);
-    all_well = all_well && trx && mod && !err;
+    const bool well = heard.run && !heard.error;
+    all_well = all_well && well;
     all_communicate = all_communicate && heard.communicates;
-    show(Flag::trx, trx, k);
-    show(Flag::mod, mod, k);
-    show(Flag::err, err, k);
-    show(Flag::state, trx && mod && !err, k);
+    show(Flag::trx, heard.at.has_value(), k);
+    show(Flag::mod, heard.run, k);
+    show(Flag::err, heard.error, k);
+    show(Flag::state, well, k);
     show(Flag::setblock, true, k);
   }
   was_well_ = was_well_ || (all_well && all_communicate);

@@ -42,9 +42,9 @@ class Station {
   std::vector<Broadcast> advance(Time now);
   void hear(const Broadcast& block, Time now);
   /// Every registered block goes or comes as it should.
-  bool communicates(Time now) const;
+  bool communicates() const;
   /// After all that happens at `now`.
-  void show_flags(Time now);
+  void show_flags();
 
  private:
   struct Heard {

@@ -6,7 +6,7 @@ namespace fieldproof::xgt_fenet {
 
 namespace {
 
-constexpr std::size_t command_at = 0, type_at = 2, status_at = 6, blocks_at = 8, head_size = 10;
+constexpr std::size_t command_at = 0, status_at = 6, blocks_at = 8, head_size = 10;
 
 /// Takes the data of the next block off `rest`.
 std::optional<ByteView> take_data(ByteView& rest) {
@@ -32,14 +32,14 @@ Bytes encode_request(const Request& request) {
   }
   for (const Request::Block& block : request.blocks) {
     if (request.writes() || request.is_continuous()) put_word(body, block.size);
-    if (request.writes()) body.insert(body.end(), block.data.begin(), block.data.end());
+    body.insert(body.end(), block.data.begin(), block.data.end());  // none of a read
   }
   return body;
 }
 
 std::optional<Reply> parse_reply(ByteView body) {
   if (body.size() < head_size) return std::nullopt;
-  Reply reply{.command = word_at(body, command_at), .type = word_at(body, type_at)};
+  Reply reply{.command = word_at(body, command_at)};
   ByteView rest = body.subspan(head_size);
   if (word_at(body, status_at) != error::none) {
     reply.refused = word_at(body, blocks_at);

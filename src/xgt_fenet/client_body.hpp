@@ -13,7 +13,7 @@ namespace fieldproof::xgt_fenet {
 Bytes encode_request(const Request& request);
 
 struct Reply {
-  std::uint16_t command = 0, type = 0;
+  std::uint16_t command = 0;
   std::optional<std::uint16_t> refused{};  // the code of a refusal
   std::uint16_t blocks = 0;
   std::vector<ByteView> data{};  // of a read, one a block

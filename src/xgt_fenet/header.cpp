@@ -33,8 +33,7 @@ Bytes encode_frame(const Header& header, ByteView body) {
   put_word(frame, header.invoke);
   put_word(frame, body.size());
   frame.push_back(header.position);
-  frame.push_back(0);
-  frame.back() = header_check(frame);
+  frame.push_back(header_check(frame));
   frame.insert(frame.end(), body.begin(), body.end());
   return frame;
 }

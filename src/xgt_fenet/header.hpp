@@ -45,7 +45,7 @@ struct Header {
 /// Nothing while fewer than header_size bytes have come.
 std::optional<Header> read_header(ByteView bytes);
 
-/// The check of a frame of at least header_size bytes.
+/// The check of a frame of which at least all that it covers is there.
 Byte header_check(ByteView frame);
 
 /// Header and body, with the right length and check. The body has at most 65535 bytes.

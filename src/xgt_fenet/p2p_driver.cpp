@@ -63,7 +63,7 @@ void save(plc::PlcMemory& memory, plc::DeviceAddress to, ByteView bytes) {
   for (; !bytes.empty(); bytes = bytes.subspan(size), to = to + 1) {
     std::uint64_t value = 0;
     for (unsigned b = size; b-- > 0;) value = value << 8 | bytes[b];
-    memory.write(to, to.type == 'X' ? value & 1 : value);
+    memory.write(to, value);
   }
 }
 

@@ -158,7 +158,8 @@ TEST(FenetP2pDriver, ARunIsAskedForByBytes) {
 }
 
 TEST(FenetP2pDriver, WritesNamesFirstThenData) {
-  Bench bench(json{{"function", "write"}, {"read", {"%MW10", "%MW11"}}, {"save", {"%DW1", "%KW2"}}});
+  Bench bench(
+      json{{"function", "write"}, {"read", {"%MW10", "%MW11"}}, {"save", {"%DW1", "%KW2"}}});
   ASSERT_TRUE(bench.plc->set("%MW10", "12345678"));
   EXPECT_EQ(to_text(bench.request()),
             to_text(bytes("58 00 02 00 00 00 02 00 04 00 '%DW1' 04 00 '%KW2'"
@@ -167,11 +168,11 @@ TEST(FenetP2pDriver, WritesNamesFirstThenData) {
   EXPECT_EQ(bench.result(), "0001 0000");
 
   Bench run(json{{"function", "write"},
-             {"type", "dword"},
-             {"read", "%MD5"},
-             {"save", "%DD4"},
-             {"command", "continuous"},
-             {"size", 1}});
+                 {"type", "dword"},
+                 {"read", "%MD5"},
+                 {"save", "%DD4"},
+                 {"command", "continuous"},
+                 {"size", 1}});
   ASSERT_TRUE(run.plc->set("%MW10", "12345678"));
   EXPECT_EQ(to_text(run.request()),
             to_text(bytes("58 00 14 00 00 00 01 00 05 00 '%DB16' 04 00 34 12 78 56")));

@@ -7,6 +7,7 @@ namespace fieldproof::xgt_fenet {
 namespace {
 
 constexpr std::uint16_t most_types = 5, refused = 0xFFFF;
+constexpr std::size_t data_type_at = 2, count_at = 6, request_head = 8;  // behind a reserved word
 
 /// What is left of a body.
 class Reader {
@@ -52,15 +53,21 @@ std::uint16_t read_blocks(Reader& reader, Request& request) {
   return reader.is_empty() ? error::none : error::length;
 }
 
-std::uint16_t read_body(Reader& reader, Request& request) {
-  if (!reader.word(request.command)) return error::length;
+/// Of a body that may be cut there: what is missing counts as 0.
+std::uint16_t word_or_zero(ByteView body, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < body.size() ? body[i] : Byte{0}; };
+  return static_cast<std::uint16_t>(byte(at) | byte(at + 1) << 8);
+}
+
+std::uint16_t read_body(ByteView body, Request& request) {
+  if (body.size() < data_type_at) return error::length;
   if (request.command != read_command && request.command != write_command) return error::command;
-  if (!reader.word(request.type)) return error::length;
   if (request.type >= most_types && !request.is_continuous()) return error::data_type;
-  std::uint16_t reserved = 0, count = 0;
-  if (!reader.word(reserved) || !reader.word(count)) return error::length;
+  if (body.size() < request_head) return error::length;
+  const unsigned count = word_at(body, count_at);
   if (count == 0 || count > (request.is_continuous() ? 1 : most_blocks)) return error::blocks;
   request.blocks.resize(count);
+  Reader reader(body.subspan(request_head));
   return read_blocks(reader, request);
 }
 
@@ -76,13 +83,8 @@ Bytes reply_head(const Request& request) {
 }  // namespace
 
 Request parse_request(ByteView body) {
-  Request request;
-  // Also of a body that is cut there, for its refusal.
-  if (body.size() == 1) request.command = body[0];
-  if (body.size() == 3) request.type = body[2];
-  Reader reader(body);
-  request.fault = read_body(reader, request);
-  if (request.fault == error::command && body.size() >= 4) request.type = word_at(body, 2);
+  Request request{.command = word_or_zero(body, 0), .type = word_or_zero(body, data_type_at)};
+  request.fault = read_body(body, request);
   return request;
 }
 

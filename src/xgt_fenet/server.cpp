@@ -40,9 +40,9 @@ std::unique_ptr<plc::StreamSplitter> FenetServer::new_splitter() const {
   return std::make_unique<FrameSplitter>();
 }
 
-std::optional<Bytes> FenetServer::answer(ByteView frame, std::uint16_t& why) {
+std::optional<Bytes> FenetServer::answer(ByteView frame, std::uint16_t&) {
   const std::optional<Header> header = read_header(frame);
-  if (!header) return why = plc::service_status::head, std::nullopt;
+  if (!header) return std::nullopt;
   Request request = parse_request(frame.subspan(header_size));
   if (const std::uint16_t fault = fault_of(*header, frame)) request.fault = fault;
   return reply_frame(*header,
@@ -122,7 +122,7 @@ void FenetServer::write(const plc::DeviceAddress& first, ByteView data) {
   const unsigned size = plc::type_bytes(first.type);
   for (unsigned i = 0; i * size < data.size(); ++i) {
     const std::uint64_t value = value_of(data.subspan(std::size_t{i} * size, size));
-    memory_.write(first + i, first.type == 'X' ? value & 1 : value);
+    memory_.write(first + i, value);
   }
 }
 

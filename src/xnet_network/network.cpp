@@ -34,7 +34,7 @@ void count_up(Memory& memory, unsigned number) {
 std::optional<Component> reach(const Model& model, unsigned type, std::uint32_t address,
                                std::uint32_t count) {
   const std::optional<Component> first = component_of(type, address, model.series);
-  if (!first || count == 0 || count > room_from(*first, model.series)) return std::nullopt;
+  if (!first || count > room_from(*first, model.series)) return std::nullopt;
   if (first->area->name == "D" && address + count > model.d) return std::nullopt;
   return first;
 }
@@ -329,7 +329,7 @@ void XnetNetwork::finish(const Job& job, Outcome outcome, Time now) {
   if (outcome != Outcome::done) count_up(plc.memory, failures_of_ethernet);
   if (outcome == Outcome::overtime) count_up(plc.memory, overtimes_of_ethernet);
   // A condition that stays on executes it again and again (3-3-1).
-  if (job.held && !plc.held.empty())
+  if (job.held)
     later(now + (outcome == Outcome::done ? 0ms : least_on_ethernet), [=, this](Time) {
       if (!job.from->held.empty()) start(*job.from, job.instruction, true);
     });

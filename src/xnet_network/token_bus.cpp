@@ -12,7 +12,7 @@ constexpr std::size_t most_shown = 200;  // turns of a picture
 }  // namespace
 
 Duration TokenBus::time_of(std::uint32_t words) const {
-  return Duration(std::max<std::uint64_t>(words, 1) * bit_times_of_a_word * 1'000'000'000 / baud_);
+  return Duration(words * bit_times_of_a_word * 1'000'000'000 / baud_);
 }
 
 void TokenBus::join(unsigned station) { queues_.try_emplace(station); }
