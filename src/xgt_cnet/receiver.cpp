@@ -1,5 +1,6 @@
 #include "src/xgt_cnet/receiver.hpp"
 
+#include "src/base/letters.hpp"
 #include "src/plc/counters.hpp"
 #include "src/xgt_cnet/codec.hpp"
 
@@ -33,7 +34,7 @@ void FrameReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
 
 void FrameReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
   if (is_head(b)) {
-    if (state_ == State::frame || state_ == State::bcc) give_up(sink);
+    give_up(sink);
     frame_.assign(1, b);
     state_ = State::frame;
     return;
@@ -52,8 +53,7 @@ void FrameReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
       }
       frame_.push_back(b);
       if (b != tail_) return;
-      if (frame_.size() > command_at + 1 && frame_[command_at] >= 'a' &&
-          frame_[command_at] <= 'z') {
+      if (frame_.size() > command_at && is_lower(static_cast<char>(frame_[command_at]))) {
         state_ = State::bcc;
         bcc_missing_ = bcc_size;
         return;
