@@ -141,8 +141,7 @@ class ContentReader {
     request_.blocks = 1;
     if (type_of(block) == 'X') note(XgtCheck::type, xgt_error::type);
     const int count = number(XgtCheck::count);
-    if (count < 0) return;
-    request_.count = static_cast<unsigned>(count);
+    request_.count = static_cast<unsigned>(count);  // no number: more than there is
     if (count == 0) note(XgtCheck::count, xgt_error::data);
     if (request_.count * element_bytes(block) > xgt_max_run) note(XgtCheck::count, xgt_error::size);
     if (write) read_data(block, request_.count);
@@ -152,7 +151,6 @@ class ContentReader {
     const int length = number(XgtCheck::name_length);
     if (length == 0 || length > static_cast<int>(xgt_max_name))
       note(XgtCheck::name_length, xgt_error::name_length);
-    if (length < 0) return;
     block.name = in_.take(static_cast<std::size_t>(length));
     if (block.name.size() < static_cast<std::size_t>(length))
       note(XgtCheck::name_length, xgt_error::data);

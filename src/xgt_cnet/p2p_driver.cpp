@@ -54,9 +54,9 @@ std::uint16_t check_reply(const XgtReply& reply, const P2pBlock& block,
   const XgtService asked = service_of(writes(block) ? 'w' : 'r', block.continuous ? "SB" : "SS");
   if (!is_lower(reply.command) || service_of(reply.command, reply.kind) != asked)
     return p2p::p2p_error::driver;
+  if (!reply.ack) return p2p::p2p_error::nak;
   if (reply.fault)
     return reply.fault.check == XgtCheck::data ? p2p::p2p_error::not_hex : p2p::p2p_error::length;
-  if (!reply.ack) return p2p::p2p_error::nak;
   return writes(block) ? p2p::p2p_error::none : check_data(reply, block, model);
 }
 }  // namespace

@@ -21,7 +21,6 @@ bool FrameReceiver::is_head(Byte b) const {
 }
 
 void FrameReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
-  if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > gap_) give_up(sink);
   Time end = burst.start;
   for (const Byte b : burst.bytes) {
@@ -43,7 +42,7 @@ void FrameReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
     case State::idle:
       state_ = State::garbage;
       sink.on_broken_frame(plc::service_status::head);
-      return;
+      [[fallthrough]];
     case State::garbage: return;
     case State::frame:
       if (frame_.size() == max_frame) {
@@ -81,7 +80,7 @@ std::optional<Time> FrameReceiver::wake_at() const {
 }
 
 void FrameReceiver::advance(Time now, plc::FrameSink& sink) {
-  if (const auto wake = wake_at(); wake && now >= *wake) give_up(sink);
+  if (now >= wake_at().value_or(Time::max())) give_up(sink);
 }
 
 void FrameReceiver::reset() { state_ = State::idle; }

@@ -9,6 +9,8 @@ namespace fieldproof::xgt_cnet {
 using plc::AddressFault;
 
 namespace {
+constexpr std::size_t most_digits = 16;  // of one element: an lword
+
 bool writes(XgtService content) {
   return content == XgtService::write_blocks || content == XgtService::write_run;
 }
@@ -25,13 +27,12 @@ XgtFault name_fault(AddressFault fault) {
   return {};
 }
 
-/// A registration number as it stands in the reply: upper-case hex; one that is none as it was
+/// A registration number as it stands in the reply: upper-case hex; what is no digit as it was
 /// sent, but such that the reply keeps its form.
 std::string_view replied_number(std::string_view sent, std::array<char, 2>& number) {
-  const bool is_hex = sent.size() == number.size() && hex_value(sent) >= 0;
   number = {'0', '0'};
-  std::ranges::transform(sent, number.begin(), [is_hex](char c) {
-    if (is_hex) return hex_char(static_cast<unsigned>(hex_digit(c)));
+  std::ranges::transform(sent, number.begin(), [](char c) {
+    if (hex_digit(c) >= 0) return hex_char(static_cast<unsigned>(hex_digit(c)));
     return c > ' ' && c < '\x7F' ? c : '0';
   });
   return {number.data(), number.size()};
@@ -77,7 +78,6 @@ void XgtServer::on_frame(ByteView frame, Time end) {
     execute(request, addresses, reply);
   }
   Bytes bytes;
-  bytes.reserve(frame.size() + 2 * data_size_ + 16);
   encode_reply(reply, bytes);
   replies_.put(end + delay_, std::move(bytes));
   counters_.count_service();
@@ -105,7 +105,6 @@ void XgtServer::check_names(XgtRequest& request, Addresses& addresses) const {
 }
 
 void XgtServer::execute(const XgtRequest& request, const Addresses& addresses, XgtReply& reply) {
-  data_size_ = 0;
   switch (request.service) {
     case XgtService::read_blocks:
       return read_blocks(std::span(addresses).first(request.blocks), reply);
@@ -134,14 +133,14 @@ void XgtServer::read_blocks(std::span<const plc::DeviceAddress> addresses, XgtRe
 }
 
 void XgtServer::add_data(const plc::DeviceAddress& first, unsigned count, XgtReply& reply) {
-  char* const begin = data_.data() + data_size_;
-  const unsigned digits = 2 * plc::type_bytes(first.type);
+  char* const begin = data_.data() + reply.blocks * most_digits;
+  char* end = begin;
   for (unsigned i = 0; i < count; ++i) {
     const std::uint64_t value = memory_.read(first + i);
-    for (unsigned d = digits; d-- > 0;)
-      data_[data_size_++] = hex_char(static_cast<unsigned>(value >> (4 * d)));
+    for (unsigned d = 2 * plc::type_bytes(first.type); d-- > 0;)
+      *end++ = hex_char(static_cast<unsigned>(value >> (4 * d)));
   }
-  reply.data[reply.blocks++] = {begin, count * std::size_t{digits}};
+  reply.data[reply.blocks++] = {begin, end};
 }
 
 /// Everything has been checked: a write is all or nothing.
