@@ -5,7 +5,6 @@
 namespace fieldproof::user_frames {
 
 void FrameFinder::receive(const Burst& burst, Sink& sink) {
-  if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > gap_) {
     take_frames(burst.start, true, sink);
     passing_over_ = false;
@@ -73,7 +72,7 @@ std::optional<Time> FrameFinder::wake_at() const {
 }
 
 void FrameFinder::advance(Time now, Sink& sink) {
-  if (const auto wake = wake_at(); wake && now >= *wake) take_frames(now, true, sink);
+  if (now >= wake_at().value_or(Time::max())) take_frames(now, true, sink);
 }
 
 void FrameFinder::reset() {

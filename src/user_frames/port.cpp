@@ -91,7 +91,7 @@ std::optional<Status> UserFramePort::act(std::string_view action) {
 
 void UserFramePort::set_run(bool run) {
   run_ = run;
-  if (!run) forget();
+  forget();
 }
 
 void UserFramePort::power_cycle() {

@@ -1,15 +1,13 @@
 #include "src/xgt_cnet/codec.hpp"
 
 #include <algorithm>
+#include <charconv>
 
-#include "src/base/letters.hpp"
 #include "src/plc/address.hpp"
 
 namespace fieldproof::xgt_cnet {
 
 namespace {
-constexpr std::size_t first_of_content = 6;  // header, station, command, type or number
-
 std::string_view as_text(ByteView bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -18,34 +16,32 @@ bool all_hex(std::string_view digits) {
   return std::ranges::all_of(digits, [](char c) { return hex_digit(c) >= 0; });
 }
 
-/// Takes fields off the front of a frame's content.
+/// Takes fields off the front of a text.
 class Cursor {
  public:
-  Cursor(std::string_view text, std::size_t offset) : text_(text), offset_(offset) {}
+  explicit Cursor(std::string_view text) : text_(text) {}
 
-  std::size_t offset() const { return offset_; }
   std::size_t left() const { return text_.size(); }
-  /// Shorter than asked for when the frame ends before.
+  /// Shorter than asked for when the text ends before.
   std::string_view take(std::size_t size) {
     const std::string_view field = text_.substr(0, size);
     text_.remove_prefix(field.size());
-    offset_ += field.size();
     return field;
+  }
+  /// One character, or 0 at the end.
+  char letter() {
+    const std::string_view field = take(1);
+    return field.empty() ? '\0' : field[0];
+  }
+  /// So many hex digits, or -1.
+  std::int64_t number(std::size_t digits = 2) {
+    const std::string_view field = take(digits);
+    return field.size() == digits ? hex_value(field) : -1;
   }
 
  private:
   std::string_view text_;
-  std::size_t offset_;
 };
-
-XgtService service_of(char command, std::string_view type) {
-  if (type.size() != 2 || upper(type[0]) != 'S') return XgtService::unknown;
-  const char last = upper(type[1]);
-  if (last != 'S' && last != 'B') return XgtService::unknown;
-  if (upper(command) == 'R') return last == 'S' ? XgtService::read_blocks : XgtService::read_run;
-  if (upper(command) == 'W') return last == 'S' ? XgtService::write_blocks : XgtService::write_run;
-  return XgtService::unknown;
-}
 
 /// Header, station, command, tail and BCC of a request or a reply; leaves the content between them.
 struct Envelope {
@@ -53,89 +49,62 @@ struct Envelope {
   unsigned station = 0;
   char command = 0;
   std::string_view kind;
-  Cursor content{{}, 0};
+  Cursor content{std::string_view{}};
 };
 
-XgtFault check_bcc(ByteView frame, std::size_t tail) {
-  const std::string_view bcc = as_text(frame).substr(tail + 1, 2);
-  if (bcc.size() < 2) return {XgtCheck::bcc, 0, "BCC", "is missing", 0, tail + 1};
+Envelope open_envelope(ByteView frame, bool right_head, Byte tail_byte) {
+  Envelope e;
+  if (!right_head) e.fault.note({XgtCheck::head});
+  const std::string_view text = as_text(frame);
+  const std::size_t tail = std::min(text.find(static_cast<char>(tail_byte)), text.size());
+  if (tail == text.size()) e.fault.note({XgtCheck::tail});
+  Cursor in(text.substr(0, tail));
+  in.letter();
+  const std::int64_t station = in.number();
+  if (station < 0) e.fault.note({XgtCheck::station});
+  e.station = static_cast<unsigned>(station);  // of no device, then
+  e.command = in.letter();
+  e.kind = in.take(2);
+  e.content = in;
   // Hex digits are accepted in either case (7.1.3 Note: only the main command tells the cases
   // apart).
-  if (hex_value(bcc) != xgt_bcc(frame.first(tail + 1)))
-    return {XgtCheck::bcc, 0, "BCC", "is wrong", 0, tail + 1};
-  return {};
-}
-
-Envelope open_envelope(ByteView frame, bool request) {
-  Envelope e;
-  const std::string_view text = as_text(frame);
-  const bool head = !frame.empty() &&
-                    (request ? frame[0] == xgt_enq : frame[0] == xgt_ack || frame[0] == xgt_nak);
-  if (!head)
-    e.fault.note({XgtCheck::head, 0, "header", request ? "is not ENQ" : "is not ACK or NAK", 0, 0});
-  const std::size_t tail =
-      std::min(text.find(static_cast<char>(request ? xgt_eot : xgt_etx)), text.size());
-  if (tail == text.size())
-    e.fault.note(
-        {XgtCheck::tail, 0, "tail", request ? "EOT is missing" : "ETX is missing", 0, tail});
-  const std::string_view body = text.substr(0, tail);
-  const auto field = [body](std::size_t at, std::size_t size) {
-    return body.substr(std::min(at, body.size()), size);
-  };
-
-  const std::string_view station = field(1, 2);
-  const std::int64_t number = hex_value(station);
-  if (station.size() < 2 || number < 0)
-    e.fault.note({XgtCheck::station, 0, "station", "is not two hex digits", 0, 1});
-  else
-    e.station = static_cast<unsigned>(number);
-
-  e.command = body.size() > 3 ? body[3] : '\0';
-  e.kind = field(4, 2);
-  if (e.command >= 'a' && e.command <= 'z' && tail < text.size())
-    e.fault.note(check_bcc(frame, tail));
-  e.content = Cursor(field(first_of_content, std::string_view::npos), first_of_content);
+  if (is_lower(e.command)) {
+    Cursor behind(text);
+    const std::string_view summed = behind.take(tail + 1);
+    if (behind.number() != xgt_bcc(frame.first(summed.size()))) e.fault.note({XgtCheck::bcc});
+  }
   return e;
 }
 
-/// What stands between the type of a request and its tail.
+/// What stands between the type of a request and its tail. A fault may make nonsense of all that
+/// follows: what is looked at later never hides it.
 class ContentReader {
  public:
   ContentReader(Cursor content, XgtRequest& request) : in_(content), request_(request) {}
 
   void read() {
-    switch (request_.service) {
-      case XgtService::register_monitor: return read_registration();
-      case XgtService::run_monitor: return check_surplus();
-      default: return read_content();
-    }
+    if (request_.service == XgtService::register_monitor)
+      read_registration();
+    else if (request_.service != XgtService::run_monitor)
+      read_content();
+    if (in_.left() > 0) note(XgtCheck::surplus, xgt_error::surplus);
   }
 
  private:
-  void wrong(XgtCheck check, std::uint16_t code, std::string_view field, std::string_view problem,
-             std::size_t offset) {
-    request_.fault.note({check, code, field, problem, block_, offset});
-  }
+  void note(XgtCheck check, std::uint16_t code) { request_.fault.note({check, code}); }
 
   /// Two hex digits, or -1 with the fault noted.
-  int number(XgtCheck check, std::string_view field) {
-    const std::size_t offset = in_.offset();
-    const std::string_view digits = in_.take(2);
-    const std::int64_t value = digits.size() < 2 ? -1 : hex_value(digits);
-    if (value >= 0) return static_cast<int>(value);
-    wrong(check, xgt_error::data, field, digits.size() < 2 ? "is cut short" : "is not hex", offset);
-    return -1;
+  int number(XgtCheck check) {
+    const std::int64_t value = in_.number();
+    if (value < 0) note(check, xgt_error::data);
+    return static_cast<int>(value);
   }
 
   void read_registration() {
-    const std::size_t offset = in_.offset();
-    const std::string_view what = in_.take(3);
-    request_.content = what.size() == 3 && upper(what[0]) == 'R' ? service_of('R', what.substr(1))
-                                                                 : XgtService::unknown;
-    if (request_.content == XgtService::unknown) {
-      return wrong(XgtCheck::registration_content, xgt_error::data, "registration format",
-                   "is neither RSS nor RSB", offset);
-    }
+    const char command = in_.letter();
+    request_.content = service_of(command, in_.take(2));
+    if (request_.content != XgtService::read_blocks && request_.content != XgtService::read_run)
+      return note(XgtCheck::registration_content, xgt_error::data);
     read_content();
   }
 
@@ -144,104 +113,63 @@ class ContentReader {
         request_.content == XgtService::write_blocks || request_.content == XgtService::write_run;
     const bool run =
         request_.content == XgtService::read_run || request_.content == XgtService::write_run;
-    if (run ? read_run(write) : read_blocks(write)) check_surplus();
+    if (run)
+      read_run(write);
+    else
+      read_blocks(write);
   }
 
-  /// False when the rest of the frame cannot be told apart any more.
-  bool read_blocks(bool write) {
-    const std::size_t offset = in_.offset();
-    const int blocks = number(XgtCheck::block_count, "block count");
-    const bool too_many = blocks > static_cast<int>(xgt_max_blocks);
-    if (blocks == 0)
-      wrong(XgtCheck::block_count, xgt_error::data, "block count", "is zero", offset);
-    if (too_many)
-      wrong(XgtCheck::block_count, xgt_error::blocks, "block count", "is more than 16", offset);
-    if (blocks <= 0 || too_many) return false;
-    for (block_ = 1; block_ <= static_cast<unsigned>(blocks); ++block_) {
-      XgtBlock& block = request_.block[block_ - 1];
-      if (!read_name(block)) return false;
-      request_.blocks = block_;
+  void read_blocks(bool write) {
+    const int blocks = number(XgtCheck::block_count);
+    if (blocks == 0) note(XgtCheck::block_count, xgt_error::data);
+    if (blocks > static_cast<int>(xgt_max_blocks))
+      return note(XgtCheck::block_count, xgt_error::blocks);
+    for (int i = 0; i < blocks; ++i) {
+      XgtBlock& block = request_.block[request_.blocks++];
+      read_name(block);
       if (!write) continue;
-      const unsigned bytes = element_bytes(block);
-      if (bytes == 0 || !read_data(block, bytes * 2)) return false;
-      check_bit(block);
+      if (element_bytes(block) == 0) return;  // where the next block begins cannot be told
+      read_data(block, 1);
+      if (type_of(block) == 'X' && hex_value(block.data) > 1)
+        note(XgtCheck::bit_value, xgt_error::data);
     }
-    block_ = 0;
-    return true;
   }
 
-  bool read_run(bool write) {
+  void read_run(bool write) {
     XgtBlock& block = request_.block[0];
-    if (!read_name(block)) return false;
+    read_name(block);
     request_.blocks = 1;
-    const unsigned bytes = element_bytes(block);
-    if (block.name.size() > 2 && upper(block.name[2]) == 'X') {
-      const std::size_t name_offset = in_.offset() - block.name.size();
-      wrong(XgtCheck::type, xgt_error::type, "name",
-            "is of bits, which have no continuous read or write", name_offset);
-    }
-    const std::size_t offset = in_.offset();
-    const int count = number(XgtCheck::count, "number of data");
-    if (count < 0) return false;
-    request_.count = static_cast<unsigned>(count);
-    if (count == 0) wrong(XgtCheck::count, xgt_error::data, "number of data", "is zero", offset);
-    if (request_.count * bytes > xgt_max_run) {
-      wrong(XgtCheck::count, xgt_error::size, "number of data", "is more than 60 words", offset);
-    }
-    if (!write) return true;
-    return bytes != 0 && read_data(block, std::size_t{request_.count} * bytes * 2);
+    if (type_of(block) == 'X') note(XgtCheck::type, xgt_error::type);
+    const int count = number(XgtCheck::count);
+    request_.count = static_cast<unsigned>(count);  // no number: more than there is
+    if (count == 0) note(XgtCheck::count, xgt_error::data);
+    if (request_.count * element_bytes(block) > xgt_max_run) note(XgtCheck::count, xgt_error::size);
+    if (write) read_data(block, request_.count);
   }
 
-  bool read_name(XgtBlock& block) {
-    const std::size_t offset = in_.offset();
-    const int length = number(XgtCheck::name_length, "name length");
-    const bool too_long = length > static_cast<int>(xgt_max_name);
-    if (length == 0)
-      wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is zero", offset);
-    if (too_long)
-      wrong(XgtCheck::name_length, xgt_error::name_length, "name length", "is more than 16",
-            offset);
-    if (length <= 0 || too_long) return false;
-    const std::size_t name_offset = in_.offset();
+  void read_name(XgtBlock& block) {
+    const int length = number(XgtCheck::name_length);
+    if (length == 0 || length > static_cast<int>(xgt_max_name))
+      note(XgtCheck::name_length, xgt_error::name_length);
     block.name = in_.take(static_cast<std::size_t>(length));
-    if (block.name.size() == static_cast<std::size_t>(length)) return true;
-    wrong(XgtCheck::name_length, xgt_error::data, "name", "is cut short", name_offset);
-    return false;
+    if (block.name.size() < static_cast<std::size_t>(length))
+      note(XgtCheck::name_length, xgt_error::data);
   }
 
-  static unsigned element_bytes(const XgtBlock& block) {
-    return block.name.size() > 2 ? plc::type_bytes(block.name[2]) : 0;
+  static char type_of(const XgtBlock& block) {
+    return block.name.size() > 2 ? upper(block.name[2]) : '\0';
   }
+  static unsigned element_bytes(const XgtBlock& block) { return plc::type_bytes(type_of(block)); }
 
-  bool read_data(XgtBlock& block, std::size_t digits) {
-    const std::size_t offset = in_.offset();
+  void read_data(XgtBlock& block, unsigned elements) {
+    const std::size_t digits = std::size_t{2} * elements * element_bytes(block);
     block.data = in_.take(digits);
-    if (block.data.size() < digits) {
-      wrong(XgtCheck::data, xgt_error::data, "data", "is cut short", offset);
-      return false;
-    }
-    if (!all_hex(block.data))
-      wrong(XgtCheck::data, xgt_error::not_hex, "data", "is not hex", offset);
-    return true;
-  }
-
-  void check_bit(const XgtBlock& block) {
-    if (upper(block.name[2]) != 'X' || hex_value(block.data) == 0 || hex_value(block.data) == 1)
-      return;
-    wrong(XgtCheck::bit_value, xgt_error::data, "data", "is not 00 or 01",
-          in_.offset() - block.data.size());
-  }
-
-  void check_surplus() {
-    block_ = 0;
-    if (in_.left() > 0)
-      wrong(XgtCheck::surplus, xgt_error::surplus, "surplus", "follows the last field",
-            in_.offset());
+    if (block.data.size() < digits) note(XgtCheck::data, xgt_error::data);
+    if (!all_hex(block.data)) note(XgtCheck::data, xgt_error::not_hex);
   }
 
   Cursor in_;
   XgtRequest& request_;
-  unsigned block_ = 0;
 };
 
 void append(Bytes& out, std::string_view text) { out.insert(out.end(), text.begin(), text.end()); }
@@ -269,22 +197,22 @@ void append_name(Bytes& out, std::string_view name) {
 }
 }  // namespace
 
-std::string describe(const XgtFault& fault) {
-  if (!fault) return "the frame is right";
-  std::string text = fault.block > 0 ? "block " + std::to_string(fault.block) + ", " : "";
-  text += std::string(fault.field) + ' ' + std::string(fault.problem);
-  if (fault.code != 0) text += " (NAK " + hex_number(fault.code, 4) + ')';
-  return text;
+XgtService service_of(char command, std::string_view type) {
+  if (type.size() != 2 || upper(type[0]) != 'S') return XgtService::unknown;
+  const char last = upper(type[1]);
+  if (last != 'S' && last != 'B') return XgtService::unknown;
+  if (upper(command) == 'R') return last == 'S' ? XgtService::read_blocks : XgtService::read_run;
+  if (upper(command) == 'W') return last == 'S' ? XgtService::write_blocks : XgtService::write_run;
+  return XgtService::unknown;
 }
 
 std::int64_t hex_value(std::string_view digits) {
-  if (digits.empty()) return -1;
-  std::int64_t value = 0;
-  for (const char c : digits) {
-    const int digit = hex_digit(c);
-    if (digit < 0) return -1;
-    value = value << 4 | digit;
-  }
+  return all_hex(digits) ? static_cast<std::int64_t>(data_value(digits)) : -1;
+}
+
+std::uint64_t data_value(std::string_view digits) {
+  std::uint64_t value = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
   return value;
 }
 
@@ -296,7 +224,8 @@ Byte xgt_bcc(ByteView header_to_tail) {
 
 XgtRequest parse_request(ByteView frame) {
   XgtRequest request;
-  const Envelope e = open_envelope(frame, true);
+  const bool right_head = as_text(frame).starts_with(static_cast<char>(xgt_enq));
+  const Envelope e = open_envelope(frame, right_head, xgt_eot);
   request.fault = e.fault;
   request.station = e.station;
   request.command = e.command;
@@ -304,25 +233,16 @@ XgtRequest parse_request(ByteView frame) {
   const char command = upper(e.command);
   if (command == 'X' || command == 'Y') {
     request.service = command == 'X' ? XgtService::register_monitor : XgtService::run_monitor;
-    const std::int64_t number = e.kind.size() < 2 ? -1 : hex_value(e.kind);
-    if (number < 0 || number >= xgt_registrations) {
-      const std::uint16_t code =
-          command == 'X' ? xgt_error::register_number : xgt_error::execute_number;
-      const std::string_view problem = number < 0 ? "is not two hex digits" : "is not 00 to 0F";
-      request.fault.note(
-          {XgtCheck::registration_number, code, "registration number", problem, 0, 4});
-    } else {
+    const std::int64_t number = Cursor(e.kind).number();
+    if (number >= 0 && number < xgt_registrations) {
       request.registration = static_cast<unsigned>(number);
+    } else {
+      request.fault.note({XgtCheck::registration_number,
+                          command == 'X' ? xgt_error::register_number : xgt_error::execute_number});
     }
   } else {
     request.service = request.content = service_of(e.command, e.kind);
-    if (request.service == XgtService::unknown) {
-      const bool known = command == 'R' || command == 'W';
-      const XgtFault wrong_command{XgtCheck::command, 0, "command", "is not R, W, X or Y", 0, 3};
-      const XgtFault wrong_type{XgtCheck::command, 0, "command type", "is neither SS nor SB", 0, 4};
-      request.fault.note(known ? wrong_type : wrong_command);
-      return request;
-    }
+    if (request.service == XgtService::unknown) request.fault.note({XgtCheck::command});
   }
   ContentReader(e.content, request).read();
   return request;
@@ -351,93 +271,63 @@ void encode_request(const XgtRequest& request, Bytes& out) {
 
 namespace {
 /// One block of a reply: byte count and data.
-bool read_reply_block(Cursor& in, XgtReply& reply, unsigned number) {
-  const std::size_t offset = in.offset();
-  const std::string_view digits = in.take(2);
-  const std::int64_t bytes = digits.size() < 2 ? -1 : hex_value(digits);
-  if (bytes < 0) {
-    reply.fault.note(
-        {XgtCheck::count, 0, "number of data", "is not two hex digits", number, offset});
-    return false;
-  }
-  const std::size_t data_offset = in.offset();
-  const std::string_view data = in.take(static_cast<std::size_t>(bytes) * 2);
-  if (data.size() < static_cast<std::size_t>(bytes) * 2) {
-    reply.fault.note({XgtCheck::count, 0, "data", "is cut short", number, data_offset});
-    return false;
-  }
-  if (!all_hex(data))
-    reply.fault.note({XgtCheck::data, 0, "data", "is not hex", number, data_offset});
-  reply.data[number - 1] = data;
-  reply.blocks = number;
-  return true;
+void read_reply_block(Cursor& in, XgtReply& reply) {
+  const std::size_t digits = 2 * static_cast<std::size_t>(in.number());  // no number: endless
+  const std::string_view data = in.take(digits);
+  if (data.size() < digits) reply.fault.note({XgtCheck::count});
+  if (!all_hex(data)) reply.fault.note({XgtCheck::data});
+  reply.data[reply.blocks++] = data;
 }
 
-void read_reply_blocks(Cursor in, XgtReply& reply) {
+void read_reply_blocks(Cursor& in, XgtReply& reply) {
   reply.with_block_count = true;
-  const std::size_t offset = in.offset();
-  const std::string_view digits = in.take(2);
-  const std::int64_t blocks = digits.size() < 2 ? -1 : hex_value(digits);
-  if (blocks < 1 || blocks > xgt_max_blocks) {
-    return reply.fault.note(
-        {XgtCheck::block_count, 0, "block count", "is not 01 to 10", 0, offset});
-  }
-  for (unsigned i = 1; i <= static_cast<unsigned>(blocks); ++i) {
-    if (!read_reply_block(in, reply, i)) return;
-  }
-  if (in.left() > 0)
-    reply.fault.note({XgtCheck::surplus, 0, "surplus", "follows the last block", 0, in.offset()});
+  const std::int64_t blocks = in.number();
+  if (blocks < 1 || blocks > xgt_max_blocks) return reply.fault.note({XgtCheck::block_count});
+  for (std::int64_t i = 0; i < blocks; ++i) read_reply_block(in, reply);
 }
 
-void read_ack(Cursor content, XgtReply& reply) {
+/// The data of a run without a block count.
+bool is_bare_run(Cursor in) {
+  const std::size_t digits = 2 * static_cast<std::size_t>(in.number());
+  return in.left() == digits;
+}
+
+void read_ack(Cursor& in, XgtReply& reply) {
   const char command = upper(reply.command);
-  if (command == 'R') return read_reply_blocks(content, reply);
-  if (command != 'Y') {
-    if (content.left() > 0)
-      reply.fault.note(
-          {XgtCheck::surplus, 0, "surplus", "follows the last field", 0, content.offset()});
-    return;
-  }
-  Cursor run = content;
-  const std::string_view digits = run.take(2);
-  const std::int64_t bytes = digits.size() < 2 ? -1 : hex_value(digits);
-  if (bytes < 0 || run.left() != static_cast<std::size_t>(bytes) * 2)
-    return read_reply_blocks(content, reply);
-  read_reply_block(content, reply, 1);
+  if (command == 'Y' && is_bare_run(in))
+    read_reply_block(in, reply);
+  else if (command == 'R' || command == 'Y')
+    read_reply_blocks(in, reply);
 }
 
-void read_nak(Cursor content, XgtReply& reply) {
-  const std::size_t offset = content.offset();
-  const std::string_view digits = content.take(4);
-  const std::int64_t code = digits.size() < 4 ? -1 : hex_value(digits);
-  if (code < 0)
-    return reply.fault.note({XgtCheck::data, 0, "error code", "is not four hex digits", 0, offset});
-  reply.error = static_cast<std::uint16_t>(code);
-  if (content.left() > 0)
-    reply.fault.note(
-        {XgtCheck::surplus, 0, "surplus", "follows the error code", 0, content.offset()});
+void read_nak(Cursor& in, XgtReply& reply) {
+  const std::string_view code = in.take(4);
+  if (code.size() < 4) reply.fault.note({XgtCheck::count});
+  if (!all_hex(code)) reply.fault.note({XgtCheck::data});
+  reply.error = static_cast<std::uint16_t>(data_value(code));
 }
 }  // namespace
 
 XgtReply parse_reply(ByteView frame) {
   XgtReply reply;
-  const Envelope e = open_envelope(frame, false);
+  const std::string_view text = as_text(frame);
+  reply.ack = !text.starts_with(static_cast<char>(xgt_nak));
+  const bool right_head = !reply.ack || text.starts_with(static_cast<char>(xgt_ack));
+  const Envelope e = open_envelope(frame, right_head, xgt_etx);
   reply.fault = e.fault;
-  reply.ack = frame.empty() || frame[0] != xgt_nak;
   reply.station = e.station;
   reply.command = e.command;
   reply.kind = e.kind;
   const char command = upper(e.command);
   const bool numbered = command == 'X' || command == 'Y';
-  const bool is_number = e.kind.size() == 2 && hex_value(e.kind) >= 0;
-  if (numbered ? !is_number : service_of(e.command, e.kind) == XgtService::unknown) {
-    reply.fault.note({XgtCheck::command, 0, "command", "is not RSS, RSB, WSS, WSB, X or Y", 0, 3});
-    return reply;
-  }
+  if (numbered ? Cursor(e.kind).number() < 0 : service_of(e.command, e.kind) == XgtService::unknown)
+    reply.fault.note({XgtCheck::command});
+  Cursor in = e.content;
   if (reply.ack)
-    read_ack(e.content, reply);
+    read_ack(in, reply);
   else
-    read_nak(e.content, reply);
+    read_nak(in, reply);
+  if (in.left() > 0) reply.fault.note({XgtCheck::surplus});
   return reply;
 }
 

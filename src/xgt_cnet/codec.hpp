@@ -13,10 +13,10 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "src/base/bytes.hpp"
+#include "src/base/letters.hpp"
 
 namespace fieldproof::xgt_cnet {
 
@@ -64,12 +64,7 @@ enum class XgtCheck : std::uint8_t {
 /// The first thing that is wrong.
 struct XgtFault {
   XgtCheck check = XgtCheck::none;
-  std::uint16_t code =
-      0;  // server error code; 0 where the server is silent, and in faults of replies
-  std::string_view field{};    // "name length"
-  std::string_view problem{};  // "is not hex"
-  unsigned block = 0;          // from 1; 0: not in a block
-  std::size_t offset = 0;      // of the field in the frame
+  std::uint16_t code = 0;  // server error code; 0 where the server is silent, and in replies
 
   explicit operator bool() const { return check != XgtCheck::none; }
   /// Takes `other` if it is looked at before this one.
@@ -77,9 +72,6 @@ struct XgtFault {
     if (other.check < check) *this = other;
   }
 };
-
-/// "block 2, name length is more than 16 (NAK 0004)"
-std::string describe(const XgtFault& fault);
 
 enum class XgtService : std::uint8_t {
   unknown,
@@ -90,6 +82,9 @@ enum class XgtService : std::uint8_t {
   register_monitor,
   run_monitor
 };
+
+/// Of R and W with a type SS or SB, each in either case.
+XgtService service_of(char command, std::string_view type);
 
 struct XgtBlock {
   std::string_view name{};  // "%MW100"
@@ -103,12 +98,12 @@ struct XgtRequest {
   XgtService service = XgtService::unknown;
   XgtService content = XgtService::unknown;  // what is read or written; of X: what is registered
   unsigned registration = 0;
-  unsigned blocks = 0;  // as parsed; the fault says whether the frame announced others
+  unsigned blocks = 0;  // as parsed
   std::array<XgtBlock, xgt_max_blocks> block{};
   unsigned count = 0;  // elements of RSB and WSB
   XgtFault fault{};    // names are looked at as far as their type letter: areas depend on the model
 
-  bool has_bcc() const { return command >= 'a' && command <= 'z'; }
+  bool has_bcc() const { return is_lower(command); }
 };
 
 /// Bytes behind the frame are not looked at.
@@ -127,7 +122,7 @@ struct XgtReply {
   std::array<std::string_view, xgt_max_blocks> data{};  // hex digits of each block
   XgtFault fault{};
 
-  bool has_bcc() const { return command >= 'a' && command <= 'z'; }
+  bool has_bcc() const { return is_lower(command); }
 };
 
 /// The reply to Y is printed with and without a block count; it is read as the one whose lengths
@@ -140,5 +135,7 @@ Byte xgt_bcc(ByteView header_to_tail);
 
 /// The value of 1 to 15 hex digits in either case, or -1.
 std::int64_t hex_value(std::string_view digits);
+/// The value of the data of one element: 2 to 16 digits, all of them hex.
+std::uint64_t data_value(std::string_view digits);
 
 }  // namespace fieldproof::xgt_cnet

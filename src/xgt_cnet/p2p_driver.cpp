@@ -29,25 +29,8 @@ std::string digits_in(const plc::PlcMemory& memory, const P2pBlock& block,
 
 void save(plc::PlcMemory& memory, plc::DeviceAddress to, std::string_view digits) {
   const std::size_t size = std::size_t{2} * plc::type_bytes(to.type);
-  for (; !digits.empty(); digits.remove_prefix(size), to = to + 1) {
-    std::uint64_t value = 0;
-    for (const char c : digits.substr(0, size))
-      value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
-    memory.write(to, value);
-  }
-}
-
-std::uint16_t error_of(const XgtFault& fault) {
-  switch (fault.check) {
-    case XgtCheck::none: return p2p::p2p_error::none;
-    case XgtCheck::head: return p2p::p2p_error::head;
-    case XgtCheck::tail: return p2p::p2p_error::tail;
-    case XgtCheck::bcc: return p2p::p2p_error::bcc;
-    case XgtCheck::station: return p2p::p2p_error::station;
-    case XgtCheck::command: return p2p::p2p_error::driver;
-    case XgtCheck::data: return p2p::p2p_error::not_hex;
-    default: return p2p::p2p_error::length;
-  }
+  for (; !digits.empty(); digits.remove_prefix(size), to = to + 1)
+    memory.write(to, data_value(digits.substr(0, size)));
 }
 
 /// What is wrong with the data of a read, if anything.
@@ -66,15 +49,14 @@ std::uint16_t check_data(const XgtReply& reply, const P2pBlock& block, const plc
 
 std::uint16_t check_reply(const XgtReply& reply, const P2pBlock& block,
                           const plc::PlcModel& model) {
-  if (reply.fault.check <= XgtCheck::bcc) return error_of(reply.fault);
-  if (reply.fault.check == XgtCheck::station || reply.station != block.station)
-    return p2p::p2p_error::station;
-  const bool same_service = reply.command == (writes(block) ? 'w' : 'r') &&
-                            reply.kind.size() == 2 &&
-                            upper(reply.kind[1]) == (block.continuous ? 'B' : 'S');
-  if (!same_service) return p2p::p2p_error::driver;
-  if (reply.fault) return error_of(reply.fault);
+  if (reply.fault.check == XgtCheck::bcc) return p2p::p2p_error::bcc;
+  if (reply.station != block.station) return p2p::p2p_error::station;
+  const XgtService asked = service_of(writes(block) ? 'w' : 'r', block.continuous ? "SB" : "SS");
+  if (!is_lower(reply.command) || service_of(reply.command, reply.kind) != asked)
+    return p2p::p2p_error::driver;
   if (!reply.ack) return p2p::p2p_error::nak;
+  if (reply.fault)
+    return reply.fault.check == XgtCheck::data ? p2p::p2p_error::not_hex : p2p::p2p_error::length;
   return writes(block) ? p2p::p2p_error::none : check_data(reply, block, model);
 }
 }  // namespace
@@ -95,10 +77,7 @@ Result<Bytes> XgtP2pDriver::request(const P2pBlock& block, const plc::PlcMemory&
   XgtRequest request{.station = block.station,
                      .command = writes(block) ? 'w' : 'r',
                      .kind = block.continuous ? "SB" : "SS"};
-  request.content = writes(block)
-                        ? (block.continuous ? XgtService::write_run : XgtService::write_blocks)
-                        : (block.continuous ? XgtService::read_run : XgtService::read_blocks);
-  request.service = request.content;
+  request.content = service_of(request.command, request.kind);
   request.blocks = static_cast<unsigned>(block.variables.size());
   request.count = block.elements();
   std::array<std::string, p2p::p2p_max_variables> names, data;
@@ -116,10 +95,10 @@ std::optional<std::uint16_t> XgtP2pDriver::take(const P2pBlock& block, ByteView 
                                                 plc::PlcMemory& memory) const {
   const XgtReply reply = parse_reply(frame);
   const std::uint16_t error = check_reply(reply, block, memory.model());
-  if (error == p2p::p2p_error::none && !writes(block)) {
-    for (std::size_t i = 0; i < block.variables.size(); ++i)
-      save(memory, block.variables[i].own, reply.data[i]);
-  }
+  if (error != p2p::p2p_error::none) return error;
+  std::size_t i = 0;  // what has been written comes back without data
+  for (const p2p::P2pVariable& variable : block.variables)
+    save(memory, variable.own, reply.data[i++]);
   return error;
 }
 

@@ -1,5 +1,6 @@
 #include "src/xgt_cnet/receiver.hpp"
 
+#include "src/base/letters.hpp"
 #include "src/plc/counters.hpp"
 #include "src/xgt_cnet/codec.hpp"
 
@@ -20,7 +21,6 @@ bool FrameReceiver::is_head(Byte b) const {
 }
 
 void FrameReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
-  if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > gap_) give_up(sink);
   Time end = burst.start;
   for (const Byte b : burst.bytes) {
@@ -33,7 +33,7 @@ void FrameReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
 
 void FrameReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
   if (is_head(b)) {
-    if (state_ == State::frame || state_ == State::bcc) give_up(sink);
+    give_up(sink);
     frame_.assign(1, b);
     state_ = State::frame;
     return;
@@ -42,7 +42,7 @@ void FrameReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
     case State::idle:
       state_ = State::garbage;
       sink.on_broken_frame(plc::service_status::head);
-      return;
+      [[fallthrough]];
     case State::garbage: return;
     case State::frame:
       if (frame_.size() == max_frame) {
@@ -52,8 +52,7 @@ void FrameReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
       }
       frame_.push_back(b);
       if (b != tail_) return;
-      if (frame_.size() > command_at + 1 && frame_[command_at] >= 'a' &&
-          frame_[command_at] <= 'z') {
+      if (frame_.size() > command_at && is_lower(static_cast<char>(frame_[command_at]))) {
         state_ = State::bcc;
         bcc_missing_ = bcc_size;
         return;
@@ -81,7 +80,7 @@ std::optional<Time> FrameReceiver::wake_at() const {
 }
 
 void FrameReceiver::advance(Time now, plc::FrameSink& sink) {
-  if (const auto wake = wake_at(); wake && now >= *wake) give_up(sink);
+  if (now >= wake_at().value_or(Time::max())) give_up(sink);
 }
 
 void FrameReceiver::reset() { state_ = State::idle; }

@@ -9,57 +9,32 @@ namespace fieldproof::xgt_cnet {
 using plc::AddressFault;
 
 namespace {
-std::uint64_t value_of(std::string_view hex) {
-  std::uint64_t value = 0;
-  for (const char c : hex) value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
-  return value;
-}
+constexpr std::size_t most_digits = 16;  // of one element: an lword
 
 bool writes(XgtService content) {
   return content == XgtService::write_blocks || content == XgtService::write_run;
 }
-bool is_run(XgtService content) {
-  return content == XgtService::read_run || content == XgtService::write_run;
-}
 
 XgtFault name_fault(AddressFault fault) {
   switch (fault) {
-    case AddressFault::percent:
-      return {XgtCheck::percent, xgt_error::data, "name", "does not begin with %", 0, 0};
-    case AddressFault::area:
-      return {XgtCheck::area,
-              xgt_error::area,
-              "name",
-              "is of an area that the model does not have",
-              0,
-              0};
-    case AddressFault::type:
-      return {XgtCheck::type,
-              xgt_error::type,
-              "name",
-              "is of a type that the area does not have",
-              0,
-              0};
-    case AddressFault::form:
-      return {XgtCheck::number_form, xgt_error::data, "name", "has no number", 0, 0};
-    case AddressFault::range:
-      return {XgtCheck::range, xgt_error::range, "name", "is beyond the area", 0, 0};
+    case AddressFault::percent: return {XgtCheck::percent, xgt_error::data};
+    case AddressFault::area: return {XgtCheck::area, xgt_error::area};
+    case AddressFault::type: return {XgtCheck::type, xgt_error::type};
+    case AddressFault::form: return {XgtCheck::number_form, xgt_error::data};
+    case AddressFault::range: return {XgtCheck::range, xgt_error::range};
     case AddressFault::none: break;
   }
   return {};
 }
 
-/// A registration number as it stands in the reply: upper-case hex; one that is none as it was
+/// A registration number as it stands in the reply: upper-case hex; what is no digit as it was
 /// sent, but such that the reply keeps its form.
 std::string_view replied_number(std::string_view sent, std::array<char, 2>& number) {
   number = {'0', '0'};
-  if (sent.size() == number.size() && hex_value(sent) >= 0) {
-    for (std::size_t i = 0; i < sent.size(); ++i)
-      number[i] = hex_char(static_cast<unsigned>(hex_digit(sent[i])));
-  } else {
-    for (std::size_t i = 0; i < sent.size(); ++i)
-      number[i] = sent[i] > ' ' && sent[i] < '\x7F' ? sent[i] : '0';
-  }
+  std::ranges::transform(sent, number.begin(), [](char c) {
+    if (hex_digit(c) >= 0) return hex_char(static_cast<unsigned>(hex_digit(c)));
+    return c > ' ' && c < '\x7F' ? c : '0';
+  });
   return {number.data(), number.size()};
 }
 }  // namespace
@@ -86,8 +61,7 @@ void XgtServer::on_frame(ByteView frame, Time end) {
   XgtRequest request = parse_request(frame);
   const XgtCheck check = request.fault.check;
   if (check == XgtCheck::bcc) return counters_.count_error(plc::service_status::bcc);
-  if (check == XgtCheck::station || request.station != station_)
-    return counters_.count_error(plc::service_status::station);
+  if (request.station != station_) return counters_.count_error(plc::service_status::station);
   if (check == XgtCheck::command) return counters_.count_error(plc::service_status::head);
 
   Addresses addresses;
@@ -104,7 +78,6 @@ void XgtServer::on_frame(ByteView frame, Time end) {
     execute(request, addresses, reply);
   }
   Bytes bytes;
-  bytes.reserve(frame.size() + 2 * data_size_ + 16);
   encode_reply(reply, bytes);
   replies_.put(end + delay_, std::move(bytes));
   counters_.count_service();
@@ -113,39 +86,25 @@ void XgtServer::on_frame(ByteView frame, Time end) {
 /// What only the model can tell of the names, and for Y whether there is a registration.
 void XgtServer::check_names(XgtRequest& request, Addresses& addresses) const {
   if (request.service == XgtService::run_monitor) {
-    if (registrations_[request.registration].content == XgtService::unknown) {
-      request.fault.note({XgtCheck::registered, xgt_error::not_registered, "registration number",
-                          "is not registered", 0, 4});
-    }
+    if (registrations_[request.registration].content == XgtService::unknown)
+      request.fault.note({XgtCheck::registered, xgt_error::not_registered});
     return;
   }
   const plc::PlcModel& model = memory_.model();
   for (unsigned i = 0; i < request.blocks; ++i) {
     const plc::ParsedAddress parsed = plc::parse_address(model, request.block[i].name);
     addresses[i] = parsed.address;
-    XgtFault fault = name_fault(parsed.fault);
-    const bool area_known =
-        parsed.fault != AddressFault::percent && parsed.fault != AddressFault::area;
-    if (area_known && writes(request.content) && !model.areas[parsed.address.area].write) {
-      fault.note(
-          {XgtCheck::area, xgt_error::area, "name", "is of an area that is read only", 0, 0});
-    }
-    if (addresses[i].type != 0 && addresses[0].type != 0 &&
-        addresses[i].type != addresses[0].type) {
-      fault.note({XgtCheck::equal_types, xgt_error::mixed_types, "name",
-                  "is of another type than the first", 0, 0});
-    }
-    if (!fault && is_run(request.content) && !plc::fits(model, parsed.address, request.count)) {
-      fault.note(
-          {XgtCheck::range, xgt_error::range, "number of data", "goes beyond the area", 0, 0});
-    }
-    fault.block = is_run(request.content) ? 0 : i + 1;
-    request.fault.note(fault);
+    request.fault.note(name_fault(parsed.fault));
+    if (writes(request.content) && !model.areas[parsed.address.area].write)
+      request.fault.note({XgtCheck::area, xgt_error::area});
+    if (addresses[i].type != addresses[0].type)
+      request.fault.note({XgtCheck::equal_types, xgt_error::mixed_types});
+    if (!plc::fits(model, parsed.address, request.count))
+      request.fault.note({XgtCheck::range, xgt_error::range});
   }
 }
 
 void XgtServer::execute(const XgtRequest& request, const Addresses& addresses, XgtReply& reply) {
-  data_size_ = 0;
   switch (request.service) {
     case XgtService::read_blocks:
       return read_blocks(std::span(addresses).first(request.blocks), reply);
@@ -174,26 +133,24 @@ void XgtServer::read_blocks(std::span<const plc::DeviceAddress> addresses, XgtRe
 }
 
 void XgtServer::add_data(const plc::DeviceAddress& first, unsigned count, XgtReply& reply) {
-  char* const begin = data_.data() + data_size_;
-  const unsigned digits = 2 * plc::type_bytes(first.type);
+  char* const begin = data_.data() + reply.blocks * most_digits;
+  char* end = begin;
   for (unsigned i = 0; i < count; ++i) {
     const std::uint64_t value = memory_.read(first + i);
-    for (unsigned d = digits; d-- > 0;)
-      data_[data_size_++] = hex_char(static_cast<unsigned>(value >> (4 * d)));
+    for (unsigned d = 2 * plc::type_bytes(first.type); d-- > 0;)
+      *end++ = hex_char(static_cast<unsigned>(value >> (4 * d)));
   }
-  reply.data[reply.blocks++] = {begin, count * std::size_t{digits}};
+  reply.data[reply.blocks++] = {begin, end};
 }
 
 /// Everything has been checked: a write is all or nothing.
 void XgtServer::write(const XgtRequest& request, const Addresses& addresses) {
+  const std::size_t digits = 2 * plc::type_bytes(addresses[0].type);
+  for (unsigned i = 0; i < request.count; ++i)
+    memory_.write(addresses[0] + i, data_value(request.block[0].data.substr(i * digits, digits)));
   if (request.content == XgtService::write_blocks) {
     for (unsigned i = 0; i < request.blocks; ++i)
-      memory_.write(addresses[i], value_of(request.block[i].data));
-    return memory_.written();
-  }
-  const std::size_t digits = 2 * plc::type_bytes(addresses[0].type);
-  for (unsigned i = 0; i < request.count; ++i) {
-    memory_.write(addresses[0] + i, value_of(request.block[0].data.substr(i * digits, digits)));
+      memory_.write(addresses[i], data_value(request.block[i].data));
   }
   memory_.written();
 }

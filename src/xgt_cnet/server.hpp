@@ -56,9 +56,7 @@ class XgtServer : public plc::LineService, private plc::FrameSink {
   plc::ServiceCounters counters_;
   std::array<Registration, xgt_registrations> registrations_;
   plc::ReplyQueue replies_;
-  std::array<char, 2 * xgt_max_run + 16>
-      data_;  // digits of the reply in progress; 16 LWords have 256
-  std::size_t data_size_ = 0;
+  std::array<char, 256> data_;  // digits of the reply in progress: 16 lwords, or 120 bytes
 };
 
 }  // namespace fieldproof::xgt_cnet

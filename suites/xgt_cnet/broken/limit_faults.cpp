@@ -93,10 +93,12 @@ bool shorten_name(FrameText& text) {
 }
 
 bool drop_surplus(FrameText& text) {
-  const Bytes bytes = text.bytes();
-  const xgt_cnet::XgtFault fault = xgt_cnet::parse_request(bytes).fault;
-  if (fault.check != xgt_cnet::XgtCheck::surplus) return false;
-  text.body.resize(fault.offset - 1);
+  const auto has_surplus = [&text] {
+    text.seal();
+    return xgt_cnet::parse_request(text.bytes()).fault.check == xgt_cnet::XgtCheck::surplus;
+  };
+  if (!has_surplus()) return false;
+  while (has_surplus()) text.body.pop_back();
   return true;
 }
 
