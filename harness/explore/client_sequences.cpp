@@ -332,6 +332,7 @@ void ClientSequences::try_out(const std::string& fault) {
 
 /// Numbers and flags that are their own.
 ClientSequences::SetUp ClientSequences::invent_set_up() {
+  if (pool_.groups.empty() || pool_.results.empty()) return {};
   const ClientPool::Group& group = random_.of(pool_.groups);
   SetUp set_up{group.config, {}, random_.below(SIZE_MAX)};
   std::set<BlockNumber> numbers;
@@ -342,7 +343,7 @@ ClientSequences::SetUp ClientSequences::invent_set_up() {
     auto number = pool_.results.begin();
     std::advance(number, static_cast<std::ptrdiff_t>(random_.below(pool_.results.size())));
     const std::string& flag = random_.of(pool_.flags);
-    if (pool_.results.empty() || numbers.contains(number->first) || flags.contains(flag)) continue;
+    if (numbers.contains(number->first) || flags.contains(flag)) continue;
     if (number->first.first != block.value("parameter", 1)) continue;  // of another channel
     numbers.insert(number->first);
     flags.insert(flag);

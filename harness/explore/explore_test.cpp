@@ -293,5 +293,77 @@ TEST(Explorer, AFindingIsAsShortAsItShows) {
   EXPECT_EQ(good.run(finding.shortest).verdict, Verdict::pass);
 }
 
+Explorer client_explorer(const Protocol& own, const std::string& model, InProcess& device,
+                         const std::vector<Case>& from) {
+  auto made = ClientSequences::open({&own, model}, client_pool(from, own, model), 3);
+  return Explorer({&own, [&device](const Case& one) { return device.run(one); }}, std::move(*made));
+}
+
+struct Asking {
+  const char *protocol, *folder, *model;
+};
+
+class HealthyClients : public testing::TestWithParam<Asking> {};
+
+TEST_P(HealthyClients, ShowNothing) {
+  const Protocol& own = protocol(GetParam().protocol);
+  InProcess device(own);
+  Explorer one = client_explorer(own, GetParam().model, device, cases(GetParam().folder));
+  while (one.requests_sent() < 600) one.step();
+  EXPECT_THAT(one.findings(), IsEmpty()) << one.findings().begin()->second.result.message;
+  EXPECT_EQ(one.judged(), one.sequences());
+  EXPECT_GT(one.seen().size(), 15u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Explorer, HealthyClients,
+                         testing::Values(Asking{"xgt-cnet", "xgt_cnet", "xbc-h"},
+                                         Asking{"modbus-rtu", "modbus_rtu", "xbc-h"},
+                                         Asking{"modbus-tcp", "modbus_tcp", "xbc-h"},
+                                         Asking{"xgt-fenet", "xgt_fenet", "xbc-h"},
+                                         Asking{"ls-bus", "ls_bus", "xbc-h"}),
+                         [](const auto& one) { return std::string(one.param.folder); });
+
+/// Each sixth request is not sent.
+class Tired : public broken::WrappedDevice {
+ public:
+  using WrappedDevice::WrappedDevice;
+  Bytes advance(Time now) override {
+    Bytes bytes = WrappedDevice::advance(now);
+    return !bytes.empty() && ++count_ % 6 == 0 ? Bytes{} : bytes;
+  }
+
+ private:
+  int count_ = 0;
+};
+
+TEST(Explorer, AFindingOfAClientIsAVector) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(
+      cnet,
+      [&](std::string_view model,
+          const nlohmann::json& config) -> Result<std::unique_ptr<plc::EmulatedDevice>> {
+        auto good = cnet.make_device(model, config);
+        if (!good) return good.error();
+        return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Tired>(std::move(*good)));
+      });
+  Explorer one = client_explorer(cnet, "xbc-h", device, cases("xgt_cnet"));
+  while (one.findings().empty() && one.requests_sent() < 5000) one.step();
+  ASSERT_THAT(one.findings(), Not(IsEmpty()));
+  const Finding& finding = one.findings().begin()->second;
+  EXPECT_TRUE(finding.confirmed);
+  vectors::VectorSet set;
+  vectors::load_vector_text(vector_text(finding.shortest), "finding.json", set,
+                            {suites::protocols()});
+  EXPECT_THAT(set.problems, IsEmpty());
+  ASSERT_EQ(set.cases.size(), 1u);
+  const auto requests = std::ranges::count(set.cases.front().steps, vectors::Step::Kind::expect,
+                                           &vectors::Step::kind);
+  EXPECT_LE(requests, 6);
+  EXPECT_EQ(device.run(set.cases.front()).verdict, Verdict::fail);
+  InProcess good(cnet);
+  const CaseResult healthy = good.run(set.cases.front());
+  EXPECT_EQ(healthy.verdict, Verdict::pass) << healthy.message;
+}
+
 }  // namespace
 }  // namespace fieldproof::explore

@@ -60,7 +60,7 @@ while True:
             continue
         for byte in os.read(line, 4096):
             if byte == 0x05: frame = bytearray()
-            elif frame is not None and byte != 0x04: frame.append(byte)
+            elif frame is not None and byte != 0x04: frame = frame + bytes([byte]) if len(frame) < 254 else None  # 8.1.1 Note 3)
             elif frame is not None:
                 os.write(line, reply(frame))
                 frame = None

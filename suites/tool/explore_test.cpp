@@ -51,6 +51,15 @@ TEST_F(ExploreCommand, HealthyDevicesShowNothing) {
   EXPECT_THAT(results.of("xgt_cnet/explore/rss/elsewhere")["notes"].dump(), HasSubstr("answered"));
 }
 
+TEST_F(ExploreCommand, AHealthyClientShowsNothing) {
+  const Finished finished =
+      explore({"--role", "client", "--requests", "500", "--protocol", "modbus-rtu"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("seed 1: 0 findings"));
+  EXPECT_GT(results.counts()["PASS"], 15u);
+  EXPECT_EQ(explore({"--role", "client", "--protocol", "udata"}).code, 4);
+}
+
 /// Red on the device that showed it, green on a healthy one.
 TEST_F(ExploreCommand, AFindingIsAVector) {
   const Finished finished =
@@ -104,11 +113,10 @@ TEST_F(ExploreCommand, AnInterruptReports) {
 /// half of its check is caught.
 TEST(DerivedRun, HealthyDevicesPass) {
   const TestFolder folder;
-  const Finished finished =
-      run_tool({"run", "--derived", "--filter",
-                "modbus_rtu/examples/*/derived/*:ls_bus/read/*/derived/*:"
-                "xgt_fenet/read/*/derived/split",
-                "--out", folder.path()});
+  const Finished finished = run_tool({"run", "--derived", "--filter",
+                                      "modbus_rtu/examples/*/derived/*:ls_bus/read/*/derived/*:"
+                                      "xgt_fenet/read/*/derived/split",
+                                      "--out", folder.path()});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   Results results = read_results(folder / "results.ndjson");
   EXPECT_GT(results.counts()["PASS"], 50u);
