@@ -65,7 +65,10 @@ TEST(ControlOption, SetsUpAPlc) {
        "exec:" FIELDPROOF_TOOL
        " emulate 'xbc-h?protocol=modbus-ascii&station={station}' --control - --pty {tty}",
        "--control", "-", "--protocol", "modbus-ascii", "--profile", "xbc-h", "--role", "server",
-       "--filter", "modbus_ascii/bases/*:modbus_ascii/modes/*:modbus_ascii/station*/*:*/status*/*",
+       "--filter",
+       // Counters at power-on are not seen: the bench asks before it looks.
+       "modbus_ascii/bases/*:modbus_ascii/modes/*:modbus_ascii/station*/*:*/status*/*:"
+       "-*/status/power_cycle",
        "--out", folder.path()});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   tool_tests::Results results = tool_tests::read_results(folder / "results.ndjson");
