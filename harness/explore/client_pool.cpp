@@ -38,10 +38,6 @@ bool asks_on_a_flag(const json& block) {
          !exchange::runs_by_clock(block);
 }
 
-BlockNumber number_of(const json& block) {
-  return {block.value("parameter", 1), block.value("block", 0)};
-}
-
 /// Where the case looks besides the memory of its block.
 void note_results(const Case& one, const json& block, ClientPool& pool) {
   const std::vector<Watched> own = own_memory(block);
@@ -63,26 +59,29 @@ std::set<std::size_t> open_places(const FrameTemplate& frame) {
   return open;
 }
 
-/// What is open in every request.
+/// What is open in most requests: a few vectors are about just that.
 class OpenPlaces {
  public:
-  void narrow(const Case& one, const harness::Protocol& protocol) {
+  void note(const Case& one, const harness::Protocol& protocol) {
     for (const Step& step : one.steps) {
       if (step.kind != Step::Kind::expect || step.frames.empty()) continue;
       const Result<std::vector<FrameTemplate>> frames =
           notation::make_templates(step.frames.front().notation, protocol.fields_at(1));
       if (!frames || protocol.frame_length(frames->front().bytes) == std::nullopt) continue;
-      std::set<std::size_t> open = open_places(frames->front());
-      if (any_) std::erase_if(open, [&](std::size_t at) { return !open_.contains(at); });
-      open_ = std::move(open);
-      any_ = true;
+      ++requests_;
+      for (const std::size_t at : open_places(frames->front())) ++times_[at];
     }
   }
-  std::set<std::size_t> take() { return std::move(open_); }
+  std::set<std::size_t> most() const {
+    std::set<std::size_t> open;
+    for (const auto& [at, times] : times_)
+      if (2 * times > requests_) open.insert(at);
+    return open;
+  }
 
  private:
-  bool any_ = false;
-  std::set<std::size_t> open_;
+  std::size_t requests_ = 0;
+  std::map<std::size_t, std::size_t> times_;  // by offset
 };
 
 std::size_t digits_of(const std::string& type) {
@@ -92,6 +91,10 @@ std::size_t digits_of(const std::string& type) {
 }
 
 }  // namespace
+
+BlockNumber number_of(const json& block) {
+  return {block.value("parameter", 1), block.value("block", 0)};
+}
 
 std::vector<Watched> own_memory(const json& block) {
   const char* key = block.value("function", "") == "read" ? "save" : "read";
@@ -112,7 +115,7 @@ ClientPool client_pool(const std::vector<Case>& cases, const harness::Protocol& 
   std::set<std::string> flags, seen;
   for (const Case& one : cases) {
     if (!gives_blocks(one, protocol, model)) continue;
-    open.narrow(one, protocol);
+    open.note(one, protocol);
     json rest = one.config;
     rest["p2p"].erase("blocks");
     const std::vector<json> blocks = exchange::p2p_blocks(one.config);
@@ -130,7 +133,7 @@ ClientPool client_pool(const std::vector<Case>& cases, const harness::Protocol& 
   }
   for (auto& [key, group] : groups) pool.groups.push_back(std::move(group));
   pool.flags.assign(flags.begin(), flags.end());
-  pool.open = open.take();
+  pool.open = open.most();
   return pool;
 }
 

@@ -32,8 +32,8 @@ struct ClientPool {
   std::map<BlockNumber, std::set<Watched>> results;
   /// Bits that vectors take as condition flags.
   std::vector<std::string> flags;
-  /// Bytes of a request, by offset, that vectors leave open in each: a device numbers its requests
-  /// as it likes.
+  /// Bytes of a request, by offset, that most vectors leave open: a device numbers its requests as
+  /// it likes.
   std::set<std::size_t> open;
 };
 
@@ -41,6 +41,8 @@ struct ClientPool {
 /// blocks where no vector has such.
 ClientPool client_pool(const std::vector<vectors::Case>& cases, const harness::Protocol& protocol,
                        std::string_view model);
+
+BlockNumber number_of(const nlohmann::json& block);
 
 /// The memory of its own that a block reads from or saves to: an address for each variable.
 std::vector<Watched> own_memory(const nlohmann::json& block);

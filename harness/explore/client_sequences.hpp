@@ -10,6 +10,7 @@
 
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/explore/client_pool.hpp"
+#include "harness/explore/client_script.hpp"
 #include "harness/explore/sequence.hpp"
 
 namespace fieldproof::explore {
@@ -18,14 +19,6 @@ struct Client {
   const harness::Protocol* protocol = nullptr;
   std::string model;
   bool over_the_wire = false;  // what it did before, it remembers; and no mode is changed
-};
-
-/// What is done once, and what comes of it.
-struct Stimulus {
-  std::string action;               // `do`; else the flags of these blocks rise at once:
-  std::vector<std::size_t> fired;   // in block order
-  std::vector<std::string> faults;  // of the partner, for each; "": it answers well
-  std::uint64_t data = 0;           // seed of what is read and written
 };
 
 class ClientSequences : public Inventor {
@@ -38,22 +31,13 @@ class ClientSequences : public Inventor {
   Sequence::Own invent() override;
   void note(const Topic& topic, std::uint64_t times) override { weights_.note(topic.kind, times); }
 
-  /// As a device has it: configuration and memory.
-  struct SetUp {
-    nlohmann::json config;
-    std::vector<nlohmann::json> blocks;
-    std::uint64_t data = 0;  // seed of the memory
-  };
   /// Nothing: what our own device does cannot be told in order.
-  Sequence::Own played(SetUp set_up, std::vector<Stimulus> stimuli);
-
-  const Client& client() const { return client_; }
-  const ClientPool& pool() const { return pool_; }
+  Sequence::Own played(ClientSetUp set_up, std::vector<Stimulus> stimuli);
 
  private:
   ClientSequences(Client client, ClientPool pool, std::uint64_t seed);
   void try_out(const std::string& fault);
-  SetUp invent_set_up();
+  ClientSetUp invent_set_up();
   Stimulus invent_stimulus(std::size_t blocks, bool well);
 
   Client client_;

@@ -257,6 +257,17 @@ TEST(Explorer, IsRepeatable) {
   EXPECT_EQ(first, second);
 }
 
+/// A healthy device with one of these around it.
+template <typename Broken>
+endpoints::DeviceFactory wrapped_in(const Protocol& own) {
+  return [&own](std::string_view model,
+                const nlohmann::json& config) -> Result<std::unique_ptr<plc::EmulatedDevice>> {
+    auto good = own.make_device(model, config);
+    if (!good) return good.error();
+    return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Broken>(std::move(*good)));
+  };
+}
+
 /// Loses each sixth frame.
 class Forgetful : public broken::WrappedDevice {
  public:
@@ -272,14 +283,7 @@ class Forgetful : public broken::WrappedDevice {
 /// What takes six frames is shown by six, however long the sequence was in which it was seen.
 TEST(Explorer, AFindingIsAsShortAsItShows) {
   const Protocol& cnet = protocol("xgt-cnet");
-  InProcess device(
-      cnet,
-      [&](std::string_view model,
-          const nlohmann::json& config) -> Result<std::unique_ptr<plc::EmulatedDevice>> {
-        auto good = cnet.make_device(model, config);
-        if (!good) return good.error();
-        return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Forgetful>(std::move(*good)));
-      });
+  InProcess device(cnet, wrapped_in<Forgetful>(cnet));
   Explorer one = explorer(cnet, device, cases("xgt_cnet"));
   while (one.findings().empty() && one.requests_sent() < 5000) one.step();
   ASSERT_THAT(one.findings(), Not(IsEmpty()));
@@ -323,6 +327,29 @@ INSTANTIATE_TEST_SUITE_P(Explorer, HealthyClients,
                                          Asking{"ls-bus", "ls_bus", "xbc-h"}),
                          [](const auto& one) { return std::string(one.param.folder); });
 
+/// What devices may choose: numbers of requests, what they say of their CPU, checks of these.
+TEST(ClientPool, LeavesOpenWhatVectorsLeaveOpen) {
+  const auto open = [](const char* name, const char* folder) {
+    return client_pool(cases(folder), protocol(name), "xbc-h").open;
+  };
+  EXPECT_THAT(open("xgt-fenet", "xgt_fenet"), testing::ElementsAre(10, 11, 12, 14, 15, 18, 19));
+  EXPECT_THAT(open("modbus-tcp", "modbus_tcp"), testing::ElementsAre(0, 1, 6));
+  EXPECT_THAT(open("xgt-cnet", "xgt_cnet"), IsEmpty());
+}
+
+/// A program is told of one flag after another.
+TEST(ClientSequences, FireOneBlockAtATimeOverTheWire) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  const auto made = ClientSequences::open({&cnet, "xbc-h", true},
+                                          client_pool(cases("xgt_cnet"), cnet, "xbc-h"), 3);
+  ASSERT_TRUE(made);
+  for (int i = 0; i < 100; ++i) {
+    const Sequence::Own sequence = (*made)->invent();
+    for (std::size_t part = 0; sequence && part < sequence->parts(); ++part)
+      EXPECT_NE(sequence->topic(part).kind, "at once");
+  }
+}
+
 /// Each sixth request is not sent.
 class Tired : public broken::WrappedDevice {
  public:
@@ -338,14 +365,7 @@ class Tired : public broken::WrappedDevice {
 
 TEST(Explorer, AFindingOfAClientIsAVector) {
   const Protocol& cnet = protocol("xgt-cnet");
-  InProcess device(
-      cnet,
-      [&](std::string_view model,
-          const nlohmann::json& config) -> Result<std::unique_ptr<plc::EmulatedDevice>> {
-        auto good = cnet.make_device(model, config);
-        if (!good) return good.error();
-        return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<Tired>(std::move(*good)));
-      });
+  InProcess device(cnet, wrapped_in<Tired>(cnet));
   Explorer one = client_explorer(cnet, "xbc-h", device, cases("xgt_cnet"));
   while (one.findings().empty() && one.requests_sent() < 5000) one.step();
   ASSERT_THAT(one.findings(), Not(IsEmpty()));

@@ -113,8 +113,7 @@ Memory memory_of(const std::vector<Request>& requests, const Protocol& protocol,
     for (const std::uint32_t word : all) {
       const auto place = place_of({area.first, word, word, "", area.second}, protocol);
       if (!place || !place->declared) continue;
-      std::string hex;
-      for (std::size_t i = 0; i < place->digits; ++i) hex += "0123456789ABCDEF"[random.below(16)];
+      const std::string hex = random.hex(place->digits);
       if (over_the_wire && !protocol.write_requests(station, place->address, hex))
         unsettable = true;
       else

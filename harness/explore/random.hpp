@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace fieldproof::explore {
@@ -16,6 +17,12 @@ class Random {
     return end == 0 ? 0 : static_cast<std::size_t>(generator_() % end);
   }
   bool chance(std::size_t percent) { return below(100) < percent; }
+  /// So many hex digits.
+  std::string hex(std::size_t digits) {
+    std::string text;
+    for (std::size_t i = 0; i < digits; ++i) text += "0123456789ABCDEF"[below(16)];
+    return text;
+  }
   /// Of a list that is not empty.
   template <typename List>
   auto& of(List& list) {

@@ -1,10 +1,13 @@
 // What `explore` sends to a device, one part after another, and the rule by which it is invented.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "harness/explore/random.hpp"
 #include "harness/protocol.hpp"
@@ -70,6 +73,14 @@ class Weights {
   static constexpr std::size_t first = 4, news = 16, least = 1;
   std::map<std::string, std::size_t> weights_;
 };
+
+/// A list without `count` of its items, or all that there are from `from` on.
+template <typename Item>
+std::vector<Item> left_out(std::vector<Item> items, std::size_t from, std::size_t count) {
+  const auto first = items.begin() + static_cast<std::ptrdiff_t>(from);
+  items.erase(first, first + static_cast<std::ptrdiff_t>(std::min(count, items.size() - from)));
+  return items;
+}
 
 /// A step of this kind, and no more.
 vectors::Step step_of(vectors::Step::Kind kind);

@@ -40,10 +40,7 @@ class ServerSequence : public Sequence {
   }
 
   Own without(std::size_t from, std::size_t count) const override {
-    std::vector<Request> fewer = requests_;
-    const auto first = fewer.begin() + static_cast<std::ptrdiff_t>(from);
-    fewer.erase(first, first + static_cast<std::ptrdiff_t>(std::min(count, fewer.size() - from)));
-    return inventor_.answered(std::move(fewer), &memory_);
+    return inventor_.answered(left_out(requests_, from, count), &memory_);
   }
 
   /// A real device holds something everywhere: there all that is named is given.
@@ -51,8 +48,7 @@ class ServerSequence : public Sequence {
     return inventor_.server().over_the_wire ? 0 : memory_.size();
   }
   Own without_setting(std::size_t at) const override {
-    Memory fewer = memory_;
-    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(at));
+    const Memory fewer = left_out(memory_, at, 1);
     Own lean = inventor_.answered(requests_, &fewer);
     return lean && lean->parts() == parts() ? std::move(lean) : nullptr;
   }
