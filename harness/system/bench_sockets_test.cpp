@@ -151,6 +151,18 @@ TEST_F(BenchSocketsTest, OneThatFloodsDoesNotSilenceTheOthers) {
   EXPECT_EQ(next(bench), "2 data 'heard'");
 }
 
+TEST_F(BenchSocketsTest, OneThatIsLongOverMayBeSentToAndClosedOnce) {
+  open();
+  break_off(device[0]);
+  EXPECT_EQ(next(bench), "1 reset");
+  for (LinkId link = 2; link < 5; ++link) EXPECT_EQ(open(), link);
+  EXPECT_TRUE(bench.send(to_bytes("nobody hears it"), 1));
+  EXPECT_TRUE(bench.close(1, Closing::fin));
+  EXPECT_FALSE(bench.send(to_bytes("x"), 1));
+  EXPECT_FALSE(bench.close(1, Closing::fin));
+  EXPECT_FALSE(bench.send(to_bytes("x"), 9)) << "there never was one";
+}
+
 TEST_F(BenchSocketsTest, EndingAllEndsWhatWasAndNumbersAreNotUsedAgain) {
   open();
   say(device[0], "of the case before");

@@ -1,6 +1,7 @@
 #include "harness/system/socket_links.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "harness/system/socket_listen.hpp"
 
@@ -8,7 +9,7 @@ namespace fieldproof::os {
 
 namespace {
 
-/// So many connections that are over are remembered, so that what is still sent on them is dropped.
+/// So many connections that are over are remembered, the last ones.
 constexpr std::size_t most_remembered = 200;
 /// Descriptors run out at about a thousand: further connections wait until one ends.
 constexpr std::size_t most_connections = 900;
@@ -26,7 +27,7 @@ Burst on(LinkId link, Arrival arrival) {
 }  // namespace
 
 void SocketLinks::add(LinkId link, Connection connection) {
-  prune();
+  put_aside();
   connections_.insert_or_assign(link, Link{std::move(connection)});
 }
 
@@ -47,6 +48,7 @@ std::optional<Burst> SocketLinks::take() {
   if (accepted_.empty()) {
     if (std::optional<Burst> heard = take_of_links()) return heard;
     accept_waiting();
+    if (accepted_.empty()) return std::nullopt;
   }
   if (std::optional<Burst> heard = take_of_links()) return heard;
   if (accepted_.empty()) return std::nullopt;
@@ -80,7 +82,7 @@ bool SocketLinks::is_untold(LinkId link) const {
 }
 
 void SocketLinks::accept_waiting() {
-  prune();
+  put_aside();
   for (const Listener& listener : listeners_) {
     SocketAddress from;
     while (has_room()) {
@@ -104,6 +106,8 @@ Status SocketLinks::send(LinkId link, ByteView bytes) {
     found->second.connection.write(bytes);
     return ok();
   }
+  if (const auto found = over_.find(link); found != over_.end())
+    return found->second ? ok() : fail(closed_here);
   if (const auto found = ports_.find(link); found != ports_.end() && found->second.is_open())
     return found->second.write(bytes);
   for (DatagramServer& server : servers_) {
@@ -121,6 +125,8 @@ Status SocketLinks::close(LinkId link, Closing how) {
     found->second.connection.close(how);
     return ok();
   }
+  if (const auto found = over_.find(link); found != over_.end())
+    return std::exchange(found->second, false) ? ok() : fail(closed_here);
   if (const auto found = ports_.find(link); found != ports_.end() && found->second.is_open()) {
     found->second.close();
     return ok();
@@ -141,6 +147,7 @@ void SocketLinks::flush() {
 
 void SocketLinks::end_all() {
   connections_.clear();
+  over_.clear();
   ports_.clear();
   lost_.clear();
   accepted_.clear();
@@ -154,12 +161,15 @@ void SocketLinks::lose_all() {
   std::set<LinkId> lost;
   for (const auto& [link, one] : connections_)
     if (one.connection.is_open()) lost.insert(link);
+  for (const auto& [link, open] : over_)
+    if (open) lost.insert(link);
   end_all();
   lost_ = std::move(lost);
 }
 
 void SocketLinks::end_closed() {
   std::erase_if(connections_, [](const auto& one) { return !one.second.connection.is_open(); });
+  std::erase_if(over_, [](const auto& one) { return !one.second; });
 }
 
 void SocketLinks::add_to(std::vector<pollfd>& fds, bool hearing) const {
@@ -173,9 +183,13 @@ void SocketLinks::add_to(std::vector<pollfd>& fds, bool hearing) const {
 
 bool SocketLinks::has_room() const { return connections_.size() < most_connections; }
 
-void SocketLinks::prune() {
-  if (connections_.size() < most_remembered) return;
-  std::erase_if(connections_, [](const auto& one) { return one.second.connection.is_over(); });
+void SocketLinks::put_aside() {
+  std::erase_if(connections_, [this](const auto& one) {
+    const Connection& connection = one.second.connection;
+    if (connection.is_over()) over_[one.first] = connection.is_open();
+    return connection.is_over();
+  });
+  while (over_.size() > most_remembered) over_.erase(over_.begin());
 }
 
 }  // namespace fieldproof::os

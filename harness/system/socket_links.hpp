@@ -27,7 +27,8 @@ class SocketLinks {
   void add(LinkId link, DatagramPort port);
   /// Is or was it opened here?
   bool has(LinkId link) const {
-    return connections_.contains(link) || ports_.contains(link) || lost_.contains(link);
+    return connections_.contains(link) || over_.contains(link) || ports_.contains(link) ||
+           lost_.contains(link);
   }
   /// Takes over a socket of `listen_socket`; its connections and datagrams are said to be to
   /// `port`.
@@ -72,11 +73,13 @@ class SocketLinks {
   void accept_waiting();
   bool is_untold(LinkId link) const;
   bool has_room() const;
-  void prune();
+  /// Connections that are over are looked at no more.
+  void put_aside();
 
   LinkId next_link_;
-  LinkId last_ = line_link;             // that something was taken of
-  std::map<LinkId, Link> connections_;  // the last of those that are over, too
+  LinkId last_ = line_link;  // that something was taken of
+  std::map<LinkId, Link> connections_;
+  std::map<LinkId, bool> over_;  // connections that are; is this side open? What it sends is lost
   std::map<LinkId, DatagramPort> ports_;
   std::set<LinkId> lost_;  // connections whose other side has lost its power
   std::vector<Listener> listeners_;

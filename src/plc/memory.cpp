@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <new>
 #include <stdexcept>
 
 #include "src/base/bytes.hpp"
@@ -16,7 +18,8 @@ PlcMemory::PlcMemory(const PlcModel& model) : model_(&model) {
     words += model.areas[i].words;
     contacts += model.areas[i].contacts;
   }
-  words_ = std::make_unique<std::uint16_t[]>(words);
+  words_.reset(static_cast<std::uint16_t*>(std::calloc(words, sizeof(std::uint16_t))));
+  if (!words_) throw std::bad_alloc();
   contacts_.resize(contacts);
 }
 

@@ -120,7 +120,9 @@ std::optional<std::string> refusal(ByteView message, ByteView reply) {
   if (message.size() < 2) return "the answer is no frame: " + notation::print_beginning(reply);
   if (!(message[1] & exception_bit)) return std::nullopt;
   const Byte code = message.size() > 2 ? message[2] : Byte{};
-  return fmt::format("the device answers exception {:02X} {}", code, exception_meaning(code));
+  const std::string_view meaning = exception_meaning(code);
+  return fmt::format("the device answers exception {:02X}{}{}", code,
+                     meaning.empty() ? ", which no manual has" : " ", meaning);
 }
 
 /// Functions of the Modbus standard that write and that the manual does not have: a file, a mask,
