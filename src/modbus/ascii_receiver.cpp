@@ -19,7 +19,7 @@ void AsciiReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
 
 void AsciiReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
   if (b == ':') {
-    if (state_ == State::frame) give_up(sink);
+    give_up(sink);
     frame_.assign(1, b);
     state_ = State::frame;
     return;

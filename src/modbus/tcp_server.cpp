@@ -21,7 +21,6 @@ class MbapSplitter : public plc::StreamSplitter {
 
 TcpServerConfig on_its_port(TcpServerConfig config) {
   config.tcp_port = tcp_port;
-  config.udp_port = 0;
   return config;
 }
 }  // namespace

@@ -10,6 +10,9 @@ using Operation = UdataInstruction::Operation;
 const plc::PlcModel& xbc() { return *plc::find_plc_model("xbc-h"); }
 plc::DeviceAddress at(std::string_view name) { return plc::parse_address(xbc(), name).address; }
 
+constexpr UdataModule c21a{
+    .slot = 1, .cnet = true, .new_enough = true, .channel = 2, .user_frames = true};
+
 /// Sends 10 bytes from D100 on by the RS-232C channel of a module in slot 1.
 UdataInstruction sending() {
   UdataInstruction one;
@@ -21,7 +24,7 @@ UdataInstruction sending() {
   return one;
 }
 
-std::uint16_t checked(const UdataInstruction& instruction, const UdataModule& module = {}) {
+std::uint16_t checked(const UdataInstruction& instruction, const UdataModule& module = c21a) {
   return check_udata(instruction, module, plc::PlcMemory(xbc()));
 }
 
@@ -31,14 +34,14 @@ TEST(UdataInstruction, MissesAModuleThatIsElsewhereOrNoCnet) {
   UdataInstruction one = sending();
   one.slot = 2;
   EXPECT_EQ(checked(one), udata_status::module);
-  EXPECT_TRUE(misses_module(one, {}));
+  EXPECT_TRUE(misses_module(one, c21a));
   one = sending();
   one.base = 1;
   EXPECT_EQ(checked(one), udata_status::module);
-  UdataModule emta;
+  UdataModule emta = c21a;
   emta.cnet = false;
   EXPECT_EQ(checked(sending(), emta), udata_status::module);
-  EXPECT_FALSE(misses_module(sending(), {}));
+  EXPECT_FALSE(misses_module(sending(), c21a));
 }
 
 TEST(UdataInstruction, TakesChannelOneOrTwo) {
@@ -84,7 +87,7 @@ TEST(UdataInstruction, LevelsAreZeroAndOne) {
 }
 
 TEST(UdataInstruction, NeedsUserFramesLinkAndVersion) {
-  UdataModule other, unlinked, old;
+  UdataModule other = c21a, unlinked = c21a, old = c21a;
   other.user_frames = false;
   unlinked.link = false;
   old.new_enough = false;
@@ -95,7 +98,7 @@ TEST(UdataInstruction, NeedsUserFramesLinkAndVersion) {
 
 TEST(UdataInstruction, TellsTheFirstOfSeveralFaults) {
   UdataInstruction one = sending();
-  UdataModule module;
+  UdataModule module = c21a;
   module.new_enough = module.link = false;
   EXPECT_EQ(checked(one, module), udata_status::parameters);
   one.value.constant = 0;
@@ -110,9 +113,9 @@ TEST(UdataInstruction, ReadsOperandsFromMemory) {
   plc::PlcMemory memory(xbc());
   UdataInstruction one = sending();
   one.value.word = at("%DW50");
-  EXPECT_EQ(check_udata(one, {}, memory), udata_status::value);
+  EXPECT_EQ(check_udata(one, c21a, memory), udata_status::value);
   memory.write(at("%DW50"), 3);
-  EXPECT_EQ(check_udata(one, {}, memory), udata_status::done);
+  EXPECT_EQ(check_udata(one, c21a, memory), udata_status::done);
 }
 
 TEST(UdataInstruction, BytesOfAWordGoLowFirst) {
