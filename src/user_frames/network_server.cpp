@@ -54,7 +54,8 @@ void UserFrameServer::counting(UserFramePort& port, Work work) {
   const plc::ServiceCounters& now = port.counters();
   counters_.services += now.services - before.services;
   counters_.errors += now.errors - before.errors;
-  counters_.status = now.status;
+  // A partner of whom nothing was counted does not say what the last frame was.
+  if (now.services != before.services || now.errors != before.errors) counters_.status = now.status;
 }
 
 void UserFrameServer::receive(const Burst& burst) {
