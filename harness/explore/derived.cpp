@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
-#include <functional>
 #include <map>
 #include <set>
 
@@ -57,38 +56,33 @@ std::string shape_of(std::string notation) {
   return notation;
 }
 
-/// One thing that a bad line does to a request; it is written down where somebody wants it.
-using Damage = std::function<Damaged()>;
-
-/// All of one derivation from these bytes, in their order. `bytes` must outlive them.
-std::vector<Damage> damages(const Bytes& bytes, const std::string& derivation, bool text) {
-  std::vector<Damage> all;
-  const auto add = [&](auto make) { all.emplace_back(make); };
+/// All of one derivation from these bytes, in their order.
+std::vector<Damaged> made_of(const Bytes& bytes, const std::string& derivation, bool text) {
+  std::vector<Damaged> made;
   for (std::size_t at = 0; at < bytes.size(); ++at) {
     for (unsigned bit = 0; derivation == "flipped" && bit < (text ? 7u : 8u); ++bit)
-      add([&bytes, at, bit] { return flipped(bytes, at, bit); });
-    if (derivation == "dropped") add([&bytes, at] { return dropped(bytes, at); });
-    if (derivation == "doubled") add([&bytes, at] { return doubled(bytes, at); });
+      made.push_back(flipped(bytes, at, bit));
+    if (derivation == "dropped") made.push_back(dropped(bytes, at));
+    if (derivation == "doubled") made.push_back(doubled(bytes, at));
     if (at == 0) continue;
-    if (derivation == "cut") add([&bytes, at] { return cut(bytes, at); });
-    if (derivation == "split") add([&bytes, at] { return paused(bytes, at, {0, false}); });
+    if (derivation == "cut") made.push_back(cut(bytes, at));
+    if (derivation == "split") made.push_back(paused(bytes, at, {0, false}));
     // Around 3.5 characters, by which Modbus RTU and the manuals' inter-character time end a frame.
     if (derivation == "paused")
       for (const double characters : {1.0, 3.0, 5.0, 20.0})
-        add([&bytes, at, characters] { return paused(bytes, at, {characters, true}); });
+        made.push_back(paused(bytes, at, {characters, true}));
   }
   if (derivation == "noise")
     for (const Byte byte : {Byte{0x00}, Byte{0x2A}, Byte{0x7F}}) {
-      add([&bytes, byte] { return with_byte_before(bytes, byte); });
-      add([&bytes, byte] { return with_byte_behind(bytes, byte); });
+      made.push_back(with_byte_before(bytes, byte));
+      made.push_back(with_byte_behind(bytes, byte));
     }
-  if (derivation == "joined")
-    add([&bytes] {
-      Bytes twice = bytes;
-      twice.insert(twice.end(), bytes.begin(), bytes.end());
-      return Damaged{raw_notation(twice), "twice without a pause"};
-    });
-  return all;
+  if (derivation == "joined") {
+    Bytes twice = bytes;
+    twice.insert(twice.end(), bytes.begin(), bytes.end());
+    made.push_back({raw_notation(twice), "twice without a pause"});
+  }
+  return made;
 }
 
 template <typename List>
@@ -133,44 +127,45 @@ Result<std::optional<Case>> case_of(const Case& source, std::vector<Request> wro
   return std::optional(std::move(one));
 }
 
-Request damaged(const Request& right, const std::string& derivation, const Damage& damage) {
-  Damaged made = damage();
-  return {right.topic, right.vector,           std::move(made.notation),
-          derivation,  std::move(made.change), {}};
+/// So many of them make a case: a server ends a connection that rests for long.
+constexpr std::size_t in_one_case = 48;
+
+using Wanted = std::function<bool(const std::string& id)>;
+
+/// Of the `index`-th case of one derivation.
+std::string case_id(const Case& source, const std::string& derivation, std::size_t index) {
+  return fmt::format("{}/derived/{}{}", source.id, derivation,
+                     index == 0 ? "" : fmt::format("_{}", index + 1));
 }
 
-/// Derives the cases of one request.
-struct Deriver {
-  const Case& source;
-  const Request& right;
-  const Protocol& protocol;
-  int station;
-  Oracle& oracle;
-  const std::function<bool(const std::string& id)>& wanted;
+/// Most requests are not worth their derivations, for nobody wants one. No derivation makes more of
+/// a byte than it has bits.
+bool is_any_wanted(const Case& source, const std::string& derivation, std::size_t bytes,
+                   const Wanted& wanted) {
+  for (std::size_t index = 0; index <= 8 * bytes / in_one_case; ++index)
+    if (wanted(case_id(source, derivation, index))) return true;
+  return false;
+}
 
-  /// A case for so many of them: a server ends a connection that rests for long.
-  Status add_cases(const std::string& derivation, const std::vector<Damage>& all,
-                   std::vector<Case>& cases) const {
-    constexpr std::size_t in_one_case = 48;
-    for (std::size_t from = 0; from < all.size(); from += in_one_case) {
-      const std::string id =
-          fmt::format("{}/derived/{}{}", source.id, derivation,
-                      from == 0 ? "" : fmt::format("_{}", from / in_one_case + 1));
-      if (!wanted(id)) continue;
-      std::vector<Request> wrong;
-      for (std::size_t i = from; i < std::min(from + in_one_case, all.size()); ++i)
-        wrong.push_back(damaged(right, derivation, all[i]));
-      Result<std::vector<Request>> told = tellable(std::move(wrong), right, source.memory, oracle);
-      if (!told) return told.error();
-      if (told->empty()) continue;
-      Result<std::optional<Case>> one =
-          case_of(source, std::move(*told), right, protocol, station, oracle, id);
-      if (!one) return one.error();
-      if (*one) cases.push_back(std::move(**one));
-    }
-    return ok();
+Status add_cases(const Case& source, const Request& right, const std::vector<Request>& wrong,
+                 const Protocol& protocol, int station, Oracle& oracle, const Wanted& wanted,
+                 std::vector<Case>& cases) {
+  for (std::size_t from = 0; from < wrong.size(); from += in_one_case) {
+    const std::string id = case_id(source, wrong.front().kind, from / in_one_case);
+    if (!wanted(id)) continue;
+    const auto begin = wrong.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto end =
+        wrong.begin() + static_cast<std::ptrdiff_t>(std::min(from + in_one_case, wrong.size()));
+    Result<std::vector<Request>> told = tellable({begin, end}, right, source.memory, oracle);
+    if (!told) return told.error();
+    if (told->empty()) continue;
+    Result<std::optional<Case>> one =
+        case_of(source, std::move(*told), right, protocol, station, oracle, id);
+    if (!one) return one.error();
+    if (*one) cases.push_back(std::move(**one));
   }
-};
+  return ok();
+}
 
 }  // namespace
 
@@ -185,9 +180,14 @@ std::vector<Request> derived_from(const Request& request, const std::string& der
   const Result<Bytes> bytes = safety::bytes_of(request.notation, protocol.fields_at(station));
   std::vector<Request> derived;
   if (!bytes) return derived;
-  std::vector<Damage> all = damages(*bytes, derivation, protocol.is_text());
-  sample(all, at_most, seed);
-  for (const Damage& one : all) derived.push_back(damaged(request, derivation, one));
+  for (Damaged& one : made_of(*bytes, derivation, protocol.is_text()))
+    derived.push_back({request.topic,
+                       request.vector,
+                       std::move(one.notation),
+                       derivation,
+                       std::move(one.change),
+                       {}});
+  sample(derived, at_most, seed);
   return derived;
 }
 
@@ -218,11 +218,12 @@ Result<std::vector<Case>> derived_cases(const std::vector<Case>& cases,
     const Request right{"", source.id, send.frames.front().notation};
     const Result<Bytes> bytes = safety::bytes_of(right.notation, protocol->fields_at(station));
     if (!bytes) continue;
-    const Deriver deriver{source, right, *protocol, station, oracle->second, wanted};
     for (const std::string& derivation : derivations(*protocol)) {
-      std::vector<Damage> all = damages(*bytes, derivation, protocol->is_text());
-      sample(all, at_most, seed);
-      if (const Status added = deriver.add_cases(derivation, all, derived); !added)
+      if (!is_any_wanted(source, derivation, bytes->size(), wanted)) continue;
+      if (const Status added = add_cases(
+              source, right, derived_from(right, derivation, *protocol, station, at_most, seed),
+              *protocol, station, oracle->second, wanted, derived);
+          !added)
         return added.error();
     }
   }

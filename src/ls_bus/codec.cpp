@@ -8,6 +8,7 @@ namespace {
 constexpr std::size_t shortest_frame = 1 + 2 + 1 + 2 + 1;  // header, station, command, sum, EOT
 
 std::optional<unsigned> hex_value(ByteView digits) {
+  if (digits.empty()) return std::nullopt;
   unsigned value = 0;
   for (const Byte b : digits) {
     const int digit = hex_digit(static_cast<char>(b));
@@ -102,12 +103,13 @@ LsRequest parse_ls_request(ByteView frame, LsWriteOrder order) {
 }
 
 Bytes encode_ls_request(const LsRequest& request, LsWriteOrder order) {
-  Bytes frame = begin_frame(ls_enq, *request.station, request.command);
+  Bytes frame = begin_frame(ls_enq, request.station.value_or(0), request.command);
   const std::string address = hex_number(request.address, 4), count = hex_number(request.count, 1);
   const bool write = request.command == 'W';
   const bool count_first = write && order == LsWriteOrder::count_first;
   append(frame, count_first ? count + address : address + count);
-  if (write) append_words(frame, std::span(request.data).first(request.count));
+  if (write)
+    append_words(frame, std::span(request.data).first(std::min(request.count, ls_max_words)));
   end_frame(frame);
   return frame;
 }
@@ -167,11 +169,10 @@ bool LsReceiver::take(Byte b) {
     return false;
   }
   if (!inside_) return false;
-  inside_ = frame_.size() < buffer_size;
-  if (!inside_) return false;
+  inside_ = frame_.size() < buffer_size && b != ls_eot;
+  if (frame_.size() == buffer_size) return false;
   frame_.push_back(b);
-  inside_ = b != ls_eot;
-  return !inside_;
+  return b == ls_eot;
 }
 
 }  // namespace fieldproof::ls_bus

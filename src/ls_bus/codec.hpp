@@ -53,12 +53,12 @@ std::string_view ls_error_code(LsFault fault);
 
 struct LsRequest {
   std::optional<unsigned>
-      station;     // nothing: no two hex digits, or the frame is too short to be answered
-  char command{};  // as sent
-  unsigned address{};
-  unsigned count{};
+      station;       // nothing: no two hex digits, or the frame is too short to be answered
+  char command = 0;  // as sent
+  unsigned address = 0;
+  unsigned count = 0;
   std::array<std::uint16_t, ls_max_words> data{};  // of a write
-  LsFault fault{};  // `range` and `rights` are for the inverter to find
+  LsFault fault = LsFault::none;  // `range` and `rights` are for the inverter to find
 };
 
 /// Never fails and never reads past the frame, which reaches from ENQ to EOT.
@@ -71,11 +71,11 @@ Bytes encode_ls_nak(unsigned station, char command, std::string_view code);
 
 /// What an inverter answered.
 struct LsReply {
-  bool whole{};  // station, command and sum are there
-  bool sum_right{};
-  bool ack{};                       // else NAK
+  bool whole = false;  // station, command and sum are there
+  bool sum_right = false;
+  bool ack = false;                 // else NAK
   std::optional<unsigned> station;  // nothing: no two hex digits
-  char command{};
+  char command = 0;
   ByteView content{};  // words of an ACK, code of a NAK; points into the frame
 };
 

@@ -16,7 +16,7 @@ namespace fieldproof::ls_bus {
 
 struct InverterConfig {
   unsigned station = 1;  // 0-255 (Cnet EN 4.3.1)
-  LsWriteOrder write_order{};
+  LsWriteOrder write_order = LsWriteOrder::address_first;
   Duration delay{};  // of a reply
 };
 

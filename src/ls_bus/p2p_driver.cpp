@@ -32,7 +32,10 @@ class LsBusP2pDriver : public p2p::P2pDriver {
   void receive(const Burst& burst, FrameSink& sink) override;
   std::optional<Time> wake_at() const override;
   void advance(Time now, FrameSink& sink) override;
-  void reset() override { receiver_.reset(); }
+  void reset() override {
+    receiver_.reset();
+    noise_ = false;
+  }
 
  private:
   void take_byte(Byte b, Time end, FrameSink& sink);
@@ -41,8 +44,10 @@ class LsBusP2pDriver : public p2p::P2pDriver {
   LsWriteOrder write_order_;
   Duration gap_;
   LsReceiver receiver_{LsReceiver::Side::client};
-  Time frame_end_{};  // where nothing more arrives
-  LsRequest sent_;    // the reply to a write repeats its data, whatever memory holds by then
+  bool noise_ = false;  // a run of bytes outside frames, already told
+  Time last_end_{};
+  Duration character_time_{};
+  LsRequest sent_;  // the reply to a write repeats its data, whatever memory holds by then
 };
 
 Status LsBusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
@@ -78,7 +83,7 @@ Result<Bytes> LsBusP2pDriver::request(const P2pBlock& block, const PlcMemory& me
            .command = writes(block) ? 'W' : 'R',
            .address = *parse_ls_address(variable.partner),
            .count = block.elements()};
-  for (unsigned i = 0; i < sent_.count; ++i)
+  for (unsigned i = 0; writes(block) && i < sent_.count; ++i)
     sent_.data.at(i) = static_cast<std::uint16_t>(memory.read(variable.own + i));
   return encode_ls_request(sent_, write_order_);
 }
@@ -112,21 +117,32 @@ std::uint16_t LsBusP2pDriver::take_ack(const P2pBlock& block, const LsReply& rep
 }
 
 void LsBusP2pDriver::receive(const Burst& burst, FrameSink& sink) {
-  for (const Byte b : burst.bytes) take_byte(b, burst.end(), sink);
-  // A character that begins at the last moment is complete, and heard, one character time later.
-  frame_end_ = burst.end() + gap_ + burst.character_time + Duration(1);
+  if (burst.bytes.empty()) return;
+  Time end = burst.start;
+  for (const Byte b : burst.bytes) {
+    end += burst.character_time;
+    take_byte(b, end, sink);
+  }
+  last_end_ = end;
+  character_time_ = burst.character_time;
 }
 
 void LsBusP2pDriver::take_byte(Byte b, Time end, FrameSink& sink) {
   const bool was_inside = receiver_.inside();
-  if (receiver_.take(b)) return sink.on_frame(receiver_.frame(), end);
+  if (receiver_.take(b)) {
+    noise_ = false;
+    return sink.on_frame(receiver_.frame(), end);
+  }
   if (receiver_.inside()) return;
-  sink.on_broken_frame(was_inside ? plc::service_status::too_long : plc::service_status::head);
+  if (was_inside) return sink.on_broken_frame(plc::service_status::too_long);
+  if (!noise_) sink.on_broken_frame(plc::service_status::head);
+  noise_ = true;
 }
 
 std::optional<Time> LsBusP2pDriver::wake_at() const {
   if (!receiver_.inside()) return std::nullopt;
-  return frame_end_;
+  // A character that begins at the last moment is complete, and heard, one character time later.
+  return last_end_ + gap_ + character_time_ + Duration(1);
 }
 
 void LsBusP2pDriver::advance(Time now, FrameSink& sink) {

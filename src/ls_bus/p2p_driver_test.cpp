@@ -145,8 +145,8 @@ TEST_F(LsBusP2p, FindsRepliesAndTellsWhatIsNone) {
   Log log;
   const Bytes reply = ack("01R1234");
   driver->receive({to_bytes("\x05??"), 1ms, 1ms}, log);
-  EXPECT_EQ(log.broken, Broken(3, p2p::p2p_error::head)) << "the echo of a request";
-  log.broken.clear();
+  EXPECT_EQ(log.broken, Broken{p2p::p2p_error::head})
+      << "the echo of a request, once for a run of bytes";
   driver->receive({reply, 10ms, 1ms}, log);
   EXPECT_EQ(log.frames, std::vector<Bytes>{reply});
   EXPECT_EQ(driver->wake_at(), std::nullopt);
@@ -154,8 +154,8 @@ TEST_F(LsBusP2p, FindsRepliesAndTellsWhatIsNone) {
   EXPECT_EQ(log.frames.size(), 2u);
   driver->receive({Bytes(1, ls_ack), 100ms, 1ms}, log);
   driver->receive({Bytes(300, '0'), 101ms, 1ms}, log);
-  EXPECT_EQ(log.broken.front(), p2p::p2p_error::length);
-  EXPECT_EQ(log.broken.back(), p2p::p2p_error::head);
+  EXPECT_EQ(log.broken,
+            (Broken{p2p::p2p_error::head, p2p::p2p_error::length, p2p::p2p_error::head}));
 }
 
 TEST_F(LsBusP2p, SilenceWithoutTailEndsAFrame) {

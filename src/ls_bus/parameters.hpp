@@ -10,8 +10,8 @@
 namespace fieldproof::ls_bus {
 
 struct ParameterRange {
-  std::uint16_t first{}, last{};  // both belong to it
-  bool write{};
+  std::uint16_t first = 0, last = 0;  // both belong to it
+  bool write = false;
 };
 
 /// In the order of their addresses; what lies between them does not exist.

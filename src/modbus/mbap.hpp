@@ -22,9 +22,9 @@ constexpr std::size_t mbap_prefix = 6;
 constexpr unsigned mbap_least_length = 2, mbap_most_length = 260;
 
 struct MbapHeader {
-  std::uint16_t transaction{};
-  std::uint16_t protocol{};
-  std::uint16_t length{};
+  std::uint16_t transaction = 0;
+  std::uint16_t protocol = 0;
+  std::uint16_t length = 0;
 
   bool length_is_possible() const {
     return length >= mbap_least_length && length <= mbap_most_length;

@@ -8,10 +8,12 @@ namespace fieldproof::modbus {
 namespace service_status = plc::service_status;
 
 void MbapReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
+  if (lost_) return;
   heard_.insert(heard_.end(), burst.bytes.begin(), burst.bytes.end());
   std::size_t taken = 0;
   while (const std::optional<MbapHeader> header = read_mbap(ByteView(heard_).subspan(taken))) {
     if (!header->length_is_possible()) {
+      lost_ = true;
       heard_.clear();
       return sink.on_broken_frame(header->length < mbap_least_length ? service_status::not_modbus
                                                                      : service_status::too_long);
@@ -21,6 +23,11 @@ void MbapReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
     taken += header->frame_size();
   }
   heard_.erase(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(taken));
+}
+
+void MbapReceiver::reset() {
+  heard_.clear();
+  lost_ = false;
 }
 
 }  // namespace fieldproof::modbus

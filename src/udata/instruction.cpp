@@ -43,8 +43,8 @@ void put_status(const UdataInstruction& instruction, std::uint16_t status, PlcMe
 
 Bytes read_data(const UdataInstruction& instruction, const PlcMemory& memory) {
   Bytes data(instruction.value.read(memory));
-  std::uint32_t i = 0;
-  for (Byte& b : data) b = static_cast<Byte>(memory.read(instruction.data + i++));
+  for (std::uint32_t i = 0; i < data.size(); ++i)
+    data[i] = static_cast<Byte>(memory.read(instruction.data + i));
   return data;
 }
 

@@ -23,18 +23,18 @@ constexpr std::uint16_t before = 0, done = 1, module = 2, channel = 3, value = 4
 
 /// The module whose channel is on this line, and how that channel is set up.
 struct UdataModule {
-  unsigned slot{};  // 0: the built-in channels (Cnet KO 10.1.2)
-  bool cnet{};
-  bool new_enough{};  // an external module: V1.4 or above
-  unsigned channel{};
-  bool user_frames{};  // the P2P driver of the channel
-  bool link = true;    // link enable
-  bool hangs = false;  // does not answer the CPU
+  unsigned slot = 1;  // 0: the built-in channels (Cnet KO 10.1.2)
+  bool cnet = true;
+  bool new_enough = true;  // an external module: V1.4 or above
+  unsigned channel = 2;
+  bool user_frames = true;  // the P2P driver of the channel
+  bool link = true;         // link enable
+  bool hangs = false;       // does not answer the CPU
 };
 
 /// A constant, or a word of memory that is read at the rising edge.
 struct UdataOperand {
-  std::uint16_t constant{};
+  std::uint16_t constant = 0;
   std::optional<plc::DeviceAddress> word{};
 
   unsigned read(const plc::PlcMemory& memory) const {
@@ -46,10 +46,10 @@ struct UdataInstruction {
   enum class Operation { send, receive, dtr, rts };
 
   std::string name;  // "SNDUDATA"
-  Operation operation{};
-  bool iec{};
+  Operation operation = Operation::send;
+  bool iec = false;
   plc::DeviceAddress request{};  // a bit
-  unsigned base{}, slot{};       // MK: sl; an XGB has base 0 alone
+  unsigned base = 0, slot = 0;   // MK: sl; an XGB has base 0 alone
   UdataOperand channel{};
   UdataOperand value{};                        // send: bytes; DTR and RTS: the level
   plc::DeviceAddress data{};                   // send and receive: a byte

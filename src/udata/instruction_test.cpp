@@ -10,9 +10,6 @@ using Operation = UdataInstruction::Operation;
 const plc::PlcModel& xbc() { return *plc::find_plc_model("xbc-h"); }
 plc::DeviceAddress at(std::string_view name) { return plc::parse_address(xbc(), name).address; }
 
-constexpr UdataModule c21a{
-    .slot = 1, .cnet = true, .new_enough = true, .channel = 2, .user_frames = true};
-
 /// Sends 10 bytes from D100 on by the RS-232C channel of a module in slot 1.
 UdataInstruction sending() {
   UdataInstruction one;
@@ -24,7 +21,7 @@ UdataInstruction sending() {
   return one;
 }
 
-std::uint16_t checked(const UdataInstruction& instruction, const UdataModule& module = c21a) {
+std::uint16_t checked(const UdataInstruction& instruction, const UdataModule& module = {}) {
   return check_udata(instruction, module, plc::PlcMemory(xbc()));
 }
 
@@ -34,14 +31,14 @@ TEST(UdataInstruction, MissesAModuleThatIsElsewhereOrNoCnet) {
   UdataInstruction one = sending();
   one.slot = 2;
   EXPECT_EQ(checked(one), udata_status::module);
-  EXPECT_TRUE(misses_module(one, c21a));
+  EXPECT_TRUE(misses_module(one, {}));
   one = sending();
   one.base = 1;
   EXPECT_EQ(checked(one), udata_status::module);
-  UdataModule emta = c21a;
+  UdataModule emta;
   emta.cnet = false;
   EXPECT_EQ(checked(sending(), emta), udata_status::module);
-  EXPECT_FALSE(misses_module(sending(), c21a));
+  EXPECT_FALSE(misses_module(sending(), {}));
 }
 
 TEST(UdataInstruction, TakesChannelOneOrTwo) {
@@ -87,7 +84,7 @@ TEST(UdataInstruction, LevelsAreZeroAndOne) {
 }
 
 TEST(UdataInstruction, NeedsUserFramesLinkAndVersion) {
-  UdataModule other = c21a, unlinked = c21a, old = c21a;
+  UdataModule other, unlinked, old;
   other.user_frames = false;
   unlinked.link = false;
   old.new_enough = false;
@@ -98,7 +95,7 @@ TEST(UdataInstruction, NeedsUserFramesLinkAndVersion) {
 
 TEST(UdataInstruction, TellsTheFirstOfSeveralFaults) {
   UdataInstruction one = sending();
-  UdataModule module = c21a;
+  UdataModule module;
   module.new_enough = module.link = false;
   EXPECT_EQ(checked(one, module), udata_status::parameters);
   one.value.constant = 0;
@@ -113,9 +110,9 @@ TEST(UdataInstruction, ReadsOperandsFromMemory) {
   plc::PlcMemory memory(xbc());
   UdataInstruction one = sending();
   one.value.word = at("%DW50");
-  EXPECT_EQ(check_udata(one, c21a, memory), udata_status::value);
+  EXPECT_EQ(check_udata(one, {}, memory), udata_status::value);
   memory.write(at("%DW50"), 3);
-  EXPECT_EQ(check_udata(one, c21a, memory), udata_status::done);
+  EXPECT_EQ(check_udata(one, {}, memory), udata_status::done);
 }
 
 TEST(UdataInstruction, BytesOfAWordGoLowFirst) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,7 +14,15 @@ namespace fieldproof::udata {
 namespace {
 
 constexpr char carriage_return = 0x0D;
-constexpr std::string_view deliver = "deliver ";
+constexpr std::size_t longest_command = 1024;  // one UDATA instruction
+constexpr std::string_view dial = "ATDT", deliver = "deliver ";
+
+bool dials(std::string_view command) {
+  return command.starts_with(dial) && command.size() > dial.size() &&
+         std::ranges::all_of(command.substr(dial.size()),
+                             [](char c) { return c >= '0' && c <= '9'; });
+}
+
 }  // namespace
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_modem(const nlohmann::json& config) {
@@ -37,32 +46,37 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_modem(const nlohmann::json& co
 }
 
 void Modem::receive(const Burst& burst) {
-  if (!config_.dtr || !config_.rts) return;
-  for (const Byte b : burst.bytes) take(b, burst.end());
+  Time end = burst.start;
+  for (const Byte b : burst.bytes) {
+    end += burst.character_time;
+    if (dtr_ && rts_) take(b, end);
+  }
+  now_ = std::max(now_, end);
 }
 
 void Modem::take(Byte b, Time now) {
   if (connected_) return passed_on_.push_back(b);
   if (b == carriage_return) return take_command(now);
-  command_.push_back(static_cast<char>(b));
+  if (command_.size() < longest_command) command_.push_back(static_cast<char>(b));
 }
 
 void Modem::take_command(Time now) {
   const std::string command = std::exchange(command_, {});
-  if (!command.starts_with("AT")) return;
+  if (!command.starts_with("AT")) return counters_.count_error(plc::service_status::head);
+  counters_.count_service();
   if (!config_.sms.empty() && command.starts_with(config_.sms)) return take_sms(now);
-  connected_ = command.starts_with("ATDT");
-  reply((connected_ ? "CONNECT" : "OK") + config_.reply_end);
+  connected_ = !config_.rcu_890 && dials(command);
+  reply(now, (connected_ ? "CONNECT" : "OK") + config_.reply_end);
 }
 
 void Modem::take_sms(Time now) {
   const std::string& end = config_.reply_end;
   if (config_.rcu_890) {
-    reply("*SKT*PRIMO:0" + end + "OK" + end);
+    reply(now, "*SKT*PRIMO:0" + end + "OK" + end);
     report(now, (config_.network ? "*SKT*MOACK:0,1" : "*SKT*MOACK:0,0") + end);
     return;
   }
-  reply("OK" + end);
+  reply(now, "OK" + end);
   if (config_.network) report(now, "$006" + end);
 }
 
@@ -71,15 +85,19 @@ std::optional<Time> Modem::wake_at() const {
 }
 
 Bytes Modem::advance(Time now) {
+  now_ = std::max(now_, now);
   Bytes bytes = replies_.take(now);
   return bytes.empty() ? reports_.take(now) : bytes;
 }
 
+const bool* Modem::switch_at(std::string_view address) const {
+  if (address == "@dtr") return &dtr_;
+  if (address == "@rts") return &rts_;
+  return address == "@network" ? &config_.network : nullptr;
+}
+
 Status Modem::set(std::string_view address, std::string_view hex) {
-  bool* const one = address == "@dtr"       ? &config_.dtr
-                    : address == "@rts"     ? &config_.rts
-                    : address == "@network" ? &config_.network
-                                            : nullptr;
+  bool* const one = const_cast<bool*>(switch_at(address));
   if (!one)
     return fail(
         fmt::format("cannot set {}: a modem has no memory; use @dtr, @rts or @network", address));
@@ -89,9 +107,10 @@ Status Modem::set(std::string_view address, std::string_view hex) {
   return ok();
 }
 
-Result<std::string> Modem::get(std::string_view address, std::size_t) const {
-  if (address != "@data")
-    return fail(fmt::format("cannot get {}: a modem has no memory; use @data", address));
+Result<std::string> Modem::get(std::string_view address, std::size_t digits) const {
+  if (const bool* const one = switch_at(address))
+    return hex_number(*one, static_cast<int>(digits == 0 ? 2 : digits));
+  if (address != "@data") return plc::get_counter(counters_, address, digits);
   std::string hex;
   for (const Byte b : passed_on_) hex += hex_number(b, 2);
   return hex;
@@ -101,7 +120,7 @@ Status Modem::act(std::string_view action) {
   if (action.starts_with(deliver)) {
     if (!connected_)
       return fail("cannot deliver: no modem is connected; dial with ATDT and a number first");
-    reply(std::string(action.substr(deliver.size())));
+    reply(now_, std::string(action.substr(deliver.size())));
     return ok();
   }
   if (action != "power_cycle")
@@ -111,6 +130,7 @@ Status Modem::act(std::string_view action) {
   passed_on_.clear();
   replies_.clear();
   reports_.clear();
+  counters_ = {};
   return ok();
 }
 

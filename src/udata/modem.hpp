@@ -6,7 +6,7 @@
 //                                                   modem sends OK'
 //   AT+CRM=129 CR            (11 bytes)             OK
 //   any other AT command, ending with CR            OK
-//   ATDT01094714031 CR       (16 bytes)             CONNECT; from then on data passes in both
+//   ATDT01094714031 CR       (16 bytes), BSM-856R   CONNECT; from then on data passes in both
 //                                                   directions
 //   the SMS command, BSM-856R                       OK, later $006; without a network no $006
 //   the SMS command, RCU-890                        *SKT*PRIMO:0 and OK, later *SKT*MOACK:0,1;
@@ -21,14 +21,15 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "src/plc/counters.hpp"
 #include "src/plc/emulated_device.hpp"
 #include "src/plc/reply_queue.hpp"
 
 namespace fieldproof::udata {
 
 struct ModemConfig {
-  bool rcu_890{};   // else BSM-856R
-  std::string sms;  // how an SMS command begins: "AT+..."; empty: none is known
+  bool rcu_890 = false;  // else BSM-856R
+  std::string sms;       // how an SMS command begins: "AT+..."; empty: none is known
   bool network = true;
   Duration network_time = 1s;  // until the network has taken an SMS
   std::string reply_end;
@@ -38,7 +39,8 @@ struct ModemConfig {
 
 class Modem : public plc::SerialDevice {
  public:
-  explicit Modem(ModemConfig config) : config_(std::move(config)) {}
+  explicit Modem(ModemConfig config)
+      : config_(std::move(config)), dtr_(config_.dtr), rts_(config_.rts) {}
 
   void receive(const Burst& burst) override;
   std::optional<Time> wake_at() const override;
@@ -46,7 +48,8 @@ class Modem : public plc::SerialDevice {
 
   /// "@dtr", "@rts" and "@network": 00 or 01.
   Status set(std::string_view address, std::string_view hex) override;
-  /// "@data": what the other modem has received, in hex, all of it.
+  /// Those, "@data" (what the other modem has received, in hex: all of it, however many `digits` are
+  /// asked for) and counters.
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   /// "power_cycle", and "deliver TEXT": the other modem sends it.
   Status act(std::string_view action) override;
@@ -55,16 +58,20 @@ class Modem : public plc::SerialDevice {
   void take(Byte b, Time now);
   void take_command(Time now);
   void take_sms(Time now);
-  void reply(const std::string& text) { replies_.put({}, to_bytes(text)); }
+  void reply(Time due, const std::string& text) { replies_.put(due, to_bytes(text)); }
   void report(Time now, const std::string& text) {
     reports_.put(now + config_.network_time, to_bytes(text));
   }
+  const bool* switch_at(std::string_view address) const;
 
   ModemConfig config_;
+  bool dtr_, rts_;
   bool connected_ = false;
   std::string command_;
   Bytes passed_on_;
+  Time now_{};
   plc::ReplyQueue replies_, reports_;  // reports come from the network, whatever is asked meanwhile
+  plc::ServiceCounters counters_;
 };
 
 /// `config`: modem (bsm-856r, rcu-890), sms, network, network_ms, reply_end, dtr, rts, and those of

@@ -29,8 +29,10 @@ UdataPort::UdataPort(const UdataConfig& config, plc::PlcMemory& memory)
       gap_(config.port.gap()) {}
 
 void UdataPort::receive(const Burst& burst) {
-  // A character that begins at the last moment is complete, and heard, one character time later.
-  datum_end_ = burst.end() + gap_ + burst.character_time + Duration(1);
+  if (burst.bytes.empty()) return;
+  last_end_ = burst.end();
+  now_ = std::max(now_, last_end_);
+  character_time_ = burst.character_time;
   if (!hears()) return;
   for (const Byte b : burst.bytes) {
     heard_.push_back(b);
@@ -39,25 +41,28 @@ void UdataPort::receive(const Burst& burst) {
 }
 
 void UdataPort::end_datum() {
+  if (heard_.empty()) return;
   if (received_.size() < most_held) {
     received_.push_back(std::move(heard_));
     counters_.count_service();
   } else {
-    ++counters_.errors;
+    counters_.count_error(plc::service_status::too_long);
   }
   heard_.clear();
 }
 
 std::optional<Time> UdataPort::wake_at() const {
   std::optional<Time> first = program_.wake_at();
-  if (!heard_.empty()) first = std::min(first.value_or(Time::max()), datum_end_);
+  // A character that begins at the last moment is complete, and heard, one character time later.
+  if (!heard_.empty())
+    first = std::min(first.value_or(Time::max()), last_end_ + gap_ + character_time_ + Duration(1));
   return queue_.wake_at(first);
 }
 
 Bytes UdataPort::advance(Time now) {
-  if (!heard_.empty() && now >= datum_end_) end_datum();
-  program_.advance(now, memory_);
-  scan();
+  now_ = std::max(now_, now);
+  if (!heard_.empty() && now > last_end_ + gap_ + character_time_) end_datum();
+  if (program_.advance(now_, memory_)) scan();
   return queue_.take(now);
 }
 
@@ -70,7 +75,7 @@ void UdataPort::scan() {
 
 void UdataPort::send(Bytes data) {
   counters_.count_service();
-  queue_.put({}, std::move(data));
+  queue_.put(now_, std::move(data));
 }
 
 std::optional<Bytes> UdataPort::take_received() {
@@ -81,18 +86,31 @@ std::optional<Bytes> UdataPort::take_received() {
 }
 
 Result<std::string> UdataPort::get(std::string_view name, std::size_t digits) const {
-  if (name == "@dtr") return hex_number(dtr_, 2);
-  if (name == "@rts") return hex_number(rts_, 2);
+  const auto level = [digits](bool on) {
+    return hex_number(on, static_cast<int>(digits == 0 ? 2 : digits));
+  };
+  if (name == "@dtr") return level(dtr_);
+  if (name == "@rts") return level(rts_);
   return plc::get_counter(counters_, name, digits);
+}
+
+void UdataPort::set_run(bool run) {
+  run_ = run;
+  if (!run) forget();
 }
 
 void UdataPort::power_cycle() {
   counters_ = {};
   dtr_ = rts_ = false;
-  heard_.clear();
   received_.clear();
   program_.reset();
   program_.look(memory_);
+  forget();
+}
+
+void UdataPort::forget() {
+  heard_.clear();
+  queue_.clear();
 }
 
 }  // namespace fieldproof::udata

@@ -30,7 +30,7 @@ class UdataPort : public plc::LineService, private UdataChannel {
   Result<std::string> get(std::string_view name, std::size_t digits) const override;
   /// What was received, the counters and the control lines are lost.
   void power_cycle() override;
-  void set_run(bool run) override { run_ = run; }
+  void set_run(bool run) override;
   /// The program of the PLC runs.
   void scan() override;
 
@@ -42,16 +42,18 @@ class UdataPort : public plc::LineService, private UdataChannel {
 
   bool hears() const { return run_ && module_.cnet && module_.user_frames && module_.link; }
   void end_datum();
+  void forget();
 
   plc::PlcMemory& memory_;
   UdataModule module_;
   UdataProgram program_;
   Duration gap_;
-  bool run_{};  // its PLC says it
+  bool run_ = true;
   bool dtr_ = false, rts_ = false;
   Bytes heard_;                 // of the datum that arrives
   std::deque<Bytes> received_;  // oldest first
-  Time datum_end_{};            // where nothing more arrives
+  Time last_end_{}, now_{};
+  Duration character_time_{};
   plc::ReplyQueue queue_;
   plc::ServiceCounters counters_;
 };

@@ -22,11 +22,17 @@ void set_error_flag(const UdataInstruction& instruction, bool error, PlcMemory& 
 }  // namespace
 
 void UdataProgram::scan(PlcMemory& memory, UdataChannel& channel) {
-  // A result can raise the request of an instruction before it, even in a circle: so many scans are
-  // enough for a chain of all of them, and a circle goes on in the next call.
-  for (std::size_t scans = 0; scans < instructions_.size(); ++scans)
-    for (std::size_t i = 0; i < instructions_.size(); ++i)
-      if (rises(i, memory)) execute(i, memory, channel);
+  // Results can raise requests in a circle: a program that keeps itself busy gets so many scans at
+  // once.
+  for (std::size_t left = instructions_.size() + 1; left > 0; --left) {
+    bool executed = false;
+    for (std::size_t i = 0; i < instructions_.size(); ++i) {
+      if (!rises(i, memory) || states_[i].waits) continue;
+      execute(i, memory, channel);
+      executed = true;
+    }
+    if (!executed) return;
+  }
 }
 
 void UdataProgram::look(const PlcMemory& memory) {
@@ -77,7 +83,8 @@ std::optional<Time> UdataProgram::wake_at() const {
   return first;
 }
 
-void UdataProgram::advance(Time now, PlcMemory& memory) {
+bool UdataProgram::advance(Time now, PlcMemory& memory) {
+  bool wrote = false;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     State& state = states_[i];
     if (!state.waits) continue;
@@ -86,7 +93,9 @@ void UdataProgram::advance(Time now, PlcMemory& memory) {
     state.waits = false;
     state.give_up.reset();
     put_status(instructions_[i], udata_status::time_out, memory);
+    wrote = true;
   }
+  return wrote;
 }
 
 }  // namespace fieldproof::udata

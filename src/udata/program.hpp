@@ -28,8 +28,9 @@ class UdataProgram {
   UdataProgram(std::vector<UdataInstruction> instructions, const UdataModule& module)
       : module_(module), instructions_(std::move(instructions)), states_(instructions_.size()) {}
 
-  /// Executes each instruction whose request has risen since the last scan, in program order, and
-  /// those whose requests the results raise.
+  /// Executes each instruction whose request has risen since the last scan, in program order, until
+  /// no result raises another one. A request that rises while its instruction waits for the module
+  /// is lost.
   void scan(plc::PlcMemory& memory, UdataChannel& channel);
 
   /// Takes the requests as they are, without executing anything: STOP.
@@ -41,12 +42,12 @@ class UdataProgram {
   /// Time-outs. `wake_at` lies in the past until `advance` has told an instruction when its second
   /// begins.
   std::optional<Time> wake_at() const;
-  /// A result can raise a request: scan afterwards.
-  void advance(Time now, plc::PlcMemory& memory);
+  /// Returns whether a result was written: then there is something to scan.
+  bool advance(Time now, plc::PlcMemory& memory);
 
  private:
   struct State {
-    bool requested{};
+    bool requested = false;
     bool waits = false;  // for a module that hangs
     std::optional<Time> give_up{};
   };

@@ -1,6 +1,7 @@
 // What no harness could beat: another process that answers so many bytes with so many others.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,7 +10,6 @@
 #include <stdexcept>
 
 #include "src/base/bytes.hpp"
-#include "suites/benchmark/benchmarks.hpp"
 
 namespace fieldproof::suites {
 
@@ -41,16 +41,18 @@ class BareEcho {
   pid_t child_;
 };
 
+inline void make_blocking(int fd) { fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK); }
+
 /// Of a descriptor that blocks.
-inline double bare_round_trip_us(int bench, const Bytes& request, std::size_t reply) {
+inline void bare_round_trip(int bench, const Bytes& request, std::size_t reply) {
   Bytes buffer(256);
-  return microseconds([&] {
-    if (write(bench, request.data(), request.size()) < 0)
-      throw std::runtime_error("bare write failed");
-    for (std::size_t have = 0; have < reply;)
-      have +=
-          static_cast<std::size_t>(std::max<ssize_t>(0, read(bench, buffer.data(), buffer.size())));
-  });
+  if (write(bench, request.data(), request.size()) < 0)
+    throw std::runtime_error("bare write failed");
+  for (std::size_t have = 0; have < reply;) {
+    const ssize_t got = read(bench, buffer.data(), buffer.size());
+    if (got <= 0) throw std::runtime_error("bare read failed");
+    have += static_cast<std::size_t>(got);
+  }
 }
 
 }  // namespace fieldproof::suites

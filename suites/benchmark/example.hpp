@@ -11,14 +11,20 @@
 
 namespace fieldproof::suites {
 
+/// Its value; a benchmark ends at an error.
+template <typename T>
+T value_of(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
 /// Ready for the first exchange.
 inline std::unique_ptr<endpoints::Endpoint> open(const std::string& text,
                                                  const harness::Protocol& protocol) {
-  Result<std::unique_ptr<endpoints::Endpoint>> endpoint =
-      endpoints::open_endpoint(*endpoints::parse_endpoint(text), protocol);
-  if (!endpoint) throw std::runtime_error(endpoint.error().message);
-  if (!(*endpoint)->begin(nlohmann::json::object())) throw std::runtime_error("cannot begin");
-  return std::move(*endpoint);
+  std::unique_ptr<endpoints::Endpoint> endpoint =
+      value_of(endpoints::open_endpoint(*endpoints::parse_endpoint(text), protocol));
+  if (!endpoint->begin(nlohmann::json::object())) throw std::runtime_error("cannot begin");
+  return endpoint;
 }
 
 struct Example {

@@ -1,11 +1,10 @@
 // Exchanges on serial lines: in process, and over a pty against what the system itself takes.
-#include <fcntl.h>
-
 #include "harness/bench/bench.hpp"
 #include "harness/paths.hpp"
 #include "harness/system/pty_pair.hpp"
 #include "suites/benchmark/bare_echo.hpp"
 #include "suites/benchmark/benchmarks.hpp"
+#include "suites/benchmark/compare.hpp"
 #include "suites/benchmark/example.hpp"
 #include "suites/protocols.hpp"
 
@@ -52,29 +51,20 @@ void load_all_vectors(benchmark::State& state) {
   }
 }
 
-/// Both kinds in turn, so that they see the same machine.
 void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
   const Example one(read_one_word, xgt());
   const std::unique_ptr<Endpoint> endpoint = open("pty:xbc-h", xgt());
   exchange::Exchange exchange(*endpoint, xgt(), {});
   const Bytes request = one.prepared.steps[0].frames[0].frame.bytes;
   const std::size_t reply = one.prepared.steps[1].frames[0].frame.bytes.size();
-  Result<os::PtyPair> pair = os::open_pty_pair();
-  if (!pair) throw std::runtime_error(pair.error().message);
-  const BareEcho echo(pair->slave.get(), request.size(), reply);
-  fcntl(pair->master.get(), F_SETFL, fcntl(pair->master.get(), F_GETFL) & ~O_NONBLOCK);
-  std::vector<double> ours, bare;
-  for (auto _ : state) {
-    (void)_;
-    bare.push_back(bare_round_trip_us(pair->master.get(), request, reply));
-    exchange::Transcript transcript;
-    ours.push_back(microseconds([&] { transcript = exchange.run_steps(one.prepared); }));
-    one.judge(transcript);
-  }
-  state.counters["bare_median_us"] = median(bare);
-  state.counters["exchange_median_us"] = median(ours);
-  state.counters["ratio"] = median(ours) / median(bare);
+  const os::PtyPair pair = value_of(os::open_pty_pair());
+  const BareEcho echo(pair.slave.get(), request.size(), reply);
+  make_blocking(pair.master.get());
+  compare(
+      state, 1, [&] { bare_round_trip(pair.master.get(), request, reply); },
+      [&] { return exchange.run_steps(one.prepared); }, one);
 }
+
 }  // namespace
 
 void register_exchanges(bool brief) {

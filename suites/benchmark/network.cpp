@@ -1,13 +1,13 @@
 // Exchanges with an FEnet server: in process, and over loopback against what the system itself
 // takes.
 #include <fmt/format.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <sys/socket.h>
 
-#include "harness/system/unique_fd.hpp"
+#include "harness/system/socket_connect.hpp"
+#include "harness/system/socket_listen.hpp"
 #include "suites/benchmark/bare_echo.hpp"
 #include "suites/benchmark/benchmarks.hpp"
+#include "suites/benchmark/compare.hpp"
 #include "suites/benchmark/example.hpp"
 #include "suites/protocols.hpp"
 
@@ -40,29 +40,20 @@ void fenet_in_process(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * reads);
 }
 
-/// Two ends of one connection over loopback.
+/// Two ends of one connection over loopback, which block.
 struct Connection {
   os::UniqueFd bench, device;
 
   Connection() {
-    const os::UniqueFd listener(socket(AF_INET, SOCK_STREAM, 0));
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* generic = reinterpret_cast<sockaddr*>(&address);
-    bench = os::UniqueFd(socket(AF_INET, SOCK_STREAM, 0));
-    if (bind(listener.get(), generic, size) < 0 || listen(listener.get(), 1) < 0 ||
-        getsockname(listener.get(), generic, &size) < 0 || connect(bench.get(), generic, size) < 0)
-      throw std::runtime_error("no connection over loopback");
-    device = os::UniqueFd(accept(listener.get(), nullptr, nullptr));
-    const int on = 1;
-    for (const os::UniqueFd* end : {&bench, &device})
-      setsockopt(end->get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    const os::UniqueFd listener = value_of(os::listen_socket({"127.0.0.1", 0}, SOCK_STREAM));
+    bench = value_of(os::connect_socket(to_string(os::local_address(listener.get())), SOCK_STREAM));
+    os::SocketAddress from;
+    device = os::accept_socket(listener.get(), from);
+    make_blocking(bench.get());
+    make_blocking(device.get());
   }
 };
 
-/// Both kinds in turn, so that they see the same machine.
 void fenet_over_loopback_against_bare_ping_pong(benchmark::State& state, const std::string& tool) {
   const Example example = reads_of_a_word();
   const auto endpoint =
@@ -72,19 +63,12 @@ void fenet_over_loopback_against_bare_ping_pong(benchmark::State& state, const s
   const std::size_t reply = example.prepared.steps[1].frames[0].frame.bytes.size();
   const Connection connection;
   const BareEcho echo(connection.device.get(), request.size(), reply);
-  std::vector<double> ours, bare;
-  for (auto _ : state) {
-    (void)_;
-    bare.push_back(microseconds([&] {
-      for (int i = 0; i < reads; ++i) bare_round_trip_us(connection.bench.get(), request, reply);
-    }));
-    exchange::Transcript transcript;
-    ours.push_back(microseconds([&] { transcript = exchange.run_steps(example.prepared); }));
-    example.judge(transcript);
-  }
-  state.counters["bare_median_us"] = median(bare) / reads;
-  state.counters["exchange_median_us"] = median(ours) / reads;
-  state.counters["ratio"] = median(ours) / median(bare);
+  compare(
+      state, reads,
+      [&] {
+        for (int i = 0; i < reads; ++i) bare_round_trip(connection.bench.get(), request, reply);
+      },
+      [&] { return exchange.run_steps(example.prepared); }, example);
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ void p2p_on_two_channels(benchmark::State& state, Time end) {
   state.counters["services"] =
       static_cast<double>(services) / static_cast<double>(state.iterations());
 }
+
 /// X-NET on simulated time, until `end`: what is done to it every 12 s keeps it busy.
 void xnet_until(benchmark::State& state, Time end, const std::string& model,
                 const nlohmann::json& config, const std::vector<std::string>& actions) {
@@ -88,6 +89,7 @@ void xnet_until(benchmark::State& state, Time end, const std::string& model,
     }
   }
 }
+
 }  // namespace
 
 /// An hour of 20 axes that move most of the time; an hour of 32 stations with traffic.

@@ -56,6 +56,7 @@ void tool_run(benchmark::State& state, const std::string& tool,
 }
 
 constexpr const char* repeated = "xgt_cnet/rss/two_words/lower";
+
 }  // namespace
 
 /// Each kind of run by each tool in turn, so that they see the same machine.

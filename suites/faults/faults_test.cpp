@@ -113,8 +113,8 @@ TEST(Exploring, FindsMostFaultsOfAServer) {
   ASSERT_NE(kit, all.end());
   const std::vector<vectors::Case> cases =
       vectors::load_vectors(folder, {suites::protocols(), kit->folder + "/*"}).cases;
-  const std::vector<bool> found = found_by_exploring(*kit, cases, 400);
-  EXPECT_GE(std::ranges::count(found, true), static_cast<std::ptrdiff_t>(found.size() / 2));
+  const std::vector<bool> found = found_by_exploring(*kit, cases, 1000);
+  EXPECT_GE(std::ranges::count(found, true), static_cast<std::ptrdiff_t>(found.size() * 6 / 10));
 }
 
 }  // namespace
