@@ -104,7 +104,7 @@ void register_simulated(bool brief) {
     reads.push_back(fmt::format("REG_READ net 1 station {} D0 count 125 to D0", station));
   }
   benchmark::RegisterBenchmark("xnet/hour_of_20_axes", [=](benchmark::State& state) {
-    xnet_until(state, end, "xdc", {{"servos", 20}}, moves);
+    xnet_until(state, end, "xdc", {{"servos", 20u}}, moves);
   })->Unit(benchmark::kSecond);
   benchmark::RegisterBenchmark("xnet/hour_of_32_stations", [=](benchmark::State& state) {
     xnet_until(state, end, "xd3", net, reads);
