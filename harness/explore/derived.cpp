@@ -85,8 +85,7 @@ std::vector<Damaged> made_of(const Bytes& bytes, const std::string& derivation, 
   return made;
 }
 
-template <typename List>
-void sample(List& list, std::size_t at_most, std::uint64_t seed) {
+void sample(std::vector<Request>& list, std::size_t at_most, std::uint64_t seed) {
   Random random(seed);
   while (at_most > 0 && list.size() > at_most)
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(random.below(list.size())));

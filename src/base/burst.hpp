@@ -41,6 +41,12 @@ struct Burst {
 
   /// The end of the last stop bit.
   Time end() const { return start + character_time * static_cast<Duration::rep>(bytes.size()); }
+
+  /// Gives `take` each byte, and the end of that byte's stop bit.
+  void for_each(auto&& take) const {
+    Time end = start;
+    for (const Byte b : bytes) take(b, end += character_time);
+  }
 };
 
 /// The moments at which a transmission began and its last stop bit ended.

@@ -27,13 +27,11 @@ Result<unsigned> find_parameter(const InverterParameters& parameters, std::strin
 }  // namespace
 
 void Inverter::receive(const Burst& burst) {
-  Time end = burst.start;
-  for (const Byte b : burst.bytes) {
-    end += burst.character_time;
-    if (!receiver_.take(b)) continue;
+  burst.for_each([&](Byte b, Time end) {
+    if (!receiver_.take(b)) return;
     Bytes reply = answer(receiver_.frame());
     if (!reply.empty()) replies_.put(end + config_.delay, std::move(reply));
-  }
+  });
 }
 
 LsFault Inverter::check(const LsRequest& request) const {

@@ -118,12 +118,8 @@ std::uint16_t LsBusP2pDriver::take_ack(const P2pBlock& block, const LsReply& rep
 
 void LsBusP2pDriver::receive(const Burst& burst, FrameSink& sink) {
   if (burst.bytes.empty()) return;
-  Time end = burst.start;
-  for (const Byte b : burst.bytes) {
-    end += burst.character_time;
-    take_byte(b, end, sink);
-  }
-  last_end_ = end;
+  burst.for_each([&](Byte b, Time end) { take_byte(b, end, sink); });
+  last_end_ = burst.end();
   character_time_ = burst.character_time;
 }
 

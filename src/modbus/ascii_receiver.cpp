@@ -8,12 +8,8 @@ namespace fieldproof::modbus {
 void AsciiReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
   if (burst.start - last_end_ > max_gap) give_up(sink);
-  Time end = burst.start;
-  for (const Byte b : burst.bytes) {
-    end += burst.character_time;
-    take(b, end, sink);
-  }
-  last_end_ = end;
+  burst.for_each([&](Byte b, Time end) { take(b, end, sink); });
+  last_end_ = burst.end();
   character_time_ = burst.character_time;
 }
 

@@ -46,12 +46,8 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_modem(const nlohmann::json& co
 }
 
 void Modem::receive(const Burst& burst) {
-  Time end = burst.start;
-  for (const Byte b : burst.bytes) {
-    end += burst.character_time;
-    if (dtr_ && rts_) take(b, end);
-  }
-  now_ = std::max(now_, end);
+  if (dtr_ && rts_) burst.for_each([&](Byte b, Time end) { take(b, end); });
+  now_ = std::max(now_, burst.end());
 }
 
 void Modem::take(Byte b, Time now) {

@@ -9,13 +9,11 @@ void FrameFinder::receive(const Burst& burst, Sink& sink) {
     take_frames(burst.start, true, sink);
     passing_over_ = false;
   }
-  Time end = burst.start;
-  for (const Byte b : burst.bytes) {
-    end += burst.character_time;
+  burst.for_each([&](Byte b, Time end) {
     heard_.push_back(b);
     take_frames(end, false, sink);
-  }
-  last_end_ = end;
+  });
+  last_end_ = burst.end();
   character_time_ = burst.character_time;
 }
 

@@ -22,12 +22,8 @@ bool FrameReceiver::is_head(Byte b) const {
 
 void FrameReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
   if (burst.start - last_end_ > gap_) give_up(sink);
-  Time end = burst.start;
-  for (const Byte b : burst.bytes) {
-    end += burst.character_time;
-    take(b, end, sink);
-  }
-  last_end_ = end;
+  burst.for_each([&](Byte b, Time end) { take(b, end, sink); });
+  last_end_ = burst.end();
   character_time_ = burst.character_time;
 }
 
