@@ -73,12 +73,22 @@ std::string read_lock(const fs::path& folder) {
   return lock ? *lock : "";
 }
 
+int tell_problems(const vectors::VectorSet& set, const std::vector<std::string>& problems) {
+  for (const std::string& problem : problems) run::tell(fmt::format("{}\n", problem));
+  run::tell(fmt::format("{} cases, {} tables, {} statements, {} errata: {} problems\n",
+                        set.cases.size(), set.tables.size(), set.statements.size(),
+                        set.errata.size(), problems.size()));
+  return problems.empty() ? run::exit_code::ok : run::exit_code::usage;
+}
+
 }  // namespace
 
 int lint_command(const LintOptions& options, const harness::Protocols& protocols) {
   const harness::DataPaths data = harness::find_data();
   const fs::path folder = run::vectors_path(options.vectors);
   vectors::VectorSet set = vectors::load_vectors(folder, {protocols});
+  // What a file that cannot be read holds would be missed everywhere else: that says nothing new.
+  if (set.unreadable) return tell_problems(set, set.problems);
   vectors::load_wires(folder, set);
   run::add_decisions(folder, set);
   std::vector<std::string> problems = set.problems;
@@ -100,11 +110,7 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
                          run::exit_code::usage);
   if (options.lock && quotes.empty())
     std::ofstream(folder / "quotes.lock") << vectors::quotes_lock(set);
-  for (const std::string& problem : problems) run::tell(fmt::format("{}\n", problem));
-  run::tell(fmt::format("{} cases, {} tables, {} statements, {} errata: {} problems\n",
-                        set.cases.size(), set.tables.size(), set.statements.size(),
-                        set.errata.size(), problems.size()));
-  return problems.empty() ? run::exit_code::ok : run::exit_code::usage;
+  return tell_problems(set, problems);
 }
 
 }  // namespace fieldproof::cli

@@ -297,6 +297,16 @@ TEST_F(Lint, names_what_is_cited_and_not_there) {
                                   HasSubstr("m/1 has neither a vector nor a reason")));
 }
 
+TEST_F(Lint, says_of_a_file_that_cannot_be_read_that_alone) {
+  ordered_json bad = good_;
+  bad["statement"] = "m/2";
+  folder_.write("vectors/statements/n.json", R"([{"id": "m/2", "section": "1",, "quote": "q"}])");
+  const Finished finished = lint(bad);
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("statements/n.json: "), HasSubstr(": 1 problems"),
+                                  testing::Not(HasSubstr("no statement"))));
+}
+
 TEST_F(Lint, notices_a_changed_quote_without_the_manuals) {
   ordered_json bad = good_;
   bad["source"]["quote"] = "reads two words from the device";
