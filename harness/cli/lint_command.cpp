@@ -87,8 +87,8 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
   const harness::DataPaths data = harness::find_data();
   const fs::path folder = run::vectors_path(options.vectors);
   vectors::VectorSet set = vectors::load_vectors(folder, {protocols});
-  // What a file that cannot be read holds would be missed everywhere else: that says nothing new.
-  if (set.unreadable) return tell_problems(set, set.problems);
+  // What was not read would be missed everywhere else: that says nothing new.
+  if (!set.problems.empty()) return tell_problems(set, set.problems);
   vectors::load_wires(folder, set);
   run::add_decisions(folder, set);
   std::vector<std::string> problems = set.problems;

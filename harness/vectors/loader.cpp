@@ -130,7 +130,7 @@ class FolderLoader {
     if (!options_.known_set.empty() && !all_are_known() && find_statements(options_.known_set))
       load_all_statements(false);
     set_.hash = fmt::format("{:016x}", hash_);
-    if (set_.unreadable) return;  // what it holds would be missed everywhere else
+    if (!set_.problems.empty()) return;  // what was not read would be missed everywhere else
     resolve_errata(set_);
     resolve_citations(set_);
   }
@@ -140,7 +140,6 @@ class FolderLoader {
     try {
       act();
     } catch (const std::exception& error) {
-      set_.unreadable = true;
       set_.problems.push_back(fmt::format("{}: {}", name, error.what()));
     }
   }

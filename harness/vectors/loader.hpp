@@ -52,8 +52,7 @@ struct VectorSet {
   std::map<std::string, results::SectionTitles> sections;  // by manual
   std::vector<Decision> decisions;                         // load_decisions
   std::vector<std::string> problems;
-  bool unreadable = false;  // a file as a whole: others will miss what it holds
-  std::string hash;         // of all files, to tell vector sets apart
+  std::string hash;  // of all files, to tell vector sets apart
 };
 
 /// The folder of its vectors, with which their ids begin: "xgt_cnet".
