@@ -198,31 +198,51 @@ Result<Fingerprint> Bench::fingerprint() {
 
 CaseResult Bench::run(const Case& source) {
   CaseResult result = judging::result_of(source);
+  if (declines(source, result)) return result;
+  try_out(result);
+  conclude(result);
+  return result;
+}
+
+std::optional<CaseResult> Bench::run_ahead(const Case& source) {
+  CaseResult result = judging::result_of(source);
+  if (declines(source, result)) return std::nullopt;
+  try_out(result);
+  return known_->stopped.empty() ? std::optional(std::move(result)) : std::nullopt;
+}
+
+/// Not sent at all: `result` says why.
+bool Bench::declines(const Case& source, CaseResult& result) {
   result.replay = options_.replay + "'" + source.id + "'";
-  const auto decline = [&](const Eligibility& why) {
-    result.verdict = why.verdict;
-    result.message = why.reason;
-    return result;
-  };
   if (vectors::is_client_case(source) && endpoint_.capabilities().real_device) arming_.greet();
   const Ready& ready = ready_for(source);
-  if (!ready.prepared) return decline(ready.why);
-  if (!known_->stopped.empty()) return decline({Verdict::blocked, known_->stopped});
+  if (ready.prepared && known_->stopped.empty()) return false;
+  result.verdict = ready.prepared ? Verdict::blocked : ready.why.verdict;
+  result.message = ready.prepared ? known_->stopped : ready.why.reason;
+  return true;
+}
+
+/// Once it is not declined.
+void Bench::try_out(CaseResult& result) {
+  const Ready& ready = last_ready_;
   for (const results::Move& move : ready.moves)
     result.notes.push_back(safety::note_of(move, protocol_));
   set_up_answered_ = true;
   execute(*ready.prepared, result);
   if (known_->port_failed && !known_->interrupted) start_again(result);
   if (endpoint_.capabilities().shared) look_for_others(*ready.prepared, result);
-  known_->set_up_findings.note(result);
   if (endpoint_.capabilities().real_device && !ready.prepared->is_client() &&
       known_->stopped.empty() && known_->disturbed == 0)
     known_->stopped = known_->worth_asking.after(result, protocol_, set_up_answered_);
   if (!result.recording.stimulus.empty()) result.recording.moves = ready.moves;
+}
+
+void Bench::conclude(CaseResult& result) {
+  known_->readings.note(result);
+  known_->set_up_findings.note(result);
   known_->errors_in_a_row = result.verdict == Verdict::error ? known_->errors_in_a_row + 1 : 0;
   if (known_->errors_in_a_row == errors_to_stop && known_->stopped.empty())
     stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));
-  return result;
 }
 
 void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
@@ -251,7 +271,6 @@ void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
       std::ranges::any_of(result.response_ms, [&](double ms) { return ms < earliest; }))
     if (const Status quiet = exchange_.settle(options_.profile.response_max); !quiet)
       stop("the port failed after " + result.id + ": " + quiet.error().message, &quiet.error());
-  known_->readings.note(result);
 }
 
 /// What it sets in a partner of the device.

@@ -98,6 +98,11 @@ class Bench {
 
   /// Never throws; whatever goes wrong is in the result. The case outlives the bench.
   results::CaseResult run(const vectors::Case& source);
+  /// On simulated time: the same without what it says of the device, for `conclude` of another
+  /// bench of the same device. Nothing: it has to be run there.
+  std::optional<results::CaseResult> run_ahead(const vectors::Case& source);
+  /// Takes in what a case says of the device, in the order of the cases.
+  void conclude(results::CaseResult& result);
 
   /// Would it be sent, for all that can be known before?
   bool could_run(const vectors::Case& source) const;
@@ -132,6 +137,8 @@ class Bench {
                                                // the moves; nullptr: as it is printed
     std::optional<exchange::PreparedCase> prepared;  // of one of the two; nothing: see `why`
   };
+  bool declines(const vectors::Case& source, results::CaseResult& result);
+  void try_out(results::CaseResult& result);
   Ready make_ready(const vectors::Case& source) const;
   const Ready& ready_for(const vectors::Case& source);
   Eligibility outside_profile(const vectors::Case& source) const;

@@ -119,6 +119,18 @@ results::CaseResult Benches::run(const vectors::Case& source) {
   return bench_for(source).run(source);
 }
 
+std::optional<results::CaseResult> Benches::run_ahead(const vectors::Case& source) {
+  return bench_for(source).run_ahead(source);
+}
+
+results::CaseResult Benches::conclude(const vectors::Case& source,
+                                      std::optional<results::CaseResult> ahead) {
+  Bench& bench = bench_for(source);
+  if (!ahead || !bench.stopped().empty()) return bench.run(source);
+  bench.conclude(*ahead);
+  return std::move(*ahead);
+}
+
 std::vector<bool> Benches::which_could_run(const std::vector<const vectors::Case*>& cases,
                                            const BenchOptions* options) const {
   std::vector<bool> could;

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ class Benches {
   /// On the bench of the case's protocol; a case of another protocol is SKIP. A device that can be
   /// set up is set up as the case needs it.
   results::CaseResult run(const vectors::Case& source);
+  /// Bench::run_ahead, and what another one of this device makes of it.
+  std::optional<results::CaseResult> run_ahead(const vectors::Case& source);
+  results::CaseResult conclude(const vectors::Case& source, std::optional<results::CaseResult> ahead);
   /// The cases that want one set-up behind each other, those of the declared device first: each
   /// change may cost a restart.
   std::vector<const vectors::Case*> grouped(const std::vector<const vectors::Case*>& cases) const;
@@ -55,6 +59,8 @@ class Benches {
   std::pair<const harness::Protocol*, std::vector<harness::Protocol::Written>> written_by(
       const vectors::Case& source) const;
 
+  /// Does time cost nothing, and is each case a device of its own?
+  bool simulated() const { return members_.front().endpoint->capabilities().simulated; }
   /// Do the links carry speed and character format?
   bool wire() const { return members_.front().endpoint->capabilities().wire; }
   /// Closes the ports; nothing but opening anew may follow.

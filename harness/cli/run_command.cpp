@@ -24,6 +24,7 @@
 #include "harness/run/look_on.hpp"
 #include "harness/run/port_wait.hpp"
 #include "harness/run/ports.hpp"
+#include "harness/run/run_ahead.hpp"
 #include "harness/run/run_info.hpp"
 #include "harness/run/run_plan.hpp"
 #include "harness/run/run_report.hpp"
@@ -40,6 +41,7 @@ namespace fieldproof::cli {
 using bench::Benches;
 using compare::RunSummary;
 using results::CaseResult;
+using run::RunAhead;
 using run::RunOptions;
 using run::RunPlan;
 using run::RunReport;
@@ -82,10 +84,15 @@ class Run {
   RunReport::End execute(const Status& started) {
     started_ = std::chrono::steady_clock::now();
     if (started && !plan_.others.empty()) return share_out();
+    if (started && !go_ahead()) {
+      finish_up();
+      return end_;
+    }
     if (started) {
       bench::run_with_gtest(
           plan_.selected, runner_options(),
-          [this](const Case& source, int round) { return run_case(source, round); });
+          [this](const Case& source, int round) { return run_or_ask(source, round); });
+      if (ahead_ && !stopped_) ahead_->finish(taker());
       if (soak_ && report_.tally().total() > 0) report_.add(soak_->summary(seconds()));
       // Whoever vanished is trouble, whatever the verdict of the case in which it did. Steps of a
       // matrix are BLOCKED.
@@ -109,8 +116,30 @@ class Run {
   }
 
  private:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  double seconds() const { return since(started_); }
+
+  static double since(std::chrono::steady_clock::time_point started) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  }
+
+  /// Cases on simulated time run in threads. False: they cannot.
+  bool go_ahead() {
+    if (!benches_.simulated()) return true;
+    Result<std::vector<Benches>> more = run::open_more(
+        plan_, plan_.selected.size() * static_cast<std::size_t>(options_.repeat));
+    if (!more) end_.trouble = more.error().message;
+    if (!more || more->empty()) return bool(more);
+    more_ = std::move(*more);
+    std::vector<RunAhead::Runner> runners;
+    for (Benches& one : more_)
+      runners.push_back([&one](const Case& source) {
+        const auto started = std::chrono::steady_clock::now();
+        std::optional<CaseResult> result = one.run_ahead(source);
+        if (result) result->seconds = since(started);
+        return result;
+      });
+    ahead_.emplace(std::move(runners));
+    return true;
   }
 
   /// With --loop: the floor of that link, for this one.
@@ -236,12 +265,25 @@ class Run {
     std::ranges::stable_sort(tasks, std::ranges::greater(), seconds);
   }
 
+  /// On simulated time the cases are run by threads, and their results taken here, in order.
+  bool run_or_ask(const Case& source, int round) {
+    return ahead_ ? ahead_->ask(source, round, taker()) : take({&source, round});
+  }
+
+  RunAhead::Take taker() {
+    return [this](RunAhead::Outcome outcome) { return take(std::move(outcome)); };
+  }
+
   /// False: stop here. GoogleTest would swallow what is thrown, and the run would stay green.
-  bool run_case(const Case& source, int round) try {
-    return run_one(source, round);
-  } catch (const std::exception& error) {
-    end_.trouble = run::internal_error(source, error);
-    return false;
+  bool take(RunAhead::Outcome outcome) {
+    const Case& source = *outcome.source;
+    try {
+      stopped_ = !run_one(source, outcome.round, std::move(outcome.result));
+    } catch (const std::exception& error) {
+      end_.trouble = run::internal_error(source, error);
+      stopped_ = true;
+    }
+    return !stopped_;
   }
 
   bool too_many_failures() const {
@@ -266,7 +308,8 @@ class Run {
     }
   }
 
-  bool run_one(const Case& source, int round) {
+  /// `ahead`: what a thread has made of it.
+  bool run_one(const Case& source, int round, std::optional<CaseResult> ahead) {
     if (os::interrupted()) {
       end_.interrupted = true;
       return false;
@@ -278,9 +321,10 @@ class Run {
     const auto started = std::chrono::steady_clock::now();
     watchdog_.watch(source.id);
     const bool enough = too_many_failures();
+    const double took = ahead ? ahead->seconds : -1;
     CaseResult result = enough   ? not_run(source)
                         : matrix ? lines_.run(source)
-                                 : benches_.run(source);
+                                 : benches_.conclude(source, std::move(ahead));
     const bool hung = watchdog_.done();
     if (benches_.interrupted() && !hung) {
       end_.interrupted = true;  // the case was not finished: it has no result
@@ -292,8 +336,7 @@ class Run {
     settle(result);
     note(source, result);
     result.repeat = soak ? round : round % options_.repeat;
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    result.seconds = took < 0 ? since(started) : took;
     const bool stop_here =
         hung || (options_.fail_fast && results::gates(result.verdict, report_.gate()));
     return (soak ? add_to_soak(result) : report_.add(result)) && !stop_here;
@@ -358,6 +401,9 @@ class Run {
   bench::Watchdog watchdog_;
   bench::Waivers waivers_{plan_.waivers, run::timestamp().substr(0, 10), plan_.identity.firmware};
   run::LineSteps lines_;
+  std::vector<Benches> more_;      // of the threads, which `ahead_` ends first
+  std::optional<RunAhead> ahead_;  // nothing: one case after another
+  bool stopped_ = false;           // no further case is wanted
   std::optional<run::SoakLog> soak_;
   std::vector<std::string> floors_;  // of each port: what its link can show, in words
   std::vector<std::string> unable_;  // of each port: why it cannot run; empty: it can

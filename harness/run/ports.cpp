@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
+#include <thread>
 #include <tuple>
 
 #include "harness/bench/what_to_check.hpp"
@@ -199,6 +200,21 @@ Result<Devices> open_devices(RunPlan& plan) {
   }
   if (opened.ports.empty()) return all_missing(plan.missing);
   return opened;
+}
+
+Result<std::vector<Benches>> open_more(const RunPlan& plan, std::size_t cases) {
+  constexpr std::size_t cases_a_thread = 64;  // fewer are over before a thread has begun
+  std::vector<Benches> more;
+  const bool beside = plan.aux || !plan.stimulus.empty() || !plan.control.empty();
+  if (!plan.matrix.empty() || plan.soak > 0ns || beside) return more;
+  const std::size_t processors = std::thread::hardware_concurrency();
+  const std::size_t threads = processors < 2 ? 0 : std::min(processors, cases / cases_a_thread);
+  while (more.size() < threads) {
+    Result<Benches> one = Benches::open(plan.endpoint, plan.protocols, plan.bench);
+    if (!one) return one.error();
+    more.push_back(std::move(*one));
+  }
+  return more;
 }
 
 namespace {

@@ -44,6 +44,10 @@ struct Devices {
 /// leaves the plan and is told in its `missing`; the error is that of a device alone, or of all.
 Result<Devices> open_devices(RunPlan& plan);
 
+/// More of the simulated device of the plan, one for each processor; none where its cases are run
+/// one after another: a soak, a matrix, something beside the device, few cases.
+Result<std::vector<bench::Benches>> open_more(const RunPlan& plan, std::size_t cases);
+
 /// Another device on the desk than the bench file has? Also looked at for a sheet to sign
 /// (`wanted`), which then shows it.
 Status take_fingerprints(RunPlan& plan, std::vector<bench::Benches>& ports, bool wanted);

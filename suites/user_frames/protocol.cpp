@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "harness/device_names.hpp"
@@ -122,7 +123,9 @@ class UserFrames : public Protocol, public harness::Probing, public harness::Tab
 /// The protocol of one model. A definition is read when it is first asked for: each case makes a
 /// device of it.
 Result<const UserFrames*> read_once(std::string_view model, Way way) {
+  static std::mutex mutex;  // cases run in several threads
   static std::map<Way, std::map<std::string, UserFrames, std::less<>>> all;
+  const std::lock_guard lock(mutex);
   std::map<std::string, UserFrames, std::less<>>& known = all[way];
   if (const auto found = known.find(model); found != known.end()) return &found->second;
   Result<NamedDefinition> loaded = load_definition(model, definitions_folder());
