@@ -6,8 +6,8 @@
 #include <string>
 
 #include "harness/bench/profile.hpp"
-#include "harness/endpoints/command_marks.hpp"
 #include "harness/endpoints/endpoint.hpp"
+#include "harness/endpoints/set_up/command_marks.hpp"
 #include "harness/protocol.hpp"
 #include "harness/vectors/case.hpp"
 

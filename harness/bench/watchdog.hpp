@@ -14,7 +14,7 @@ namespace fieldproof::bench {
 class Watchdog {
  public:
   /// After `limit` the watched case's waits end as if Ctrl-C had been pressed
-  /// (harness/endpoints/interrupt.hpp).
+  /// (harness/system/interrupt.hpp).
   explicit Watchdog(Duration limit = 60s);
   ~Watchdog();
 

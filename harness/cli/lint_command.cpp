@@ -11,7 +11,7 @@
 #include "harness/run/tool_vectors.hpp"
 #include "harness/vectors/decisions.hpp"
 #include "harness/vectors/errata.hpp"
-#include "harness/vectors/lint.hpp"
+#include "harness/vectors/lint/lint.hpp"
 #include "harness/vectors/loader.hpp"
 #include "reports/results/whole_file.hpp"
 

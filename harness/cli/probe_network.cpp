@@ -10,7 +10,7 @@
 #include "harness/probe/servers.hpp"
 #include "harness/run/run_report.hpp"
 #include "harness/system/interrupt.hpp"
-#include "harness/system/socket_address.hpp"
+#include "harness/system/sockets/socket_address.hpp"
 
 namespace fieldproof::cli {
 

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/command_marks.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
+#include "harness/endpoints/set_up/command_marks.hpp"
 #include "harness/protocol.hpp"
 #include "harness/system/child_process.hpp"
 #include "harness/system/fd_link.hpp"

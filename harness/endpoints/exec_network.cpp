@@ -5,19 +5,19 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/command_marks.hpp"
 #include "harness/endpoints/exec.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/network.hpp"
 #include "harness/endpoints/network_name.hpp"
 #include "harness/endpoints/options.hpp"
+#include "harness/endpoints/set_up/command_marks.hpp"
 #include "harness/protocol.hpp"
 #include "harness/system/child_process.hpp"
 #include "harness/system/interrupt.hpp"
 #include "harness/system/line_pipe.hpp"
 #include "harness/system/pty_pair.hpp"
-#include "harness/system/socket_connect.hpp"
-#include "harness/system/socket_listen.hpp"
+#include "harness/system/sockets/socket_connect.hpp"
+#include "harness/system/sockets/socket_listen.hpp"
 
 namespace fieldproof::endpoints {
 

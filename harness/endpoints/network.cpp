@@ -9,7 +9,7 @@
 #include "harness/endpoints/network_name.hpp"
 #include "harness/endpoints/options.hpp"
 #include "harness/protocol.hpp"
-#include "harness/system/socket_connect.hpp"
+#include "harness/system/sockets/socket_connect.hpp"
 
 namespace fieldproof::endpoints {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/endpoints/endpoint.hpp"
-#include "harness/system/bench_sockets.hpp"
+#include "harness/system/sockets/bench_sockets.hpp"
 
 namespace fieldproof::endpoints {
 

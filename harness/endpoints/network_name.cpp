@@ -4,7 +4,7 @@
 
 #include "harness/endpoints/kinds.hpp"
 #include "harness/protocol.hpp"
-#include "harness/system/socket_address.hpp"
+#include "harness/system/sockets/socket_address.hpp"
 
 namespace fieldproof::endpoints {
 

@@ -6,7 +6,7 @@
 
 #include "harness/endpoints/listen.hpp"
 #include "harness/endpoints/test_endpoint_name.hpp"
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 
 namespace fieldproof::endpoints {
 namespace {

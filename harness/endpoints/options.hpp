@@ -3,7 +3,7 @@
 #pragma once
 
 #include "harness/endpoints/endpoint.hpp"
-#include "harness/endpoints/serial_settings.hpp"
+#include "harness/endpoints/serial_ports/serial_settings.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof::endpoints {

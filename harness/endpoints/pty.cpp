@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "harness/endpoints/device_control.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
+#include "harness/endpoints/set_up/device_control.hpp"
 #include "harness/system/child_process.hpp"
 #include "harness/system/fd_link.hpp"
 #include "harness/system/pty_pair.hpp"

@@ -6,7 +6,7 @@
 
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
-#include "harness/endpoints/rfc2217_session.hpp"
+#include "harness/endpoints/serial_ports/rfc2217_session.hpp"
 
 namespace fieldproof::endpoints {
 

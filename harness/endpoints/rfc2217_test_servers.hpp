@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "harness/endpoints/rfc2217_telnet.hpp"
+#include "harness/endpoints/serial_ports/rfc2217_telnet.hpp"
 #include "harness/system/child_process.hpp"
 
 namespace fieldproof::endpoints::test {

@@ -7,8 +7,8 @@
 
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/options.hpp"
-#include "harness/endpoints/serial_port.hpp"
-#include "harness/endpoints/serial_settings.hpp"
+#include "harness/endpoints/serial_ports/serial_port.hpp"
+#include "harness/endpoints/serial_ports/serial_settings.hpp"
 #include "harness/system/fd_link.hpp"
 
 namespace fieldproof::endpoints {

@@ -11,7 +11,7 @@
 #include "harness/endpoints/network_name.hpp"
 #include "harness/endpoints/options.hpp"
 #include "harness/system/fd_link.hpp"
-#include "harness/system/socket_connect.hpp"
+#include "harness/system/sockets/socket_connect.hpp"
 #include "src/line/settings.hpp"
 
 namespace fieldproof::endpoints {

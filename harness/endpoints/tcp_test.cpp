@@ -9,7 +9,7 @@
 #include "harness/endpoints/test_endpoint_name.hpp"
 #include "harness/system/fd_link.hpp"
 #include "harness/system/interrupt.hpp"
-#include "harness/system/socket_address.hpp"
+#include "harness/system/sockets/socket_address.hpp"
 #include "harness/test_protocol.hpp"
 
 namespace fieldproof::endpoints {

@@ -6,7 +6,7 @@
 #include <cerrno>
 
 #include "harness/hosting/listening.hpp"
-#include "harness/system/socket_connect.hpp"
+#include "harness/system/sockets/socket_connect.hpp"
 
 namespace fieldproof::hosting {
 

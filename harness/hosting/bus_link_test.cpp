@@ -4,7 +4,7 @@
 
 #include <deque>
 
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 
 namespace fieldproof::hosting {
 namespace {

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "harness/endpoints/device_control.hpp"
+#include "harness/endpoints/set_up/device_control.hpp"
 #include "harness/hosting/bus_link.hpp"
 #include "harness/hosting/host_port.hpp"
 #include "harness/hosting/party.hpp"

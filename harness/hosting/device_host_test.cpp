@@ -17,7 +17,7 @@
 #include "harness/system/fd_link.hpp"
 #include "harness/system/interrupt.hpp"
 #include "harness/system/pty_pair.hpp"
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 #include "harness/test_protocol.hpp"
 
 namespace fieldproof::hosting {

@@ -5,7 +5,7 @@
 
 #include "harness/hosting/host_port.hpp"
 #include "harness/hosting/listening.hpp"
-#include "harness/system/socket_listen.hpp"
+#include "harness/system/sockets/socket_listen.hpp"
 
 namespace fieldproof::hosting {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "harness/system/socket_listen.hpp"
+#include "harness/system/sockets/socket_listen.hpp"
 #include "src/base/burst.hpp"
 
 namespace fieldproof::hosting {

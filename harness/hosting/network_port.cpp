@@ -2,8 +2,8 @@
 
 #include "harness/hosting/host_port.hpp"
 #include "harness/hosting/listening.hpp"
-#include "harness/system/socket_connect.hpp"
-#include "harness/system/socket_links.hpp"
+#include "harness/system/sockets/socket_connect.hpp"
+#include "harness/system/sockets/socket_links.hpp"
 
 namespace fieldproof::hosting {
 

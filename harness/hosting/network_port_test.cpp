@@ -2,7 +2,7 @@
 
 #include "harness/hosting/host_port.hpp"
 #include "harness/hosting/listening.hpp"
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 
 namespace fieldproof::hosting {
 namespace {

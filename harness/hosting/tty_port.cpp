@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "harness/endpoints/serial_port.hpp"
-#include "harness/endpoints/serial_settings.hpp"
+#include "harness/endpoints/serial_ports/serial_port.hpp"
+#include "harness/endpoints/serial_ports/serial_settings.hpp"
 #include "harness/system/pty_pair.hpp"
 #include "harness/system/system_calls.hpp"
 #include "src/line/settings.hpp"

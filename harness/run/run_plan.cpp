@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "harness/bench/bench_file.hpp"
-#include "harness/endpoints/command_marks.hpp"
 #include "harness/endpoints/kinds.hpp"
+#include "harness/endpoints/set_up/command_marks.hpp"
 #include "harness/explore/derived.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/exit_code.hpp"

@@ -6,7 +6,7 @@
 #include "harness/paths.hpp"
 #include "harness/vectors/decisions.hpp"
 #include "harness/vectors/filter.hpp"
-#include "harness/vectors/lint.hpp"
+#include "harness/vectors/lint/lint.hpp"
 
 namespace fieldproof::run {
 

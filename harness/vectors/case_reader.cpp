@@ -7,8 +7,8 @@
 #include <array>
 #include <map>
 
-#include "harness/vectors/broken.hpp"
-#include "harness/vectors/framings.hpp"
+#include "harness/vectors/json/broken.hpp"
+#include "harness/vectors/json/framings.hpp"
 #include "harness/vectors/transactions.hpp"
 #include "src/base/duration.hpp"
 #include "src/base/spelling.hpp"

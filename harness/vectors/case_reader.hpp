@@ -6,7 +6,7 @@
 
 #include "harness/notation/pdu.hpp"
 #include "harness/vectors/case.hpp"
-#include "harness/vectors/each.hpp"
+#include "harness/vectors/json/each.hpp"
 
 namespace fieldproof::vectors {
 

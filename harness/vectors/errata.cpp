@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "harness/vectors/broken.hpp"
 #include "harness/vectors/citations.hpp"
-#include "harness/vectors/pieces.hpp"
+#include "harness/vectors/json/broken.hpp"
+#include "harness/vectors/json/pieces.hpp"
 #include "src/base/nesting.hpp"
 
 namespace fieldproof::vectors {

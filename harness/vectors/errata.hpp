@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/vectors/json/shape.hpp"
 #include "harness/vectors/loader.hpp"
-#include "harness/vectors/shape.hpp"
 
 namespace fieldproof::vectors {
 

@@ -4,8 +4,6 @@
 
 #include <regex>
 
-#include "harness/vectors/lint.hpp"
-
 namespace fieldproof::vectors {
 namespace {
 
@@ -77,14 +75,6 @@ TEST(Errata, WhatTheyCiteIsThere) {
               ElementsAre(HasSubstr("the statement m/2 is not of the manual n")));
   EXPECT_THAT(lint_errata(load(changed("m_7/chapter", "m_7/tail"))),
               ElementsAre("errata/m_7.json:5: m_7/tail: the id is used twice"));
-}
-
-TEST(Errata, TheirQuotesAreLocked) {
-  const VectorSet set = load(two);
-  EXPECT_THAT(lint_lock(set, quotes_lock(set)), IsEmpty());
-  EXPECT_THAT(lint_lock(load(changed("see chapter 9", "see chapter 8")), quotes_lock(set)),
-              ElementsAre(HasSubstr(
-                  "errata/m_7.json:5: m_7/chapter: the quote is not the one last verified")));
 }
 
 TEST(ErratumShape, PatternAndCodeAgree) {

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <set>
 
-#include "harness/vectors/broken.hpp"
 #include "harness/vectors/case_reader.hpp"
 #include "harness/vectors/citations.hpp"
 #include "harness/vectors/errata.hpp"
-#include "harness/vectors/files.hpp"
 #include "harness/vectors/fingerprint.hpp"
-#include "harness/vectors/framings.hpp"
-#include "harness/vectors/pieces.hpp"
+#include "harness/vectors/json/broken.hpp"
+#include "harness/vectors/json/files.hpp"
+#include "harness/vectors/json/framings.hpp"
+#include "harness/vectors/json/pieces.hpp"
 #include "harness/vectors/vector_shape.hpp"
 #include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"

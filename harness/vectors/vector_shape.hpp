@@ -2,7 +2,7 @@
 // editors; a test holds the two together.
 #pragma once
 
-#include "harness/vectors/shape.hpp"
+#include "harness/vectors/json/shape.hpp"
 
 namespace fieldproof::vectors {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "harness/vectors/broken.hpp"
-#include "harness/vectors/files.hpp"
+#include "harness/vectors/json/broken.hpp"
+#include "harness/vectors/json/files.hpp"
 #include "harness/vectors/loader.hpp"
 #include "src/base/nesting.hpp"
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "reports/compare/compare.hpp"
-#include "reports/history/history_file.hpp"
-#include "reports/history/packed_run.hpp"
+#include "reports/history/storage/history_file.hpp"
+#include "reports/history/storage/packed_run.hpp"
 #include "src/base/result.hpp"
 
 namespace fieldproof::history {

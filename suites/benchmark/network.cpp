@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 
-#include "harness/system/socket_connect.hpp"
-#include "harness/system/socket_listen.hpp"
+#include "harness/system/sockets/socket_connect.hpp"
+#include "harness/system/sockets/socket_listen.hpp"
 #include "suites/benchmark/bare_echo.hpp"
 #include "suites/benchmark/benchmarks.hpp"
 #include "suites/benchmark/compare.hpp"

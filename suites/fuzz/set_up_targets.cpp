@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "harness/endpoints/device_control.hpp"
+#include "harness/endpoints/set_up/device_control.hpp"
 #include "suites/fuzz/chosen.hpp"
 #include "suites/fuzz/fed_device.hpp"
 #include "suites/fuzz/rule.hpp"

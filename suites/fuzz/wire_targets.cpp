@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "harness/endpoints/rfc2217_telnet.hpp"
+#include "harness/endpoints/serial_ports/rfc2217_telnet.hpp"
 #include "suites/fuzz/chosen.hpp"
 #include "suites/fuzz/fed_device.hpp"
 #include "suites/fuzz/rule.hpp"

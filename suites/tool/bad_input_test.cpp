@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "harness/system/pty_pair.hpp"
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 #include "suites/tool/tool_files.hpp"
 
 namespace fieldproof::tool_tests {

@@ -2,7 +2,7 @@
 // another language that asks what --stimulus names.
 #include <gmock/gmock.h>
 
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 #include "suites/tool/tool_files.hpp"
 
 namespace fieldproof::tool_tests::fenet_client {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 #include "suites/tool/tool_files.hpp"
 
 namespace fieldproof::tool_tests {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <sstream>
 
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 #include "suites/tool/network_runs.hpp"
 
 namespace fieldproof::tool_tests {

@@ -5,7 +5,7 @@
 #include <list>
 #include <map>
 
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 #include "suites/tool/readme_commands.hpp"
 #include "suites/tool/tool_files.hpp"
 

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 const std::string folder_of_servers = FIELDPROOF_SOURCE_DIR "/suites/modbus/peers/";
 
-/// The back door of an emulator in another process (harness/endpoints/device_control.hpp).
+/// The back door of an emulator in another process (harness/endpoints/set_up/device_control.hpp).
 class BackDoor {
  public:
   BackDoor() {

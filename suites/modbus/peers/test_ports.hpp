@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "harness/system/test_sockets.hpp"
+#include "harness/system/sockets/test_sockets.hpp"
 
 namespace fieldproof::modbus_peers {
 
