@@ -70,7 +70,7 @@ ordered_json kind_json(const exchange::PreparedStep& step) {
       result["alternatives"] = ordered_json::array();
       for (const exchange::PreparedFrame& one : step.frames)
         result["alternatives"].push_back({{"reading", source.reading},
-                                          {"name", one.reading},
+                                          {"name", one.alternative},
                                           {"expect", notation::to_hex_with_holes(one.frame)}});
       return result;
     }

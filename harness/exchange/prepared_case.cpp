@@ -146,7 +146,7 @@ Status add_frames(PreparedStep& step) {
         notation::make_templates(frame.notation, stations);
     if (!templates) return templates.error();
     for (notation::FrameTemplate& one : *templates)
-      step.frames.push_back({frame.reading, &frame, std::move(one)});
+      step.frames.push_back({frame.alternative, &frame, std::move(one)});
   }
   return ok();
 }

@@ -12,7 +12,7 @@
 namespace fieldproof::exchange {
 
 struct PreparedFrame {
-  std::string reading;  // named alternative of the step, empty where there is one alone
+  std::string alternative;  // its name; empty where there is one frame alone
   const vectors::Frame* source = nullptr;
   notation::FrameTemplate frame;
 };

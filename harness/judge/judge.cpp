@@ -299,7 +299,8 @@ class Judge {
                            fmt::format("allowed alternative: {} = {}", name, choice));
     };
     if (!step.step->reading.empty())
-      take(step.step->reading, match.reading, match.reading == step.frames.front().reading);
+      take(step.step->reading, match.alternative,
+           match.alternative == step.frames.front().alternative);
     for (const auto& [field, choice] : match.frame.readings) take(field, choice, choice == field);
   }
 

@@ -31,8 +31,8 @@ struct Source {
 /// A frame of a step as the vector gives it: notation, and the literal bytes where they are
 /// printed.
 struct Frame {
-  std::string reading;  // name of the alternative; empty where there is one frame alone
-  std::string text;     // notation as written
+  std::string alternative;  // its name; empty where there is one frame alone
+  std::string text;         // notation as written
   notation::Notation notation;
   std::optional<std::string> wire;  // "05 30 ??"
 };
@@ -79,12 +79,12 @@ struct Step {
   std::string reading;        // what the alternatives of `expect` are about: type_echo
   std::vector<std::pair<std::string, std::string>> memory;  // set, check: address and hex digits
   std::vector<std::optional<Number>> numbers;  // check: beside memory, where it names a number
-  std::string action;                                       // do
-  Duration duration{};                                      // wait
-  std::optional<Duration> within;      // expect: instead of the profile's response_max
-  std::optional<Duration> every;       // expect: the period at which it comes
-  std::optional<Duration> max_gap;     // expect: longest silence inside the frame
-  std::optional<PartnerSpec> partner;  // partner, expect: who answers the request
+  std::string action;                          // do
+  Duration duration{};                         // wait
+  std::optional<Duration> within;              // expect: instead of the profile's response_max
+  std::optional<Duration> every;               // expect: the period at which it comes
+  std::optional<Duration> max_gap;             // expect: longest silence inside the frame
+  std::optional<PartnerSpec> partner;          // partner, expect: who answers the request
   int times = 1;
   std::string on;                  // name of the link; empty: the only one that is open
   LinkSpec link;                   // open

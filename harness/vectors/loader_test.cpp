@@ -81,8 +81,8 @@ TEST(Loader, NamedAlternativesKeepTheirOrder) {
   ASSERT_THAT(set.problems, IsEmpty());
   const Step& step = set.cases[0].steps[1];
   EXPECT_EQ(step.reading, "type_echo");
-  EXPECT_EQ(step.frames[0].reading, "zz_first");
-  EXPECT_EQ(step.frames[1].reading, "aa_second");
+  EXPECT_EQ(step.frames[0].alternative, "zz_first");
+  EXPECT_EQ(step.frames[1].alternative, "aa_second");
 }
 
 // A client's transaction is captured in one step and answered in another.

@@ -26,8 +26,8 @@ void take_wires(const json& wires, Case& one) {
       if (frame.wire) continue;
       if (wire.is_string())
         frame.wire = wire.get<std::string>();
-      else if (wire.contains(frame.reading))
-        frame.wire = wire.at(frame.reading).get<std::string>();
+      else if (wire.contains(frame.alternative))
+        frame.wire = wire.at(frame.alternative).get<std::string>();
     }
   }
 }

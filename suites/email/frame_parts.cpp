@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "suites/checks/control_bytes.hpp"
+
 namespace fieldproof::email_suite {
 
 using harness::Field;
@@ -27,17 +29,9 @@ bool is_command(std::string_view line) {
          (line.size() == 4 || line[4] == ' ');
 }
 
-std::string shown(std::string_view text) {
-  std::string all;
-  for (const char c : text)
-    all += c >= ' ' && c <= '~' ? std::string(1, c)
-                                : '<' + hex_number(static_cast<unsigned char>(c), 2) + '>';
-  return all;
-}
-
 /// Splits off what `name` is called.
 void add(std::vector<Field>& fields, std::string name, std::string_view text, std::size_t& at) {
-  fields.push_back({std::move(name), at, text.size(), shown(text), {}});
+  fields.push_back({std::move(name), at, text.size(), checks::printable(to_bytes(text)), {}});
   at += text.size();
 }
 

@@ -10,6 +10,8 @@
 
 namespace fieldproof::ls_bus_suite {
 
+using checks::header_name, checks::is_header, checks::printable;
+
 namespace {
 
 constexpr std::size_t head_size = 4, sum_size = 2;  // header, station and command
@@ -21,26 +23,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> errors{{
     {"IF", "no such function"},
     {"WM", "not writable"},
 }};
-
-bool is_header(Byte b) { return b == enq || b == ack || b == nak; }
-
-std::string_view header_name(Byte b) {
-  switch (b) {
-    case enq: return "ENQ (request)";
-    case ack: return "ACK";
-    case nak: return "NAK";
-    default: return "not ENQ, ACK or NAK";
-  }
-}
-
-/// Printable text of a piece; control and high bytes as <05>.
-std::string shown(ByteView bytes) {
-  std::string text;
-  for (const Byte b : bytes)
-    text +=
-        b >= 0x20 && b < 0x7F ? std::string(1, static_cast<char>(b)) : fmt::format("<{:02X}>", b);
-  return text;
-}
 
 bool is_hex(ByteView bytes) {
   return std::ranges::all_of(bytes, [](Byte b) { return hex_digit(static_cast<char>(b)) >= 0; });
@@ -79,7 +61,7 @@ class Reader {
     else if (fields_.back().problem.empty())
       fields_.back().problem = "no EOT follows, with the sum before it";
     if (pos_ < frame_.size())
-      add("surplus", frame_.size() - pos_, shown(frame_.subspan(pos_)), "nothing follows EOT");
+      add("surplus", frame_.size() - pos_, printable(frame_.subspan(pos_)), "nothing follows EOT");
     return std::move(fields_);
   }
 
@@ -95,7 +77,7 @@ class Reader {
   ByteView take(std::string name, std::size_t size) {
     const ByteView bytes = frame_.subspan(pos_, std::min(size, left()));
     if (!bytes.empty())
-      add(std::move(name), bytes.size(), shown(bytes), bytes.size() < size ? "cut short" : "");
+      add(std::move(name), bytes.size(), printable(bytes), bytes.size() < size ? "cut short" : "");
     return bytes;
   }
 
@@ -147,7 +129,7 @@ class Reader {
 
   void error_code() {
     if (left() == 0) return;
-    const std::string code = shown(take("error code", left()));
+    const std::string code = printable(take("error code", left()));
     const std::string_view meaning = error_meaning(code);
     if (!meaning.empty())
       fields_.back().text = fmt::format("{} {}", code, meaning);
@@ -158,7 +140,7 @@ class Reader {
   void sum() {
     if (content_end_ == end_) return;
     pos_ = content_end_;
-    const std::string given = shown(frame_.subspan(pos_, end_ - pos_));
+    const std::string given = printable(frame_.subspan(pos_, end_ - pos_));
     add("SUM", end_ - pos_, given, sum_problem(given));
   }
 

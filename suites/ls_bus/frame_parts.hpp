@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "harness/protocol.hpp"
+#include "suites/checks/control_bytes.hpp"
 
 namespace fieldproof::ls_bus_suite {
 
-constexpr Byte enq = 0x05, ack = 0x06, nak = 0x15, eot = 0x04;
+using checks::ack, checks::enq, checks::eot, checks::nak;
 constexpr std::size_t max_words = 8, digits_of_a_word = 4;
 
 /// Length of the first complete frame: header to EOT (Cnet EN 8.1.1). A header inside a frame ends

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
 
 #include "suites/user_frames/definition_files.hpp"
 
@@ -47,6 +50,24 @@ TEST(UserFramesProtocol, EveryShippedDefinitionMakesADevice) {
     EXPECT_TRUE(device) << device.error().message;
   }
   EXPECT_TRUE(protocol().make_device(balance, nlohmann::json::object()));
+}
+
+TEST(UserFramesProtocol, ADefinitionIsReadOnceByPortsInThreads) {
+  const auto path = [](int i) {
+    return FIELDPROOF_SOURCE_DIR "/suites/user_frames/examples/" + std::string(i, '/') +
+           "balance.json";
+  };
+  constexpr int paths = 40, threads = 4;
+  std::array<std::array<const harness::Protocol*, paths>, threads> read{};
+  std::vector<std::thread> ports;
+  for (auto& own : read)
+    ports.emplace_back([&own, path] {
+      for (int i = 0; i < paths; ++i) own[i] = &protocol_of(path(i));
+    });
+  for (std::thread& port : ports) port.join();
+  for (const auto& own : read) EXPECT_EQ(own, read[0]);
+  EXPECT_NE(read[0][0], &protocol());
+  EXPECT_NE(read[0][0], read[0][1]);
 }
 
 TEST(UserFramesProtocol, AnUnknownModelIsAnErrorThatNamesTheNearest) {

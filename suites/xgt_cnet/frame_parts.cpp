@@ -10,9 +10,10 @@
 
 namespace fieldproof::xgt_cnet_suite {
 
+using checks::header_name, checks::is_header, checks::printable;
+
 namespace {
 
-bool is_header(Byte b) { return b == enq || b == ack || b == nak; }
 bool is_lower(Byte b) { return b >= 'a' && b <= 'z'; }
 
 /// Cnet EN and KO Appendix 3.1.
@@ -31,27 +32,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> errors{{
     {"1432", "data not hex"},
     {"7132", "address beyond the area"},
 }};
-
-std::string_view header_name(Byte b) {
-  switch (b) {
-    case enq: return "ENQ (request)";
-    case ack: return "ACK";
-    case nak: return "NAK";
-    default: return "not ENQ, ACK or NAK";
-  }
-}
-
-/// Printable text of a piece; control and high bytes as <05>.
-std::string shown(ByteView bytes) {
-  std::string text;
-  for (Byte b : bytes) {
-    if (b >= 0x20 && b < 0x7F)
-      text += static_cast<char>(b);
-    else
-      text += fmt::format("<{:02X}>", b);
-  }
-  return text;
-}
 
 class Reader {
  public:
@@ -100,7 +80,7 @@ class Reader {
   ByteView take(std::string name, std::size_t size) {
     const std::size_t has = std::min(size, frame_.size() > pos_ ? frame_.size() - pos_ : 0);
     const ByteView bytes = frame_.subspan(std::min(pos_, frame_.size()), has);
-    if (has > 0) field(std::move(name), has, shown(bytes), has < size ? "cut short" : "");
+    if (has > 0) field(std::move(name), has, printable(bytes), has < size ? "cut short" : "");
     return bytes;
   }
 
@@ -139,7 +119,7 @@ class Reader {
   void error_code() {
     if (left() == 0) return;
     const ByteView code = take("error code", std::min<std::size_t>(4, left()));
-    const std::string text = shown(code);
+    const std::string text = printable(code);
     const std::string_view meaning = error_meaning(text);
     if (!meaning.empty())
       fields_.back().text = fmt::format("{} {}", text, meaning);
@@ -150,7 +130,7 @@ class Reader {
   void request(char main, const std::string& type) {
     if (main == 'X') {
       const ByteView format = take("registration format", std::min<std::size_t>(3, left()));
-      return request('R', upper(shown(format)).substr(std::min<std::size_t>(1, format.size())));
+      return request('R', upper(printable(format)).substr(std::min<std::size_t>(1, format.size())));
     }
     if (main == 'Y') return;
     if (type == "SS") return blocks(main == 'W');
@@ -176,7 +156,7 @@ class Reader {
     const ByteView name = take("name" + number, std::min<std::size_t>(*length, left()));
     if (name.size() < *length)
       fields_.back().problem = fmt::format("cut short: {} of {} characters", name.size(), *length);
-    return shown(name);
+    return printable(name);
   }
 
   static std::size_t data_digits(const std::string& name) {
@@ -221,7 +201,7 @@ class Reader {
       return;
     }
     const std::size_t end = pos_;
-    const std::string bcc = shown(take("BCC", std::min<std::size_t>(2, rest)));
+    const std::string bcc = printable(take("BCC", std::min<std::size_t>(2, rest)));
     fields_.back().problem = bcc_problem(bcc, end);
     if (pos_ < frame_.size()) take("surplus", frame_.size() - pos_);
   }

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "harness/protocol.hpp"
+#include "suites/checks/control_bytes.hpp"
 
 namespace fieldproof::xgt_cnet_suite {
 
-constexpr Byte enq = 0x05, ack = 0x06, nak = 0x15, eot = 0x04, etx = 0x03;
+using checks::ack, checks::enq, checks::eot, checks::etx, checks::nak;
 
 /// Length of the first complete frame: header to tail, and two characters of BCC where the main
 /// command is lower case (Cnet EN 7.1.2). Bytes before a header count as a piece of their own.

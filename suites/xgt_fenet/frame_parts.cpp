@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "suites/checks/control_bytes.hpp"
+
 namespace fieldproof::xgt_fenet_suite {
 
 using harness::Field;
@@ -32,15 +34,6 @@ constexpr std::array<std::pair<unsigned, std::string_view>, 14> errors{
 std::string digits(ByteView bytes) {
   std::string text;
   for (const Byte b : bytes) text += hex_number(b, 2);
-  return text;
-}
-
-/// Printable text of a name; other bytes as <05>.
-std::string shown(ByteView bytes) {
-  std::string text;
-  for (const Byte b : bytes)
-    text +=
-        b >= 0x20 && b < 0x7F ? std::string(1, static_cast<char>(b)) : fmt::format("<{:02X}>", b);
   return text;
 }
 
@@ -99,7 +92,7 @@ class Reader {
   void header() {
     const ByteView company = take("company id", 10);
     if (company.empty()) return;
-    fields_.back().text = shown(company);
+    fields_.back().text = checks::printable(company);
     const std::string text = to_text(company);
     if (text != std::string("LSIS-XGT\0\0", 10) && text != "LGIS-GLOFA")
       problem("LSIS-XGT and two zeros, or LGIS-GLOFA");
@@ -237,7 +230,7 @@ class Reader {
     if (*length < 4 || *length > 16) problem("0400 to 1000");
     if (*length == 0) return true;
     const ByteView text = take(numbered(name_field, i), *length);
-    if (!text.empty()) fields_.back().text = shown(text);
+    if (!text.empty()) fields_.back().text = checks::printable(text);
     return text.size() == *length;
   }
 

@@ -49,7 +49,8 @@ void lint_step(const Case& one, std::size_t index, const notation::Fields& stati
     if (!frame.wire && !all) continue;
     const auto problem = [&](const std::string& what) {
       problems.push_back(fmt::format("{}: {}: steps[{}]{}{}: {}", one.file, one.id, index,
-                                     frame.reading.empty() ? "" : " ", frame.reading, what));
+                                     frame.alternative.empty() ? "" : " ", frame.alternative,
+                                     what));
     };
     const Result<std::vector<notation::FrameTemplate>> templates =
         notation::make_templates(frame.notation, stations);
@@ -204,7 +205,7 @@ std::vector<std::string> lint_readings(const VectorSet& set) {
   std::vector<std::string> problems;
   const auto names = [](const Step& step) {
     std::vector<std::string> result;
-    for (const Frame& frame : step.frames) result.push_back(frame.reading);
+    for (const Frame& frame : step.frames) result.push_back(frame.alternative);
     return result;
   };
   for (const Case& one : set.cases)
@@ -220,9 +221,9 @@ std::vector<std::string> lint_readings(const VectorSet& set) {
           problems.push_back(fmt::format("{}: {}: reading {} has no alternative '{}' in {} ({})",
                                          one.file, one.id, step.reading, name, model->id,
                                          fmt::join(known, ", ")));
-      if (step.frames.front().reading != known.front())
+      if (step.frames.front().alternative != known.front())
         problems.push_back(fmt::format("{}: {}: reading {} prefers '{}', but '{}' in {}", one.file,
-                                       one.id, step.reading, step.frames.front().reading,
+                                       one.id, step.reading, step.frames.front().alternative,
                                        known.front(), model->id));
     }
   return problems;

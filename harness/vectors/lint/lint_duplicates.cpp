@@ -60,7 +60,7 @@ std::string text_of(const Step& step, const notation::Fields& fields) {
     const auto templates = notation::make_templates(frame.notation, fields);
     if (!templates) return text + frame.text;  // lint_wires says why
     for (const notation::FrameTemplate& one : *templates)
-      text += fmt::format("\n {} {}", frame.reading, text_of(one));
+      text += fmt::format("\n {} {}", frame.alternative, text_of(one));
   }
   return text;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "reports/text/case_text.hpp"
 
@@ -22,8 +21,8 @@ constexpr std::array<Verdict, 11> verdict_codes = {
     Verdict::blocked, Verdict::inconclusive, Verdict::error};
 
 /// A nanosecond is the step of our clocks: nothing is lost.
-std::int64_t to_ns(double ms) { return std::llround(ms * 1e6); }
-double from_ns(std::int64_t ns) { return static_cast<double>(ns) / 1e6; }
+std::int64_t to_ns(double ms) { return from_ms(ms).count(); }
+double from_ns(std::int64_t ns) { return to_ms(Duration(ns)); }
 
 constexpr std::size_t topic_columns = 6;
 
