@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "harness/bench/device_set_up.hpp"
 #include "harness/bench/what_to_check.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/judge/recording.hpp"
@@ -24,11 +25,6 @@ constexpr Duration start_patience =
     10s;  // a device that is started by the bench needs time to open its port
 constexpr int errors_to_stop = 5;  // then it is no longer the vectors, it is the bench
 
-/// How long a request for memory waits for its answer: a device may delay each of them.
-Duration patience_with(const Profile& profile) {
-  return profile.response_max + exchange::number_of(profile.config, "delay_ms", 0) * 1ms;
-}
-
 }  // namespace
 
 Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptions options,
@@ -43,12 +39,10 @@ Bench::Bench(endpoints::Endpoint& endpoint, const Protocol& protocol, BenchOptio
       memory_({&endpoint, &protocol, options_.station}, patience_with(options_.profile),
               options_.aux, &arming_),
       exchange_(endpoint, protocol, timing(), options_.aux, &arming_),
-      saved_(endpoint, protocol, patience_with(options_.profile), options_.device,
-             options_.journal),
-      saved_over_aux_(options_.aux.endpoint ? *options_.aux.endpoint : endpoint,
-                      options_.aux.protocol ? *options_.aux.protocol : protocol,
-                      patience_with(options_.profile), options_.aux_device, options_.journal),
-      known_(known ? std::move(known) : std::make_shared<Standing>(options_.max_restarts)) {}
+      known_(known ? std::move(known) : std::make_shared<Standing>(options_.max_restarts)),
+      eligibility_(endpoint, protocol, options_, arming_, memory_),
+      recovery_(endpoint, options_, arming_, exchange_, *known_),
+      saving_(endpoint, protocol, options_, eligibility_, recovery_) {}
 
 exchange::ExchangeTiming Bench::timing() const {
   exchange::ExchangeTiming timing;
@@ -79,6 +73,16 @@ judging::JudgeRules Bench::rules() const {
                   : can.wire ? std::max({wire_gap, rules.link_floor, rules.gap_floor})
                              : shortest_judged;
   return rules;
+}
+
+/// For Endpoint::begin.
+json Bench::begin_config(const Case& source) const {
+  json config = endpoint_.capabilities().real_device
+                    ? whole_config(options_.profile, options_.station, protocol_)
+                    : json{{"station", options_.station}};
+  if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
+  if (source.config.contains("role")) config["role"] = source.config["role"];
+  return config;
 }
 
 Status Bench::start() {
@@ -126,16 +130,12 @@ Status Bench::end_asking(const PreparedCase& prepared, bool waits) {
 Result<bool> Bench::wait_for_request() {
   arming_.greet();
   for (const Case* one : options_.client_cases) {
-    if (outside_profile(*one).verdict != Verdict::pass) continue;
-    const Result<PreparedCase> prepared =
-        exchange::prepare(*one, options_.station, protocol_, {options_.known, options_.aux});
-    if (!prepared || !prepared->expects_requests() ||
-        blocked(*one, *prepared).verdict != Verdict::pass ||
-        below_floor(*prepared).verdict != Verdict::pass)
-      continue;
+    if (!eligibility_.unmoved(*one).may_run()) continue;
+    const Result<PreparedCase> prepared = eligibility_.prepare(*one);
+    if (!prepared || !prepared->expects_requests()) continue;
     CaseResult given;
     arming_.next_is_probe();
-    const bool begun = save_memory(*prepared, given) && begin_case(*prepared, given);
+    const bool begun = saving_.save(*prepared, given) && begin_case(*prepared, given);
     const Result<bool> asked = begun ? exchange_.anything_is_asked(*prepared, start_patience)
                                      : Result<bool>(fail(given.message));
     // One that gives up is judged, case by case.
@@ -145,7 +145,7 @@ Result<bool> Bench::wait_for_request() {
     if (!asked) return asked.error();
     if (const Status over = end_asking(*prepared, true); !over) return over.error();
     [[maybe_unused]] const std::string problem =
-        saved_for(*prepared).restore();  // told at the end, where it lasts
+        saving_.restore();  // told at the end, where it lasts
     return asked;
   }
   return true;
@@ -196,6 +196,24 @@ Result<Fingerprint> Bench::fingerprint() {
   return read_fingerprint(endpoint_, protocol_, options_.station, options_.profile.response_max);
 }
 
+/// What is known of a real device may change from case to case.
+const ReadyCase& Bench::ready_for(const Case& source) {
+  if (last_ != &source || endpoint_.capabilities().real_device)
+    last_ready_ = eligibility_.ready(source);
+  last_ = &source;
+  return last_ready_;
+}
+
+bool Bench::could_run(const Case& source) const {
+  return eligibility_.ready(source).prepared.has_value();
+}
+
+std::vector<Protocol::Written> Bench::written_by(const Case& source) const {
+  const Result<PreparedCase> prepared = eligibility_.prepare(source);
+  if (!prepared || prepared->is_client()) return {};
+  return eligibility_.written_by(*prepared);
+}
+
 CaseResult Bench::run(const Case& source) {
   CaseResult result = judging::result_of(source);
   if (declines(source, result)) return result;
@@ -215,7 +233,7 @@ std::optional<CaseResult> Bench::run_ahead(const Case& source) {
 bool Bench::declines(const Case& source, CaseResult& result) {
   result.replay = options_.replay + "'" + source.id + "'";
   if (vectors::is_client_case(source) && endpoint_.capabilities().real_device) arming_.greet();
-  const Ready& ready = ready_for(source);
+  const ReadyCase& ready = ready_for(source);
   if (ready.prepared && known_->stopped.empty()) return false;
   result.verdict = ready.prepared ? Verdict::blocked : ready.why.verdict;
   result.message = ready.prepared ? known_->stopped : ready.why.reason;
@@ -224,12 +242,12 @@ bool Bench::declines(const Case& source, CaseResult& result) {
 
 /// Once it is not declined.
 void Bench::try_out(CaseResult& result) {
-  const Ready& ready = last_ready_;
+  const ReadyCase& ready = last_ready_;
   for (const results::Move& move : ready.moves)
     result.notes.push_back(safety::note_of(move, protocol_));
   set_up_answered_ = true;
   execute(*ready.prepared, result);
-  if (known_->port_failed && !known_->interrupted) start_again(result);
+  if (known_->port_failed && !known_->interrupted) recovery_.start_again(result);
   if (endpoint_.capabilities().shared) look_for_others(*ready.prepared, result);
   if (endpoint_.capabilities().real_device && !ready.prepared->is_client() &&
       known_->stopped.empty() && known_->disturbed == 0)
@@ -242,18 +260,22 @@ void Bench::conclude(CaseResult& result) {
   known_->set_up_findings.note(result);
   known_->errors_in_a_row = result.verdict == Verdict::error ? known_->errors_in_a_row + 1 : 0;
   if (known_->errors_in_a_row == errors_to_stop && known_->stopped.empty())
-    stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));
+    recovery_.stop(fmt::format("{} errors in a row: {}", errors_to_stop, result.message));
 }
 
 void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
   judging::note_transposition(prepared, result);
   const bool real = endpoint_.capabilities().real_device;
-  if (real && (!set_up_device(prepared, result) || !save_memory(prepared, result))) return;
+  if (real) {
+    if (!set_up_device(prepared, result)) return;
+    const bool saved = saving_.save(prepared, result);
+    set_up_answered_ = saving_.was_answered();
+    if (!saved) return;
+  }
   if (prepare_device(prepared, result)) exchange(prepared, result);
   if (!real) return;
-  for (safety::SavedMemory* memory : {&saved_, &saved_over_aux_})
-    if (const std::string problem = memory->restore(); !problem.empty())
-      result.notes.push_back("not put back what it wrote: " + problem);
+  if (const std::string problem = saving_.restore(); !problem.empty())
+    result.notes.push_back("not put back what it wrote: " + problem);
   if (const Status back = endpoint_.put_back(); !back)
     result.notes.push_back("not put back what it set: " + back.error().message);
 }
@@ -264,87 +286,24 @@ void Bench::exchange(const PreparedCase& prepared, CaseResult& result) {
     if (const Status over = end_asking(prepared, exchange::leaves_open(transcript)); !over)
       transcript.trouble = over.error();
   judge_exchange(prepared, transcript, result);
-  after(prepared, transcript, result);
+  recovery_.after(prepared, transcript, result);
   // The device is one answer behind: what is still to come is not the next case's.
   const double earliest = to_ms(result.recording.earliest);
   if (earliest < 0 &&
       std::ranges::any_of(result.response_ms, [&](double ms) { return ms < earliest; }))
     if (const Status quiet = exchange_.settle(options_.profile.response_max); !quiet)
-      stop("the port failed after " + result.id + ": " + quiet.error().message, &quiet.error());
-}
-
-/// What it sets in a partner of the device.
-bool Bench::save_partner(const PreparedCase& prepared, CaseResult& result) {
-  if (prepared.is_client() || !options_.aux) return true;
-  const Status saved = saved_over_aux_.save(*written_over_aux(prepared));
-  if (saved) return true;
-  result.verdict = saved_over_aux_.port_failed() ? Verdict::error : Verdict::blocked;
-  result.message = "--aux: " + saved.error().message;
-  if (saved_over_aux_.port_failed() || saved_over_aux_.silent())
-    stop(result.message, &saved.error());
-  return false;
-}
-
-bool Bench::save_memory(const PreparedCase& prepared, CaseResult& result) {
-  if (!save_partner(prepared, result)) return false;
-  const std::vector<Protocol::Written> written = written_by(prepared);
-  if (std::ranges::any_of(written, &Protocol::Written::unknown))
-    result.notes.push_back(
-        "not saved before: nobody can tell where a damaged write request would write");
-  safety::SavedMemory& memory = saved_for(prepared);
-  const Status saved = memory.save(written);
-  set_up_answered_ = !memory.unserved();
-  if (saved && memory.damaged() > 0 && writes_without_check(prepared)) {
-    result.verdict = Verdict::blocked;
-    result.message = fmt::format(
-        "the line has damaged {} answers to what the bench reads before it writes; this case "
-        "writes by a request without a check, which could write elsewhere when it is damaged, too. "
-        "Mend the line (cable, termination, ground, speed)",
-        memory.damaged());
-    return false;
-  }
-  if (saved) return true;
-  // A device that the bench starts itself forgets all with its process: there the case may name the
-  // fault.
-  if (endpoint_.capabilities().can_power_cycle && !memory.port_failed() && !prepared.is_client() &&
-      options_.journal) {
-    result.notes.push_back(saved.error().message);
-    return !memory.silent() || look_for_device(result, saved.error().message);
-  }
-  result.verdict = memory.port_failed() ? Verdict::error : Verdict::blocked;
-  result.message = (prepared.is_client() ? "--aux: " : "") + saved.error().message;
-  if (memory.port_failed())
-    stop("the port failed before " + result.id + ": " + result.message, &saved.error());
-  else if (memory.silent())
-    prepared.is_client() ? stop(result.message)
-                         : void(look_for_device(result, saved.error().message));
-  return false;
-}
-
-/// On a line; a network has its own checks.
-bool Bench::writes_without_check(const PreparedCase& prepared) const {
-  if (protocol_.default_port() != 0 || !protocol_.memory() || prepared.is_client()) return false;
-  return std::ranges::any_of(prepared.steps, [&](const exchange::PreparedStep& step) {
-    if (step.step->kind != vectors::Step::Kind::send) return false;
-    const Bytes& request = step.frames.front().frame.bytes;
-    return !protocol_.written_by(request).empty() && !protocol_.memory()->is_checked(request);
-  });
+      recovery_.stop("the port failed after " + result.id + ": " + quiet.error().message,
+                     &quiet.error());
 }
 
 std::string Bench::put_back() {
-  if (!endpoint_.capabilities().real_device) return {};
-  if (saved_.open_places().empty() && saved_over_aux_.open_places().empty()) return {};
+  if (!endpoint_.capabilities().real_device || saving_.open_places().empty()) return {};
   // Written where the device was set up so; with one that was started anew its memory is gone.
   if (!endpoint_.capabilities().can_power_cycle)
     if (const Status begun = endpoint_.begin(begin_config(Case())); !begun)
-      return saved_.open_places() + saved_over_aux_.open_places();
-  std::string open;
-  for (safety::SavedMemory* memory : {&saved_, &saved_over_aux_}) {
-    [[maybe_unused]] const std::string problem = memory->restore();
-    if (const std::string places = memory->open_places(); !places.empty())
-      open += (open.empty() ? "" : ", ") + places;
-  }
-  return open;
+      return saving_.open_places();
+  [[maybe_unused]] const std::string problem = saving_.restore();
+  return saving_.open_places();
 }
 
 std::string Bench::leave_as_declared() {
@@ -367,10 +326,10 @@ bool Bench::set_up_device(const PreparedCase& prepared, CaseResult& result) {
   const Status begun = endpoint_.begin(config);
   if (!begun && begun.error().refused) return give_up(Verdict::blocked, begun.error().message);
   if (!begun) {
-    stop(begun.error().interrupted
-             ? "interrupted"
-             : "the port failed in " + result.id + ": " + begun.error().message,
-         &begun.error());
+    recovery_.stop(begun.error().interrupted
+                       ? "interrupted"
+                       : "the port failed in " + result.id + ": " + begun.error().message,
+                   &begun.error());
     return give_up(Verdict::error, begun.error().message);
   }
   const bool started = just_started_ = known_->starts != endpoint_.starts();
@@ -381,7 +340,7 @@ bool Bench::set_up_device(const PreparedCase& prepared, CaseResult& result) {
   if (prepared.is_client()) return !started || arming_.started_anew();  // it answers no probe
   const Result<exchange::Sign> sign = answers_when_set_up(prepared, started);
   if (sign && *sign == exchange::Sign::alive) return true;
-  if (!sign && sign.error().interrupted) stop("interrupted", &sign.error());
+  if (!sign && sign.error().interrupted) recovery_.stop("interrupted", &sign.error());
   not_up_ = fmt::format("the device does not answer once it is set up for this case{}",
                         sign ? "" : ": " + sign.error().message);
   return give_up(Verdict::blocked, not_up_);
@@ -398,16 +357,16 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
     result.verdict = verdict;
     result.message = error.message;
     if (error.interrupted)
-      stop("interrupted", &error);
+      recovery_.stop("interrupted", &error);
     else if (real && verdict == Verdict::error)
-      stop("the port failed in " + result.id + ": " + error.message, &error);
+      recovery_.stop("the port failed in " + result.id + ": " + error.message, &error);
     return false;
   };
   if (!real)
-    if (Status begun = endpoint_.begin(device_config(*prepared.source)); !begun)
+    if (Status begun = endpoint_.begin(eligibility_.device_config(*prepared.source)); !begun)
       return give_up(Verdict::error, begun.error());
   if (prepared.source->fresh && real && !just_started_ &&
-      !power_cycle(result, prepared.is_client()))
+      !recovery_.power_cycle(result, prepared.is_client()))
     return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
   if (real && !prepared.is_client() && !meets_premises(prepared, result)) return false;
   // What a clock asked between the cases is no part of this one. It waits for its answer before it
@@ -419,14 +378,14 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (!real || prepared.is_client() || known_->interrupted) return false;
   if (!memory_.refused() && result.verdict == Verdict::blocked) return false;  // --control says no
   if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
-  if (memory_.silent()) look_for_device(result, result.message);
+  if (memory_.silent()) recovery_.look_for_device(result, result.message);
   return false;
 }
 
 /// What is not as it must be before the case; empty: all is.
 Result<std::string> Bench::unmet_premise(const PreparedCase& prepared) {
   const exchange::Leaving leaving(memory_);
-  for (const std::string& axis : moved_axes(prepared))
+  for (const std::string& axis : eligibility_.moved_axes(prepared))
     for (const auto& [address, value] : protocol_.premises(axis)) {
       const Result<std::string> holds = memory_.get(prepared, address, value.size());
       if (!holds) return holds.error();
@@ -442,7 +401,8 @@ bool Bench::meets_premises(const PreparedCase& prepared, CaseResult& result) {
   Result<std::string> unmet = unmet_premise(prepared);
   const bool can =
       endpoint_.capabilities().can_power_cycle || !options_.power_cycle_command.empty();
-  if (unmet && !unmet->empty() && can && power_cycle(result)) unmet = unmet_premise(prepared);
+  if (unmet && !unmet->empty() && can && recovery_.power_cycle(result))
+    unmet = unmet_premise(prepared);
   if (unmet && unmet->empty()) return true;
   result.verdict = unmet ? Verdict::blocked : Verdict::error;
   result.message =
@@ -456,7 +416,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   const auto give_up = [&](Verdict verdict, const Error& error) {
     result.verdict = verdict;
     result.message = error.message;
-    if (error.interrupted) stop("interrupted", &error);
+    if (error.interrupted) recovery_.stop("interrupted", &error);
     return false;
   };
   const auto set = [&](const std::string& address, const std::string& hex) {
@@ -472,7 +432,8 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   const exchange::Leaving leaving(memory_);  // the case has all connections of the device
   const bool asks = prepared.is_client() && endpoint_.capabilities().real_device;
   if (asks) {
-    if (const Status begun = arming_.begin(*prepared.source, device_config(*prepared.source));
+    if (const Status begun =
+            arming_.begin(*prepared.source, eligibility_.device_config(*prepared.source));
         !begun)
       return give_up(arming_.gave_up() ? Verdict::fail : Verdict::error, begun.error());
     // A flag that an earlier case left on would have no rising edge.

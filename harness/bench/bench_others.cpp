@@ -72,7 +72,7 @@ Result<bool> Bench::is_disturbed(const CaseResult& result) {
 void Bench::look_for_others(const PreparedCase& prepared, CaseResult& result) {
   if (prepared.is_client() || known_->port_failed) return;
   const Result<bool> disturbed = is_disturbed(result);
-  if (!disturbed) return stop("the port failed after " + result.id, &disturbed.error());
+  if (!disturbed) return recovery_.stop("the port failed after " + result.id, &disturbed.error());
   if (!*disturbed || !endpoint_.lets_others_in()) {
     if (endpoint_.now() >= known_->doubt_until) known_->disturbed = 0;
     return;
@@ -84,8 +84,8 @@ void Bench::look_for_others(const PreparedCase& prepared, CaseResult& result) {
   result.recording = {};  // what others have spoilt is not judged again
   known_->doubt_until = endpoint_.now() + doubt_lasts;
   if (++known_->disturbed == most_disturbed && known_->stopped.empty())
-    stop(fmt::format("{} (heard in {} cases, the last is {})", result.message, most_disturbed,
-                     result.id));
+    recovery_.stop(fmt::format("{} (heard in {} cases, the last is {})", result.message,
+                               most_disturbed, result.id));
 }
 
 }  // namespace fieldproof::bench

@@ -1,5 +1,4 @@
-// After a case: is the device still there, can it be brought back, is it worth asking further?
-#include "harness/bench/bench.hpp"
+#include "harness/bench/recovery.hpp"
 
 #include <fmt/format.h>
 
@@ -22,17 +21,17 @@ constexpr Duration revive_patience = 10s;
 
 /// The program under test has ended in the middle of a case that waits for its requests. It is
 /// started again, so that the others are judged.
-bool Bench::gave_up(const PreparedCase& prepared, const Error& trouble, CaseResult& result) {
+bool Recovery::gave_up(const PreparedCase& prepared, const Error& trouble, CaseResult& result) {
   if (!prepared.is_client() || !options_.endpoint_is_stimulus || trouble.interrupted) return false;
   result.verdict = Verdict::fail;
   result.message = "the client gave up: " + trouble.message;
-  known_->client_gave_up = true;
+  known_.client_gave_up = true;
   if (!arming_.revive()) stop("the client gave up too often, last in " + result.id);
   return true;
 }
 
-void Bench::after(const PreparedCase& prepared, const exchange::Transcript& transcript,
-                  CaseResult& result) {
+void Recovery::after(const PreparedCase& prepared, const exchange::Transcript& transcript,
+                     CaseResult& result) {
   if (transcript.trouble && gave_up(prepared, *transcript.trouble, result)) return;
   if (transcript.trouble)
     return stop("the port failed in " + result.id + ": " + transcript.trouble->message,
@@ -58,9 +57,7 @@ void Bench::after(const PreparedCase& prepared, const exchange::Transcript& tran
   if (dead && endpoint_.capabilities().real_device) revive(result);
 }
 
-/// It did not answer when its memory was read or set for a case: does it still answer anything? If
-/// not, the case says so after `what`.
-bool Bench::look_for_device(CaseResult& result, const std::string& what) {
+bool Recovery::look_for_device(CaseResult& result, const std::string& what) {
   const Result<exchange::Sign> alive =
       exchange_.anything_answers(options_.station, 3 * options_.profile.response_max);
   if (!alive) {
@@ -76,8 +73,7 @@ bool Bench::look_for_device(CaseResult& result, const std::string& what) {
   return false;
 }
 
-/// A device that the bench has started itself, and whose process has ended.
-void Bench::start_again(CaseResult& result) {
+void Recovery::start_again(CaseResult& result) {
   if (!endpoint_.capabilities().real_device || !endpoint_.capabilities().can_power_cycle ||
       !options_.power_cycle_command.empty() || options_.endpoint_is_stimulus ||
       options_.max_restarts == 0)
@@ -87,16 +83,16 @@ void Bench::start_again(CaseResult& result) {
   const std::string frame = last == result.exchange.rend()
                                 ? "in the set-up"
                                 : "after " + notation::print_bytes(last->bytes);
-  result.message = fmt::format("the device ended {}: {}", frame, known_->stopped);
+  result.message = fmt::format("the device ended {}: {}", frame, known_.stopped);
   result.verdict = Verdict::fail;
-  known_->stopped.clear();
-  known_->port_failed = false;
+  known_.stopped.clear();
+  known_.port_failed = false;
   revive(result);
 }
 
-void Bench::revive(CaseResult& result) {
+void Recovery::revive(CaseResult& result) {
   if (endpoint_.capabilities().can_power_cycle && options_.power_cycle_command.empty())
-    if (std::string enough = known_->worth_asking.restart(result); !enough.empty())
+    if (std::string enough = known_.worth_asking.restart(result); !enough.empty())
       return stop(std::move(enough));
   if (!power_cycle(result))
     stop(fmt::format(
@@ -104,7 +100,7 @@ void Bench::revive(CaseResult& result) {
         result.id));
 }
 
-bool Bench::power_cycle(CaseResult& result, bool client) {
+bool Recovery::power_cycle(CaseResult& result, bool client) {
   const bool hook = !options_.power_cycle_command.empty();
   if (hook && !os::run_hook(options_.power_cycle_command, {}, {})) {
     result.notes.push_back("the --power-cycle command failed");
@@ -113,7 +109,7 @@ bool Bench::power_cycle(CaseResult& result, bool client) {
   const endpoints::Capabilities& can = endpoint_.capabilities();
   if (!hook && !((can.can_power_cycle || can.control) && endpoint_.act("power_cycle")))
     return false;
-  known_->starts = endpoint_.starts();
+  known_.starts = endpoint_.starts();
   result.notes.push_back("power-cycled the device");
   if (client) return arming_.started_anew();  // it answers no probe
   const Result<exchange::Sign> sign =
@@ -121,10 +117,10 @@ bool Bench::power_cycle(CaseResult& result, bool client) {
   return sign && *sign == exchange::Sign::alive;
 }
 
-void Bench::stop(std::string why, const Error* error) {
-  known_->stopped = std::move(why);
-  known_->port_failed = error != nullptr;
-  known_->interrupted = error && error->interrupted;
+void Recovery::stop(std::string why, const Error* error) {
+  known_.stopped = std::move(why);
+  known_.port_failed = error != nullptr;
+  known_.interrupted = error && error->interrupted;
 }
 
 }  // namespace fieldproof::bench

@@ -1,5 +1,4 @@
-// What can be settled before a byte is sent: may a case run, where, and what does it write?
-#include "harness/bench/bench.hpp"
+#include "harness/bench/eligibility.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,16 +32,16 @@ json without_programs(json stations) {
 
 }  // namespace
 
-Result<PreparedCase> Bench::prepare(const Case& source) const {
+Result<PreparedCase> Eligibility::prepare(const Case& source) const {
   return exchange::prepare(source, station_for(source), protocol_, {options_.known, options_.aux});
 }
 
-int Bench::station_for(const Case& source) const {
+int Eligibility::station_for(const Case& source) const {
   if (endpoint_.capabilities().real_device) return options_.station;
   return vectors::config_station(source.config, options_.station).value_or(options_.station);
 }
 
-json Bench::device_config(const Case& source) const {
+json Eligibility::device_config(const Case& source) const {
   json config = source.config;
   config["station"] = station_for(source);
   if (!options_.profile.model.empty())
@@ -52,18 +51,8 @@ json Bench::device_config(const Case& source) const {
   return config;
 }
 
-/// For Endpoint::begin.
-json Bench::begin_config(const Case& source) const {
-  json config = endpoint_.capabilities().real_device
-                    ? whole_config(options_.profile, options_.station, protocol_)
-                    : json{{"station", options_.station}};
-  if (!options_.profile.model.empty()) config["model"] = options_.profile.model;
-  if (source.config.contains("role")) config["role"] = source.config["role"];
-  return config;
-}
-
 /// The case says itself where the memory of a device lies, and this one has it there.
-bool Bench::places_memory_itself(const Case& source) const {
+bool Eligibility::places_memory_itself(const Case& source) const {
   const json defaults = protocol_.defaults(options_.profile.model);
   bool any = false, all = true;
   for (const auto& [key, value] : defaults.items()) {
@@ -74,7 +63,7 @@ bool Bench::places_memory_itself(const Case& source) const {
   return any && all;
 }
 
-Bench::Eligibility Bench::outside_profile(const Case& source) const {
+Ruling Eligibility::outside_profile(const Case& source) const {
   const Profile& profile = options_.profile;
   if (std::ranges::find(profile.protocols, source.protocol) == profile.protocols.end())
     return {Verdict::skip,
@@ -93,7 +82,7 @@ Bench::Eligibility Bench::outside_profile(const Case& source) const {
 }
 
 /// A case that does something to nets is about those that it names, and no others.
-std::string Bench::not_of_the_case(const Case& source) const {
+std::string Eligibility::not_of_the_case(const Case& source) const {
   const bool acts = std::ranges::any_of(
       source.steps, [](const auto& step) { return step.kind == vectors::Step::Kind::act; });
   if (source.on_model.empty() || !acts) return {};
@@ -105,7 +94,7 @@ std::string Bench::not_of_the_case(const Case& source) const {
 }
 
 /// On hardware the configuration of a case must be what is declared.
-std::string Bench::undeclared(const json& config) const {
+std::string Eligibility::undeclared(const json& config) const {
   const bool asks = config.value("role", "server") == "client";
   for (const auto& [key, value] : config.items()) {
     if (key == "station" || key == "p2p" || (key == "role" && asks)) continue;  // Arming tells
@@ -129,7 +118,7 @@ std::string Bench::undeclared(const json& config) const {
 
 /// All that a case writes, in its order: what is given, what its steps set, what sets its actions
 /// off, and what these write.
-std::vector<Protocol::Setting> Bench::settings_of(const PreparedCase& prepared) const {
+std::vector<Protocol::Setting> Eligibility::settings_of(const PreparedCase& prepared) const {
   std::vector<Protocol::Setting> settings = prepared.source->memory;
   const auto add = [&](const std::vector<Protocol::Setting>& more) {
     settings.insert(settings.end(), more.begin(), more.end());
@@ -145,7 +134,8 @@ std::vector<Protocol::Setting> Bench::settings_of(const PreparedCase& prepared) 
 
 /// What the bench sends to a client are answers; what it sets goes over the second channel, as does
 /// what it sets in a partner of the device. An error: it cannot be set.
-Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCase& prepared) const {
+Result<std::vector<Protocol::Written>> Eligibility::written_over_aux(
+    const PreparedCase& prepared) const {
   std::vector<Protocol::Written> written;
   const exchange::Channel& aux = options_.aux;
   if (!aux.endpoint) return written;
@@ -168,7 +158,7 @@ Result<std::vector<Protocol::Written>> Bench::written_over_aux(const PreparedCas
   return written;
 }
 
-std::vector<std::string> Bench::moved_axes(const PreparedCase& prepared) const {
+std::vector<std::string> Eligibility::moved_axes(const PreparedCase& prepared) const {
   std::vector<std::string> axes;
   const auto add = [&](std::string axis) {
     if (!axis.empty() && std::ranges::count(axes, axis) == 0) axes.push_back(std::move(axis));
@@ -181,7 +171,7 @@ std::vector<std::string> Bench::moved_axes(const PreparedCase& prepared) const {
 }
 
 /// Of all that a setting covers; of the device, or of its partner.
-std::string Bench::axis_moved_by(const Protocol::Setting& setting) const {
+std::string Eligibility::axis_moved_by(const Protocol::Setting& setting) const {
   const exchange::PlaceName name = exchange::place_name(setting.first);
   const Protocol* const owner = name.partner.empty() ? &protocol_ : options_.aux.protocol;
   const auto covers = owner ? owner->named(name.address, setting.second.size()) : std::nullopt;
@@ -193,7 +183,7 @@ std::string Bench::axis_moved_by(const Protocol::Setting& setting) const {
 }
 
 /// Nothing that moves is set in motion unless it is named.
-std::string Bench::motion_objection(const PreparedCase& prepared) const {
+std::string Eligibility::motion_objection(const PreparedCase& prepared) const {
   for (const exchange::PreparedStep& step : prepared.steps)
     if (step.step->kind == vectors::Step::Kind::act)
       if (std::string why = options_.fence.motion_objection(protocol_.moves(step.step->action),
@@ -207,7 +197,7 @@ std::string Bench::motion_objection(const PreparedCase& prepared) const {
   return {};
 }
 
-std::string Bench::fence_objection(const PreparedCase& prepared) const {
+std::string Eligibility::fence_objection(const PreparedCase& prepared) const {
   const Result<std::vector<Protocol::Written>> over_aux = written_over_aux(prepared);
   if (!over_aux) return over_aux.error().message;
   if (!over_aux->empty())
@@ -229,7 +219,7 @@ std::string Bench::fence_objection(const PreparedCase& prepared) const {
 }
 
 /// In the order of the case.
-std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) const {
+std::vector<Protocol::Written> Eligibility::written_by(const PreparedCase& prepared) const {
   if (prepared.is_client()) return *written_over_aux(prepared);  // the fence has let it pass
   std::vector<Protocol::Written> written;
   const auto add = [&](ByteView request, const Protocol& protocol) {
@@ -248,7 +238,7 @@ std::vector<Protocol::Written> Bench::written_by(const PreparedCase& prepared) c
 
 /// Why the bench cannot do what the case does to the device or its partners, or look at it; empty:
 /// it can.
-std::string Bench::out_of_reach(const PreparedCase& prepared) const {
+std::string Eligibility::out_of_reach(const PreparedCase& prepared) const {
   for (const exchange::PreparedStep& step : prepared.steps) {
     if (step.step->kind == vectors::Step::Kind::act)
       if (const auto off = protocol_.set_off_by(step.step->action); !off)
@@ -262,7 +252,7 @@ std::string Bench::out_of_reach(const PreparedCase& prepared) const {
   return {};
 }
 
-std::string Bench::unreadable(const std::string& address, std::size_t digits) const {
+std::string Eligibility::unreadable(const std::string& address, std::size_t digits) const {
   if (const Status there = memory_.partner_of(address); !there) return there.error().message;
   const exchange::PlaceName name = exchange::place_name(address);
   const Protocol& protocol = name.partner.empty() ? protocol_ : *options_.aux.protocol;
@@ -271,7 +261,7 @@ std::string Bench::unreadable(const std::string& address, std::size_t digits) co
 }
 
 /// A network device that is not reached by what the case opens: connections, or datagrams.
-std::string Bench::not_carried(const PreparedCase& prepared) const {
+std::string Eligibility::not_carried(const PreparedCase& prepared) const {
   const endpoints::Capabilities& can = endpoint_.capabilities();
   if (!can.connections && !can.datagrams) return {};
   for (const exchange::PreparedStep& step : prepared.steps) {
@@ -287,7 +277,7 @@ std::string Bench::not_carried(const PreparedCase& prepared) const {
   return {};
 }
 
-Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepared) const {
+Ruling Eligibility::blocked(const Case& source, const PreparedCase& prepared) const {
   const endpoints::Capabilities& can = endpoint_.capabilities();
   if (!can.real_device) return {};
   if (std::string why = not_carried(prepared); !why.empty()) return {Verdict::blocked, why};
@@ -318,7 +308,7 @@ Bench::Eligibility Bench::blocked(const Case& source, const PreparedCase& prepar
   return {};
 }
 
-Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
+Ruling Eligibility::below_floor(const PreparedCase& prepared) const {
   const endpoints::Capabilities& can = endpoint_.capabilities();
   if (can.wire) return {};
   const json& config = prepared.source->config;
@@ -347,18 +337,16 @@ Bench::Eligibility Bench::below_floor(const PreparedCase& prepared) const {
 }
 
 /// Whatever can be settled before a byte is sent.
-Bench::Ready Bench::make_ready(const Case& source) const {
-  Ready ready;
-  const auto declined = [&](Eligibility why) {
+ReadyCase Eligibility::ready(const Case& source) const {
+  ReadyCase ready;
+  const auto declined = [&](Ruling why) {
     ready.why = std::move(why);
     return std::move(ready);
   };
-  if (const Eligibility outside = outside_profile(source); outside.verdict != Verdict::pass)
-    return declined(outside);
+  if (const Ruling outside = outside_profile(source); !outside.may_run()) return declined(outside);
   Result<PreparedCase> prepared = prepare(source);
   if (!prepared) return declined({Verdict::error, prepared.error().message});
-  if (const Eligibility why = blocked(source, *prepared); why.verdict != Verdict::pass)
-    return declined(why);
+  if (const Ruling why = blocked(source, *prepared); !why.may_run()) return declined(why);
   // Memory is asked for where a real device declares it to lie, and written only where it is
   // allowed.
   const bool real = endpoint_.capabilities().real_device;
@@ -384,25 +372,17 @@ Bench::Ready Bench::make_ready(const Case& source) const {
   }
   if (std::string why = real ? fence_objection(*prepared) : ""; !why.empty())
     return declined({Verdict::blocked, why});
-  if (const Eligibility why = below_floor(*prepared); why.verdict != Verdict::pass)
-    return declined(why);
+  if (const Ruling why = below_floor(*prepared); !why.may_run()) return declined(why);
   ready.prepared = std::move(*prepared);
   return ready;
 }
 
-/// What is known of a real device may change from case to case.
-const Bench::Ready& Bench::ready_for(const Case& source) {
-  if (last_ != &source || endpoint_.capabilities().real_device) last_ready_ = make_ready(source);
-  last_ = &source;
-  return last_ready_;
-}
-
-bool Bench::could_run(const Case& source) const { return make_ready(source).prepared.has_value(); }
-
-std::vector<Protocol::Written> Bench::written_by(const Case& source) const {
+Ruling Eligibility::unmoved(const Case& source) const {
+  if (Ruling outside = outside_profile(source); !outside.may_run()) return outside;
   const Result<PreparedCase> prepared = prepare(source);
-  if (!prepared || prepared->is_client()) return {};
-  return written_by(*prepared);
+  if (!prepared) return {Verdict::error, prepared.error().message};
+  if (Ruling why = blocked(source, *prepared); !why.may_run()) return why;
+  return below_floor(*prepared);
 }
 
 }  // namespace fieldproof::bench
