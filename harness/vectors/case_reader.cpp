@@ -48,9 +48,10 @@ std::vector<std::pair<std::string, std::string>> read_memory(const json& value, 
     }
     const std::optional<std::string> digits = expand_hex(text);
     if (!digits)
-      throw Broken(fmt::format("{}: '{}' are no hex digits, nor a number as dec(1500), dec32(-400), "
-                               "float(0.5)",
-                               address, text));
+      throw Broken(
+          fmt::format("{}: '{}' are no hex digits, nor a number as dec(1500), dec32(-400), "
+                      "float(0.5)",
+                      address, text));
     memory.emplace_back(address, *digits);
   }
   return memory;
@@ -330,9 +331,10 @@ Case CaseReader::read(const Combination& combination) const {
   for (std::size_t i = 0; i < steps.size(); ++i) try {
       result.steps.push_back(reader.read(steps[i]));
       if (!result.on_model.empty() && is_on_a_wire(result.steps.back().kind))
-        throw Broken(fmt::format("kind '{}' is of a model: it has no step on a wire; leave the "
-                                 "kind out",
-                                 result.on_model));
+        throw Broken(
+            fmt::format("kind '{}' is of a model: it has no step on a wire; leave the "
+                        "kind out",
+                        result.on_model));
     } catch (const Broken& broken) {
       throw Broken(fmt::format("steps[{}]: {}", i, broken.what()));
     }

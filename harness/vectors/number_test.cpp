@@ -32,9 +32,9 @@ TEST(Number, WhatIsCheckedMayLieBetweenTwo) {
 }
 
 TEST(Number, WhatIsNone) {
-  for (const char* wrong : {"", "12", "dec", "dec()", "dec(x)", "dec(1", "dec(1.5)", "dec(65536)",
-                            "dec(-32769)", "dec32(2..1)", "dec32(1..)", "float(a)", "seq(3)",
-                            "dec64(1e300)", "word(1)"})
+  for (const char* wrong :
+       {"", "12", "dec", "dec()", "dec(x)", "dec(1", "dec(1.5)", "dec(65536)", "dec(-32769)",
+        "dec32(2..1)", "dec32(1..)", "float(a)", "seq(3)", "dec64(1e300)", "word(1)"})
     EXPECT_FALSE(read_number(wrong)) << wrong;
 }
 

@@ -132,7 +132,7 @@ constexpr std::array given_keys{Key{"config", &any_object}, Key{"memory", &memor
                                 Key{"fresh", &boolean}};
 constexpr Shape given{.kind = Kind::object, .keys = given_keys};
 
-constexpr std::array<Words, 6> kind_words{"case",          "table",         "instruction",
+constexpr std::array<Words, 6> kind_words{"case",     "table",         "instruction",
                                           "register", "configuration", "timing"};
 constexpr std::array<Words, 3> level_words{"must", "should", "info"};
 constexpr std::array<Words, 5> basis_words{"printed frame", "printed rule", "printed", "derived",

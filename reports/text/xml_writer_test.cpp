@@ -14,8 +14,8 @@ TEST(XmlWriter, WritesALineForEachElement) {
   xml.leaf("case", {{"n", "1"}});
   xml.leaf("said", {}, "first\nsecond");
   xml.close("suite");
-  EXPECT_EQ(
-      "<suite name=\"a\">\n  <case n=\"1\" />\n  <said>first\nsecond</said>\n</suite>\n", out);
+  EXPECT_EQ("<suite name=\"a\">\n  <case n=\"1\" />\n  <said>first\nsecond</said>\n</suite>\n",
+            out);
 }
 
 TEST(XmlWriter, AnyBytesAreReadAgainAsTheyAreShown) {

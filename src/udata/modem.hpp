@@ -48,8 +48,8 @@ class Modem : public plc::SerialDevice {
 
   /// "@dtr", "@rts" and "@network": 00 or 01.
   Status set(std::string_view address, std::string_view hex) override;
-  /// Those, "@data" (what the other modem has received, in hex: all of it, however many `digits` are
-  /// asked for) and counters.
+  /// Those, "@data" (what the other modem has received, in hex: all of it, however many `digits`
+  /// are asked for) and counters.
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   /// "power_cycle", and "deliver TEXT": the other modem sends it.
   Status act(std::string_view action) override;

@@ -115,8 +115,7 @@ template <typename Fault, typename Behaviour>
 Kit by_behaviour(std::string name, std::string folder, const std::vector<Fault>& table,
                  Device (*make)(const Behaviour&, std::string_view model, const json&),
                  const std::string& usual = "xbc-h") {
-  const auto run_one = [&table, make, usual](std::optional<std::size_t> fault,
-                                             const Case& source) {
+  const auto run_one = [&table, make, usual](std::optional<std::size_t> fault, const Case& source) {
     const Behaviour behaviour = fault ? table[*fault].make() : Behaviour{};
     return run(source, model_of(source, usual), [=](std::string_view model, const json& config) {
       return make(behaviour, model, config);
@@ -180,8 +179,7 @@ std::vector<Kit> kits() {
                        modbus_tcp_broken::make_broken_server),
           by_behaviour("xgt-fenet", "xgt_fenet", xgt_fenet_broken::faults(),
                        xgt_fenet_broken::make_broken_server),
-          by_behaviour("xnet", "xnet", xnet_broken::faults(), xnet_broken::make_broken_xnet,
-                       "xd3"),
+          by_behaviour("xnet", "xnet", xnet_broken::faults(), xnet_broken::make_broken_xnet, "xd3"),
           by_behaviour("hs-link", "hs_link", hs_link_broken::faults(),
                        hs_link_broken::make_broken_network),
           inverter(),

@@ -49,8 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
     Protocols, SecondHand,
     testing::Values(
         Device{"xgt-cnet", "xgt_cnet/rs*:xgt_cnet/monitor*"},
-        Device{"modbus-rtu", "modbus_rtu/examples/*"},
-        Device{"modbus-ascii", "modbus_ascii/*"},
+        Device{"modbus-rtu", "modbus_rtu/examples/*"}, Device{"modbus-ascii", "modbus_ascii/*"},
         Device{"modbus-tcp", "modbus_tcp/examples/*:modbus_tcp/data/*:modbus_tcp/limits/*",
                " --listen 127.0.0.1:{port}"},
         Device{"xgt-fenet", "xgt_fenet/examples/*:xgt_fenet/read/*:xgt_fenet/write/*", of_a_port}),

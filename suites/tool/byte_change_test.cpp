@@ -119,8 +119,8 @@ class Vectors {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path())) {
       const std::string name = fs::relative(entry.path(), path()).string();
       if (entry.path().extension() != ".json" || name.ends_with("schema.json") ||
-          name == "manuals.json" || name == "sections.json" || name == "faults.json" || name.starts_with("statements/") ||
-          name.starts_with("errata/"))
+          name == "manuals.json" || name == "sections.json" || name == "faults.json" ||
+          name.starts_with("statements/") || name.starts_with("errata/"))
         continue;
       files_[name] = ordered_json::parse(read_text(entry.path()));
     }

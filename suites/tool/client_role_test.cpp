@@ -159,7 +159,8 @@ TEST_F(ClientRole, AStimulatedProgramIsJudgedOnTheWire) {
 TEST_F(ClientRole, TheCadenceOfAStimulatedProgramIsMeasured) {
   run({cadence_case()}, {"--endpoint", program(), "--stimulus", "-", "--profile", profile()});
   const json measured = results.of("xgt_cnet/client/cadence");
-  EXPECT_THAT(measured.at("notes").dump(), testing::ContainsRegex("every 200 ms: measured min .* of 4 periods"));
+  EXPECT_THAT(measured.at("notes").dump(),
+              testing::ContainsRegex("every 200 ms: measured min .* of 4 periods"));
 }
 
 TEST_F(ClientRole, AProgramThatAsksTwiceFails) {

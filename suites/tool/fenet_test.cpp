@@ -171,12 +171,12 @@ TEST(XgtFenetReadme, a_client_of_four_lines_reads_a_word) {
 /// A program that is asked by connections alone is not to blame for datagrams.
 TEST(XgtFenetBench, WithoutAPortForDatagramsTheirCasesAreBlocked) {
   const TestFolder folder;
-  const Finished finished = run_tool(
-      {"run", "--endpoint",
-       std::string("exec:") + FIELDPROOF_TOOL +
-           " emulate 'xbc-h?protocol=xgt-fenet' --tcp 127.0.0.1:{port}?protocol=xgt-fenet",
-       "--profile", "xbc-h", "--filter", "xgt_fenet/udp/read/*:xgt_fenet/examples/*", "--out",
-       folder.path()});
+  const Finished finished =
+      run_tool({"run", "--endpoint",
+                std::string("exec:") + FIELDPROOF_TOOL +
+                    " emulate 'xbc-h?protocol=xgt-fenet' --tcp 127.0.0.1:{port}?protocol=xgt-fenet",
+                "--profile", "xbc-h", "--filter", "xgt_fenet/udp/read/*:xgt_fenet/examples/*",
+                "--out", folder.path()});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   Results results = read_results(folder / "results.ndjson");
   EXPECT_EQ(results.counts()["FAIL"], 0u);

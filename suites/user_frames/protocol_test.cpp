@@ -76,7 +76,8 @@ TEST(UserFramesProtocol, AnUnknownModelIsAnErrorThatNamesTheNearest) {
   EXPECT_THAT(named.error().message, HasSubstr("did you mean 'px7'?"));
   const auto path = protocol().make_device("nowhere/mine.json", nlohmann::json::object());
   ASSERT_FALSE(path);
-  EXPECT_THAT(path.error().message, HasSubstr("cannot read nowhere/mine.json: no such file or directory"));
+  EXPECT_THAT(path.error().message,
+              HasSubstr("cannot read nowhere/mine.json: no such file or directory"));
   const auto folder = protocol().make_device("/.json", nlohmann::json::object());
   EXPECT_FALSE(folder);
 }

@@ -92,7 +92,8 @@ Behaviour taken_by(std::function<bool(std::uint16_t came, const Sent& sent)> pas
           .takes =
               [=](const P2pDriver& good, const P2pBlock& block, Bytes frame, PlcMemory& memory) {
                 const auto own = xgt_fenet::read_header(frame);
-                if (own) set_low_first(frame, 14, passes(own->invoke, *sent) ? sent->invoke : 0xFFFF);
+                if (own)
+                  set_low_first(frame, 14, passes(own->invoke, *sent) ? sent->invoke : 0xFFFF);
                 return good.take(block, frame, memory);
               }};
 }
