@@ -288,7 +288,6 @@ TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
 }
 
 // ---- fence, profile
-// ------------------------------------------------------------------------------------------------
 
 struct FenceProtocol : harness::TestProtocol {
   std::string_view output_areas() const override { return "PQU"; }

@@ -1,8 +1,8 @@
 // The journal of what a real device held before a run wrote there, so that a run that was killed
-// can be undone
-// (`fieldproof restore`). One JSON object a line, on the disk before the write goes out:
-//   {"saved":{"number":7,"endpoint":"serial:/dev/ttyUSB0?station=1","station":1,"protocol":"xgt-cnet","model":"xbc-h",
-//             "config":{},"address":"%MW100","value":"00E2"}}
+// can be undone (`fieldproof restore`). One JSON object a line, on the disk before the write goes
+// out:
+//   {"saved":{"number":7,"endpoint":"serial:/dev/ttyUSB0?station=1","station":1,
+//             "protocol":"xgt-cnet","model":"xbc-h","config":{},"address":"%MW100","value":"00E2"}}
 //   {"restored":{"number":7,"address":"%MW100"}}    it holds that value again, as was read back
 // A last line that is cut short is none: what it announced has not been written to the device.
 // Where many entries are closed, the open ones alone are written to a file beside it (path +

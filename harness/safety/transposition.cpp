@@ -87,7 +87,6 @@ std::vector<Written> writes_of(const Case& source, int station, const Fields& st
 }
 
 // ---- planning
-// ------------------------------------------------------------------------------------------------------
 
 /// Why a case cannot leave where it is: it is about an end of the area.
 std::string about_an_end(const std::vector<Spot>& spots, const std::string& area,
@@ -201,7 +200,6 @@ Error blocked(const std::string& objection, const std::string& why) {
 }
 
 // ---- moving
-// --------------------------------------------------------------------------------------------------------
 
 int words_for(const Written& place, const std::vector<Move>& moves) {
   for (const Move& move : moves)

@@ -144,7 +144,6 @@ TEST_F(CompareTest, TheGravestRepetitionCounts) {
 }
 
 // ---- reply times
-// ---------------------------------------------------------------------------------------------------
 
 std::vector<double> times(double from, std::size_t count) {
   std::vector<double> values;
@@ -226,7 +225,6 @@ TEST_F(CompareTest, ManyCasesAreCorrectedFor) {
 }
 
 // ---- matrix and reports
-// --------------------------------------------------------------------------------------------
 
 std::unique_ptr<ComparisonSet> three_runs() {
   std::vector<RunSummary> runs;

@@ -30,7 +30,6 @@ ordered_json without(ordered_json vector, const char* key) {
 std::string text_of(const ordered_json& vector) { return ordered_json::array({vector}).dump(1); }
 
 // ---- start-up files and options
-// ------------------------------------------------------------------------------------
 
 struct BadInput {
   const char* name;
@@ -318,7 +317,6 @@ TEST_F(Lint, notices_a_changed_quote_without_the_manuals) {
 }
 
 // ---- ports and folders
-// ---------------------------------------------------------------------------------------------
 
 /// A run of these vectors against this endpoint, judged as xbc-h.
 class BadDevices : public testing::Test {
@@ -434,7 +432,6 @@ TEST_F(BadDevices, unwritable_report) {
 }
 
 // ---- devices
-// -------------------------------------------------------------------------------------------------------
 
 TEST_F(BadDevices, healthy_one_is_green) {
   const Finished finished = run(device("good"), 5);
@@ -515,7 +512,6 @@ TEST_F(BadDevices, pty_that_closes) {
 }
 
 // ---- nested without end
-// ------------------------------------------------------------------------------------------------
 
 /// A value within a value, so deep that who goes down the levels one by one runs out of stack.
 std::string deep(const std::string& before = "", const std::string& behind = "") {
@@ -566,7 +562,6 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return std::string(one.param.name); });
 
 // ---- interrupted and killed
-// ----------------------------------------------------------------------------------------
 
 /// Waits until something opens the FIFO and writes to it, as testdata/device.py does with 'tell'.
 class Fifo {

@@ -170,7 +170,6 @@ TEST_F(CompareCommand, UnreadableFilesAreNamedAndExitWith2) {
 }
 
 // ---- run --baseline
-// ------------------------------------------------------------------------------------------------
 
 TEST_F(CompareCommand, ARunWorseThanItsBaselineFails) {
   const TestFolder vectors;
@@ -212,7 +211,6 @@ TEST_F(CompareCommand, CasesThatWereNotSelectedAreNotMissing) {
 }
 
 // ---- judge
-// ---------------------------------------------------------------------------------------------------------
 
 /// Verdicts by case of the results in a folder.
 std::map<std::string, std::string> verdicts(const std::string& folder) {
@@ -386,7 +384,6 @@ TEST_F(JudgeCommand, HostileRecordingsAreSurvived) {
 }
 
 // ---- the schema of what is written
-// ---------------------------------------------------------------------------------
 
 json results_schema() {
   return json::parse(read_text(FIELDPROOF_SOURCE_DIR "/reports/results.schema.json"));
