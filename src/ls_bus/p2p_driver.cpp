@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/line/silence.hpp"
 #include "src/plc/counters.hpp"
 
 namespace fieldproof::ls_bus {
@@ -20,7 +21,8 @@ bool writes(const P2pBlock& block) { return block.function == P2pBlock::Function
 
 class LsBusP2pDriver : public p2p::P2pDriver {
  public:
-  LsBusP2pDriver(LsWriteOrder write_order, Duration gap) : write_order_(write_order), gap_(gap) {}
+  LsBusP2pDriver(LsWriteOrder write_order, Duration gap)
+      : write_order_(write_order), silence_(gap) {}
 
   std::string_view name() const override { return "ls-bus-client"; }
   Status check(const P2pBlock& block, const plc::PlcModel& model) const override;
@@ -42,12 +44,10 @@ class LsBusP2pDriver : public p2p::P2pDriver {
   std::uint16_t take_ack(const P2pBlock& block, const LsReply& reply, PlcMemory& memory) const;
 
   LsWriteOrder write_order_;
-  Duration gap_;
+  line::Silence silence_;
   LsReceiver receiver_{LsReceiver::Side::client};
   bool noise_ = false;  // a run of bytes outside frames, already told
-  Time last_end_{};
-  Duration character_time_{};
-  LsRequest sent_;  // the reply to a write repeats its data, whatever memory holds by then
+  LsRequest sent_;      // the reply to a write repeats its data, whatever memory holds by then
 };
 
 Status LsBusP2pDriver::check(const P2pBlock& block, const plc::PlcModel&) const {
@@ -119,8 +119,7 @@ std::uint16_t LsBusP2pDriver::take_ack(const P2pBlock& block, const LsReply& rep
 void LsBusP2pDriver::receive(const Burst& burst, FrameSink& sink) {
   if (burst.bytes.empty()) return;
   burst.for_each([&](Byte b, Time end) { take_byte(b, end, sink); });
-  last_end_ = burst.end();
-  character_time_ = burst.character_time;
+  silence_.heard(burst);
 }
 
 void LsBusP2pDriver::take_byte(Byte b, Time end, FrameSink& sink) {
@@ -137,8 +136,7 @@ void LsBusP2pDriver::take_byte(Byte b, Time end, FrameSink& sink) {
 
 std::optional<Time> LsBusP2pDriver::wake_at() const {
   if (!receiver_.inside()) return std::nullopt;
-  // A character that begins at the last moment is complete, and heard, one character time later.
-  return last_end_ + gap_ + character_time_ + Duration(1);
+  return silence_.over_at();
 }
 
 void LsBusP2pDriver::advance(Time now, FrameSink& sink) {

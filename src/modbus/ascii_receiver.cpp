@@ -7,10 +7,9 @@ namespace fieldproof::modbus {
 
 void AsciiReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
-  if (burst.start - last_end_ > max_gap) give_up(sink);
+  if (silence_.is_over_before(burst)) give_up(sink);
   burst.for_each([&](Byte b, Time end) { take(b, end, sink); });
-  last_end_ = burst.end();
-  character_time_ = burst.character_time;
+  silence_.heard(burst);
 }
 
 void AsciiReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
@@ -43,8 +42,7 @@ void AsciiReceiver::give_up(plc::FrameSink& sink) {
 
 std::optional<Time> AsciiReceiver::wake_at() const {
   if (state_ != State::frame) return std::nullopt;
-  // A character that begins at the last moment is complete, and heard, one character time later.
-  return last_end_ + max_gap + character_time_ + Duration(1);
+  return silence_.over_at();
 }
 
 void AsciiReceiver::advance(Time now, plc::FrameSink& sink) {

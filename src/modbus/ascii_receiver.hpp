@@ -5,6 +5,7 @@
 // contradict the second.
 #pragma once
 
+#include "src/line/silence.hpp"
 #include "src/modbus/receiver.hpp"
 
 namespace fieldproof::modbus {
@@ -30,8 +31,7 @@ class AsciiReceiver : public ModbusReceiver {
 
   State state_ = State::idle;
   Bytes frame_;
-  Time last_end_{};
-  Duration character_time_{};
+  line::Silence silence_{max_gap};
 };
 
 }  // namespace fieldproof::modbus

@@ -10,17 +10,16 @@ namespace fieldproof::modbus {
 
 void RtuReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
   if (burst.bytes.empty()) return;
-  if (burst.start - last_end_ >= gap_) finish(sink);
+  if (silence_.is_over_before(burst)) finish(sink);
   const std::size_t room = rtu_max_frame + 1 - frame_.size();
   const auto taken = static_cast<std::ptrdiff_t>(std::min(room, burst.bytes.size()));
   frame_.insert(frame_.end(), burst.bytes.begin(), burst.bytes.begin() + taken);
-  last_end_ = burst.end();
-  character_time_ = burst.character_time;
+  silence_.heard(burst);
 }
 
 std::optional<Time> RtuReceiver::wake_at() const {
   if (frame_.empty()) return std::nullopt;
-  return last_end_ + gap_ + character_time_;
+  return silence_.over_at();
 }
 
 void RtuReceiver::advance(Time now, plc::FrameSink& sink) {

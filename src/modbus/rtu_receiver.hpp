@@ -7,13 +7,14 @@
 // character that began within it has arrived by then.
 #pragma once
 
+#include "src/line/silence.hpp"
 #include "src/modbus/receiver.hpp"
 
 namespace fieldproof::modbus {
 
 class RtuReceiver : public ModbusReceiver {
  public:
-  explicit RtuReceiver(Duration gap) : gap_(gap) {}
+  explicit RtuReceiver(Duration gap) : silence_(gap - Duration(1)) {}
 
   /// Frames have at most rtu_max_frame bytes; a longer one is dropped (service_status::too_long).
   /// The `end` of a frame is the moment at which its end is known.
@@ -25,10 +26,8 @@ class RtuReceiver : public ModbusReceiver {
  private:
   void finish(plc::FrameSink& sink);
 
-  Duration gap_;
+  line::Silence silence_;
   Bytes frame_;  // one byte more than the longest at most
-  Time last_end_{};
-  Duration character_time_{};
 };
 
 }  // namespace fieldproof::modbus

@@ -47,8 +47,7 @@ std::string csv_row(const MonitoredFrame& frame, std::string_view time) {
 
 void FrameMonitor::receive(const Burst& burst) {
   heard_.insert(heard_.end(), burst.bytes.begin(), burst.bytes.end());
-  last_end_ = burst.end();
-  character_time_ = burst.character_time;
+  silence_.heard(burst);
   take_frames(burst.character_time);
   line_->receive(burst);
 }
@@ -59,14 +58,14 @@ void FrameMonitor::take_frames(Duration character_time) {
     const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(*length);
     Bytes frame(heard_.begin(), end);
     heard_.erase(heard_.begin(), end);
-    record(false, last_end_ - character_time * static_cast<Duration::rep>(heard_.size()),
+    record(false, silence_.last_end() - character_time * static_cast<Duration::rep>(heard_.size()),
            std::move(frame));
   }
 }
 
 /// What was heard is over, whatever it is.
 void FrameMonitor::close() {
-  if (!heard_.empty()) record(false, last_end_, std::exchange(heard_, {}));
+  if (!heard_.empty()) record(false, silence_.last_end(), std::exchange(heard_, {}));
 }
 
 void FrameMonitor::record(bool sent, Time time, Bytes data) {
@@ -78,13 +77,12 @@ void FrameMonitor::record(bool sent, Time time, Bytes data) {
 std::optional<Time> FrameMonitor::wake_at() const {
   const std::optional<Time> wake = line_->wake_at();
   if (heard_.empty()) return wake;
-  // A character that begins at the last moment is heard one character time later.
-  const Time over = silent_from() + character_time_ + Duration(1);
+  const Time over = silence_.over_at();
   return wake ? std::min(*wake, over) : over;
 }
 
 Bytes FrameMonitor::advance(Time now) {
-  if (now > silent_from() + character_time_) close();
+  if (now >= silence_.over_at()) close();
   Bytes bytes = line_->advance(now);
   if (bytes.empty()) return bytes;
   close();

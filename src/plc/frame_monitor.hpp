@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "src/line/silence.hpp"
 #include "src/plc/emulated_device.hpp"
 
 namespace fieldproof::plc {
@@ -59,7 +60,8 @@ class FrameMonitor : public EmulatedDevice, public line::Device {
       : device_(std::move(device)),
         line_(device_->line()),
         rules_(std::move(rules)),
-        record_(std::move(record)) {}
+        record_(std::move(record)),
+        silence_(rules_.silence) {}
 
   line::Device* line(unsigned channel = 0) override {
     line::Device* const of_device = device_->line(channel);
@@ -80,7 +82,6 @@ class FrameMonitor : public EmulatedDevice, public line::Device {
   Trace trace() const override { return device_->trace(); }
 
  private:
-  Time silent_from() const { return last_end_ + rules_.silence; }
   void take_frames(Duration character_time);
   void close();
   void record(bool sent, Time time, Bytes data);
@@ -90,8 +91,7 @@ class FrameMonitor : public EmulatedDevice, public line::Device {
   MonitorRules rules_;
   Record record_;
   Bytes heard_;  // since the last reception
-  Time last_end_{};
-  Duration character_time_{};
+  line::Silence silence_;
   std::optional<FrameResult> last_;
 };
 

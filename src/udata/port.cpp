@@ -26,13 +26,12 @@ UdataPort::UdataPort(const UdataConfig& config, plc::PlcMemory& memory)
     : memory_(memory),
       module_(config.module),
       program_(config.instructions, config.module),
-      gap_(config.port.gap()) {}
+      silence_(config.port.gap()) {}
 
 void UdataPort::receive(const Burst& burst) {
   if (burst.bytes.empty()) return;
-  last_end_ = burst.end();
-  now_ = std::max(now_, last_end_);
-  character_time_ = burst.character_time;
+  silence_.heard(burst);
+  now_ = std::max(now_, burst.end());
   if (!hears()) return;
   for (const Byte b : burst.bytes) {
     heard_.push_back(b);
@@ -53,15 +52,13 @@ void UdataPort::end_datum() {
 
 std::optional<Time> UdataPort::wake_at() const {
   std::optional<Time> first = program_.wake_at();
-  // A character that begins at the last moment is complete, and heard, one character time later.
-  if (!heard_.empty())
-    first = std::min(first.value_or(Time::max()), last_end_ + gap_ + character_time_ + Duration(1));
+  if (!heard_.empty()) first = std::min(first.value_or(Time::max()), silence_.over_at());
   return queue_.wake_at(first);
 }
 
 Bytes UdataPort::advance(Time now) {
   now_ = std::max(now_, now);
-  if (!heard_.empty() && now > last_end_ + gap_ + character_time_) end_datum();
+  if (!heard_.empty() && now >= silence_.over_at()) end_datum();
   if (program_.advance(now_, memory_)) scan();
   return queue_.take(now);
 }

@@ -5,6 +5,7 @@
 #include <deque>
 #include <memory>
 
+#include "src/line/silence.hpp"
 #include "src/plc/plc.hpp"
 #include "src/plc/reply_queue.hpp"
 #include "src/udata/config.hpp"
@@ -47,13 +48,12 @@ class UdataPort : public plc::LineService, private UdataChannel {
   plc::PlcMemory& memory_;
   UdataModule module_;
   UdataProgram program_;
-  Duration gap_;
+  line::Silence silence_;
   bool run_ = true;
   bool dtr_ = false, rts_ = false;
   Bytes heard_;                 // of the datum that arrives
   std::deque<Bytes> received_;  // oldest first
-  Time last_end_{}, now_{};
-  Duration character_time_{};
+  Time now_{};
   plc::ReplyQueue queue_;
   plc::ServiceCounters counters_;
 };

@@ -5,7 +5,7 @@
 namespace fieldproof::user_frames {
 
 void FrameFinder::receive(const Burst& burst, Sink& sink) {
-  if (burst.start - last_end_ > gap_) {
+  if (silence_.is_over_before(burst)) {
     take_frames(burst.start, true, sink);
     passing_over_ = false;
   }
@@ -13,8 +13,7 @@ void FrameFinder::receive(const Burst& burst, Sink& sink) {
     heard_.push_back(b);
     take_frames(end, false, sink);
   });
-  last_end_ = burst.end();
-  character_time_ = burst.character_time;
+  silence_.heard(burst);
 }
 
 FrameFinder::Found FrameFinder::find(bool ended) const {
@@ -65,8 +64,7 @@ void FrameFinder::take(const Found& found, Time now, Sink& sink) {
 
 std::optional<Time> FrameFinder::wake_at() const {
   if (heard_.empty()) return std::nullopt;
-  // A character that begins at the last moment is complete, and heard, one character time later.
-  return last_end_ + gap_ + character_time_ + Duration(1);
+  return silence_.over_at();
 }
 
 void FrameFinder::advance(Time now, Sink& sink) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/line/device.hpp"
+#include "src/line/silence.hpp"
 #include "src/user_frames/codec.hpp"
 
 namespace fieldproof::user_frames {
@@ -32,7 +33,7 @@ class FrameFinder {
 
   /// `frames` must outlive the finder. `gap`: the inter-character time.
   FrameFinder(std::vector<const UserFrame*> frames, Duration gap)
-      : frames_(std::move(frames)), gap_(gap) {}
+      : frames_(std::move(frames)), silence_(gap) {}
 
   void receive(const Burst& burst, Sink& sink);
   /// When silence ends what was heard.
@@ -53,11 +54,9 @@ class FrameFinder {
   void drop_heard(Sink& sink);
 
   std::vector<const UserFrame*> frames_;
-  Duration gap_;
+  line::Silence silence_;
   Bytes heard_;                // since the last frame
   bool passing_over_ = false;  // bytes of no frame, already told
-  Time last_end_{};
-  Duration character_time_{};
 };
 
 }  // namespace fieldproof::user_frames

@@ -12,7 +12,7 @@ constexpr int bcc_size = 2;
 }  // namespace
 
 FrameReceiver::FrameReceiver(Side side, Duration gap)
-    : side_(side), tail_(side == Side::server ? xgt_eot : xgt_etx), gap_(gap) {
+    : side_(side), tail_(side == Side::server ? xgt_eot : xgt_etx), silence_(gap) {
   frame_.reserve(64);
 }
 
@@ -21,10 +21,9 @@ bool FrameReceiver::is_head(Byte b) const {
 }
 
 void FrameReceiver::receive(const Burst& burst, plc::FrameSink& sink) {
-  if (burst.start - last_end_ > gap_) give_up(sink);
+  if (silence_.is_over_before(burst)) give_up(sink);
   burst.for_each([&](Byte b, Time end) { take(b, end, sink); });
-  last_end_ = burst.end();
-  character_time_ = burst.character_time;
+  silence_.heard(burst);
 }
 
 void FrameReceiver::take(Byte b, Time end, plc::FrameSink& sink) {
@@ -71,8 +70,7 @@ void FrameReceiver::give_up(plc::FrameSink& sink) {
 
 std::optional<Time> FrameReceiver::wake_at() const {
   if (state_ == State::idle || state_ == State::garbage) return std::nullopt;
-  // A character that begins at the last moment is complete, and heard, one character time later.
-  return last_end_ + gap_ + character_time_ + Duration(1);
+  return silence_.over_at();
 }
 
 void FrameReceiver::advance(Time now, plc::FrameSink& sink) {

@@ -5,6 +5,7 @@
 
 #include "src/base/bytes.hpp"
 #include "src/line/device.hpp"
+#include "src/line/silence.hpp"
 #include "src/plc/frame_sink.hpp"
 
 namespace fieldproof::xgt_cnet {
@@ -39,12 +40,10 @@ class FrameReceiver {
 
   Side side_;
   Byte tail_;
-  Duration gap_;
+  line::Silence silence_;
   State state_ = State::idle;
   int bcc_missing_ = 0;
   Bytes frame_;
-  Time last_end_{};
-  Duration character_time_{};
 };
 
 }  // namespace fieldproof::xgt_cnet
