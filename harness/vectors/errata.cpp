@@ -13,9 +13,10 @@
 
 namespace fieldproof::vectors {
 
+/// Words for keys, types and texts of an erratum.
+namespace errata_shapes {
 namespace {
 
-using json = nlohmann::ordered_json;
 using Kind = Shape::Kind;
 
 bool is_erratum_id(std::string_view id) {
@@ -42,6 +43,13 @@ constexpr std::array erratum_keys{
     Key{"printed", &text, true}, Key{"right", &text, true},      Key{"proof", &passages, true},
     Key{"why", &sentence, true}, Key{"effect", &sentence, true}, Key{"doubt", &sentence}};
 constexpr Shape erratum{.kind = Kind::object, .keys = erratum_keys};
+
+}  // namespace
+}  // namespace errata_shapes
+
+namespace {
+
+using json = nlohmann::ordered_json;
 
 std::vector<Passage> passages_of(const json& list) {
   std::vector<Passage> result;
@@ -80,7 +88,7 @@ std::string complaint(const Passage& passage, const VectorSet& set, const Statem
 
 }  // namespace
 
-const Shape& erratum_shape() { return erratum; }
+const Shape& erratum_shape() { return errata_shapes::erratum; }
 
 void load_errata(std::string_view file_text, const std::string& file, VectorSet& set) {
   const std::optional<std::vector<Piece>> pieces = cut(file_text);
@@ -92,7 +100,7 @@ void load_errata(std::string_view file_text, const std::string& file, VectorSet&
   for (const Piece& piece : *pieces) {
     const std::string at = fmt::format("{}:{}", file, piece.line);
     const json value = json::parse(not_too_deep(piece.text));
-    const std::vector<std::string> problems = shape_problems(value, erratum);
+    const std::vector<std::string> problems = shape_problems(value, erratum_shape());
     for (const std::string& problem : problems)
       set.problems.push_back(
           fmt::format("{}: {}: {}", at, piece.id.empty() ? "an erratum" : piece.id, problem));

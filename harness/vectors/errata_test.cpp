@@ -4,7 +4,7 @@
 
 #include <regex>
 
-namespace fieldproof::vectors {
+namespace fieldproof::vectors::errata_test {
 namespace {
 
 using testing::ElementsAre;
@@ -84,4 +84,4 @@ TEST(ErratumShape, PatternAndCodeAgree) {
 }
 
 }  // namespace
-}  // namespace fieldproof::vectors
+}  // namespace fieldproof::vectors::errata_test

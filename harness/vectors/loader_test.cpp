@@ -7,7 +7,7 @@
 
 #include "harness/test_protocol.hpp"
 
-namespace fieldproof::vectors {
+namespace fieldproof::vectors::loader_test {
 namespace {
 
 using testing::ElementsAre;
@@ -353,4 +353,4 @@ TEST(ConfigStation, IsANumberOrItsDigits) {
 }
 
 }  // namespace
-}  // namespace fieldproof::vectors
+}  // namespace fieldproof::vectors::loader_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fieldproof::vectors {
+namespace fieldproof::vectors::transactions_test {
 namespace {
 
 using Kind = Step::Kind;
@@ -92,4 +92,4 @@ TEST(Transactions, ADeviceThatAsksNumbersItself) {
 }
 
 }  // namespace
-}  // namespace fieldproof::vectors
+}  // namespace fieldproof::vectors::transactions_test

@@ -7,6 +7,8 @@
 
 namespace fieldproof::vectors {
 
+/// Words for keys, types and texts of a vector.
+namespace vector_shapes {
 namespace {
 
 using Kind = Shape::Kind;
@@ -172,9 +174,10 @@ constexpr std::array vector_demands{Demand{"basis", argued_words, "why", ""},
 constexpr Shape vector{.kind = Kind::object, .keys = vector_keys, .demands = vector_demands};
 
 }  // namespace
+}  // namespace vector_shapes
 
-const Shape& vector_shape() { return vector; }
+const Shape& vector_shape() { return vector_shapes::vector; }
 
-std::span<const Form* const> vector_forms() { return forms; }
+std::span<const Form* const> vector_forms() { return vector_shapes::forms; }
 
 }  // namespace fieldproof::vectors

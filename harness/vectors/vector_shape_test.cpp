@@ -10,7 +10,7 @@
 #include "harness/vectors/errata.hpp"
 #include "reports/results/whole_file.hpp"
 
-namespace fieldproof::vectors {
+namespace fieldproof::vectors::vector_shape_test {
 namespace {
 
 using nlohmann::json;
@@ -154,4 +154,4 @@ TEST(VectorShape, PatternsAndTheirCodeAgree) {
 }
 
 }  // namespace
-}  // namespace fieldproof::vectors
+}  // namespace fieldproof::vectors::vector_shape_test
