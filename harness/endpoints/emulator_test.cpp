@@ -10,7 +10,7 @@
 #include "harness/protocol.hpp"
 #include "src/line/faults.hpp"
 
-namespace fieldproof::endpoints {
+namespace fieldproof::endpoints::emulator_test {
 namespace {
 
 using nlohmann::json;
@@ -389,4 +389,4 @@ TEST_F(EmulatorOnNetwork, WhatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace fieldproof::endpoints
+}  // namespace fieldproof::endpoints::emulator_test

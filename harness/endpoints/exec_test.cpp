@@ -7,7 +7,7 @@
 #include "harness/endpoints/test_endpoint_name.hpp"
 #include "harness/test_protocol.hpp"
 
-namespace fieldproof::endpoints {
+namespace fieldproof::endpoints::exec_test {
 namespace {
 
 using endpoints::test::endpoint_name;
@@ -140,4 +140,4 @@ TEST(Exec, RefusesNoCommandAndNoFloor) {
 }
 
 }  // namespace
-}  // namespace fieldproof::endpoints
+}  // namespace fieldproof::endpoints::exec_test

@@ -1,11 +1,12 @@
 #include "harness/endpoints/kinds.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "harness/endpoints/network_name.hpp"
 #include "harness/endpoints/test_endpoint_name.hpp"
 
-namespace fieldproof::endpoints {
+namespace fieldproof::endpoints::kinds_test {
 namespace {
 
 using test::NetworkProtocol;
@@ -106,4 +107,4 @@ TEST(Kinds, PortsComeFromTheNameElseFromTheProtocol) {
 }
 
 }  // namespace
-}  // namespace fieldproof::endpoints
+}  // namespace fieldproof::endpoints::kinds_test

@@ -8,7 +8,7 @@
 #include "harness/endpoints/test_endpoint_name.hpp"
 #include "harness/system/sockets/test_sockets.hpp"
 
-namespace fieldproof::endpoints {
+namespace fieldproof::endpoints::network_test {
 namespace {
 
 using os::test::accepted;
@@ -155,4 +155,4 @@ TEST_F(Listen, APortInUseIsSaid) {
 }
 
 }  // namespace
-}  // namespace fieldproof::endpoints
+}  // namespace fieldproof::endpoints::network_test

@@ -13,7 +13,7 @@
 #include "harness/system/pty_pair.hpp"
 #include "src/line/settings.hpp"
 
-namespace fieldproof::endpoints {
+namespace fieldproof::endpoints::rfc2217_test {
 namespace {
 
 using endpoints::test::endpoint_name;
@@ -281,4 +281,4 @@ TEST(Rfc2217Server, ATransmissionLastsAsLongAsOnTheWire) {
 }
 
 }  // namespace
-}  // namespace fieldproof::endpoints
+}  // namespace fieldproof::endpoints::rfc2217_test
