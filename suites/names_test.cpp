@@ -150,6 +150,35 @@ TEST(Names, HarnessAndReportsKnowNoProtocolAreaOrModel) {
     EXPECT_TRUE(used.contains(&one)) << one.file << " names " << one.name << " no more";
 }
 
+/// Nobody asks whether a kind of endpoint, a protocol or a model has this name: tables have flags.
+std::vector<std::string> questions_for_names(const std::string& code) {
+  static const std::regex question(
+      R"re((\b(name\(\)|protocol|model)\s*[=!]=\s*"[^"]+"|\bkind\s*[=!]=\s*"(emulator|pty|serial|rfc2217|tcp|udp|listen|exec)"))re");
+  std::vector<std::string> found;
+  for (std::sregex_iterator one(code.begin(), code.end(), question), end; one != end; ++one)
+    found.push_back(one->str());
+  return found;
+}
+
+TEST(Names, NobodyAsksForThem) {
+  const fs::path root = FIELDPROOF_SOURCE_DIR;
+  std::vector<std::string> problems;
+  for (const char* room : {"harness", "reports"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+      if (!entry.is_regular_file() || !is_product(entry.path())) continue;
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      for (const std::string& question : questions_for_names(without_comments(text.str())))
+        problems.push_back(entry.path().lexically_relative(root).string() + ": " + question);
+    }
+  EXPECT_THAT(problems, testing::IsEmpty());
+  EXPECT_THAT(questions_for_names("if (name.kind == \"tcp\") x(p.name() != \"udata\");"),
+              testing::ElementsAre("kind == \"tcp\"", "name() != \"udata\""));
+  EXPECT_THAT(questions_for_names(
+                  "kinds == \"tcp\" || kind == other || kind == \"damage\" || model == \"\""),
+              testing::IsEmpty());
+}
+
 TEST(Names, AreFoundInCodeAndInQuotesAndNotInComments) {
   const std::set<std::string> names = names_of_the_suites();
   const auto found = [&](const std::string& text) {
