@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "harness/vectors/case_reader.hpp"
 #include "harness/vectors/citations.hpp"
 #include "harness/vectors/errata.hpp"
 #include "harness/vectors/fingerprint.hpp"
+#include "harness/vectors/in_threads.hpp"
 #include "harness/vectors/json/broken.hpp"
 #include "harness/vectors/json/files.hpp"
 #include "harness/vectors/json/framings.hpp"
@@ -123,6 +125,7 @@ class FolderLoader {
     const fs::path base = fs::is_directory(folder) ? folder : folder.parent_path();
     for (const fs::path& path : json_files(folder))
       load_file(path, path.lexically_relative(base).generic_string());
+    load_vector_files();
     drop_errata_not_met();
     const bool all = options_.filter.empty() && !statement_files_.empty();
     if (statement_files_.empty()) find_statements(base);
@@ -136,11 +139,13 @@ class FolderLoader {
   }
 
  private:
-  void guarded(const std::string& name, auto&& act) {
+  void guarded(const std::string& name, auto&& act) { guarded(set_, name, act); }
+
+  static void guarded(VectorSet& set, const std::string& name, auto&& act) {
     try {
       act();
     } catch (const std::exception& error) {
-      set_.problems.push_back(fmt::format("{}: {}", name, error.what()));
+      set.problems.push_back(fmt::format("{}: {}", name, error.what()));
     }
   }
 
@@ -159,8 +164,22 @@ class FolderLoader {
       else if (name.starts_with("errata/"))
         load_errata(text, name, set_);
       else
-        FileLoader(text, name, options_, set_).load();
+        vector_files_.emplace_back(name, std::move(text));
     });
+  }
+
+  /// Most of the time of a start goes here; files do not know of one another.
+  void load_vector_files() {
+    std::vector<VectorSet> parts(vector_files_.size());
+    in_threads(parts.size(), [&](std::size_t i) {
+      const auto& [name, text] = vector_files_[i];
+      guarded(parts[i], name, [&] { FileLoader(text, name, options_, parts[i]).load(); });
+    });
+    for (VectorSet& part : parts) {
+      std::ranges::move(part.cases, std::back_inserter(set_.cases));
+      std::ranges::move(part.tables, std::back_inserter(set_.tables));
+      std::ranges::move(part.problems, std::back_inserter(set_.problems));
+    }
   }
 
   /// Those of a set stand in it; those of a part of a set, one folder up.
@@ -229,7 +248,7 @@ class FolderLoader {
   const LoadOptions& options_;
   VectorSet& set_;
   std::uint64_t hash_ = empty_fingerprint;
-  std::vector<std::pair<std::string, std::string>> statement_files_;  // name, text
+  std::vector<std::pair<std::string, std::string>> vector_files_, statement_files_;  // name, text
   std::set<std::string_view> cited_;
 };
 
