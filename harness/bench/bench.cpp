@@ -243,6 +243,7 @@ bool Bench::declines(const Case& source, CaseResult& result) {
 /// Once it is not declined.
 void Bench::try_out(CaseResult& result) {
   const ReadyCase& ready = last_ready_;
+  const Time begun = endpoint_.now();
   for (const results::Move& move : ready.moves)
     result.notes.push_back(safety::note_of(move, protocol_));
   set_up_answered_ = true;
@@ -253,9 +254,15 @@ void Bench::try_out(CaseResult& result) {
       known_->stopped.empty() && known_->disturbed == 0)
     known_->stopped = known_->worth_asking.after(result, protocol_, set_up_answered_);
   if (!result.recording.stimulus.empty()) result.recording.moves = ready.moves;
+  if (endpoint_.capabilities().simulated) results::shift(result, -begun);
 }
 
+/// On simulated time each case begins where the one before it ended, whoever ran it.
 void Bench::conclude(CaseResult& result) {
+  if (endpoint_.capabilities().simulated) {
+    results::shift(result, known_->simulated);
+    if (!result.exchange.empty()) known_->simulated = result.exchange.back().end;
+  }
   known_->readings.note(result);
   known_->set_up_findings.note(result);
   known_->errors_in_a_row = result.verdict == Verdict::error ? known_->errors_in_a_row + 1 : 0;

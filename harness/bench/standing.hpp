@@ -29,6 +29,7 @@ struct Standing {
   bool answers = false;  // the device answers probes
   bool interrupted = false;
   bool client_gave_up = false;  // the program under test, in some case
+  Time simulated{};             // where the cases so far end, on simulated time
   bool claimed = false;         // a shared line: nobody else was heard before the first case
   int disturbed = 0;            // cases in which somebody else was heard, without a pause
   Time doubt_until{};           // what fails until then may be the work of who was heard last

@@ -257,7 +257,7 @@ bool CaseRun::wait_until(Time moment, Link* only) {
     }
   }
   const Time end = heard.now();
-  links_.note(end, fmt::format("{} until {:.1f} ms", came ? "listened" : "silence", to_ms(end)));
+  links_.note(end, came ? "listened until here" : "silence until here");
   return came;
 }
 

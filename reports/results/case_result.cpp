@@ -28,6 +28,20 @@ Time shown_from(const CaseResult& result) {
   return first.value_or(Time{});
 }
 
+void shift(CaseResult& result, Duration by) {
+  const auto later = [by](auto&... times) { ((times += by), ...); };
+  for (Event& event : result.exchange) later(event.start, event.end);
+  for (StepOutcome& step : result.recording.steps)
+    if (step.stimulus != Time{}) later(step.stimulus);  // else it has none
+  if (!result.due.empty()) later(result.due.from, result.due.until);
+  for (AxisTrace& axis : result.trace.axes) {
+    for (AxisTrace::Sample& sample : axis.samples) later(sample.time);
+    for (AxisTrace::Event& event : axis.events) later(event.time);
+  }
+  for (NetTrace& net : result.trace.nets)
+    for (TokenTurn& turn : net.turns) later(turn.from, turn.to);
+}
+
 Identity in_common(Identity a, const Identity& b) {
   for (std::string Identity::*field :
        {&Identity::name, &Identity::maker, &Identity::model, &Identity::serial, &Identity::firmware,

@@ -38,7 +38,7 @@ struct Event {
   Time end{};
   Bytes bytes;       // sent, received; the first of them, where there is an extract
   std::string text;  // frame notation of the bytes, or the note: "set %MW100 = 1234", "silence
-                     // until 1000.0 ms"
+                     // until here"
   int step = -1;  // the executed step whose bytes these are; -1: of none (a probe and its answer)
   bool surplus = false;    // bytes that no step was waiting for
   std::string link{};      // its name in the vector; empty: the only one
@@ -139,6 +139,8 @@ struct CaseResult {
 
 /// What its times are shown from: the beginning of its exchange.
 Time shown_from(const CaseResult& result);
+/// Makes all of its times so much later.
+void shift(CaseResult& result, Duration by);
 
 /// Which device it is, as the engineer entered it: no command of these protocols reads it from the
 /// device.

@@ -41,7 +41,7 @@ CaseResult full_result() {
   result.differences = {{"station", "00", "01", "the request's"}, {"BCC", "4C", "4D", ""}};
   result.exchange = {{Event::Kind::sent, 0ns, 1234567ns, {0x05, 0xFF}, "ENQ FF"},
                      {Event::Kind::received, 2000001ns, 3600s + 1ns, {0x06, 0x31}, "ACK '1'"},
-                     {Event::Kind::note, 5ms, 5ms, {}, "silence until 1000.0 ms"}};
+                     {Event::Kind::note, 5ms, 5ms, {}, "silence until here"}};
   result.exchange[1].extract = {2000, {0x07, 0x08}, std::string(64, 'b')};
   result.recording.stimulus = "0123456789abcdef";
   result.trace.axes = {{"B:1",

@@ -225,7 +225,7 @@ TEST(FrameMonitor, ShowsTimeGapDirectionAndFrame) {
     24.000      4.208  <--  ACK '01rSS01021234' ETX '09'
                             0000  06 30 31 72 53 53 30 31  30 32 31 32 33 34 03 30
                             0010  39
-    41.708              .   silence until 1041.7 ms
+    41.708              .   silence until here
 )",
             frame_monitor(samples::failure()));
 }

@@ -1,6 +1,8 @@
 // The built tool against its own emulator: the run that every user starts with, and what steers it.
 #include <gmock/gmock.h>
+#include <sched.h>
 
+#include <cmath>
 #include <memory>
 #include <sstream>
 
@@ -74,6 +76,49 @@ TEST(DefaultRuns, counts_of_json_and_console_are_those_of_the_results) {
               HasSubstr("\n" + std::to_string(default_run().results.cases.size()) + " cases in "));
 }
 
+/// The first of those that this process may use.
+std::string first_processor() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  EXPECT_EQ(::sched_getaffinity(0, sizeof set, &set), 0);
+  int first = 0;
+  while (first < CPU_SETSIZE - 1 && !CPU_ISSET(first, &set)) ++first;
+  return std::to_string(first);
+}
+
+/// Its times, counted from its first event on: where that stands depends on the cases before.
+void count_from_its_beginning(nlohmann::json& result) {
+  if (result["exchange"].empty()) return;
+  const double begun = result["exchange"][0]["start_ms"];
+  const auto count = [&](nlohmann::json& of, const char* key) {
+    if (of.contains(key)) of[key] = std::llround((of[key].get<double>() - begun) * 1e6);
+  };
+  for (nlohmann::json& event : result["exchange"])
+    for (const char* key : {"start_ms", "end_ms"}) count(event, key);
+  for (nlohmann::json& step : result["recording"]["steps"]) count(step, "stimulus_ms");
+}
+
+/// Several threads run the cases of the default run: each result is that of one case after another.
+TEST(DefaultRuns, each_result_is_that_of_one_processor) {
+  const TestFolder folder;
+  std::vector<std::string> arguments = tool_arguments(
+      {"run", "--filter", "modbus_tcp/*:hs_link/*:xgt_cnet/rss/*", "--out", folder.path()});
+  arguments.insert(arguments.begin(), {"taskset", "--cpu-list", first_processor()});
+  const Finished finished = run_program(arguments);
+  ASSERT_EQ(finished.code, 0) << finished.out << finished.err;
+  const Results alone = read_results(folder / "results.ndjson");
+  EXPECT_GT(alone.cases.size(), 500u);
+  for (nlohmann::json one : alone.cases) {
+    nlohmann::json same = default_run().results.of(one.at("id"));
+    for (nlohmann::json* result : {&one, &same}) {
+      result->erase("seconds");
+      result->erase("replay");  // has the filter
+      count_from_its_beginning(*result);
+    }
+    ASSERT_EQ(one, same);
+  }
+}
+
 /// What steers a run does not ask how many cases there are: sixty are quick.
 constexpr int some = 60;
 
@@ -86,6 +131,35 @@ std::vector<std::string> order(const std::vector<std::string>& more,
   const Finished finished = run_tool(arguments, options);
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   return read_results(folder / "out/results.ndjson").ids();
+}
+
+/// Threads have begun cases behind it: nobody is told of them.
+TEST(EmulatorRun, fail_fast_ends_with_the_case_that_failed) {
+  const TestFolder folder;
+  std::vector<nlohmann::ordered_json> vectors = many_vectors(400);
+  vectors[300] = small_vector("many/n1300", wrong_word);
+  for (const char* repeat : {"1", "3"}) {
+    const Finished finished = run_tool({"run", "--vectors", write_vectors(folder, vectors),
+                                        "--fail-fast", "--repeat", repeat, "--out", folder / "out"});
+    EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
+    const Results results = read_results(folder / "out/results.ndjson");
+    ASSERT_EQ(results.cases.size(), 301u);
+    EXPECT_EQ(results.cases.back().at("verdict"), "FAIL");
+  }
+}
+
+TEST(EmulatorRun, repeats_come_round_by_round) {
+  const TestFolder folder;
+  const Finished finished =
+      run_tool({"run", "--vectors", write_vectors(folder, many_vectors(100)), "--repeat", "3",
+                "--out", folder / "out"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  const Results results = read_results(folder / "out/results.ndjson");
+  ASSERT_EQ(results.cases.size(), 300u);
+  for (std::size_t i = 0; i < 300; ++i) {
+    EXPECT_EQ(results.cases[i].at("id"), results.cases[i % 100].at("id"));
+    EXPECT_EQ(results.cases[i].value("repeat", 0u), i / 100);
+  }
 }
 
 TEST(EmulatorRun, seed_settles_the_order) {
