@@ -279,10 +279,13 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
     set_up_answered_ = saving_.was_answered();
     if (!saved) return;
   }
-  if (prepare_device(prepared, result)) exchange(prepared, result);
+  if (prepare_device(prepared, result)) {
+    if (real) saving_.before_exchange(prepared);
+    exchange(prepared, result);
+    if (real) saving_.after_exchange(result, known_->port_failed);
+  }
   if (!real) return;
-  if (const std::string problem = saving_.restore(); !problem.empty())
-    result.notes.push_back("not put back what it wrote: " + problem);
+  set_up_answered_ = saving_.put_back(result, !known_->stopped.empty()) && set_up_answered_;
   if (const Status back = endpoint_.put_back(); !back)
     result.notes.push_back("not put back what it set: " + back.error().message);
 }
@@ -385,7 +388,7 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (!real || prepared.is_client() || known_->interrupted) return false;
   if (!memory_.refused() && result.verdict == Verdict::blocked) return false;  // --control says no
   if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
-  if (memory_.silent()) recovery_.look_for_device(result, result.message);
+  if (memory_.lost()) recovery_.look_for_device(result, result.message);
   return false;
 }
 
