@@ -62,7 +62,7 @@ judging::JudgeRules Bench::rules() const {
   rules.binding_decisions = rules.binding_timing = options_.profile.binding_decisions;
   // Simulated time is exact, but for the moment at which a character counts as come.
   if (can.simulated) rules.period_tolerance = endpoint_.character_time();
-  if (can.wire && can.real_device) rules.earliest = -endpoint_.character_time();
+  if (can.paced && can.real_device) rules.earliest = -endpoint_.character_time();
   rules.gap_floor = can.simulated                  ? Duration{}
                     : given_by_hand(known_->floor) ? known_->floor->given
                                                    : can.driver_silence.value_or(rules.link_floor);
@@ -163,7 +163,7 @@ Result<std::optional<AdapterFloor>> Bench::measure_floor() {
   };
   /// Before their requests can have been over.
   const auto answers_too_early = [&] {
-    return endpoint_.capabilities().wire && floor.times.count() > 0 &&
+    return endpoint_.capabilities().paced && floor.times.count() > 0 &&
            floor.times.least() < -to_ms(endpoint_.character_time());
   };
   Status measured = measure();
@@ -175,8 +175,8 @@ Result<std::optional<AdapterFloor>> Bench::measure_floor() {
   }
   if (measured && answers_too_early()) {
     floor.remark = fmt::format(
-        "no wire: answers came up to {:.1f} ms before the request can have been sent at {}",
-        -floor.times.least(), endpoint_.capabilities().line);
+        "no wire: answers came up to {:.1f} ms before the request can have been sent over {}",
+        -floor.times.least(), endpoint_.describe());
     endpoint_.has_no_wire();
     measured = measure();
   }

@@ -32,15 +32,15 @@ TEST_F(BenchTest, TheFloorIsMeasuredOnRealTimeAlone) {
 
 TEST_F(BenchTest, AnswersBeforeTheEndOfTheirRequestsAreOfNoWire) {
   on_real_device();
-  endpoint.can.wire = true;
-  endpoint.can.line = "9600-8N1";
+  endpoint.can.paced = true;
   endpoint.answers["<probe>"] = Pieces{{-5ms, "<alive>"}};
   ASSERT_TRUE(bench().start());
   const Result<std::optional<AdapterFloor>> measured = bench().measure_floor();
   ASSERT_TRUE(measured && *measured);
-  EXPECT_EQ((*measured)->remark,
-            "no wire: answers came up to 5.0 ms before the request can have been sent at 9600-8N1");
-  EXPECT_FALSE(endpoint.can.wire);
+  EXPECT_EQ(
+      (*measured)->remark,
+      "no wire: answers came up to 5.0 ms before the request can have been sent over scripted");
+  EXPECT_FALSE(endpoint.can.paced);
 }
 
 TEST_F(BenchTest, ALimitBelowTheMeasuredFloorIsInconclusive) {

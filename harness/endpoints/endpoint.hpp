@@ -24,6 +24,8 @@ namespace fieldproof::endpoints {
 struct Capabilities {
   bool simulated = false;  // time costs nothing and is exact
   bool wire = false;  // character times, parity and data bits exist (simulated line, real adapter)
+  bool paced =
+      false;  // a real line: a request is over when its characters can have gone at its speed
   bool back_door = false;  // emulator: memory, counters and configuration can be set for each case
   bool control = false;    // real device: a program beside it reaches what its protocol does not
   bool real_device = false;  // the write fence binds; configuration is what is declared

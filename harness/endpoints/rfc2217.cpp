@@ -23,6 +23,7 @@ class Rfc2217Endpoint final : public Endpoint {
     capabilities_ = capabilities_of(name);
     capabilities_.timing_floor = options.floor;
     capabilities_.shared = is_shared(name);
+    capabilities_.paced = true;
   }
 
   Status open() {
@@ -36,6 +37,10 @@ class Rfc2217Endpoint final : public Endpoint {
     return "rfc2217:" + where_ + ' ' + line::to_string(settings_);
   }
   Time now() const override { return session_.now(); }
+  void has_no_wire() override {
+    capabilities_.paced = false;
+    session_.has_no_wire();
+  }
   Duration character_time() const override { return settings_.character_time(); }
   using Endpoint::send;
   Result<Sent> send(ByteView bytes, LinkId) override { return session_.send(bytes); }

@@ -10,7 +10,7 @@ namespace fieldproof::endpoints {
 /// floor_ms, station, protocol. The server's buffers are purged when the connection is opened, and
 /// never between cases: what comes there is judged. A connection that ended is opened again at the
 /// begin of the next case, and `line_errors` says so. capabilities().wire is false: a network moves
-/// bytes by milliseconds, and the far port may be a pty.
+/// bytes by milliseconds, and the far port may be a pty (then has_no_wire() is to be told).
 Result<std::unique_ptr<Endpoint>> open_rfc2217(const EndpointName& name);
 
 /// `patience`: how long the server may take to confirm anything.

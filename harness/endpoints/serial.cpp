@@ -47,7 +47,7 @@ class SerialEndpoint final : public Endpoint {
   Time now() const override { return link_.now(); }
   Duration character_time() const override { return settings_.character_time(); }
   void has_no_wire() override {
-    capabilities_.wire = false;
+    capabilities_.wire = capabilities_.paced = false;
     capabilities_.driver_silence.reset();
     link_.set_character_time({});
   }
@@ -75,6 +75,7 @@ class SerialEndpoint final : public Endpoint {
 
  private:
   void use_wire() {
+    capabilities_.paced = true;
     link_.set_character_time(settings_.character_time());
     capabilities_.line = line::to_string(settings_);
     capabilities_.driver_silence = latency_->silence(settings_.character_time());

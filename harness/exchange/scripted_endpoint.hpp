@@ -34,7 +34,7 @@ class ScriptedEndpoint : public endpoints::Endpoint {
   std::string describe() const override { return "scripted"; }
   Time now() const override { return now_; }
   Duration character_time() const override { return 1ms; }
-  void has_no_wire() override { can.wire = false; }
+  void has_no_wire() override { can.wire = can.paced = false; }
   Status begin(const nlohmann::json& config) override {
     begun.push_back(config);
     return ok();

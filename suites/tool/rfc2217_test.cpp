@@ -148,6 +148,20 @@ TEST_F(RemotePort, the_delay_of_ser2net_is_named_with_the_line_that_ends_it) {
   EXPECT_THAT(floor(), AllOf(HasSubstr("if ser2net is between"), HasSubstr("`chardelay: false`")));
 }
 
+/// Behind it is a pty, which takes a request at once: its answers are not of the speed that was
+/// set.
+TEST_F(RemotePort, a_port_that_nothing_paces_has_no_wire) {
+  serve_as_labgrid();
+  Process device({FIELDPROOF_TOOL, "emulate", "xbc-h", "--pty", folder_ / "device"});
+  ASSERT_TRUE(device.wait_for(folder_ / "device"));
+  const Results slow =
+      run("rfc2217:" + server_->where() + "?baud=1200", "xgt_cnet/rss/two_words/lower");
+  EXPECT_THAT(slow.run["properties"].at("floor").get<std::string>(),
+              HasSubstr("no wire: answers came up to "));
+  for (const nlohmann::json& one : slow.cases)
+    for (const double ms : one.at("response_ms")) EXPECT_GT(ms, 0) << one.at("id");
+}
+
 /// The first one waits for an answer for longer than the others take to start, on a busy machine
 /// too: the sanity exchange and the floor are 21 requests, and the next is not answered.
 TEST_F(RemotePort, a_second_user_is_told_of_the_first) {

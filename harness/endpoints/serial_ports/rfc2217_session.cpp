@@ -132,9 +132,7 @@ Status Rfc2217Session::listen(Time deadline) {
   Bytes replies;
   for (telnet::Message& message : decoder_.decode(burst->bytes)) {
     if (Bytes* data = std::get_if<Bytes>(&message)) {
-      // On the wire nothing of an answer can come before the last stop bit of the request; behind a
-      // pty it does.
-      received_.push_back({std::move(*data), std::max(burst->start, sent_until_), {}});
+      received_.push_back({std::move(*data), burst->start, {}});
     } else if (const auto* notification = std::get_if<telnet::Notification>(&message)) {
       take(*notification);
     } else {
@@ -206,8 +204,8 @@ Result<Sent> Rfc2217Session::send(ByteView bytes) {
   sent.start = std::max(now(), sent_until_);
   if (const Result<Sent> handed_over = link_->send(telnet::escaped(bytes)); !handed_over)
     return handed_over.error();
-  sent_until_ = sent.end =
-      sent.start + settings_.character_time() * static_cast<Duration::rep>(bytes.size());
+  const Duration on_line = settings_.character_time() * static_cast<Duration::rep>(bytes.size());
+  sent_until_ = sent.end = paced_ ? sent.start + on_line : now();
   unproven_ = true;
   while (now() < sent.end)
     if (const Status heard = listen(sent.end); !heard) return heard.error();

@@ -30,8 +30,10 @@ class Rfc2217Session {
   Duration round_trip() const { return os::round_trip(link_->fd()); }
 
   Time now() const { return clock_.now(); }
-  /// The end is that of the last stop bit at the set speed, as far as a network lets one tell.
+  /// The end is that of the last stop bit at the set speed, as far as a network lets one tell;
+  /// where nothing paces what goes over the port, the moment at which it was handed over.
   Result<Sent> send(ByteView bytes);
+  void has_no_wire() { paced_ = false; }
   /// As Endpoint::receive. A silence counts only if the server still answers us at its end: a dead
   /// server or network is an error, never a silence of the device.
   Result<Burst> receive(Time deadline);
@@ -63,6 +65,7 @@ class Rfc2217Session {
   std::deque<Burst> received_;
   LineErrorCounts line_errors_;
   Time sent_until_{};
+  bool paced_ = true;
   bool unproven_ = false;  // something was sent, and nothing has come from the server since
 };
 
