@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 
 #include "harness/endpoints/kinds.hpp"
+#include "harness/system/state_folder.hpp"
 #include "reports/results/sha256.hpp"
 
 namespace fieldproof::safety {
@@ -15,13 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path notes_folder() {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  const char* home = std::getenv("HOME");
-  if (state && *state == '/') return fs::path(state) / "fieldproof/journals";
-  if (home && *home == '/') return fs::path(home) / ".local/state/fieldproof/journals";
-  return {};
-}
+fs::path notes_folder() { return os::state_folder("journals"); }
 
 /// A home may be shared by computers that have a port of the same name each.
 std::string computer_of(const std::string& endpoint) {

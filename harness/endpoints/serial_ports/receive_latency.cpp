@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 constexpr Duration wake_up = 2ms;
 /// A 16550 hands over fewer than its trigger level after four characters of silence.
 constexpr int receive_time_out = 4;
+/// What a run sets: bytes of a FIFO, ms of an adapter.
+constexpr long at_once = 1;
 
 std::optional<long> number_in(const fs::path& file) {
   std::ifstream stream(file);
@@ -29,21 +31,33 @@ bool write_number(const fs::path& file, long value) {
   return stream && stream << value << std::flush;
 }
 
-/// Adds to the flags of the port, or takes from them. False: it was so, or the driver has none.
-bool set_low_latency(const os::SystemCalls& calls, int fd, bool on) {
+std::optional<bool> read_low_latency(const os::SystemCalls& calls, int fd) {
   serial_struct port{};
-  if (calls.ioctl(fd, TIOCGSERIAL, &port) != 0) return false;
+  if (calls.ioctl(fd, TIOCGSERIAL, &port) != 0) return std::nullopt;
+  return (port.flags & ASYNC_LOW_LATENCY) != 0;
+}
+
+void set_low_latency(const os::SystemCalls& calls, int fd, bool on) {
+  serial_struct port{};
+  if (calls.ioctl(fd, TIOCGSERIAL, &port) != 0) return;
   const int flags = on ? port.flags | ASYNC_LOW_LATENCY : port.flags & ~ASYNC_LOW_LATENCY;
-  if (flags == port.flags) return false;
+  if (flags == port.flags) return;
   port.flags = flags;
-  return calls.ioctl(fd, TIOCSSERIAL, &port) == 0;
+  calls.ioctl(fd, TIOCSSERIAL, &port);
+}
+
+/// The port's name in /sys/class/tty, whatever link it was given by.
+std::string terminal_name(const std::string& port) {
+  std::error_code none;
+  return fs::canonical(port, none).filename();
 }
 
 }  // namespace
 
-void ReceiveLatency::Number::read(fs::path from) {
+void ReceiveLatency::Number::read(fs::path from, std::optional<long> left) {
   file = std::move(from);
   before = now = number_in(file);
+  if (left && now == at_once) before = left;  // else somebody has set it since
 }
 
 void ReceiveLatency::Number::set(long wanted) {
@@ -65,22 +79,26 @@ std::string ReceiveLatency::Number::describe() const {
 }
 
 ReceiveLatency::ReceiveLatency(const os::SystemCalls& calls, int fd, const std::string& port,
-                               const fs::path& terminals)
-    : calls_(calls), fd_(fd) {
-  std::error_code none;
-  const fs::path real = fs::canonical(port, none);
-  const fs::path terminal = terminals / real.filename();
-  trigger_.read(terminal / "rx_trig_bytes");
-  timer_.read(terminal / "device" / "latency_timer");
-  low_latency_set_ = set_low_latency(calls_, fd_, true);
-  trigger_.set(1);
-  timer_.set(1);
+                               const fs::path& terminals, const fs::path& notes)
+    : calls_(calls), fd_(fd), note_(notes, terminal_name(port)) {
+  const fs::path terminal = terminals / terminal_name(port);
+  const LatencyBefore left = note_.read();
+  trigger_.read(terminal / "rx_trig_bytes", left.trigger);
+  timer_.read(terminal / "device" / "latency_timer", left.timer);
+  low_latency_ = read_low_latency(calls_, fd_);
+  if (low_latency_ && left.low_latency) low_latency_ = left.low_latency;
+  if (low_latency_ || trigger_.before || timer_.before)
+    note_.keep({low_latency_, trigger_.before, timer_.before});
+  set_low_latency(calls_, fd_, true);
+  trigger_.set(at_once);
+  timer_.set(at_once);
 }
 
 ReceiveLatency::~ReceiveLatency() {
-  if (low_latency_set_) set_low_latency(calls_, fd_, false);
+  if (low_latency_) set_low_latency(calls_, fd_, *low_latency_);
   trigger_.put_back();
   timer_.put_back();
+  note_.drop();
 }
 
 std::optional<Duration> ReceiveLatency::silence(Duration character_time) const {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "harness/endpoints/serial_ports/latency_note.hpp"
+#include "harness/system/state_folder.hpp"
 #include "harness/system/system_calls.hpp"
 #include "src/base/time.hpp"
 
@@ -13,11 +15,13 @@ namespace fieldproof::endpoints {
 
 /// Tells the driver of an open port to hand over at once, as far as it lets us (low_latency by
 /// ioctl; as root the trigger level of an 8250 and the latency timer of an FTDI adapter, too). The
-/// destructor puts all of it back. `fd` outlives it.
+/// destructor puts all of it back, and what a run of the same user left that was killed. `fd`
+/// outlives it.
 class ReceiveLatency {
  public:
   ReceiveLatency(const os::SystemCalls& calls, int fd, const std::string& port,
-                 const std::filesystem::path& terminals = "/sys/class/tty");
+                 const std::filesystem::path& terminals = "/sys/class/tty",
+                 const std::filesystem::path& notes = os::state_folder("ports"));
   ~ReceiveLatency();
   ReceiveLatency(const ReceiveLatency&) = delete;
   ReceiveLatency& operator=(const ReceiveLatency&) = delete;
@@ -36,7 +40,8 @@ class ReceiveLatency {
     std::filesystem::path file;
     std::optional<long> before, now;
 
-    void read(std::filesystem::path from);
+    /// `left`: how it was before a run that was killed.
+    void read(std::filesystem::path from, std::optional<long> left);
     void set(long wanted);
     void put_back() const;
     std::string describe() const;
@@ -44,9 +49,10 @@ class ReceiveLatency {
 
   os::SystemCalls calls_;
   int fd_;
-  bool low_latency_set_ = false;
-  Number trigger_;  // bytes in the FIFO of an 8250
-  Number timer_;    // ms of a USB adapter
+  LatencyNote note_;
+  std::optional<bool> low_latency_;  // how it was; nothing: the driver has none
+  Number trigger_;                   // bytes in the FIFO of an 8250
+  Number timer_;                     // ms of a USB adapter
 };
 
 }  // namespace fieldproof::endpoints

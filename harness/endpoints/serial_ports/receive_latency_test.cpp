@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <linux/serial.h>
 #include <sys/ioctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -37,10 +38,21 @@ class ReceiveLatencyOf : public testing::Test {
     std::ifstream(folder_ / "ttyX" / file) >> value;
     return value;
   }
-  ReceiveLatency open() { return {calls_, -1, port_, folder_}; }
+  ReceiveLatency open() { return {calls_, -1, port_, folder_, notes_}; }
+  /// Opens the port in a process that ends without a destructor.
+  void open_and_be_killed() {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      const ReceiveLatency port = open();
+      ::_exit(0);
+    }
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    flags_ |= ASYNC_LOW_LATENCY;  // of the driver, not of the process
+  }
 
   const fs::path folder_ = fs::path(testing::TempDir()) / "receive_latency";
   const std::string port_ = folder_ / "ttyX" / "ttyX";
+  const fs::path notes_ = folder_ / "notes";
   os::SystemCalls calls_ = os::real_system_calls();
   int flags_ = ASYNC_SKIP_TEST;
 };
@@ -85,6 +97,44 @@ TEST_F(ReceiveLatencyOf, WhatWasSetBeforeIsLeft) {
   shows("device/latency_timer", 1);
   EXPECT_EQ(open().describe(), "latency_timer 1");
   EXPECT_TRUE(flags_ & ASYNC_LOW_LATENCY);
+}
+
+TEST_F(ReceiveLatencyOf, WhatAKilledRunLeftIsPutBackByTheNext) {
+  shows("rx_trig_bytes", 8);
+  shows("device/latency_timer", 16);
+  open_and_be_killed();
+  open_and_be_killed();
+  EXPECT_EQ(shown("rx_trig_bytes"), 1);
+  EXPECT_EQ(open().describe(),
+            "rx_trig_bytes 1 for this run, else 8, latency_timer 1 for this run, else 16");
+  EXPECT_EQ(shown("rx_trig_bytes"), 8);
+  EXPECT_EQ(shown("device/latency_timer"), 16);
+  EXPECT_EQ(flags_, ASYNC_SKIP_TEST);
+  EXPECT_TRUE(fs::is_empty(notes_));
+}
+
+TEST_F(ReceiveLatencyOf, WhatSomebodySetAfterAKilledRunIsLeft) {
+  shows("rx_trig_bytes", 8);
+  open_and_be_killed();
+  shows("rx_trig_bytes", 4);
+  EXPECT_EQ(open().describe(), "rx_trig_bytes 1 for this run, else 4");
+  EXPECT_EQ(shown("rx_trig_bytes"), 4);
+}
+
+TEST_F(ReceiveLatencyOf, AnotherStartOfTheSystemLeftNothing) {
+  shows("rx_trig_bytes", 8);
+  open_and_be_killed();
+  std::ofstream(notes_ / "ttyX.json") << R"({"start":"another","rx_trig_bytes":8})";
+  EXPECT_EQ(open().describe(), "rx_trig_bytes 1");
+}
+
+TEST_F(ReceiveLatencyOf, ANoteThatIsNoneIsLeftOut) {
+  shows("rx_trig_bytes", 1);
+  fs::create_directories(notes_);
+  for (const char* text : {"", "{", "[]", R"({"start":7,"low_latency":7})"}) {
+    std::ofstream(notes_ / "ttyX.json") << text;
+    EXPECT_EQ(open().describe(), "rx_trig_bytes 1") << text;
+  }
 }
 
 TEST_F(ReceiveLatencyOf, AnotherDriverDoesNotTell) {
