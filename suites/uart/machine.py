@@ -20,7 +20,7 @@ MODULES = ["usb-common", "usbcore", "xhci-hcd", "xhci-pci", "usbserial", "ftdi_s
 INIT = """#!/bin/busybox sh
 /bin/busybox --install -s /bin
 mkdir -p /proc /sys /dev /tmp /root; mount -t proc none /proc; mount -t sysfs none /sys; mount -t devtmpfs none /dev; mkdir -p /dev/pts /dev/shm /run /var/lock /tmp
-mount -t devpts none /dev/pts
+mount -t devpts none /dev/pts; chmod 1777 /tmp /var/lock
 for m in %s; do insmod /modules/$m.ko; done
 export HOME=/root TERM=dumb
 exec 3<>/dev/ttyS0  # open from here on: what comes to a port that nobody has open is lost

@@ -13,7 +13,6 @@ import tty
 
 SPEEDS = {getattr(termios, name): int(name[1:]) for name in dir(termios) if name[0] == "B" and name[1:].isdigit()}
 FRAME_GAP = 0.01  # what comes later is another frame
-BITS = 10  # of a character: a pty does not tell parity or stop bits
 
 
 class End:
@@ -36,6 +35,7 @@ class PacedLine:
     def __init__(self):
         self.ends = (End(), End())
         self.paced = True  # else at once, as a line that is none
+        self.bits = 10  # of a character: a pty does not tell parity or stop bits
         self._frames, self._lost, self._again, self._heard = 0, 0, 0, 0.0
         self._copy = b""
         self._wake, self._woken = os.pipe()
@@ -98,7 +98,7 @@ class PacedLine:
             data = bytes(byte ^ 0xA5 for byte in data)
         at = max(time.monotonic(), far.busy_until)
         for byte in data:
-            at += BITS / speed if self.paced else 0
+            at += self.bits / speed if self.paced else 0
             far.due.append((at, byte))
         far.busy_until = at
 

@@ -21,7 +21,18 @@ SOURCE = Path(__file__).resolve().parents[2]
 RUN = "fieldproof run --role server --allow-write M,D,L --filter"
 READ = "'xgt_cnet/rss/refused/lower:xgt_cnet/rss/bit_areas/l:xgt_cnet/rss/bit_areas/m'"
 FEW = "xgt_cnet/rss/bit_areas/m"
+ONE = "xgt_cnet/rss/refused/lower"
 NOT_EXACT = "inter_character_floor_ms=20"  # the line of a busy machine pauses where that of a UART does not
+SETTINGS = [(speed, bits + parity + stop) for speed in (1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200)
+            for bits in "78" for parity in "NEO" for stop in "12"]
+PARITIES = {"N": "-parenb -parodd", "E": "parenb -parodd", "O": "parenb parodd"}
+RECONFIGURE = """#!/bin/sh
+# PORT FAR SPEED FRAME: notes what PORT was set to until now, and sets FAR to this line.
+stty -a -F $1 2>/dev/null >>/tmp/${1##*/}.settings
+case $4 in ?N?) parity="-parenb -parodd" ;; ?E?) parity="parenb -parodd" ;; ?O?) parity="parenb parodd" ;; esac
+case $4 in ??1) stop=-cstopb ;; ??2) stop=cstopb ;; esac
+stty -F $2 $3 cs${4%??} $parity $stop
+"""
 UARTS, ADAPTERS = ("/dev/ttyS1", "/dev/ttyS2"), ("/dev/ttyUSB0", "/dev/ttyUSB1")
 
 
@@ -37,8 +48,11 @@ def expect_in(text, *parts):
             raise AssertionError(f"expected {part!r} in:\n{text}")
 
 
-def run(machine, port, cases=READ, more="--profile xbc-h", code=0):
-    command = f"{RUN} {cases} --endpoint 'serial:{port}' {more} >/tmp/run.log 2>&1; code=$?; cat /tmp/run.log; (exit $code)"
+def run(machine, port, cases=READ, more="--profile xbc-h", code=0, user="root"):
+    tool = f"{RUN} {cases} --endpoint \"serial:{port}\" {more}"
+    if user != "root":
+        tool = f"su {user} -c '" + tool.replace("'", "") + f" --out /tmp/{user}'"
+    command = f"{tool} >/tmp/run.log 2>&1; code=$?; cat /tmp/run.log; (exit $code)"
     text, found = machine.run(command, check=False)
     if found != code:
         raise AssertionError(f"exit code {found} instead of {code}:\n{text}")
@@ -63,12 +77,39 @@ class Emulated:
 
 # ---- what must hold
 
-def each_setting_carries_a_run(machine):
-    for setting in ("1200-7E1", "9600-8O1", "19200-7O2", "38400-8N2", "57600-8E1", "115200-8N1"):
-        speed, frame = setting.split("-")
-        for ports in (UARTS, ADAPTERS):
-            with Emulated(machine, ports[1], f"xbc-h?line={setting}&{NOT_EXACT}"):
-                expect_in(run(machine, f"{ports[0]}?baud={speed}&frame={frame}", FEW), "1 PASS", setting)
+def every_setting_carries_a_run(machine):
+    """All 96, on both drivers side by side. Who sets the far port, and reads what ours was set to, is stty."""
+    unhurried = "xbc-h?inter_character_floor_ms=300"
+    machine.uarts.bits = machine.adapters.bits = 12  # as many as any of them has
+    try:
+        with Emulated(machine, UARTS[1], unhurried), Emulated(machine, ADAPTERS[1], unhurried):
+            for ports in (UARTS, ADAPTERS):
+                start_matrix(machine, *ports)
+            for port, _ in (UARTS, ADAPTERS):
+                expect_each_setting(machine, port)
+    finally:
+        machine.uarts.bits = machine.adapters.bits = 10
+
+
+def start_matrix(machine, port, far):
+    name = Path(port).name
+    machine.run(f"({RUN} {ONE} --profile xbc-h --floor 100ms --endpoint serial:{port} --matrix all --out /tmp/{name} "
+                f"--reconfigure 'reconfigure {port} {far}' >/tmp/{name}.log 2>&1; echo code $? >>/tmp/{name}.log) &")
+
+
+def expect_each_setting(machine, port):
+    name = Path(port).name
+    text = machine.run(f"while ! grep -q ^code /tmp/{name}.log; do usleep 200000; done; cat /tmp/{name}.log", 300)
+    expect_in(text, "96 cases", "96 PASS", "code 0")
+    seen = machine.run(f"stty -a -F {port} 2>/dev/null >>/tmp/{name}.settings; cat /tmp/{name}.settings")
+    expect(f"settings of {port}", [words_of(one) for one in seen.split("speed ")[2:]],
+           [words_of(f"{speed} {PARITIES[frame[1]]} cs{frame[0]} {'-' if frame[2] == '1' else ''}cstopb")
+            for speed, frame in SETTINGS])
+
+
+def words_of(setting):
+    """Of what stty prints, what a line setting is."""
+    return re.findall(r"(?<!\S)(?:\d+(?=\s)|-?parenb|-?parodd|cs\d|-?cstopb)(?!\S)", setting)
 
 
 def another_speed_is_named_and_no_verdict(machine):
@@ -151,6 +192,54 @@ def who_holds_a_port_is_named(machine):
         expect_in(text, "the port is in use by process")
 
 
+def as_udev_has_it(machine):
+    machine.run(f"chgrp dialout {' '.join(UARTS + ADAPTERS)}; chmod 660 {' '.join(UARTS + ADAPTERS)}")
+
+
+def without_root_a_port_wants_its_group(machine):
+    as_udev_has_it(machine)
+    text = run(machine, UARTS[0], code=3, user="stranger")
+    expect_in(text, f"cannot open {UARTS[0]}: permission denied; add yourself to the group dialout")
+
+
+def without_root_is_set_what_the_driver_lets_one_set(machine):
+    as_udev_has_it(machine)
+    trigger, timer = "/sys/class/tty/ttyS1/rx_trig_bytes", "/sys/class/tty/ttyUSB0/device/latency_timer"
+    machine.run(f"stty 9600 -F {UARTS[0]}; echo 8 >{trigger}; echo 16 >{timer}")
+    with Emulated(machine, UARTS[1]):
+        expect_in(run(machine, UARTS[0], user="member"), "rx_trig_bytes 8, which root can set to 1", "3 PASS")
+    with Emulated(machine, ADAPTERS[1]):  # low_latency shortens its timer
+        expect_in(run(machine, ADAPTERS[0], user="member"), "latency_timer 1 for this run, else 16", "3 PASS")
+    expect("as before", machine.run(f"cat {trigger} {timer}").split(), ["8", "16"])
+
+
+def without_root_who_holds_a_port_is_named_too(machine):
+    as_udev_has_it(machine)
+    with Emulated(machine, UARTS[1]):
+        expect_in(run(machine, UARTS[1], code=3, user="member"), "the port is in use by process", "(fieldproof) since")
+        machine.run("rm /var/lock/LCK*")  # as of a program that keeps none
+        expect_in(run(machine, UARTS[1], code=3, user="member"), "the port is in use by process", "(fieldproof); end that")
+
+
+def what_a_killed_run_left_set_is_put_back_by_the_next(machine):
+    for ports, file, value in ((UARTS, "/sys/class/tty/ttyS1/rx_trig_bytes", "8"),
+                               (ADAPTERS, "/sys/class/tty/ttyUSB0/device/latency_timer", "16")):
+        machine.run(f"stty 9600 -F {ports[0]}; echo {value} >{file}")
+        with Emulated(machine, ports[1]):
+            machine.run(f"{RUN} {READ} --profile xbc-h --duration 1h --endpoint serial:{ports[0]} >/tmp/killed.log 2>&1 & killed=$!; "
+                        f"while [ $(cat {file}) != 1 ]; do usleep 20000; done; usleep 300000; kill -9 $killed; wait $killed; true")
+            expect("a killed run leaves it", machine.run(f"cat {file}").split(), ["1"])
+            expect_in(run(machine, ports[0]), f"{file.rpartition('/')[2]} 1 for this run, else {value}")
+        expect("put back by the next", machine.run(f"cat {file}").split(), [value])
+
+
+def a_driver_without_rs485_is_switched_by_rts(machine):
+    for ports in (UARTS, ADAPTERS):
+        expect_in(run(machine, f"{ports[0]}?rs485=1", code=3), "its driver has no RS-485 mode; use rs485=rts")
+        with Emulated(machine, ports[1]):
+            expect_in(run(machine, f"{ports[0]}?rs485=rts", FEW), "1 PASS")
+
+
 def a_name_without_a_uart_is_absent(machine):
     expect_in(run(machine, "/dev/ttyS3", code=3), "there is no UART behind this name")
     run(machine, "/dev/ttyS3", more="--profile xbc-h --skip-absent", code=77)
@@ -160,6 +249,14 @@ def pty_is_for_ptys(machine):
     text, code = machine.run(f"fieldproof emulate xbc-h --pty {UARTS[1]} 2>&1", check=False)
     expect("exit code", code, 3)
     expect_in(text, f"it is a real port; write --tty {UARTS[1]}")
+
+
+def a_served_port_ends_a_frame_by_the_silence_of_its_line(machine):
+    """3.5 characters are 4 ms at 9600; behind a pty an emulated device waits for 20."""
+    with Emulated(machine, UARTS[1], "xbc-h?protocol=modbus-rtu"):
+        text = run(machine, f"{UARTS[0]}?protocol=modbus-rtu", "modbus_rtu/examples/read_coil_status")
+        fastest = float(re.search(r"\(\d+ answers [^:]*: min (-?[\d.]+)", " ".join(text.split()))[1])
+        expect(f"the fastest of 20 answers, after {fastest} ms, is one of a UART", fastest < 20, True)
 
 
 def an_adapter_that_was_pulled_out_is_restored(machine):
@@ -179,12 +276,15 @@ def an_adapter_that_was_pulled_out_is_restored(machine):
         expect_in(machine.run(f"fieldproof restore /tmp/out/journal.ndjson --endpoint 'serial:/dev/{name}?baud=1200' 2>&1"), "restored")
 
 
-TESTS = [each_setting_carries_a_run, another_speed_is_named_and_no_verdict, a_case_may_want_the_line_that_the_port_has,
+TESTS = [every_setting_carries_a_run, another_speed_is_named_and_no_verdict, a_case_may_want_the_line_that_the_port_has,
          a_fifo_is_told_to_hand_over_at_once, a_timer_is_told_to_be_short, a_fifo_that_gathers_is_no_fault_of_the_device,
          a_split_answer_is_a_fault_all_the_same, a_line_without_pace_has_no_wire,
          a_stray_answer_is_noticed_and_the_next_ones_brought_in_step, a_lost_answer_while_preparing_fails_nothing,
-         who_holds_a_port_is_named, a_name_without_a_uart_is_absent, pty_is_for_ptys,
-         an_adapter_that_was_pulled_out_is_restored]
+         who_holds_a_port_is_named, without_root_a_port_wants_its_group,
+         without_root_is_set_what_the_driver_lets_one_set, without_root_who_holds_a_port_is_named_too,
+         what_a_killed_run_left_set_is_put_back_by_the_next, a_driver_without_rs485_is_switched_by_rts,
+         a_name_without_a_uart_is_absent, pty_is_for_ptys,
+         a_served_port_ends_a_frame_by_the_silence_of_its_line, an_adapter_that_was_pulled_out_is_restored]
 
 
 def image(folder, kernel, programs):
@@ -195,6 +295,10 @@ def image(folder, kernel, programs):
     files.add(SOURCE / "vectors", "/usr/share/fieldproof/vectors")
     files.add(SOURCE / "suites/profiles", "/usr/share/fieldproof/profiles")
     files.add(SOURCE / "suites/user_frames/definitions", "/usr/share/fieldproof/definitions")
+    files.write("/usr/bin/reconfigure", RECONFIGURE)
+    files.write("/etc/group", "root:x:0:\ndialout:x:20:member\nmember:x:1000:\nstranger:x:1001:\n")
+    files.write("/etc/passwd", "root:x:0:0::/root:/bin/sh\n" + "".join(
+        f"{name}:x:{number}:{number}::/tmp:/bin/sh\n" for name, number in (("member", 1000), ("stranger", 1001))))
     profile = {"name": "short-gap", "extends": "xbc-h", "timing": {"max_gap": "3ms"}}
     files.write("/tmp/short_gap.json", json.dumps(profile))
     files.pack(folder / "image")
