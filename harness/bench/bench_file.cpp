@@ -13,6 +13,7 @@
 #include "harness/endpoints/kinds.hpp"
 #include "harness/safety/fence.hpp"
 #include "reports/results/whole_file.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 #include "src/line/settings.hpp"
@@ -183,7 +184,7 @@ Result<BenchFile> parse_bench_file(const std::string& text, const std::string& p
     for (const auto& [name, object] : root["devices"].items())
       file.devices[name] = read_device(object, name, fs::path(path).parent_path(), words);
   } catch (const std::exception& error) {
-    return fail(fmt::format("cannot read bench file {}: {}", path, error.what()));
+    return fail(fmt::format("cannot read bench file {}: {}", path, json_trouble(error)));
   }
   return file;
 }

@@ -8,6 +8,7 @@
 
 #include "reports/results/whole_file.hpp"
 #include "src/base/duration.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 
@@ -25,10 +26,33 @@ constexpr std::array<std::string_view, 9> timing_keys{
     "response_max",    "turnaround_min",    "floor",    "max_gap",   "guard_band",
     "response_max_ms", "turnaround_min_ms", "floor_ms", "max_gap_ms"};
 
+/// Throws `form`, what is to be written for the key.
+void check(bool right, const std::string& key, std::string_view form) {
+  if (!right) throw std::runtime_error(fmt::format("{} is {}", key, form));
+}
+
+std::string text_of(const std::string& key, const json& value) {
+  check(value.is_string(), key, "a text: write it in quotes");
+  return value;
+}
+
+std::vector<std::string> texts_of(const std::string& key, const json& value) {
+  const bool right = value.is_array() && std::ranges::all_of(value, [](const json& one) {
+                       return one.is_string();
+                     });
+  check(right, key, "a list of texts: [\"...\"]");
+  return value;
+}
+
+double number_of(const std::string& key, const json& value) {
+  check(value.is_number(), key, "a number: write it without quotes");
+  return value;
+}
+
 /// A number of milliseconds where the key ends with _ms, else text with a unit.
 Duration duration_of(const std::string& key, const json& value) {
   if (key.ends_with("_ms")) {
-    const double number = value.get<double>();
+    const double number = number_of("timing." + key, value);
     if (number < 0) throw std::runtime_error(fmt::format("timing.{} is negative", key));
     return from_ms(number);
   }
@@ -40,12 +64,13 @@ Duration duration_of(const std::string& key, const json& value) {
 }
 
 void read_timing(const json& timing, Profile& profile) {
+  check(timing.is_object(), "timing", "an object: {\"response_max\": \"500ms\"}");
   for (const auto& [key, value] : timing.items()) {
     if (std::ranges::find(timing_keys, key) == timing_keys.end())
       throw std::runtime_error(
           fmt::format("unknown key timing.{}{}", key, suggestion(key, timing_keys)));
     if (key == "guard_band") {
-      profile.guard_band = value.get<double>();
+      profile.guard_band = number_of("timing.guard_band", value);
       if (profile.guard_band < 0 || profile.guard_band >= 1)
         throw std::runtime_error(fmt::format(
             "timing.guard_band {} is no share of a limit; write 0.1 for a tenth", value.dump()));
@@ -60,8 +85,14 @@ void read_timing(const json& timing, Profile& profile) {
 }
 
 void read_exclude(const json& exclude, Profile& profile) {
-  for (const json& entry : exclude)
-    profile.exclude.emplace_back(entry.at("id"), entry.at("reason"));
+  const auto has = [](const json& entry, const char* key) {
+    return entry.is_object() && entry.contains(key) && entry[key].is_string();
+  };
+  const bool right = exclude.is_array() && std::ranges::all_of(exclude, [&](const json& entry) {
+                       return has(entry, "id") && has(entry, "reason");
+                     });
+  check(right, "exclude", "a list: [{\"id\": \"GLOB\", \"reason\": \"why\"}]");
+  for (const json& entry : exclude) profile.exclude.emplace_back(entry["id"], entry["reason"]);
 }
 
 json read_blocks(const json& value) {
@@ -74,15 +105,15 @@ json read_blocks(const json& value) {
 
 void read_key(const std::string& key, const json& value, Profile& profile) {
   if (key == "name")
-    profile.name = value;
+    profile.name = text_of(key, value);
   else if (key == "title")
-    profile.title = value;
+    profile.title = text_of(key, value);
   else if (key == "model")
-    profile.model = value;
+    profile.model = text_of(key, value);
   else if (key == "protocols")
-    profile.protocols = value.get<std::vector<std::string>>();
+    profile.protocols = texts_of(key, value);
   else if (key == "config")
-    profile.config.update(value);
+    check(value.is_object(), key, "an object: {\"station\": 1}"), profile.config.update(value);
   else if (key == "timing")
     read_timing(value, profile);
   else if (key == "exclude")
@@ -90,10 +121,9 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
   else if (key == "prepared_blocks")
     profile.prepared_blocks = read_blocks(value);
   else if (key == "notes")
-    profile.notes = value;
+    profile.notes = text_of(key, value);
   else if (key == "decisions") {
-    if (value != "binding" && value != "advisory")
-      throw std::runtime_error("decisions is 'binding' or 'advisory'");
+    check(value == "binding" || value == "advisory", key, "\"binding\" or \"advisory\"");
     profile.binding_decisions = value == "binding";
   } else if (key != "extends") {
     throw std::runtime_error(fmt::format("unknown key '{}'{}", key, suggestion(key, profile_keys)));
@@ -156,13 +186,9 @@ Result<Profile> parse_profile(const std::string& text, const std::string& file, 
   try {
     const json value = json::parse(not_too_deep(text));
     if (!value.is_object()) return fail(fmt::format("{}: a profile is a JSON object", file));
-    for (const auto& [key, entry] : value.items()) try {
-        read_key(key, entry, base);
-      } catch (const json::exception& error) {
-        throw std::runtime_error(fmt::format("key '{}': {}", key, error.what()));
-      }
+    for (const auto& [key, entry] : value.items()) read_key(key, entry, base);
   } catch (const std::exception& error) {
-    return fail(fmt::format("cannot read profile {}: {}", file, error.what()));
+    return fail(fmt::format("cannot read profile {}: {}", file, json_trouble(error)));
   }
   if (base.name.empty())
     return fail(fmt::format("cannot read profile {}: it has no \"name\"", file));

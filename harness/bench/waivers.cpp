@@ -9,6 +9,7 @@
 
 #include "harness/vectors/loader.hpp"
 #include "reports/results/whole_file.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 
@@ -129,7 +130,7 @@ Result<std::vector<Waiver>> parse_waivers(const std::string& text, const std::st
       waivers.push_back(std::move(waiver));
     }
   } catch (const std::exception& error) {
-    return fail(fmt::format("cannot read waivers {}: {}{}", file, place, error.what()));
+    return fail(fmt::format("cannot read waivers {}: {}{}", file, place, json_trouble(error)));
   }
   return waivers;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reports/results/whole_file.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 
 namespace fieldproof::cli {
@@ -14,7 +15,7 @@ Result<nlohmann::json> read_config_file(const std::string& path) {
     nlohmann::json config = nlohmann::json::parse(not_too_deep(*text));
     if (config.is_object()) return config;
   } catch (const nlohmann::json::parse_error& error) {
-    return fail(fmt::format("cannot read {}: it is no JSON: {}", path, error.what()));
+    return fail(fmt::format("cannot read {}: it is no JSON: {}", path, json_trouble(error)));
   }
   return fail(
       fmt::format("cannot read {}: it is no object; write the keys of given.config "

@@ -16,6 +16,7 @@
 #include "harness/vectors/json/framings.hpp"
 #include "harness/vectors/json/pieces.hpp"
 #include "harness/vectors/vector_shape.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 
@@ -145,7 +146,7 @@ class FolderLoader {
     try {
       act();
     } catch (const std::exception& error) {
-      set.problems.push_back(fmt::format("{}: {}", name, error.what()));
+      set.problems.push_back(fmt::format("{}: {}", name, json_trouble(error)));
     }
   }
 

@@ -5,6 +5,7 @@
 #include "harness/vectors/json/broken.hpp"
 #include "harness/vectors/json/files.hpp"
 #include "harness/vectors/loader.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 
 namespace fieldproof::vectors {
@@ -40,7 +41,7 @@ void load_wire_file(const fs::path& path, const std::string& name, VectorSet& se
       if (one == set.cases.end() || one->id != id) throw Broken("no such case");
       take_wires(wires, *one);
     } catch (const std::exception& error) {
-      set.problems.push_back(fmt::format("{}: {}: {}", name, id, error.what()));
+      set.problems.push_back(fmt::format("{}: {}: {}", name, id, json_trouble(error)));
     }
 }
 
@@ -53,7 +54,7 @@ void load_wires(const fs::path& folder, VectorSet& set) {
     try {
       load_wire_file(path, name, set);
     } catch (const std::exception& error) {
-      set.problems.push_back(fmt::format("{}: {}", name, error.what()));
+      set.problems.push_back(fmt::format("{}: {}", name, json_trouble(error)));
     }
   }
 }

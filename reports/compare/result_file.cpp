@@ -8,6 +8,7 @@
 #include "reports/results/ndjson.hpp"
 #include "reports/results/result_json.hpp"
 #include "reports/results/whole_file.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 
 namespace fieldproof::compare {
@@ -64,7 +65,7 @@ Result<ResultFile> from_json_text(const std::string& path, const std::string& te
     if (const json& end = document.value("end", json()); !end.is_null())
       file.end = end.get<results::RunEnd>();
   } catch (const json::exception& error) {
-    return broken(place, error.what());
+    return broken(place, json_trouble(error));
   }
   return file;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 #include "src/base/spelling.hpp"
 #include "src/user_frames/segment_reader.hpp"
@@ -31,7 +32,7 @@ Result<Json> parse_json(const std::string& text, const std::string& file) {
           file, fmt::format("'{}' stands twice in one object; give each a name of its own", twice));
     return json;
   } catch (const Json::parse_error& error) {
-    return wrong(file, fmt::format("it is no JSON: {}", error.what()));
+    return wrong(file, fmt::format("it is no JSON: {}", json_trouble(error)));
   }
 }
 
