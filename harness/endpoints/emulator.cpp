@@ -227,7 +227,8 @@ Result<std::unique_ptr<Endpoint>> open_emulator(const EndpointName& name,
       },
       Decorator{}, protocol.default_port());
   if (const Status begun = endpoint->begin(json::object()); !begun) {
-    return fail(fmt::format("cannot open emulator:{}: {}", name.target, begun.error().message));
+    return fail(
+        fmt::format("cannot open {}:{}: {}", name.kind, name.target, begun.error().message));
   }
   return Result<std::unique_ptr<Endpoint>>(std::move(endpoint));
 }

@@ -10,6 +10,7 @@
 #include "harness/endpoints/exec.hpp"
 #include "harness/endpoints/listen.hpp"
 #include "harness/endpoints/network_name.hpp"
+#include "harness/endpoints/options.hpp"
 #include "harness/endpoints/pty.hpp"
 #include "harness/endpoints/rfc2217.hpp"
 #include "harness/endpoints/serial.hpp"
@@ -144,6 +145,18 @@ Status check_endpoint(const EndpointName& name, const harness::Protocol& protoco
   if (!kind.check_protocol) return ok();
   const Status checked = kind.check_protocol(name, protocol);
   return checked ? ok() : Status(wrong(checked.error().message));
+}
+
+Status check_options(const EndpointName& name, const harness::Protocol& protocol) {
+  const KindOf& kind = kind_of(name);
+  const auto checked = [](const auto& result) { return result ? ok() : Status(result.error()); };
+  if (kind.line == LineOption::port) return checked(serial_options(name));
+  if (const auto floor = timing_floor(name); !floor && !kind.simulated) return floor.error();
+  if (!kind.emulated) return ok();
+  EndpointName trial = name;  // in process, whatever way it goes
+  if (!kind.simulated)
+    for (const char* of_the_way : {"floor_ms", "echo"}) trial.options.erase(of_the_way);
+  return checked(open_emulator(trial, protocol));
 }
 
 const harness::Protocol& spoken_over(const EndpointName& name, const harness::Protocol& protocol) {

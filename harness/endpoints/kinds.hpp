@@ -53,6 +53,9 @@ Capabilities capabilities_of(const EndpointName& name);
 /// Can this endpoint carry this protocol, and is it known where? Errors say what to write instead.
 Status check_endpoint(const EndpointName& name, const harness::Protocol& protocol);
 
+/// Are its options such that it can be opened? Nothing is opened for that.
+Status check_options(const EndpointName& name, const harness::Protocol& protocol);
+
 /// The protocol by which a real device of `protocol` is asked there: itself, or what carries it.
 const harness::Protocol& spoken_over(const EndpointName& name, const harness::Protocol& protocol);
 

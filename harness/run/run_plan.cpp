@@ -79,6 +79,13 @@ Status check_cases_of_definition(const EndpointName& endpoint, const RunOptions&
                   endpoint.kind, endpoint.target, model, model));
 }
 
+Status check_protocols(const bench::Profile& profile, const harness::Protocols& known) {
+  for (const std::string& name : profile.protocols)
+    if (const Result<const Protocol*> one = known.choose(name, ""); !one)
+      return fail(fmt::format("cannot use profile {}: {}", profile.name, one.error().message));
+  return ok();
+}
+
 /// A model that no case is for selects nothing of what it should.
 Status check_model(const bench::Profile& profile, const harness::Protocols& known) {
   if (profile.model.empty() || !profile.notes.empty()) return ok();
@@ -151,12 +158,15 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
   Result<bench::Profile> profile = bench::load_profile(profile_name, data.profiles);
   if (!profile) return profile.error();
   bench.profile = std::move(*profile);
-  if (const Status right = check_model(bench.profile, known); !right) return right.error();
+  for (const auto& check : {check_protocols, check_model})
+    if (const Status right = check(bench.profile, known); !right) return right.error();
   if (is_emulated(endpoint) && bench.profile.model.empty())
     bench.profile.model = fs::path(endpoint.target).stem();
-  for (const std::string& range : options.allow_write)
+  for (const std::string& range : options.allow_write) {
+    if (range.empty()) return fail("--allow-write needs a range: M0-M199, D or all");
     if (Status allowed = bench.fence.allow(range, words_of(known)); !allowed)
       return allowed.error();
+  }
   if (ends_with_run(endpoint) && options.allow_write.empty() && !options.read_only)
     bench.fence.allow_everything();
   for (const std::string& axes : options.allow_motion)
@@ -309,6 +319,20 @@ Result<std::vector<const Protocol*>> protocols_of(const DutPlan& plan,
   return protocols;
 }
 
+/// What is wrong with options of the endpoint or with the configuration that the profile declares
+/// is said before anything is opened.
+Status check_declared(const DutPlan& plan) {
+  const bench::Profile& profile = plan.bench.profile;
+  for (const Protocol* protocol : plan.protocols) {
+    if (const Status right = endpoints::check_options(plan.endpoint, *protocol); !right)
+      return right;
+    if (is_emulated(plan.endpoint)) continue;
+    if (const auto device = protocol->configured(profile.model, profile.config); !device)
+      return fail(fmt::format("cannot use profile {}: {}", profile.name, device.error().message));
+  }
+  return ok();
+}
+
 /// Devices that share a run have a journal each.
 std::string journal_path(const RunOptions& options, const std::string& dut) {
   fs::path path = options.journal.empty() ? fs::path(options.out) / "journal.ndjson"
@@ -379,6 +403,7 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   Result<std::vector<const Protocol*>> spoken = protocols_of(plan, selected);
   if (!spoken) return spoken.error();
   plan.protocols = std::move(*spoken);
+  if (const Status right = check_declared(plan); !right) return right.error();
   if (std::ranges::all_of(selected, [](const Case* one) { return vectors::is_client_case(*one); }))
     plan.bench.client_cases = selected;
   else if (endpoints::kind_of(plan.endpoint).listens)

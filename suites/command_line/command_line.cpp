@@ -1,9 +1,11 @@
 #include "suites/command_line/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "harness/cli/commands.hpp"
@@ -20,8 +22,8 @@ namespace {
 
 /// Appears in every help text, so that a pipeline's author need not open the README.
 constexpr const char* exit_codes =
-    "Exit codes: 0 gate met, 1 gate not met (conformance failed, or less judged than --qualify or "
-    "--min-judged asks), 2 usage or invalid input, 3 bench trouble, 4 nothing selected or "
+    "Exit codes: 0 gate met, 1 gate not met (conformance failed, or less judged than half, or than "
+    "--qualify or --min-judged asks), 2 usage or invalid input, 3 bench trouble, 4 nothing selected or "
     "executed, 77 hardware absent (--skip-absent), 130 interrupted.";
 
 /// "90%" or "90".
@@ -29,7 +31,7 @@ double percent_of(const std::string& text) {
   const std::string digits = text.substr(0, text.size() - (text.ends_with('%') ? 1 : 0));
   char* end = nullptr;
   const double percent = std::strtod(digits.c_str(), &end);
-  if (digits.empty() || *end != '\0' || !(percent > 0 && percent <= 100))
+  if (digits.empty() || *end != '\0' || !(percent >= 0 && percent <= 100))
     throw CLI::ValidationError("--min-judged", fmt::format("'{}' is no share; write 90%", text));
   return percent;
 }
@@ -46,7 +48,8 @@ void add_gate(CLI::App& app, Options& options) {
   app.add_option_function<std::string>(
       "--min-judged",
       [&options](const std::string& text) { options.min_judged = percent_of(text); },
-      "90%: less judged of what the device declares (all but SKIP) fails the gate");
+      "90%: less judged of what the device declares (all but SKIP) fails the gate; half is due "
+      "where this is not given, 0% asks for nothing");
 }
 
 void add_role(CLI::App& app, std::string& role) {
@@ -284,8 +287,27 @@ std::string meant_option(const CLI::App& app, std::string_view word) {
   return suggestion(word, std::vector<std::string_view>(names.begin(), names.end()));
 }
 
-/// CLI11 leaves what it does not know here: GoogleTest's own options pass, but not those that would
-/// get in our way.
+/// "; did you mean '--filter' of fieldproof run?" for an option in front of its command.
+std::string meant_option_of_a_command(const CLI::App& app, std::string_view word) {
+  for (const CLI::App* command : app.get_subcommands({})) {
+    const std::string name(word.substr(0, word.find('=')));
+    if (name.starts_with("--") && name != "--help" && command->get_option_no_throw(name))
+      return fmt::format("; {} is an option of fieldproof {}, which stands in front of it", name,
+                         command->get_name());
+    if (std::string meant = meant_option(*command, word); !meant.empty())
+      return meant.insert(meant.size() - 1, " of fieldproof " + command->get_name());
+  }
+  return {};
+}
+
+/// GoogleTest's options that do not get in our way.
+constexpr std::array<std::string_view, 7> passed_to_gtest{
+    "--gtest_shuffle",          "--gtest_random_seed", "--gtest_color",
+    "--gtest_print_time",       "--gtest_brief",       "--gtest_break_on_failure",
+    "--gtest_catch_exceptions",
+};
+
+/// CLI11 leaves here what it does not know.
 std::string unknown_argument(const CLI::App& app, const std::vector<std::string>& extras,
                              std::vector<std::string>& gtest_arguments) {
   for (const std::string& extra : extras) {
@@ -297,6 +319,15 @@ std::string unknown_argument(const CLI::App& app, const std::vector<std::string>
     if (!extra.starts_with("--gtest_"))
       return fmt::format("unknown argument '{}'{}; see fieldproof run --help", extra,
                          meant_option(app, extra));
+    const std::size_t equals = extra.find('=');
+    const std::string name = extra.substr(0, equals);
+    if (std::ranges::find(passed_to_gtest, name) == passed_to_gtest.end())
+      return fmt::format("unknown argument '{}'{}; of GoogleTest's own these pass: {}", extra,
+                         suggestion(name, passed_to_gtest), fmt::join(passed_to_gtest, ", "));
+    const std::string seed = equals == extra.npos ? "" : extra.substr(equals + 1);
+    if (name == "--gtest_random_seed" &&
+        (seed.empty() || seed.size() > 5 || seed.find_first_not_of("0123456789") != seed.npos))
+      return fmt::format("{}: write a number from 0 to 99999: {}=1", extra, name);
     gtest_arguments.push_back(extra);
   }
   return {};
@@ -323,6 +354,8 @@ std::string slip_of(const CLI::App& app, int argc, char** argv) {
       meant = suggestion(argv[at], std::vector<std::string_view>(names.begin(), names.end()));
     }
   }
+  if (command == &app && meant.empty() && at < argc)
+    meant = meant_option_of_a_command(app, argv[at]);
   for (; at < argc && meant.empty(); ++at) meant = meant_option(*command, argv[at]);
   return fmt::format("{}; see fieldproof {}--help", meant, path);
 }
