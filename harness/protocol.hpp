@@ -143,6 +143,13 @@ class Protocol {
 
   /// What a device of `model` has that is told nothing: keys of given.config of this protocol.
   virtual nlohmann::json defaults(std::string_view model) const;
+  /// Do two texts for a key of given.config mean the same to a device of `model`? M0 and M0000 do
+  /// where they name a place.
+  virtual bool same_setting([[maybe_unused]] std::string_view model,
+                            [[maybe_unused]] const std::string& key, const std::string& one,
+                            const std::string& other) const {
+    return one == other;
+  }
 
   /// What a vector calls an address, and the digits there, on the declared device, for a case that
   /// sends these requests. Errors say why the case cannot be moved to where they lie.

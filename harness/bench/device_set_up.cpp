@@ -35,8 +35,15 @@ const json& default_config() {
   return config;
 }
 
-json declared_value(const Profile& profile, const std::string& key) {
-  return profile.config.value(key, default_config().value(key, json()));
+json declared_value(const Profile& profile, const std::string& key,
+                    const harness::Protocol& protocol) {
+  if (profile.config.contains(key)) return profile.config[key];
+  return default_config().value(key, protocol.defaults(profile.model).value(key, json()));
+}
+
+bool means_the_same(const Profile& profile, const std::string& key, const json& one,
+                    const json& other, const harness::Protocol& protocol) {
+  return protocol.same_setting(profile.model, key, plain(one), plain(other));
 }
 
 json needed_set_up(const Case& source, const Profile& profile, int station,
@@ -50,7 +57,8 @@ json needed_set_up(const Case& source, const Profile& profile, int station,
     if (key == "station") {
       const std::optional<int> own = vectors::config_station(source.config, station);
       if (own && *own != station) needed[key] = *own;
-    } else if (plain(value) != plain(declared_value(profile, key))) {
+    } else if (!means_the_same(profile, key, declared_value(profile, key, protocol), value,
+                               protocol)) {
       needed[key] = value;
     }
   }

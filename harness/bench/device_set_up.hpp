@@ -17,7 +17,11 @@ namespace fieldproof::bench {
 const nlohmann::json& default_config();
 
 /// The key as the profile declares it, else as it is by default; null: neither says.
-nlohmann::json declared_value(const Profile& profile, const std::string& key);
+nlohmann::json declared_value(const Profile& profile, const std::string& key,
+                              const harness::Protocol& protocol);
+/// Do these two values of the key mean the same?
+bool means_the_same(const Profile& profile, const std::string& key, const nlohmann::json& one,
+                    const nlohmann::json& other, const harness::Protocol& protocol);
 
 /// What `source` needs otherwise than the profile and `station` have it, and `endpoint` can give:
 /// keys of given.config, and "model" where the profile leaves it to the case. Empty: nothing.

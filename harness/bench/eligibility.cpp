@@ -57,8 +57,8 @@ bool Eligibility::places_memory_itself(const Case& source) const {
   bool any = false, all = true;
   for (const auto& [key, value] : defaults.items()) {
     any = any || source.config.contains(key);
-    all = all && plain(source.config.value(key, value)) ==
-                     plain(options_.profile.config.value(key, value));
+    all = all && means_the_same(options_.profile, key, options_.profile.config.value(key, value),
+                                source.config.value(key, value), protocol_);
   }
   return any && all;
 }
@@ -101,11 +101,13 @@ std::string Eligibility::undeclared(const json& config) const {
     if (asks && arming_.tells(key)) continue;
     const bool of_wire = key == "line" || key == "bench_line";
     if (of_wire && !asks && !endpoint_.capabilities().wire) continue;  // below_floor tells
-    json has = declared_value(options_.profile, key);
+    json has = declared_value(options_.profile, key, protocol_);
     // Nothing is declared: then the device speaks as the port is open, or it would not answer.
     if (key == "line" && has.is_null() && !endpoint_.capabilities().line.empty())
       has = endpoint_.capabilities().line;
-    if (!has.is_null() && plain(without_programs(has)) == plain(value)) continue;
+    if (!has.is_null() &&
+        means_the_same(options_.profile, key, without_programs(has), value, protocol_))
+      continue;
     const bool refused = endpoint_.capabilities().control && !endpoint_.configures(key);
     return fmt::format("needs {} = {}; the profile declares {}{}", key, plain(value),
                        has.is_null() ? "nothing" : plain(has),

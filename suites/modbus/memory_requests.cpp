@@ -191,6 +191,19 @@ Result<Bases> declared_bases(std::string_view model, const nlohmann::json& confi
   return Bases{known, *tables, separate};
 }
 
+bool same_setting(std::string_view model, const std::string& key, const std::string& one,
+                  const std::string& other) {
+  if (one == other) return true;
+  for (std::size_t i = 0; i < modbus::modbus_base_names.size(); ++i) {
+    if (key != std::string(modbus::modbus_base_names[i]) + "_base") continue;
+    const Result<Bases> first = declared_bases(model, {{key, one}}),
+                        second = declared_bases(model, {{key, other}});
+    const auto base = static_cast<ModbusBase>(i);
+    return first && second && first->tables[base].first == second->tables[base].first;
+  }
+  return false;
+}
+
 Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& bases, int station,
                                           std::string_view address, std::string_view hex) {
   const Result<Place> place = place_of(bases, address);

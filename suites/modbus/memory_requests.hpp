@@ -30,6 +30,9 @@ nlohmann::json default_base_config(std::string_view model);
 /// `config`: bit_read_base and its like, tables (vectors/README.md). Errors name the model or the
 /// key.
 Result<Bases> declared_bases(std::string_view model, const nlohmann::json& config);
+/// harness::Protocol::same_setting.
+bool same_setting(std::string_view model, const std::string& key, const std::string& one,
+                  const std::string& other);
 
 /// Few enough words a request for a frame of 255 characters (DECISIONS.md modbus/ascii-length), and
 /// any server. Errors say why there is no way.

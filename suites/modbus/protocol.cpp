@@ -165,6 +165,10 @@ class Modbus : public harness::PlcProtocol,
   nlohmann::json defaults(std::string_view model) const override {
     return default_base_config(model);
   }
+  bool same_setting(std::string_view model, const std::string& key, const std::string& one,
+                    const std::string& other) const override {
+    return modbus_suite::same_setting(model, key, one, other);
+  }
   Result<Placed> placed(std::string_view address, std::string_view hex,
                         const std::vector<Bytes>& requests) const override {
     return modbus_suite::placed(framing_, bases_, address, hex, requests);
