@@ -23,6 +23,7 @@ using nlohmann::json;
 
 constexpr Duration start_patience =
     10s;  // a device that is started by the bench needs time to open its port
+constexpr int most_unanswered = 4;  // writes that set up a case; then no further one is tried
 constexpr int errors_to_stop = 5;  // then it is no longer the vectors, it is the bench
 
 }  // namespace
@@ -453,18 +454,33 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
           return give_up(Verdict::error, reset.error());
   }
   for (const auto& [address, hex] : prepared.source->memory) {
+    if (known_->set_ups_unanswered >= most_unanswered)
+      return give_up(Verdict::blocked,
+                     fail(fmt::format("{}cannot set {}: no answer{}", exchange::set_up_failure,
+                                      address, not_tried)));
     const Status done = set(address, hex);
+    known_->set_ups_unanswered *= memory_.silent() ? 1 : 0;
     if (done) continue;
     if (done.error().refused) return give_up(Verdict::blocked, done.error());
     if (!memory_.refused())
       return give_up(arming_.gave_up() ? Verdict::fail : Verdict::error, done.error());
     const Time now = endpoint_.now();
     result.exchange.push_back({results::Event::Kind::note, now, now, {}, memory_.said()});
-    set_up_answered_ = !memory_.unserved();
+    set_up_answered_ = !memory_.unserved() || only_writes_are_unanswered(prepared);
     return give_up(Verdict::blocked,
                    Error{std::string(exchange::set_up_failure) + done.error().message});
   }
   return true;
+}
+
+/// It was silent when memory was set, and answers the bench's probe: what sets nothing goes on.
+bool Bench::only_writes_are_unanswered(const PreparedCase& prepared) {
+  if (!memory_.silent() || prepared.is_client() || !known_->answers) return false;
+  const Result<exchange::Sign> alive =
+      exchange_.anything_answers(prepared.station, 3 * options_.profile.response_max);
+  const bool answers = alive && *alive == exchange::Sign::alive;
+  known_->set_ups_unanswered += answers ? 1 : 0;
+  return answers;
 }
 
 void Bench::judge_exchange(const PreparedCase& prepared, const exchange::Transcript& transcript,

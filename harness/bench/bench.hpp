@@ -91,6 +91,7 @@ class Bench {
   Result<bool> wait_for_request();
   Status end_asking(const exchange::PreparedCase& prepared, bool waits);
   bool begin_case(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  bool only_writes_are_unanswered(const exchange::PreparedCase& prepared);
   void execute(const exchange::PreparedCase& prepared, results::CaseResult& result);
   void exchange(const exchange::PreparedCase& prepared, results::CaseResult& result);
   bool set_up_device(const exchange::PreparedCase& prepared, results::CaseResult& result);

@@ -12,6 +12,7 @@ namespace {
 
 /// "cannot set %MW100: the device answers NAK 1132" without the address.
 std::string what_it_did(std::string_view message) {
+  message = message.substr(0, message.find(not_tried));
   const std::size_t colon = message.find(": ", set_up_failure.size());
   return std::string(message.substr(colon == message.npos ? 0 : colon + 2));
 }

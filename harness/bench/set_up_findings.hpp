@@ -14,6 +14,10 @@ namespace fieldproof::bench {
 /// The id of such a result, before its protocol and number; no case has it.
 inline constexpr std::string_view set_up_result = "set_up/";
 
+/// How the message of a case ends that was blocked without one more trial.
+inline constexpr std::string_view not_tried =
+    "; not tried, as the last writes that set up a case were not answered";
+
 class SetUpFindings {
  public:
   /// Takes notice of a case that its set-up has blocked; of others none.

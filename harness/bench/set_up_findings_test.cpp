@@ -23,6 +23,7 @@ TEST(SetUpFindings, AreOneForEachWayInWhichWritesFail) {
   findings.note(blocked("p/a/2", "set-up: cannot set %MW2: the device answers NAK 1132"));
   findings.note(blocked("p/a/3", "set-up: cannot set %MW1: no answer"));
   findings.note(blocked("p/a/4", "writes %MW1; allow it with --allow-write M1"));
+  findings.note(blocked("p/a/5", "set-up: cannot set %MW2: no answer" + std::string(not_tried)));
   const std::vector<results::CaseResult> results = findings.results();
   ASSERT_EQ(results.size(), 2u);
   EXPECT_EQ(results[1].id, "set_up/p/2");
@@ -30,7 +31,7 @@ TEST(SetUpFindings, AreOneForEachWayInWhichWritesFail) {
   EXPECT_THAT(results[1].message,
               HasSubstr("cannot set %MW1: the device answers NAK 1132; 2 cases are BLOCKED by it, "
                         "first p/a/1"));
-  EXPECT_THAT(results[0].message, HasSubstr("no answer; 1 case is BLOCKED by it, first p/a/3"));
+  EXPECT_THAT(results[0].message, HasSubstr("no answer; 2 cases are BLOCKED by it, first p/a/3"));
 }
 
 TEST(SetUpFindings, AreNoneWhereWritesAreTaken) {
