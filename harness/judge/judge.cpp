@@ -11,6 +11,7 @@
 #include "harness/judge/findings.hpp"
 #include "harness/judge/timing.hpp"
 #include "harness/notation/beginning.hpp"
+#include "harness/notation/notation.hpp"
 
 namespace fieldproof::judging {
 
@@ -233,7 +234,27 @@ class Judge {
                                      "RS-485"));
     std::string what = difference(step, received);
     if (share.ending) what += "; " + in_words(share.ending, record.cause, before());
-    findings_.miss(what);
+    findings_.miss(what + of_an_earlier_request(step, received.bytes));
+  }
+
+  /// What has the form of an answer to something else that was asked in this case, and not to this.
+  std::string of_an_earlier_request(const PreparedStep& step, ByteView reply) const {
+    const harness::MemoryRequests* const memory = spoken(step).memory();
+    if (client_ || !memory || memory->answers(last_sent(), reply)) return {};
+    const auto told = [&](ByteView request) {
+      return memory->answers(request, reply)
+                 ? fmt::format(" (an answer to what was asked before, {}: it came twice, or late)",
+                               notation::print_bytes(request))
+                 : "";
+    };
+    for (std::size_t i = 0; i < record_; ++i)
+      if (const Bytes& sent = shares_.steps[i].sent; !sent.empty())
+        if (std::string found = told(sent); !found.empty()) return found;
+    for (const auto& [address, hex] : prepared_.source->memory)
+      if (const auto requests = spoken(step).write_requests(prepared_.station, address, hex))
+        for (const Bytes& request : *requests)
+          if (std::string found = told(request); !found.empty()) return found;
+    return {};
   }
 
   std::string difference(const PreparedStep& step, const Received& received) {
