@@ -33,7 +33,8 @@ struct Gate {
   bool strict = false;            // --strict: NON-STRICT fails
   bool fail_on_marginal = false;  // --fail-on marginal
   bool qualify = false;           // --qualify: BLOCKED and INCONCLUSIVE fail
-  double min_judged = 0;          // --min-judged: percent of what the profile declares
+  /// --min-judged: percent of what the profile declares; where nobody says it, half is due.
+  std::optional<double> min_judged = {};
 };
 /// ERROR always gates, FAIL and XPASS always fail.
 bool gates(Verdict verdict, const Gate& gate);

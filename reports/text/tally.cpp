@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 namespace fieldproof::text {
 
@@ -15,6 +16,19 @@ using results::Verdict;
 namespace {
 
 constexpr std::string_view min_judged_word = "min-judged ";
+constexpr double half = 50;  // percent
+
+/// Empty: enough was judged. Where nobody says how much is enough, a green gate of a run that left
+/// most of its cases out would be a lie.
+std::string too_little(const Tally& tally, const Gate& gate) {
+  const auto judged = static_cast<double>(tally.judged());
+  const auto applicable = static_cast<double>(tally.applicable());
+  if (judged * 100 >= gate.min_judged.value_or(half) * applicable) return {};
+  return fmt::format(
+      "too little judged: {} ({:.1f}%), {}", judged_text(tally), judged * 100 / applicable,
+      gate.min_judged ? fmt::format("--min-judged asks for {:g}%", *gate.min_judged)
+                      : "less than half; --min-judged says how much is enough");
+}
 
 }  // namespace
 
@@ -91,15 +105,11 @@ std::vector<Reason> reasons_of(const Tally& tally, const Gate& gate) {
   if (gate.qualify && unjudged > 0)
     reasons.push_back(
         {1, "qualify", fmt::format("not qualified: {} not judged", grouped(unjudged))});
-  const auto applicable = static_cast<double>(tally.applicable());
   if (judged + errors == 0)
     reasons.push_back({4, "nothing", "nothing selected or executed"});
-  else if (static_cast<double>(judged) * 100 < gate.min_judged * applicable)
-    reasons.push_back(
-        {1, "min-judged",
-         fmt::format("too little judged: {} ({:.1f}%), --min-judged asks for {:g}%",
-                     judged_text(tally), static_cast<double>(judged) * 100 / applicable,
-                     gate.min_judged)});
+  else if (std::string why = too_little(tally, gate);
+           !why.empty() && (gate.min_judged || reasons.empty()))
+    reasons.push_back({1, "min-judged", std::move(why)});
   return reasons;
 }
 
@@ -124,7 +134,7 @@ std::string to_string(const Gate& gate) {
   add(gate.strict, "strict");
   add(gate.fail_on_marginal, "fail-on marginal");
   add(gate.qualify, "qualify");
-  if (gate.min_judged > 0) add(true, fmt::format("{}{:g}%", min_judged_word, gate.min_judged));
+  if (gate.min_judged) add(true, fmt::format("{}{:g}%", min_judged_word, *gate.min_judged));
   return text.empty() ? "default" : text;
 }
 

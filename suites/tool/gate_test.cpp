@@ -81,11 +81,47 @@ TEST_F(Gate, TooLittleJudgedIsRed) {
   const Finished again = run_tool({"judge", folder_ / "out/results.ndjson", "--vectors",
                                    folder_ / "vectors", "--out", folder_ / "again"});
   EXPECT_EQ(again.code, 1) << "a recorded run is judged by the gate that it had\n" << again.out;
-  for (const char* wrong : {"0", "101%", "most", "%"}) {
+  for (const char* wrong : {"-1", "101%", "most", "%"}) {
     const Finished refused = run(vectors, {"--min-judged", wrong});
     EXPECT_EQ(refused.code, 2) << wrong;
     EXPECT_THAT(refused.err, HasSubstr("is no share; write 90%"));
   }
+}
+
+/// A green gate that judged a tenth of the cases is a lie.
+TEST_F(Gate, LessThanHalfJudgedIsRedWhereNobodySaysThatItIsEnough) {
+  const std::vector<ordered_json> a_third{small_vector("g/a"), unjudged("g/b"), unjudged("g/c")};
+  const Finished finished = run(a_third);
+  EXPECT_EQ(finished.code, 1);
+  EXPECT_THAT(finished.out, HasSubstr("exit 1: too little judged: 1 of 3 judged (33.3%), less than "
+                                      "half; --min-judged says how much is enough"));
+  EXPECT_THAT(junit_says("min-judged"), HasSubstr("1 of 3 judged"));
+  expect_reports(folder_ / "out");
+  const Finished accepted = run(a_third, {"--min-judged", "0%"});
+  EXPECT_EQ(accepted.code, 0);
+  EXPECT_THAT(accepted.out, HasSubstr("exit 0: gate met: 1 of 3 judged\n"));
+  const Finished failed = run({small_vector("g/a", wrong_word), unjudged("g/b"), unjudged("g/c")});
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_THAT(failed.out, Not(HasSubstr("too little judged"))) << "one reason is enough";
+}
+
+/// Which of its cases a shard gets is chance; all of them together are judged by `merge`.
+TEST_F(Gate, TooLittleOfAShardIsNoReasonButOfAllIs) {
+  std::vector<ordered_json> vectors{small_vector("g/a")};
+  for (const char* id : {"g/b", "g/c", "g/d"}) vectors.push_back(unjudged(id));
+  std::vector<std::string> merge{"merge"};
+  for (const char* index : {"0", "1"}) {
+    const std::string out = folder_ / (std::string("shard") + index);
+    const Finished shard =
+        run_tool({"run", "--vectors", write_vectors(folder_, vectors), "--out", out},
+                 {{{"GTEST_TOTAL_SHARDS", "2"}, {"GTEST_SHARD_INDEX", index}}, {}});
+    EXPECT_THAT(shard.out, Not(HasSubstr("too little judged")));
+    merge.push_back(out + "/results.ndjson");
+  }
+  merge.insert(merge.end(), {"--out", folder_ / "out"});
+  const Finished merged = run_tool(merge);
+  EXPECT_EQ(merged.code, 1) << merged.out << merged.err;
+  EXPECT_THAT(merged.out, HasSubstr("too little judged: 1 of 4 judged"));
 }
 
 TEST_F(Gate, NotQualifiedIsNoFailureOfTheDevice) {
@@ -245,6 +281,23 @@ TEST_F(Gate, WhatIsWrongBeforeAByteIsSentIsUsage) {
           "broken.json");
   refused({}, "is no shard", {{{"GTEST_TOTAL_SHARDS", "2"}, {"GTEST_SHARD_INDEX", "2"}}, {}});
   refused({"--floor", "2"}, "--floor: '2' is no duration");
+  for (const auto& [endpoint, why] :
+       {std::pair{"serial:/dev/null?frame=9N1", "the data bits are not 7 or 8"},
+        {"serial:/dev/null?baud=fast", "the speed is not one of the eight"},
+        {"serial:/dev/null?rs485=2", "rs485 is '2'; write 1"},
+        {"rfc2217:nowhere:1?frame=8X1", "cannot open rfc2217:nowhere:1"},
+        {"tcp:nowhere:1?floor_ms=x", "floor_ms is 'x'"},
+        {"emulator:xbc-h?line=9600-9N1", "the data bits are not 7 or 8"},
+        {"emulator:xbc-h?protocol=xgt-cnet&colour=1", "there is no key 'colour'"},
+        {"pty:xbc-h?protocol=xgt-cnet&mode=runn", "mode is 'runn', which is not run or stop"}})
+    refused({"--endpoint", endpoint, "--profile", "xbc-h"}, why);
+  refused({"--endpoint", good_device, "--profile", "xbc-h", "--allow-write="},
+          "--allow-write needs a range");
+  refused({"--endpoint", good_device, "--profile",
+           folder_.write("bases.json",
+                         R"({"name": "p", "model": "xbc-h", "protocols": ["modbus-rtu"],
+                             "config": {"bit_read_base": "Q9"}})")},
+          "cannot use profile p: cannot place bit_read_base 'Q9' on xbc-h");
 }
 
 /// The recipes of the README as they are printed, with a good device in the place of ./my_plc.
