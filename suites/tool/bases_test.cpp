@@ -2,6 +2,7 @@
 // with what the profile declares, and a profile that does not declare it is told of by failures.
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <memory>
 
 #include "suites/tool/tool_files.hpp"
@@ -9,23 +10,25 @@
 namespace fieldproof::tool_tests {
 namespace {
 
+using nlohmann::json;
+
 /// A device of its own process, and the profile that is given to the bench.
 struct Device {
   std::string name;
   std::string options;      // of the emulated PLC
-  nlohmann::json declared;  // "config" of the profile
+  json declared;  // "config" of the profile
   std::size_t judged;       // cases that pass, at least
 };
 
-const nlohmann::json bits_at_p0{{"bit_write_base", "P0"}};
+const json bits_at_p0{{"bit_write_base", "P0"}};
 /// Cnet EN 6.1.3: the dialog of the settings as it is printed.
-const nlohmann::json printed_dialog{{"bit_read_base", "M0"},
+const json printed_dialog{{"bit_read_base", "M0"},
                                     {"bit_write_base", "M0"},
                                     {"word_read_base", "D0"},
                                     {"word_write_base", "D0"}};
 
 /// "&bit_write_base=P0"
-std::string as_options(const nlohmann::json& bases) {
+std::string as_options(const json& bases) {
   std::string text;
   for (const auto& [key, base] : bases.items()) text += "&" + key + "=" + base.get<std::string>();
   return text;
@@ -34,11 +37,11 @@ std::string as_options(const nlohmann::json& bases) {
 std::vector<Device> devices() {
   return {{"bits_at_p0", as_options(bits_at_p0), bits_at_p0, 250},
           {"printed_dialog", as_options(printed_dialog), printed_dialog, 250},
-          {"not_declared", as_options(bits_at_p0), nlohmann::json::object(), 100}};
+          {"not_declared", as_options(bits_at_p0), json::object(), 100}};
 }
 
 std::unique_ptr<Process> run_against(const Device& device, const TestFolder& folder) {
-  const nlohmann::json profile{{"name", device.name},         {"extends", "xbc-h"},
+  const json profile{{"name", device.name},         {"extends", "xbc-h"},
                                {"title", "of a test"},        {"model", "xbc-h"},
                                {"protocols", {"modbus-tcp"}}, {"config", device.declared}};
   folder.write(device.name + ".json", profile.dump());
@@ -49,6 +52,61 @@ std::unique_ptr<Process> run_against(const Device& device, const TestFolder& fol
       tool_arguments({"run", "--endpoint", "exec:" + command + "?protocol=modbus-tcp", "--profile",
                       folder / (device.name + ".json"), "--filter", "modbus_tcp/*", "--allow-write",
                       "all,P,Q,U", "--out", folder / device.name}));
+}
+
+/// The device of suites/second_hand, whose author has not seen our emulator, on a line.
+std::unique_ptr<Process> run_on_a_line(const std::string& framing, const std::string& bases,
+                                       const json& declared, const std::string& folder) {
+  const std::string profile = folder + ".json";
+  std::ofstream(profile) << json{{"name", "line"},
+                                 {"extends", "xbc-h"},
+                                 {"protocols", {"modbus-" + framing}},
+                                 {"config", declared}};
+  const std::string cases = "modbus_" + framing + "/";
+  return std::make_unique<Process>(tool_arguments(
+      {"run", "--endpoint",
+       "exec:python3 -B " FIELDPROOF_SOURCE_DIR "/suites/second_hand/device.py --protocol modbus-" +
+           framing + " --bases " + bases + " --tty {tty}",
+       "--profile", profile, "--role", "server", "--out", folder, "--filter",
+       cases + "examples/*:" + cases + "data/*0_n*:" + cases + "bases/screen_text"}));
+}
+
+struct OnALine {
+  const char* framing;
+  const char* name;
+  const char* bases;  // of the device: bits read and written, words read and written
+  json declared;
+  bool wrong = false;  // the profile declares others
+};
+
+/// The dialog as the manual prints it is the same place by another spelling.
+TEST(ModbusLineBases, CasesMoveWithWhatTheProfileDeclares) {
+  std::vector<OnALine> lines;
+  for (const char* framing : {"rtu", "ascii"}) {
+    lines.push_back({framing, "dialog", "M0,M0,D0,D0", printed_dialog});
+    lines.push_back({framing, "bits_at_p0", "P0,P0,P0,M0", bits_at_p0});
+    lines.push_back({framing, "not_declared", "M0,M0,D0,D0", json::object(), true});
+  }
+  const TestFolder folder;
+  std::vector<std::unique_ptr<Process>> runs;
+  for (const OnALine& one : lines)
+    runs.push_back(run_on_a_line(one.framing, one.bases, one.declared,
+                                 folder / (std::string(one.framing) + one.name)));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const OnALine& one = lines[i];
+    const std::string name = std::string(one.framing) + one.name;
+    const Finished finished = runs[i]->wait();
+    const Results results = read_results(folder / (name + "/results.ndjson"));
+    EXPECT_EQ(finished.code, one.wrong ? 1 : 0) << name << finished.out << finished.err;
+    EXPECT_EQ(results.counts().contains("FAIL"), one.wrong) << name;
+    if (!one.wrong) {
+      EXPECT_GE(results.counts().at("PASS"), 25u) << name;
+    }
+    if (one.name == std::string("dialog")) {
+      EXPECT_EQ(results.verdict("modbus_" + std::string(one.framing) + "/bases/screen_text"), "PASS")
+          << "needs M0000 and D0000, which M0 and D0 are";
+    }
+  }
 }
 
 /// Most of a run is waiting for silence: all at once.

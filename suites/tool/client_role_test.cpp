@@ -163,6 +163,26 @@ TEST_F(ClientRole, TheCadenceOfAStimulatedProgramIsMeasured) {
               testing::ContainsRegex("every 200 ms: measured min .* of 4 periods"));
 }
 
+/// A clock is a period with a tolerance, no time-out: 0.4 ms more are none too many.
+TEST_F(ClientRole, AClockIsJudgedByItsPeriod) {
+  for (const auto& [seconds, verdict] : {std::pair{"0.2004", "PASS"}, {"0.4", "FAIL"}}) {
+    run({cadence_case()},
+        {"--endpoint", program() + "?floor_ms=60", "--stimulus", "-", "--profile", profile()},
+        {{{"FIELDPROOF_PERIOD", seconds}}, ""});
+    EXPECT_EQ(results.verdict("xgt_cnet/client/cadence"), verdict) << seconds;
+  }
+  EXPECT_THAT(results.of("xgt_cnet/client/cadence").at("message").get<std::string>(),
+              HasSubstr("instead of every 200"));
+}
+
+TEST_F(ClientRole, ARequestAfterTheEndIsNotChargedToTheNextCase) {
+  run({cadence_case(), read_case("none", "0000")},
+      {"--endpoint", program(), "--stimulus", "-", "--profile", profile()},
+      {{{"FIELDPROOF_CLIENT", "late"}}, ""});
+  EXPECT_EQ(results.verdict("xgt_cnet/client/read/none"), "PASS")
+      << results.of("xgt_cnet/client/read/none").dump(1);
+}
+
 TEST_F(ClientRole, AProgramThatAsksTwiceFails) {
   EXPECT_EQ(run({read_case("none", "0000")},
                 {"--endpoint", program(), "--stimulus", "-", "--profile", profile()},
@@ -210,6 +230,9 @@ TEST_F(ClientRole, PreparedBlocksAreArmedAndLookedAtOverASecondChannel) {
   EXPECT_EQ(results.of("xgt_cnet/client/read/nak").at("message"), "%LW512 holds 0002, 0001 is due");
   EXPECT_EQ(results.verdict("xgt_cnet/client/write"), "BLOCKED")
       << "another block than the prepared one";
+  EXPECT_THAT(results.of("xgt_cnet/client/write").at("message").get<std::string>(),
+              HasSubstr(R"(listed there is another: function is "read", "write" is needed; save is )"
+                        R"(["%MW200"], ["%MW300"] is needed)"));
 }
 
 /// What the bench sets over the second channel is put back there: flags and data; after a kill by

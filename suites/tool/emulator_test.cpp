@@ -279,7 +279,8 @@ TEST(EmulatorRun, filter_without_a_match_is_an_error) {
   EXPECT_EQ(finished.code, 4);
   EXPECT_THAT(finished.err, HasSubstr("no case matches --filter 'xgt_cnet/nonsense*'"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
-  EXPECT_THAT(filtered("xgt_cnet/rsss/*").err, HasSubstr("did you mean 'xgt_cnet/rss'?"));
+  for (const char* slip : {"xgt_cnet/rsss/*", "xgt_cnet/rs/*", "xgt-cnet/rss/*"})
+    EXPECT_THAT(filtered(slip).err, HasSubstr("did you mean 'xgt_cnet/rss'?")) << slip;
 }
 
 TEST(CommandLine, AMistypedWordIsSaid) {
@@ -292,6 +293,8 @@ TEST(CommandLine, AMistypedWordIsSaid) {
   says({"run", "--filer", "x"}, "did you mean '--filter'?");
   says({"lint", "--vectrs=x"}, "did you mean '--vectors'?");
   says({"runn"}, "did you mean 'run'?");
+  says({"--filer", "x"}, "did you mean '--filter' of fieldproof run?");
+  says({"--filter", "x"}, "--filter is an option of fieldproof run, which stands in front of it");
   says({"run", "--seed", "x"}, "--seed");
 }
 

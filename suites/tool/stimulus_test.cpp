@@ -129,6 +129,33 @@ TEST_F(LiteralClient, SmallDigitsOfTheLsBusAreAnAllowedAlternative) {
   }
 }
 
+/// It ends where it hears a request: nobody polls a client, not even after a power cycle.
+TEST_F(LiteralClient, IsAskedNothingItself) {
+  const Finished finished =
+      run("well", "xgt_cnet/client/*power*:xgt_cnet/client_monitor/*:xgt_cnet/client/monitor*");
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_GE(results.counts()["PASS"], 2u);
+  for (const json& one : results.cases) {
+    EXPECT_THAT(one.value("message", ""), testing::Not(HasSubstr("polled"))) << one.at("id");
+    EXPECT_NE(one.at("verdict"), "BLOCKED") << one.dump();
+  }
+}
+
+TEST_F(LiteralClient, PipeliningIsCalledSo) {
+  EXPECT_EQ(run("pipelines", "xgt_cnet/client/schedule/block_order").code, 1);
+  EXPECT_THAT(results.of("xgt_cnet/client/schedule/block_order").at("message").get<std::string>(),
+              HasSubstr("pipelining: the request came too early"));
+}
+
+/// One that waits out its time-out, as it says, is not blamed in the cases that follow.
+TEST_F(LiteralClient, ATimeOutThatIsDeclaredIsWaitedOut) {
+  const Finished finished =
+      run("patient", "xgt_cnet/client/error/partner/*:xgt_cnet/client/read/single/*");
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  for (const json& one : results.cases)
+    EXPECT_THAT(one.at("verdict"), AnyOf("PASS", "SKIP")) << one.dump();
+}
+
 TEST_F(LiteralClient, WhoGivesUpFailsAndIsStartedAgain) {
   const Finished finished =
       run("gives_up", "xgt_cnet/client/schedule/block_order:xgt_cnet/client/run/*");

@@ -5,7 +5,9 @@
                                  a PLC with two ports, ptys linked from LINK and AUX: P2P blocks (JSON) set up, on LINK as
                                  client, and its memory served on AUX, flags of P2P 1 (L word 512 + 6 b) included;
                                  MEMORY is what it holds at first: {"%MW100": "5ABC"}
-  FIELDPROOF_CLIENT=twice|mute   asks twice, asks nothing
+  FIELDPROOF_CLIENT=twice|mute|late
+                                 asks twice, asks nothing, asks at the pace of a clock once more after it was to stop
+  FIELDPROOF_PERIOD=SECONDS      of its clock of 200 ms
 """
 import json
 import os
@@ -17,6 +19,7 @@ import tty
 ENQ, ACK, NAK, EOT, ETX = b"\x05", b"\x06", b"\x15", b"\x04", b"\x03"
 BEHAVIOUR = os.environ.get("FIELDPROOF_CLIENT", "")
 TIME_OUT = 0.2
+PERIOD = float(os.environ.get("FIELDPROOF_PERIOD", "0.2"))
 memory = {}  # words by "%MW100"; a bit "%MX1234" is bit 4 of "%MW123"
 
 
@@ -143,7 +146,7 @@ class Clock:
             return
         for block, values in self.asks.values():
             ask(port, block, values)
-        self.due += 0.2
+        self.due += PERIOD
 
 
 def stimulated(port):
@@ -159,6 +162,10 @@ def stimulated(port):
         *complete, lines = (lines + more).split(b"\n")
         for line in map(json.loads, complete):
             if line.get("over"):
+                if BEHAVIOUR == "late" and clock.asks:
+                    time.sleep(0.05)
+                    clock.due = 0
+                    clock.tick(port)
                 clock = Clock()
             elif "block" not in line:
                 continue  # it answers nothing to "hello", and is told no more than what to ask

@@ -8,6 +8,8 @@
         ls_bus     as minimum, LS Bus
         ls_small   the same, its digits in small letters
         gives_up   as minimum, and ends with its fifth request
+        pipelines  as minimum, and waits for no answer before the next block of a batch
+        patient    as minimum, with a time-out of 700 ms
   LOG   every line that came, for the test of the schema
 """
 import json
@@ -188,6 +190,8 @@ class Plc:
         return block["flag"] not in PERIODS and int(self.memory.load(block["flag"]), 16) != 0
 
     def hear(self, data):
+        if data.startswith(ENQ) and not self.under_way:
+            sys.exit("polled as if it were a server: " + data.hex())
         self.heard += data
         reply = reply_in(self.heard)
         if reply and self.under_way:
@@ -225,8 +229,9 @@ class Asker:
         self.port, self.kind, self.asked = port, kind, 0
 
     def take(self, line):
+        time_out = 0.7 if self.kind == "patient" else 0.2
         if "hello" in line and self.kind != "undeclared":
-            print(json.dumps({"follows": [], "time_out_ms": 200}), flush=True)
+            print(json.dumps({"follows": [], "time_out_ms": int(1000 * time_out)}), flush=True)
         if "block" not in line or line["block"]["flag"] in PERIODS:
             return
         self.asked += 1
@@ -239,7 +244,9 @@ class Asker:
         else:
             frame = request(line["block"], line["values"])
         os.write(self.port, in_small_letters(frame) if self.kind == "small" else frame)
-        heard, until = b"", time.monotonic() + 0.2
+        if self.kind == "pipelines" and not line["last"]:
+            return
+        heard, until = b"", time.monotonic() + time_out
         while not (EOT in heard if ls_bus else reply_in(heard)) and time.monotonic() < until:
             if select.select([self.port], [], [], max(0.0, until - time.monotonic()))[0]:
                 heard += os.read(self.port, 256)
