@@ -172,7 +172,7 @@ std::vector<BadInput> bad_inputs() {
                  {"balance.json", "no selected case is for 'balance'", "--vectors FILE"}),
       bad_option("waivers_absent", {"--waivers", "FOLDER/nothing.json"}, {"FOLDER/nothing.json"}),
       bad_waivers("waivers_malformed", "[{\"id\": ",
-                  {"FOLDER/waivers.json: line 1, column 8: the file ends where a value is due"}),
+                  {"FOLDER/waivers.json: line 1, column 9: the file ends where a value is due"}),
       bad_waivers("waiver_owner_of_no_text",
                   R"([{"id": "*", "reason": "r", "owner": 5, "text": "t", "expires": "2999-01-01"}])",
                   {"waivers.json", "entry 0", "'owner' is not a text: who answers for it"}),

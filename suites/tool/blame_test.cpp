@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 using testing::AllOf;
-using testing::AnyOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
@@ -65,22 +64,20 @@ TEST_F(Blame, SeparateTablesAreTestedInFullButForTheOverlap) {
     runs[way] = std::make_unique<Process>(tool_arguments(
         {"run", "--endpoint", odd_device("separate", "modbus-" + way), "--profile", profile,
          "--protocol", "modbus-" + way, "--role", "server", "--out", folder_ / way, "--filter",
-         folder + "/examples/*:" + folder + "/writes/*:" + folder + "/data/*:" + folder +
-             "/exceptions/address_write*"}));
+         folder + "/examples/*:" + folder + "/writes/*:" + folder + "/exceptions/address_*"}));
   }
   for (const auto& [way, process] : runs) {
     const Finished finished = process->wait();
     results_ = read_results(folder_ / (way + "/results.ndjson"));
     EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
-    EXPECT_GE(results_.counts()["PASS"], 40u) << way;
-    EXPECT_GE(results_.counts()["NON-STRICT"], 5u) << way << ": past data address 9998";
+    EXPECT_GE(results_.counts()["PASS"], 10u) << way;
+    EXPECT_GE(results_.counts()["NON-STRICT"], 2u) << way << ": past data address 9998";
     for (const json& one : of_verdict("NON-STRICT"))
       EXPECT_EQ(one.at("basis"), "decision") << one.at("id");
-    EXPECT_GE(results_.counts()["BLOCKED"], 5u) << way;
-    for (const json& one : of_verdict("BLOCKED"))
-      EXPECT_THAT(one.at("message").get<std::string>(),
-                  AnyOf(HasSubstr("the profile declares separate tables"), HasSubstr("_base = ")))
-          << one.at("id");
+    EXPECT_TRUE(std::ranges::any_of(of_verdict("BLOCKED"), [](const json& one) {
+      const std::string why = one.at("message");
+      return why.find("the profile declares separate tables") != why.npos;
+    })) << way;
   }
 }
 
@@ -112,7 +109,8 @@ TEST_F(Blame, RefusedWritesOfASetUpAreOneFinding) {
 TEST_F(Blame, UnansweredWritesOfASetUpAreOneFinding) {
   const Finished finished =
       run(arguments("mute_writes", "modbus-ascii",
-                    "modbus_ascii/data/bits_01/*:modbus_ascii/exceptions/address_read/*"));
+                    "modbus_ascii/data/bits_01/a0*:modbus_ascii/data/bits_01/a3*:"
+                    "modbus_ascii/examples/read_*_refused"));
   EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
   ASSERT_EQ(of_verdict("FAIL").size(), 1u);
   const std::vector<json> blocked = of_verdict("BLOCKED");
@@ -121,7 +119,7 @@ TEST_F(Blame, UnansweredWritesOfASetUpAreOneFinding) {
                     Not(HasSubstr("not tried"))));
   EXPECT_THAT(blocked.back().at("message").get<std::string>(),
               HasSubstr("no answer; not tried, as the last writes that set up a case were not"));
-  EXPECT_GE(results_.counts()["PASS"], 15u);
+  EXPECT_GE(results_.counts()["PASS"], 4u);
 }
 
 // ---- what came instead
@@ -140,10 +138,10 @@ TEST_F(Blame, ARequestThatIsItsOwnReplyIsNoEcho) {
 
 TEST_F(Blame, AnAnswerThatComesAgainIsNamedAsThat) {
   const Finished finished =
-      run(arguments("stale", "xgt-cnet", "xgt_cnet/rss/two_words/*:xgt_cnet/rss/bit_is_00_or_01/*"));
+      run(arguments("stale", "xgt-cnet", "xgt_cnet/rss/two_words/*"));
   EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
   const std::vector<json> failed = of_verdict("FAIL");
-  EXPECT_GE(failed.size(), 8u);
+  EXPECT_EQ(failed.size(), 2u);
   for (const json& one : failed)
     EXPECT_THAT(one.at("message").get<std::string>(),
                 ContainsRegex("expected [rR], got w \\(an answer to what was asked before, ENQ "

@@ -291,7 +291,7 @@ TEST_F(Gate, WhatIsWrongBeforeAByteIsSentIsUsage) {
         {"emulator:xbc-h?protocol=xgt-cnet&colour=1", "there is no key 'colour'"},
         {"pty:xbc-h?protocol=xgt-cnet&mode=runn", "mode is 'runn', which is not run or stop"}})
     refused({"--endpoint", endpoint, "--profile", "xbc-h"}, why);
-  refused({"--endpoint", good_device, "--profile", "xbc-h", "--allow-write="},
+  refused({"--endpoint", good_device, "--profile", "xbc-h", "--allow-write", ""},
           "--allow-write needs a range");
   refused({"--endpoint", good_device, "--profile",
            folder_.write("bases.json",

@@ -8,7 +8,7 @@
         ls_bus     as minimum, LS Bus
         ls_small   the same, its digits in small letters
         gives_up   as minimum, and ends with its fifth request
-        pipelines  as minimum, and waits for no answer before the next block of a batch
+        pipelines  as minimum, and asks all blocks of a batch at once
         patient    as minimum, with a time-out of 700 ms
   LOG   every line that came, for the test of the schema
 """
@@ -226,7 +226,7 @@ class Asker:
     """One request a line."""
 
     def __init__(self, port, kind):
-        self.port, self.kind, self.asked = port, kind, 0
+        self.port, self.kind, self.asked, self.batch = port, kind, 0, b""
 
     def take(self, line):
         time_out = 0.7 if self.kind == "patient" else 0.2
@@ -243,9 +243,11 @@ class Asker:
             frame = ls_bus_request(line["block"], line["values"], self.kind == "ls_small")
         else:
             frame = request(line["block"], line["values"])
-        os.write(self.port, in_small_letters(frame) if self.kind == "small" else frame)
+        self.batch += in_small_letters(frame) if self.kind == "small" else frame
         if self.kind == "pipelines" and not line["last"]:
             return
+        os.write(self.port, self.batch)
+        self.batch = b""
         heard, until = b"", time.monotonic() + time_out
         while not (EOT in heard if ls_bus else reply_in(heard)) and time.monotonic() < until:
             if select.select([self.port], [], [], max(0.0, until - time.monotonic()))[0]:
