@@ -459,7 +459,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
                      fail(fmt::format("{}cannot set {}: no answer{}", exchange::set_up_failure,
                                       address, not_tried)));
     const Status done = set(address, hex);
-    known_->set_ups_unanswered *= memory_.silent() ? 1 : 0;
+    known_->set_ups_unanswered *= memory_.lost() ? 1 : 0;
     if (done) continue;
     if (done.error().refused) return give_up(Verdict::blocked, done.error());
     if (!memory_.refused())
@@ -475,7 +475,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
 
 /// It was silent when memory was set, and answers the bench's probe: what sets nothing goes on.
 bool Bench::only_writes_are_unanswered(const PreparedCase& prepared) {
-  if (!memory_.silent() || prepared.is_client() || !known_->answers) return false;
+  if (!memory_.lost() || prepared.is_client() || !known_->answers) return false;
   const Result<exchange::Sign> alive =
       exchange_.anything_answers(prepared.station, 3 * options_.profile.response_max);
   const bool answers = alive && *alive == exchange::Sign::alive;
