@@ -111,9 +111,10 @@ std::string rough_time(double seconds) {
 
 std::string outcome(const Summary& summary, const ConsoleOptions& options) {
   const int code = summary.end.exit_code;
-  return fmt::format(
-      "exit {}: {}\n", code,
-      coloured(text::headline(summary.end, summary.tally), code == 0 ? "32" : "1;31", options));
+  const char* const colour =
+      code != 0 ? "1;31" : text::is_less_than_half(summary.tally) ? "33" : "32";
+  return fmt::format("exit {}: {}\n", code,
+                     coloured(text::headline(summary.end, summary.tally), colour, options));
 }
 
 /// Items side by side, in lines of a width: an item goes on in the next line only where it fits in

@@ -146,7 +146,7 @@ struct JudgeOptions {
   std::string out = "fieldproof-judged";
   std::string junit, json, html;  // empty: in `out`
   bool strict = false, qualify = false, fail_on_marginal = false;
-  std::optional<double> min_judged;  // percent; nothing: as it was recorded
+  double min_judged = 0;  // percent; 0: as it was recorded
   bool verbose = false;
   std::string command;  // as typed, for reports
 };

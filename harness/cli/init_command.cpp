@@ -231,7 +231,6 @@ int init_command(const InitOptions& options, const harness::Protocols& protocols
     run.duts = {asked->name};
     run.role = "server";
     run.out = options.out;
-    run.min_judged = 0;  // how much it can be judged by is found here, for the job of CI
     run.command = "fieldproof run " + arguments;
     run::tell(fmt::format("run      {}\n\n", run.command));
     code = run_command(run, protocols);

@@ -33,7 +33,7 @@ results::Gate gate_of(const JudgeOptions& options, const results::RunInfo& run) 
   gate.strict |= options.strict;
   gate.qualify |= options.qualify;
   gate.fail_on_marginal |= options.fail_on_marginal;
-  if (options.min_judged) gate.min_judged = options.min_judged;
+  if (options.min_judged > 0) gate.min_judged = options.min_judged;
   return gate;
 }
 

@@ -44,7 +44,7 @@ struct RunOptions {
   int max_restarts = 20;  // of a device that the bench starts itself
   int max_failures = 0;   // then the rest is not run; 0: no limit
   bool strict = false, qualify = false, fail_on_marginal = false;
-  std::optional<double> min_judged;  // percent; nothing: half
+  double min_judged = 0;  // percent; 0: any
   bool fail_fast = false, dry_run = false, verbose = false, skip_absent = false;
   std::string command;  // as typed, for reports
 };

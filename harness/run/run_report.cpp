@@ -127,12 +127,9 @@ RunEnd RunReport::ended(const End& end) const {
   if (!end.worse.empty()) ended.add({exit_code::failed, "baseline", end.worse});
   // GoogleTest deals the cases out to shards; one of them may get none. A run that ended early is
   // not measured by how little it judged.
-  const bool shard = results::shard_of_environment().has_value();
-  const bool empty_shard = tally().total() == 0 && shard;
-  results::Gate due = gate();
-  if (shard && !due.min_judged) due.min_judged = 0;  // `merge` has them all
+  const bool empty_shard = tally().total() == 0 && results::shard_of_environment();
   if (!empty_shard)
-    for (results::Reason& reason : text::reasons_of(tally(), due)) ended.add(std::move(reason));
+    for (results::Reason& reason : text::reasons_of(tally(), gate())) ended.add(std::move(reason));
   return ended;
 }
 

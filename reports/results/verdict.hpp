@@ -33,8 +33,7 @@ struct Gate {
   bool strict = false;            // --strict: NON-STRICT fails
   bool fail_on_marginal = false;  // --fail-on marginal
   bool qualify = false;           // --qualify: BLOCKED and INCONCLUSIVE fail
-  /// --min-judged: percent of what the profile declares; where nobody says it, half is due.
-  std::optional<double> min_judged = {};
+  double min_judged = 0;          // --min-judged: percent of what the profile declares
 };
 /// ERROR always gates, FAIL and XPASS always fail.
 bool gates(Verdict verdict, const Gate& gate);

@@ -40,7 +40,11 @@ std::string headline(const results::RunEnd& end, const Tally& tally) {
   std::string text = xml_line(results::to_string(end.reasons));
   if (text.empty()) {
     text = exit_meaning(end.exit_code);
-    if (tally.applicable() > 0) text += ": " + judged_text(tally);
+    if (end.exit_code == 0 && is_less_than_half(tally))
+      text += fmt::format(" by less than half: {} ({:.1f}%); --min-judged says how much is enough",
+                          judged_text(tally), share_judged(tally));
+    else if (tally.applicable() > 0)
+      text += ": " + judged_text(tally);
   }
   if (!end.hint.empty()) text += "; " + xml_line(end.hint);
   return text;

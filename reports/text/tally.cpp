@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <numeric>
 #include <string_view>
-#include <utility>
 
 namespace fieldproof::text {
 
@@ -16,19 +15,6 @@ using results::Verdict;
 namespace {
 
 constexpr std::string_view min_judged_word = "min-judged ";
-constexpr double half = 50;  // percent
-
-/// Empty: enough was judged. Where nobody says how much is enough, a green gate of a run that left
-/// most of its cases out would be a lie.
-std::string too_little(const Tally& tally, const Gate& gate) {
-  const auto judged = static_cast<double>(tally.judged());
-  const auto applicable = static_cast<double>(tally.applicable());
-  if (judged * 100 >= gate.min_judged.value_or(half) * applicable) return {};
-  return fmt::format(
-      "too little judged: {} ({:.1f}%), {}", judged_text(tally), judged * 100 / applicable,
-      gate.min_judged ? fmt::format("--min-judged asks for {:g}%", *gate.min_judged)
-                      : "less than half; --min-judged says how much is enough");
-}
 
 }  // namespace
 
@@ -90,6 +76,12 @@ std::string judged_text(const Tally& tally) {
   return fmt::format("{} of {} judged", grouped(tally.judged()), grouped(tally.applicable()));
 }
 
+double share_judged(const Tally& tally) {
+  return static_cast<double>(tally.judged()) * 100 / static_cast<double>(tally.applicable());
+}
+
+bool is_less_than_half(const Tally& tally) { return 2 * tally.judged() < tally.applicable(); }
+
 std::vector<Reason> reasons_of(const Tally& tally, const Gate& gate) {
   std::vector<Reason> reasons;
   const std::size_t errors = tally.of(Verdict::error), judged = tally.judged();
@@ -107,9 +99,11 @@ std::vector<Reason> reasons_of(const Tally& tally, const Gate& gate) {
         {1, "qualify", fmt::format("not qualified: {} not judged", grouped(unjudged))});
   if (judged + errors == 0)
     reasons.push_back({4, "nothing", "nothing selected or executed"});
-  else if (std::string why = too_little(tally, gate);
-           !why.empty() && (gate.min_judged || reasons.empty()))
-    reasons.push_back({1, "min-judged", std::move(why)});
+  else if (share_judged(tally) < gate.min_judged)
+    reasons.push_back(
+        {1, "min-judged",
+         fmt::format("too little judged: {} ({:.1f}%), --min-judged asks for {:g}%",
+                     judged_text(tally), share_judged(tally), gate.min_judged)});
   return reasons;
 }
 
@@ -134,7 +128,7 @@ std::string to_string(const Gate& gate) {
   add(gate.strict, "strict");
   add(gate.fail_on_marginal, "fail-on marginal");
   add(gate.qualify, "qualify");
-  if (gate.min_judged) add(true, fmt::format("{}{:g}%", min_judged_word, *gate.min_judged));
+  if (gate.min_judged > 0) add(true, fmt::format("{}{:g}%", min_judged_word, gate.min_judged));
   return text.empty() ? "default" : text;
 }
 

@@ -67,6 +67,11 @@ JunitOutcome junit_outcome(results::Verdict verdict, const results::Gate& gate);
 /// "1,824 of 2,948 judged": of those that the device could be judged by.
 std::string judged_text(const Tally& tally);
 
+/// In percent.
+double share_judged(const Tally& tally);
+/// A green gate of a run that left most of its cases out says so.
+bool is_less_than_half(const Tally& tally);
+
 /// "1,824".
 std::string grouped(std::size_t number);
 

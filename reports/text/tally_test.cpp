@@ -100,19 +100,6 @@ TEST(Reasons, TooLittleJudged) {
   EXPECT_EQ(1, results::exit_code_of(reasons));
 }
 
-TEST(Reasons, HalfIsDueWhereNobodySaysHowMuchIsEnough) {
-  const auto of_a_third = [](const Gate& gate) {
-    return why({Verdict::pass, Verdict::blocked, Verdict::inconclusive, Verdict::skip}, gate);
-  };
-  EXPECT_EQ("1 too little judged: 1 of 3 judged (33.3%), less than half; --min-judged says how much "
-            "is enough",
-            of_a_third({}));
-  EXPECT_EQ("0 ", of_a_third({.min_judged = 0}));
-  EXPECT_EQ("0 ", why({Verdict::pass, Verdict::blocked}));
-  EXPECT_EQ("1 conformance failed: 1 FAIL",
-            why({Verdict::fail, Verdict::blocked, Verdict::blocked}));
-}
-
 TEST(JunitOutcome, FollowsTheGateExceptForWhatWasNotJudged) {
   const Gate all{.strict = true, .fail_on_marginal = true, .qualify = true};
   EXPECT_EQ(JunitOutcome::plain, junit_outcome(Verdict::pass, all));
@@ -141,9 +128,6 @@ TEST(GateText, ReadsBack) {
   }
   EXPECT_EQ("qualify, min-judged 92.5%", to_string(Gate{.qualify = true, .min_judged = 92.5}));
   EXPECT_EQ(92.5, parse_gate("qualify, min-judged 92.5%").min_judged);
-  EXPECT_EQ("min-judged 0%", to_string(Gate{.min_judged = 0}));
-  EXPECT_EQ(0, parse_gate("min-judged 0%").min_judged);
-  EXPECT_EQ(std::nullopt, parse_gate("default").min_judged);
   EXPECT_EQ("default", to_string(Gate{}));
   EXPECT_EQ("strict, fail-on marginal", to_string(Gate{.strict = true, .fail_on_marginal = true}));
   EXPECT_FALSE(parse_gate("stricter").strict);

@@ -22,8 +22,8 @@ namespace {
 
 /// Appears in every help text, so that a pipeline's author need not open the README.
 constexpr const char* exit_codes =
-    "Exit codes: 0 gate met, 1 gate not met (conformance failed, or less judged than half, or than "
-    "--qualify or --min-judged asks), 2 usage or invalid input, 3 bench trouble, 4 nothing selected or "
+    "Exit codes: 0 gate met, 1 gate not met (conformance failed, or less judged than --qualify or "
+    "--min-judged asks), 2 usage or invalid input, 3 bench trouble, 4 nothing selected or "
     "executed, 77 hardware absent (--skip-absent), 130 interrupted.";
 
 /// "90%" or "90".
@@ -31,7 +31,7 @@ double percent_of(const std::string& text) {
   const std::string digits = text.substr(0, text.size() - (text.ends_with('%') ? 1 : 0));
   char* end = nullptr;
   const double percent = std::strtod(digits.c_str(), &end);
-  if (digits.empty() || *end != '\0' || !(percent >= 0 && percent <= 100))
+  if (digits.empty() || *end != '\0' || !(percent > 0 && percent <= 100))
     throw CLI::ValidationError("--min-judged", fmt::format("'{}' is no share; write 90%", text));
   return percent;
 }
@@ -48,8 +48,7 @@ void add_gate(CLI::App& app, Options& options) {
   app.add_option_function<std::string>(
       "--min-judged",
       [&options](const std::string& text) { options.min_judged = percent_of(text); },
-      "90%: less judged of what the device declares (all but SKIP) fails the gate; half is due "
-      "where this is not given, 0% asks for nothing");
+      "90%: less judged of what the device declares (all but SKIP) fails the gate");
 }
 
 void add_role(CLI::App& app, std::string& role) {
