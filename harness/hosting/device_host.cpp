@@ -164,8 +164,9 @@ void DeviceHost::wait() {
     const Duration left = std::max(*wake - clock_.now(), Duration::zero());
     timeout = {static_cast<time_t>(left / 1s), static_cast<long>((left % 1s).count())};
   }
-  if (::ppoll(fds_.data(), fds_.size(), wake ? &timeout : nullptr, nullptr) > 0) return;
-  for (pollfd& one : fds_) one.revents = 0;
+  if (::ppoll(fds_.data(), fds_.size(), wake ? &timeout : nullptr, nullptr) <= 0)
+    for (pollfd& one : fds_) one.revents = 0;
+  port_.heard(std::span(fds_).subspan(first_port_slot));
 }
 
 /// Feeds what has arrived. Where the device was due meanwhile, the host looked late, and the bytes

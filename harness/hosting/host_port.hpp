@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class HostPort {
   virtual Duration own_silence() const { return 20ms; }
   /// What to wait for.
   virtual void add_to(std::vector<pollfd>& fds) const = 0;
+  /// What came of it; `answers` begin with those of `add_to`.
+  virtual void heard(std::span<const pollfd> answers) { (void)answers; }
   /// What came next, of one speaker; nothing: nothing is there. An error ends the host.
   virtual Result<std::optional<Burst>> read() = 0;
   /// What the device does. What nobody takes is lost, as on a line to which nobody listens.

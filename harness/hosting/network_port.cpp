@@ -30,6 +30,8 @@ class NetworkPort final : public HostPort {
   }
   void add_to(std::vector<pollfd>& fds) const override { links_.add_to(fds); }
 
+  void heard(std::span<const pollfd> answers) override { links_.heard(answers); }
+
   Result<std::optional<Burst>> read() override {
     links_.flush();
     return links_.take();

@@ -52,27 +52,29 @@ Result<Sent> BenchSockets::send(ByteView bytes, LinkId link) {
 }
 
 Result<Burst> BenchSockets::receive(Time deadline) {
-  for (;;) {
+  for (bool over = false, late = false;;) {
     if (interrupted()) return interrupted_error("receive from", name_);
-    // Before the last look: what a process did before its end is then there to be taken.
-    const bool over = far_end_ && far_end_->ended();
     if (std::optional<Burst> heard = links_.take()) return stamped(std::move(*heard));
     if (over) return ended("receive from");
-    if (now() >= deadline) return stamped({});
-    const Result<bool> ready = wait(deadline, true);
+    if (late) return stamped({});
+    // Before the last look: what a process did before its end is then there to be taken.
+    over = far_end_ && far_end_->ended();
+    late = now() >= deadline;
+    const Result<bool> ready = wait(over ? Time{} : deadline, true);
     if (!ready) return ready.error();
   }
 }
 
 /// Until something may have happened; false: `deadline` has passed.
 Result<bool> BenchSockets::wait(Time deadline, bool hearing) {
-  std::vector<pollfd> fds{{interrupt_fd(), POLLIN, 0},
-                          {far_end_ ? far_end_->end_fd() : -1, POLLIN, 0}};
-  links_.add_to(fds, hearing);
+  fds_.assign({{interrupt_fd(), POLLIN, 0}, {far_end_ ? far_end_->end_fd() : -1, POLLIN, 0}});
+  constexpr std::size_t before_links = 2;
+  links_.add_to(fds_, hearing);
   const Duration left = std::max(deadline - now(), Duration::zero());
   const timespec timeout{static_cast<time_t>(left / 1s), static_cast<long>((left % 1s).count())};
-  const int ready = ::ppoll(fds.data(), fds.size(), &timeout, nullptr);
+  const int ready = ::ppoll(fds_.data(), fds_.size(), &timeout, nullptr);
   if (interrupted()) return interrupted_error("wait for", name_);
+  if (ready > 0 && hearing) links_.heard(std::span(fds_).subspan(before_links));
   return ready != 0;
 }
 

@@ -56,6 +56,7 @@ class BenchSockets {
     std::string peer;
   };
   std::map<LinkId, Target> targets_;  // of datagram ports
+  std::vector<pollfd> fds_;           // of the present wait
 };
 
 }  // namespace fieldproof::os

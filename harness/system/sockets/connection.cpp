@@ -37,6 +37,8 @@ std::optional<Arrival> Connection::read() {
     do {
       n = ::recv(fd_.get(), buffer.data(), buffer.size(), 0);
     } while (n < 0 && errno == EINTR);
+    // Its end, where that follows, is told by poll as well.
+    read_all_ = n > 0 && static_cast<std::size_t>(n) < buffer.size();
     if (n > 0) return Arrival{LinkEvent::data, Bytes(buffer.begin(), buffer.begin() + n)};
     if (n < 0 && would_block(errno)) return std::nullopt;
     if (n == 0 && !broken_) {

@@ -32,6 +32,11 @@ class Connection {
   /// nothing: nothing is there.
   std::optional<Arrival> read();
 
+  /// The last `read` left nothing behind.
+  bool has_read_all() const { return read_all_; }
+  /// Its end came from this side, so that no poll tells it: `read` does.
+  bool has_broken() const { return hears_ && !fd_; }
+
   /// Sends what the socket takes; the rest waits for `flush`. What the other side no longer takes,
   /// having ended the connection, is dropped; so is the connection where a megabyte waits.
   void write(ByteView bytes);
@@ -62,6 +67,7 @@ class Connection {
   bool fin_sent_ = false;
   bool broken_ = false;  // a send has met the other side's reset
   bool connecting_ = false;
+  bool read_all_ = false;
 };
 
 }  // namespace fieldproof::os

@@ -32,14 +32,14 @@ void SocketLinks::add(LinkId link, Connection connection) {
 }
 
 void SocketLinks::add(LinkId link, DatagramPort port) {
-  ports_.insert_or_assign(link, std::move(port));
+  ports_.insert_or_assign(link, Port{std::move(port)});
 }
 
 void SocketLinks::listen(UniqueFd socket, Transport transport, std::uint16_t port) {
   if (transport == Transport::tcp)
     listeners_.push_back({std::move(socket), port});
   else
-    servers_.emplace_back(std::move(socket), port);
+    servers_.push_back({DatagramServer(std::move(socket), port)});
 }
 
 std::optional<Burst> SocketLinks::take() {
@@ -49,6 +49,7 @@ std::optional<Burst> SocketLinks::take() {
     if (std::optional<Burst> heard = take_of_links()) return heard;
     accept_waiting();
     if (accepted_.empty()) return std::nullopt;
+    look_at_all_connections();
   }
   if (std::optional<Burst> heard = take_of_links()) return heard;
   if (accepted_.empty()) return std::nullopt;
@@ -62,19 +63,36 @@ std::optional<Burst> SocketLinks::take_of_links() {
   auto next = connections_.upper_bound(last_);
   for (std::size_t i = 0; i < connections_.size(); ++i, ++next) {
     if (next == connections_.end()) next = connections_.begin();
-    if (is_untold(next->first)) continue;
-    std::optional<Arrival> arrival = next->second.connection.read();
+    Link& link = next->second;
+    if (is_untold(next->first) || !(link.ready || link.connection.has_broken())) continue;
+    std::optional<Arrival> arrival = link.connection.read();
+    link.ready = arrival && !link.connection.has_read_all();
     if (!arrival) continue;
     Burst burst = on(last_ = next->first, std::move(*arrival));
-    burst.port = next->second.port;
-    burst.peer = next->second.peer;
+    burst.port = link.port;
+    burst.peer = link.peer;
     return burst;
   }
-  for (auto& [link, port] : ports_)
-    if (std::optional<Arrival> arrival = port.read()) return on(link, std::move(*arrival));
-  for (DatagramServer& server : servers_)
-    if (std::optional<Burst> burst = server.read([this] { return next_link_++; })) return burst;
+  return take_of_datagrams();
+}
+
+std::optional<Burst> SocketLinks::take_of_datagrams() {
+  for (auto& [link, one] : ports_) {
+    if (!one.ready) continue;
+    if (std::optional<Arrival> arrival = one.port.read()) return on(link, std::move(*arrival));
+    one.ready = false;
+  }
+  for (Server& one : servers_) {
+    if (!one.ready) continue;
+    if (std::optional<Burst> burst = one.server.read([this] { return next_link_++; })) return burst;
+    one.ready = false;
+  }
   return std::nullopt;
+}
+
+/// What has come since the last answer of poll, too.
+void SocketLinks::look_at_all_connections() {
+  for (auto& [id, link] : connections_) link.ready = true;
 }
 
 bool SocketLinks::is_untold(LinkId link) const {
@@ -83,10 +101,11 @@ bool SocketLinks::is_untold(LinkId link) const {
 
 void SocketLinks::accept_waiting() {
   put_aside();
-  for (const Listener& listener : listeners_) {
+  for (Listener& listener : listeners_) {
     SocketAddress from;
-    while (has_room()) {
+    while (listener.ready && has_room()) {
       UniqueFd fd = accept_socket(listener.fd.get(), from);
+      listener.ready = bool(fd);
       if (!fd) break;
       Burst opened;
       opened.link = next_link_++;
@@ -108,11 +127,11 @@ Status SocketLinks::send(LinkId link, ByteView bytes) {
   }
   if (const auto found = over_.find(link); found != over_.end())
     return found->second ? ok() : fail(closed_here);
-  if (const auto found = ports_.find(link); found != ports_.end() && found->second.is_open())
-    return found->second.write(bytes);
-  for (DatagramServer& server : servers_) {
-    if (!server.has(link)) continue;
-    server.write(bytes, link);
+  if (const auto found = ports_.find(link); found != ports_.end() && found->second.port.is_open())
+    return found->second.port.write(bytes);
+  for (Server& one : servers_) {
+    if (!one.server.has(link)) continue;
+    one.server.write(bytes, link);
     return ok();
   }
   return fail("the link is not open");
@@ -127,8 +146,8 @@ Status SocketLinks::close(LinkId link, Closing how) {
   }
   if (const auto found = over_.find(link); found != over_.end())
     return std::exchange(found->second, false) ? ok() : fail(closed_here);
-  if (const auto found = ports_.find(link); found != ports_.end() && found->second.is_open()) {
-    found->second.close();
+  if (const auto found = ports_.find(link); found != ports_.end() && found->second.port.is_open()) {
+    found->second.port.close();
     return ok();
   }
   return fail("the link is not open");
@@ -175,10 +194,19 @@ void SocketLinks::end_closed() {
 void SocketLinks::add_to(std::vector<pollfd>& fds, bool hearing) const {
   for (const auto& [id, link] : connections_) fds.push_back(link.connection.to_poll(hearing));
   if (!hearing) return;
-  for (const auto& [link, port] : ports_) fds.push_back(port.to_poll());
+  for (const auto& [link, one] : ports_) fds.push_back(one.port.to_poll());
   for (const Listener& listener : listeners_)
-    if (has_room()) fds.push_back({listener.fd.get(), POLLIN, 0});
-  for (const DatagramServer& server : servers_) fds.push_back({server.fd(), POLLIN, 0});
+    fds.push_back({has_room() ? listener.fd.get() : -1, POLLIN, 0});
+  for (const Server& one : servers_) fds.push_back({one.server.fd(), POLLIN, 0});
+}
+
+void SocketLinks::heard(std::span<const pollfd> answers) {
+  auto answer = answers.begin();
+  const auto take_answer = [&](bool& ready) { ready |= (answer++)->revents != 0; };
+  for (auto& [id, link] : connections_) take_answer(link.ready);
+  for (auto& [id, one] : ports_) take_answer(one.ready);
+  for (Listener& listener : listeners_) take_answer(listener.ready);
+  for (Server& one : servers_) take_answer(one.ready);
 }
 
 bool SocketLinks::has_room() const { return connections_.size() < most_connections; }

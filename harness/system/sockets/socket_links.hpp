@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "harness/system/sockets/connection.hpp"
@@ -16,7 +17,8 @@
 
 namespace fieldproof::os {
 
-/// Never waits: who waits polls what `add_to` gives, and takes. One thread.
+/// Never waits: who waits polls what `add_to` gives, hands the answer to `heard`, and takes. Reads
+/// only what has something to read. One thread.
 class SocketLinks {
  public:
   /// Links that others open are numbered from `first_link` on.
@@ -57,19 +59,35 @@ class SocketLinks {
   void end_closed();
   /// What to wait for; `hearing` false: that something can be sent again.
   void add_to(std::vector<pollfd>& fds, bool hearing = true) const;
+  /// What came of it: `answers` begin with those of `add_to` (hearing), after which nothing was
+  /// done here.
+  void heard(std::span<const pollfd> answers);
 
  private:
+  // `ready`: something may be there; what is new is looked at once.
   struct Listener {
     UniqueFd fd;
     std::uint16_t port = 0;
+    bool ready = true;
   };
   struct Link {
     Connection connection;
     std::uint16_t port = 0;  // of one that others have opened
     std::string peer{};
+    bool ready = true;
+  };
+  struct Port {
+    DatagramPort port;
+    bool ready = true;
+  };
+  struct Server {
+    DatagramServer server;
+    bool ready = true;
   };
 
   std::optional<Burst> take_of_links();
+  std::optional<Burst> take_of_datagrams();
+  void look_at_all_connections();
   void accept_waiting();
   bool is_untold(LinkId link) const;
   bool has_room() const;
@@ -80,10 +98,10 @@ class SocketLinks {
   LinkId last_ = line_link;  // that something was taken of
   std::map<LinkId, Link> connections_;
   std::map<LinkId, bool> over_;  // connections that are; is this side open? What it sends is lost
-  std::map<LinkId, DatagramPort> ports_;
+  std::map<LinkId, Port> ports_;
   std::set<LinkId> lost_;  // connections whose other side has lost its power
   std::vector<Listener> listeners_;
-  std::vector<DatagramServer> servers_;
+  std::vector<Server> servers_;
   std::deque<Burst> accepted_;  // that nobody has been told of
 };
 
