@@ -27,11 +27,11 @@ struct Include {
 };
 
 /// Rooms whose tests reach up, to what the suites have.
-struct Allowed {
+struct Excepted {
   std::string_view room;
   std::string_view reason;
 };
-constexpr Allowed tests_with_suites[] = {
+constexpr Excepted tests_with_suites[] = {
     {"harness/notation", "real checks"},
     {"harness/vectors/lint", "real checks"},
     {"harness/probe", "finds emulated devices of every protocol"},
@@ -41,7 +41,7 @@ constexpr Allowed tests_with_suites[] = {
 
 /// A folder is seen at a glance.
 constexpr std::size_t most_files = 48;
-constexpr Allowed larger[] = {
+constexpr Excepted larger[] = {
     {"suites/tool", "a test file a thing that the tool does, and nothing else"},
 };
 
@@ -78,7 +78,7 @@ std::string against_the_house(const Include& one) {
   if (from("reports") && !to("reports") && !to("src/base"))
     return "reports/ includes src/base alone";
   if (from("harness") && to("suites")) {
-    const auto room = std::ranges::find(tests_with_suites, folder_of(one.file), &Allowed::room);
+    const auto room = std::ranges::find(tests_with_suites, folder_of(one.file), &Excepted::room);
     if (!is_test(one.file) || room == std::end(tests_with_suites))
       return "harness/ is handed what the suites have";
   }
@@ -123,15 +123,15 @@ std::vector<std::string> in_circles(Rooms rooms) {
   return left;
 }
 
-const fs::path root = FIELDPROOF_SOURCE_DIR;
+const fs::path project = FIELDPROOF_SOURCE_DIR;
 
 std::vector<std::string> files() {
   std::vector<std::string> all;
   for (const char* top : {"src", "reports", "harness", "suites"})
-    for (const auto& entry : fs::recursive_directory_iterator(root / top))
+    for (const auto& entry : fs::recursive_directory_iterator(project / top))
       if (const fs::path& path = entry.path();
           path.extension() == ".cpp" || path.extension() == ".hpp")
-        all.push_back(path.lexically_relative(root).generic_string());
+        all.push_back(path.lexically_relative(project).generic_string());
   std::ranges::sort(all);
   return all;
 }
@@ -140,7 +140,7 @@ std::vector<Include> includes() {
   static const std::regex line(R"re(#\s*include\s+(?:"([^"]+)"|(<[^>]+>)).*)re");
   std::vector<Include> all;
   for (const std::string& file : files()) {
-    std::ifstream in(root / file);
+    std::ifstream in(project / file);
     for (std::string text; std::getline(in, text);)
       if (std::smatch match; std::regex_match(text, match, line))
         all.push_back({file, match[1].matched ? match[1].str() : match[2].str()});
@@ -166,7 +166,7 @@ TEST(House, NoRoomStandsInACircle) { EXPECT_THAT(in_circles(rooms_of(includes())
 TEST(House, IncludesAreWrittenFromTheProjectsFolder) {
   std::vector<std::string> problems;
   for (const Include& one : includes())
-    if (!one.header.starts_with('<') && !fs::exists(root / one.header))
+    if (!one.header.starts_with('<') && !fs::exists(project / one.header))
       problems.push_back(one.file + ": " + one.header);
   EXPECT_THAT(problems, IsEmpty());
 }
@@ -177,7 +177,7 @@ TEST(House, FoldersAreSeenAtAGlance) {
   std::vector<std::string> large, listed;
   for (const auto& [folder, count] : counts)
     if (count > most_files) large.push_back(folder);
-  for (const Allowed& one : larger) listed.emplace_back(one.room);
+  for (const Excepted& one : larger) listed.emplace_back(one.room);
   EXPECT_EQ(large, listed) << "more than " << most_files << " files: give it sub-rooms";
 }
 
