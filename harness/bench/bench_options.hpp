@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/profile.hpp"
 #include "harness/endpoints/controlled.hpp"
 #include "harness/exchange/client_program.hpp"
 #include "harness/exchange/prepared_case.hpp"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/profile.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/endpoints/set_up/command_marks.hpp"
 #include "harness/protocol.hpp"

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/profile.hpp"
 #include "harness/judge/readings.hpp"
 #include "harness/protocols.hpp"
 #include "harness/vectors/loader.hpp"

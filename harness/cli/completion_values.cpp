@@ -4,7 +4,7 @@
 #include <set>
 #include <string_view>
 
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/profile.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/tool_vectors.hpp"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "harness/bench/bench_file.hpp"
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/bench_file.hpp"
+#include "harness/bench/files/profile.hpp"
 #include "harness/cli/ci_job.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/questions.hpp"

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "harness/bench/files/waivers.hpp"
 #include "harness/bench/rejudge.hpp"
 #include "harness/bench/set_up_findings.hpp"
-#include "harness/bench/waivers.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/run_report.hpp"

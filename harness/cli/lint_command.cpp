@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/profile.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/paths.hpp"
 #include "harness/run/run_report.hpp"

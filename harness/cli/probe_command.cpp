@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "harness/bench/benches.hpp"
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/profile.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/probe_found.hpp"
 #include "harness/cli/probe_network.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "harness/bench/bench_file.hpp"
+#include "harness/bench/files/bench_file.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/endpoints/set_up/command_marks.hpp"
 #include "harness/explore/derived.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/bench/bench.hpp"
-#include "harness/bench/waivers.hpp"
+#include "harness/bench/files/waivers.hpp"
 #include "harness/protocols.hpp"
 #include "harness/run/run_options.hpp"
 #include "harness/vectors/loader.hpp"

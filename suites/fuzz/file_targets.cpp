@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/bench/bench_file.hpp"
-#include "harness/bench/profile.hpp"
-#include "harness/bench/waivers.hpp"
+#include "harness/bench/files/bench_file.hpp"
+#include "harness/bench/files/profile.hpp"
+#include "harness/bench/files/waivers.hpp"
 #include "harness/notation/notation.hpp"
 #include "harness/paths.hpp"
 #include "harness/safety/journal.hpp"

@@ -1,4 +1,4 @@
-#include "harness/bench/waivers.hpp"
+#include "harness/bench/files/waivers.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "harness/bench/waivers.hpp"
+#include "harness/bench/files/waivers.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "harness/bench/bench_file.hpp"
+#include "harness/bench/files/bench_file.hpp"
 #include "harness/device_names.hpp"
 
 #include <gmock/gmock.h>

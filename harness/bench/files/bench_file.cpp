@@ -1,4 +1,4 @@
-#include "harness/bench/bench_file.hpp"
+#include "harness/bench/files/bench_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 #include <set>
 #include <span>
 
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/profile.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/safety/fence.hpp"
 #include "reports/results/whole_file.hpp"

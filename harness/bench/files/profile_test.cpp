@@ -1,4 +1,4 @@
-#include "harness/bench/profile.hpp"
+#include "harness/bench/files/profile.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
