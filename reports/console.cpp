@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <utility>
 
 #include "reports/text/case_text.hpp"
@@ -79,27 +78,30 @@ std::string red_cases(const text::Failures& failures, const std::string& rest) {
   return text.empty() ? "" : "\nred:\n" + text;
 }
 
-/// Where no case was judged at all: why.
-std::string why_nothing(const Summary& summary) {
-  constexpr std::size_t most = 5;
-  std::vector<const text::Finding*> reasons = summary.not_judged.all();
-  std::ranges::stable_sort(reasons, std::greater<>{}, &text::Finding::cases);
-  std::size_t cases = 0;
-  for (const text::Finding* one : reasons) cases += one->cases;
-  if (cases == 0 || cases < summary.tally.total()) return "";
-  std::string text = "\nnothing was judged:\n";
-  for (std::size_t i = 0; i < std::min(reasons.size(), most); ++i)
-    text += fmt::format("  {}\n", text::xml_line(text::to_string(*reasons[i])));
-  if (reasons.size() > most)
-    text += fmt::format("  ... and {} more reasons\n", reasons.size() - most);
-  return text;
-}
-
 /// Where each case is told in full.
 std::string place_of_all(const Summary& summary) {
   for (const auto& [kind, path] : summary.reports)
     if (kind == "html") return ", each in full in " + path;
   return "";
+}
+
+/// Why some were not judged, a line a reason.
+std::string why_not_judged(const Summary& summary, const ConsoleOptions& options) {
+  constexpr std::size_t most = 5;
+  const std::vector<text::UnjudgedReason> reasons = summary.not_judged.reasons();
+  if (reasons.empty()) return "";
+  const std::size_t digits = std::to_string(summary.tally.total()).size();
+  const bool nothing = summary.tally.judged() + summary.tally.of(Verdict::error) == 0;
+  std::string text = nothing ? "\nnothing was judged" : "\nnot judged, and why";
+  text += summary.tally.of(Verdict::blocked) > 0 ? ", or what it takes:\n" : ":\n";
+  for (std::size_t i = 0; i < std::min(reasons.size(), most); ++i)
+    text += fmt::format("  {:>{}}  {}{}\n", reasons[i].cases, digits,
+                        verdict_word(reasons[i].verdict, verdict_width, options),
+                        text::xml_line(reasons[i].text));
+  if (reasons.size() > most)
+    text += fmt::format("  ... and {} more reason{}{}\n", reasons.size() - most,
+                        reasons.size() - most == 1 ? "" : "s", place_of_all(summary));
+  return text;
 }
 
 /// "45 s", "3 min", "2 h".
@@ -220,7 +222,7 @@ std::string run_summary(const Summary& summary, const ConsoleOptions& options) {
   if (const std::string timing = text::timing_text(summary.timing); !timing.empty())
     text += '\n' + timing;
   if (summary.soak) text += '\n' + results::soak_text(*summary.soak);
-  text += red_cases(summary.red, place_of_all(summary)) + why_nothing(summary);
+  text += red_cases(summary.red, place_of_all(summary)) + why_not_judged(summary, options);
   std::size_t width = 0;
   for (const auto& [kind, path] : summary.reports) width = std::max(width, kind.size());
   if (!summary.reports.empty()) text += '\n';

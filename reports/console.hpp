@@ -11,6 +11,7 @@
 #include "reports/text/failures.hpp"
 #include "reports/text/tally.hpp"
 #include "reports/text/timing_table.hpp"
+#include "reports/text/unjudged.hpp"
 
 namespace fieldproof::reports {
 
@@ -62,11 +63,12 @@ struct Summary {
       reports;  // kind and path: {"junit", "fieldproof-out/junit.xml"}
   text::TimingTable::Rows timing = {};
   std::optional<results::SoakSummary> soak = {};
-  text::Failures not_judged = {};  // SKIP, BLOCKED, INCONCLUSIVE
+  text::Unjudged not_judged = {};  // SKIP, BLOCKED, INCONCLUSIVE
 };
 
-/// Counts of the verdicts that occur with their meaning, what failed again and again as one
-/// finding, the other red cases, exit code and its meaning, paths of the reports.
+/// Counts of the verdicts that occur with their meaning, why the rest was not judged, what failed
+/// again and again as one finding, the other red cases, exit code and its meaning, paths of the
+/// reports.
 std::string run_summary(const Summary& summary, const ConsoleOptions& options);
 
 /// All of it as the run goes.

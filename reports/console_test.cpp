@@ -265,11 +265,25 @@ TEST(RunSummary, SaysWhyNothingWasJudged) {
   add(Verdict::blocked, "a/0", "needs --power-cycle");
   for (int i = 1; i <= 4; ++i) add(Verdict::skip, "a/" + std::to_string(i), "is another protocol");
   EXPECT_THAT(run_summary(summary, {}),
-              HasSubstr("\nnothing was judged:\n"
-                        "  4 cases: is another protocol (first: a/1, a/2, a/3)\n"
-                        "  1 case: needs --power-cycle (first: a/0)\n"));
+              HasSubstr("\nnothing was judged, or what it takes:\n"
+                        "  1  BLOCKED       a device fresh from power-on: --power-cycle COMMAND\n"
+                        "  4  SKIP          is another protocol\n"));
   summary.tally.add(Verdict::pass);
   EXPECT_THAT(run_summary(summary, {}), Not(HasSubstr("nothing was judged")));
+  EXPECT_THAT(run_summary(summary, {}),
+              HasSubstr("\nnot judged, and why, or what it takes:\n"
+                        "  1  BLOCKED       a device fresh from power-on: --power-cycle COMMAND\n"
+                        "  4  SKIP          is another protocol\n"));
+}
+
+TEST(RunSummary, ReasonsAreFewLines) {
+  Summary summary;
+  summary.reports = {{"html", "out/report.html"}};
+  for (char letter = 'p'; letter < 'x'; ++letter)
+    summary.not_judged.add(samples::with(Verdict::skip, "a/b", std::string(3, letter)));
+  EXPECT_THAT(run_summary(summary, {}),
+              HasSubstr("  1  SKIP          ttt\n"
+                        "  ... and 3 more reasons, each in full in out/report.html\n"));
 }
 
 TEST(RunSummary, SaysWhereTheRestIs) {

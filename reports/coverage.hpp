@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/results/section_titles.hpp"
 #include "reports/text/tally.hpp"
 
 namespace fieldproof::reports {
@@ -36,6 +37,7 @@ struct CoverageStatement {
 struct CoverageManual {
   std::string id, title;
   std::vector<CoverageStatement> statements;  // by section, in the order in which a person counts
+  results::SectionTitles sections;
 };
 
 struct Coverage {

@@ -78,12 +78,15 @@ void write_statement(HtmlWriter& out, const CoverageStatement& statement, bool w
 
 /// The statements of one section; the first of `statements` says which.
 void write_section(HtmlWriter& out, std::span<const CoverageStatement> statements,
-                   const std::vector<Column>& columns, bool with_results) {
+                   std::string_view title, const std::vector<Column>& columns, bool with_results) {
   CoverageCounts counts;
   for (const CoverageStatement& statement : statements) counts.add(statement.state(with_results));
   out.element("details", {{"class", "section"}}, [&] {
     out.element("summary", {}, [&] {
-      out.element("span", {{"class", "name"}}, statements.front().section);
+      out.element("span", {{"class", "name"}}, [&] {
+        out.text(statements.front().section);
+        if (!title.empty()) out.element("i", {}, title);
+      });
       for (const Column& column : columns) {
         const std::size_t count = counts.count(column.state);
         out.element("span",
@@ -114,7 +117,9 @@ void write_manual(HtmlWriter& out, const CoverageManual& manual, const std::vect
                 const std::span<const CoverageStatement> all = manual.statements;
                 for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
                   while (to < all.size() && all[to].section == all[from].section) ++to;
-                  write_section(out, all.subspan(from, to - from), columns, with_results);
+                  write_section(out, all.subspan(from, to - from),
+                                results::title_of(manual.sections, all[from].section), columns,
+                                with_results);
                 }
               });
 }

@@ -63,7 +63,9 @@ reports::Coverage trace(const vectors::VectorSet& set,
   if (results) coverage.endpoint = results->run.endpoint;
   for (const vectors::Manual& manual : set.manuals) {
     reports::CoverageManual& traced =
-        coverage.manuals.emplace_back(reports::CoverageManual{manual.id, manual.title, {}});
+        coverage.manuals.emplace_back(reports::CoverageManual{manual.id, manual.title, {}, {}});
+    if (const auto titles = set.sections.find(manual.id); titles != set.sections.end())
+      traced.sections = titles->second;
     for (const vectors::Statement& one : set.statements) {
       if (one.manual != manual.id) continue;
       reports::CoverageStatement& statement =

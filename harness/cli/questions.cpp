@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <iostream>
 
 namespace fieldproof::cli {
@@ -18,9 +17,8 @@ Result<std::string> Questions::answer(const Question& question, const std::strin
         fmt::format("cannot ask '{}' without a terminal; give {}", question.text, question.option));
   for (const std::string& hint : question.hints) run::tell(fmt::format("  {}\n", hint));
   while (true) {
-    fmt::print("{} ({}){}: ", question.text, question.option,
-               question.usual.empty() ? "" : fmt::format(" [{}]", question.usual));
-    std::fflush(stdout);
+    run::tell(fmt::format("{} ({}){}: ", question.text, question.option,
+                          question.usual.empty() ? "" : fmt::format(" [{}]", question.usual)));
     std::string line;
     if (!std::getline(std::cin, line))
       return fail(fmt::format("no answer to '{}'; give {}", question.text, question.option));

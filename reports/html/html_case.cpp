@@ -136,7 +136,8 @@ void write_case_block(HtmlWriter& out, const CaseResult& result, const CaseBlock
     write_clause(out, result, block.section_title);
     write_differences(out, result);
     write_trace(out, result);
-    if (block.wire) write_wire(out, result);
+    if (block.wire)  // the style shows one of them
+      for (const WireOn on : {WireOn::window, WireOn::telephone}) write_wire(out, result, on);
     write_monitor(out, result);
     write_remarks(out, result);
   };

@@ -84,6 +84,7 @@ button{cursor:pointer}
 .monitor,.differences{margin:12px 0}
 .monitor td,.differences td{border-bottom:1px solid var(--rule)}
 .differences{width:auto}
+.differences td:first-child{overflow-wrap:break-word}
 .differences td:nth-child(2){color:var(--good)}
 .differences td:nth-child(3){color:var(--bad)}
 .monitor th:nth-child(-n+2),.monitor .num{width:86px;text-align:right}
@@ -149,11 +150,12 @@ mark{padding:0 1px;border-radius:2px;background:var(--mark);color:inherit;font-w
 .had{opacity:.3}
 .a0{--a:#3b82d6}.a1{--a:#d9822b}.a2{--a:#17988f}.a3{--a:#9a5fd0}.a4{--a:#d24d8a}.a5{--a:#84931f}
 
-.wire{margin:12px 0;overflow-x:auto}
-.wire svg{display:block;width:100%;min-width:560px;max-width:900px;font:11px system-ui,"Segoe UI",Arial,sans-serif;fill:var(--soft)}
+.wire{margin:12px 0}
+.wire.narrow{display:none}
+.wire svg{display:block;width:100%;max-width:900px;font:11px system-ui,"Segoe UI",Arial,sans-serif;fill:var(--soft)}
 .wire .lane{font-weight:600}
 .wire .rail{stroke:var(--rule)}
-.wire .bar{stroke:var(--paper)}
+.wire .bar{height:20px;margin:0;stroke:var(--paper)}
 .wire .sent{fill:var(--link)}
 .wire .received{fill:var(--soft)}
 .wire .surplus{fill:var(--warn)}
@@ -218,6 +220,10 @@ h1{font-size:24px}
 .timing td{font-size:12.5px}
 .facts th{width:100px}
 .trace svg{font-size:18px}
+}
+@media screen and (max-width:560px){
+.wire{display:none}
+.wire.narrow{display:block}
 }
 @media print{
 :root{--paper:#fff;--ink:#000;--soft:#444;--rule:#bbb;--tint:#f4f4f4;--good:#17703a;--good-tint:#eef7f0;--bad:#b3201b;--bad-tint:#fdf0ef;--warn:#8a5a00;--warn-tint:#fff8e6;--cool:#3b5b8c;--cool-tint:#eef2f9;--hold:#6b3fa0;--hold-tint:#f6f1fb;--mark:#ffd9d6;--link:#0757b3}

@@ -15,10 +15,17 @@ using results::Event;
 
 namespace {
 
-constexpr double wire_left = 62, wire_right = 748, wire_width = 760, wire_height = 124;
+constexpr double wire_height = 124;
 constexpr double bench_lane = 26, device_lane = 62, bar = 20, axis = 96;
 constexpr double tick_room = 52;
 constexpr std::size_t most_frames = 24;
+
+/// What the picture measures across.
+struct Size {
+  double left, right, width;
+  const char* css;
+};
+constexpr Size of_window{62, 748, 760, "wire"}, of_telephone{44, 340, 350, "wire narrow"};
 
 std::string pixels(double value) { return fmt::format("{:.1f}", value); }
 std::string in_ms(Duration time) { return fmt::format("{:.3f}", to_ms(time)); }
@@ -52,16 +59,17 @@ std::vector<const Event*> shown_frames(const CaseResult& result) {
 
 class Wire {
  public:
-  Wire(HtmlWriter& out, const CaseResult& result)
+  Wire(HtmlWriter& out, const CaseResult& result, const Size& size)
       : out_(out),
         result_(result),
+        size_(size),
         frames_(shown_frames(result)),
-        axis_(frames_, result.due, wire_left, wire_right) {}
+        axis_(frames_, result.due, size.left, size.right) {}
 
   void write() {
     if (frames_.empty()) return;
-    out_.element("figure", {{"class", "wire"}}, [&] {
-      out_.picture(fmt::format("{} {}", wire_width, wire_height), "the exchange on a time axis",
+    out_.element("figure", {{"class", size_.css}}, [&] {
+      out_.picture(fmt::format("{} {}", size_.width, wire_height), "the exchange on a time axis",
                    [&] { write_picture(); });
     });
   }
@@ -72,7 +80,7 @@ class Wire {
     for (const auto& [name, y] :
          {std::pair{"bench", bench_lane}, std::pair{"device", device_lane}}) {
       label("lane", 0, y + 14, name);
-      line("rail", wire_left, y + bar, wire_right, y + bar);
+      line("rail", size_.left, y + bar, size_.right, y + bar);
     }
     for (const double x : axis_.cuts()) label("cut", x, axis + 4, "\u2248");
     for (const Event* event : frames_) is_frame(*event) ? write_bar(*event) : write_link(*event);
@@ -90,7 +98,7 @@ class Wire {
                         {"width", pixels(until - from)},
                         {"height", pixels(axis - 16)}});
     line("limit", until, 16, until, axis);
-    const bool is_late = until > wire_width / 2;
+    const bool is_late = until > size_.width / 2;
     out_.element("text",
                  {{"class", "limit-text"},
                   {"x", pixels(until)},
@@ -154,7 +162,7 @@ class Wire {
   }
 
   void write_ticks() {
-    line("rail", wire_left, axis, wire_right, axis);
+    line("rail", size_.left, axis, size_.right, axis);
     std::set<Time> moments;
     for (const Event* frame : frames_) moments.insert(frame->start);
     if (!result_.due.empty()) moments.insert(result_.due.until);
@@ -163,11 +171,11 @@ class Wire {
       const double x = axis_.x(moment);
       line("rail", x, axis - 3, x, axis + 3);
       if (x < free_from) continue;
-      label(x > wire_right - tick_room / 2 ? "tick last" : "tick", x, axis + 16,
+      label(x > size_.right - tick_room / 2 ? "tick last" : "tick", x, axis + 16,
             in_ms(since(moment)));
       free_from = x + tick_room;
     }
-    label("unit", wire_right, wire_height - 1, "ms, silences cut at \u2248");
+    label("unit", size_.right, wire_height - 1, "ms, silences cut at \u2248");
   }
 
   Duration since(Time moment) const { return moment - results::shown_from(result_); }
@@ -182,12 +190,15 @@ class Wire {
 
   HtmlWriter& out_;
   const CaseResult& result_;
+  const Size& size_;
   std::vector<const Event*> frames_;
   TimeAxis axis_;
 };
 
 }  // namespace
 
-void write_wire(HtmlWriter& out, const CaseResult& result) { Wire(out, result).write(); }
+void write_wire(HtmlWriter& out, const CaseResult& result, WireOn on) {
+  Wire(out, result, on == WireOn::window ? of_window : of_telephone).write();
+}
 
 }  // namespace fieldproof::html

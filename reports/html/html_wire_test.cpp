@@ -15,9 +15,9 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::Gt;
 
-ParsedHtml drawn(const CaseResult& result) {
+ParsedHtml drawn(const CaseResult& result, WireOn on = WireOn::window) {
   HtmlWriter out;
-  out.element("div", {}, [&] { write_wire(out, result); });
+  out.element("div", {}, [&] { write_wire(out, result, on); });
   return ParsedHtml(out.str());
 }
 
@@ -48,6 +48,18 @@ TEST(Wire, MarksWhenTheAnswerWasDue) {
   EXPECT_GT(x_of(page, "//rect[@class='bar judged']"),
             due + page.numbers("//rect[@class='due']", "width").front())
       << "it came too late";
+}
+
+TEST(Wire, OnATelephoneAllOfItLiesWithinThePicture) {
+  CaseResult silent = samples::failure();
+  silent.exchange.resize(1);
+  silent.received_bytes = {};
+  silent.due = {silent.exchange[0].end, silent.exchange[0].end + 60s};
+  const ParsedHtml page = drawn(silent, WireOn::telephone);
+  EXPECT_EQ(1u, page.count("//svg[@viewBox='0 0 350 124']"));
+  EXPECT_EQ("answer due within 60000 ms", page.text("//text[@class='limit-text']"));
+  for (const char* path : {"//rect", "//text"})
+    EXPECT_THAT(page.numbers(path, "x"), Each(testing::Le(350)));
 }
 
 TEST(Wire, ALongSilenceIsCut) {

@@ -45,7 +45,9 @@ std::string kind_of(const std::string& message) {
     std::size_t end = at;
     while (end < message.size() && is_of_word(message[end])) ++end;
     const std::string_view word = std::string_view(message).substr(at, end - at);
-    const bool bytes = word.empty() && (message[at] == '\'' || message[at] == '<');
+    // Behind a word it is an apostrophe: "the bench's own".
+    const bool quoted = message[at] == '\'' && (at == 0 || !is_of_word(message[at - 1]));
+    const bool bytes = word.empty() && (quoted || message[at] == '<');
     if (bytes || is_value(word)) {
       if (bytes || !word.empty()) add_value();
       if (bytes) end = end_of_bytes(message, at);

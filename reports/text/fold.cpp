@@ -82,6 +82,18 @@ std::vector<std::string_view> words_of(std::string_view text, bool of_shell) {
   return words;
 }
 
+/// The part of a word of the shell that goes into `width` columns with what breaks it; where there
+/// is a blank in its second half, up to that.
+std::size_t end_of_part(std::string_view word, std::size_t width) {
+  std::size_t end = std::max<std::size_t>(end_of_columns(word, width), 1);
+  if (end >= word.size()) return word.size();
+  if (const std::size_t blank = word.rfind(' ', end - 1);
+      blank != std::string_view::npos && blank > end / 2)
+    end = blank + 1;
+  while (end > 1 && word[end - 1] == '\\') --end;  // what it takes the meaning from comes with it
+  return end;
+}
+
 /// One line that is too wide.
 class Folded {
  public:
@@ -104,6 +116,7 @@ class Folded {
       used_ = hang_ + (command_ ? 2 : 0);
       word.remove_prefix(blanks_at(word, 0));
     }
+    if (command_ && used_ + columns_of(word) > room) return add_in_parts(word);
     const bool whole = command_ || word.find('/') != std::string_view::npos;
     while (!whole && used_ + columns_of(word) > width_ && used_ + 1 < width_) {
       const std::size_t end = end_of_columns(word, width_ - used_);
@@ -113,6 +126,30 @@ class Folded {
     }
     out_ += word;
     used_ += columns_of(word);
+  }
+
+  /// Nothing but a backslash and the end of the line stands between its parts, which makes them one
+  /// word.
+  void add_in_parts(std::string_view word) {
+    bool quoted = false;
+    while (!word.empty()) {
+      const std::size_t taken = used_ + 2;  // by a quote and a backslash
+      const std::size_t end = used_ + columns_of(word) + 2 <= width_
+                                  ? word.size()
+                                  : end_of_part(word, width_ - std::min(taken, width_));
+      const std::string_view part = word.substr(0, end);
+      for (std::size_t i = 0; i < part.size(); ++i)
+        if (!quoted && part[i] == '\\')
+          ++i;
+        else if (part[i] == '\'')
+          quoted = !quoted;
+      out_ += part;
+      used_ += columns_of(part);
+      word.remove_prefix(end);
+      if (word.empty()) return;
+      out_ += quoted ? "'\\\n'" : "\\\n";
+      used_ = quoted ? 1 : 0;
+    }
   }
 
   std::size_t width_, hang_ = 0, used_ = 0;

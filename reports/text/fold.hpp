@@ -17,7 +17,8 @@ std::size_t columns_of(std::string_view utf8);
 ///   clause    xgb-cnet-en-1.6, 7.1.5 (1)(e)
 ///             (must, printed rule)
 ///
-/// Commands of the tool behind a label are broken between words of the shell and can be pasted.
+/// Commands of the tool behind a label are broken between words of the shell, and a word that is
+/// wider than a line goes on at the beginning of the next one, so that they can be pasted.
 /// Names (whatever has a slash) are never broken; other words only where they are wider than a
 /// line.
 std::string fold(std::string_view text, std::size_t width);

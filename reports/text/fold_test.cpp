@@ -34,6 +34,27 @@ TEST(Fold, ACommandCanStillBePasted) {
             "  replay  fieldproof run --endpoint \\\n            'exec:a b c' --out x\n");
 }
 
+TEST(Fold, AWordOfACommandThatIsWiderThanALineIsOneWordStill) {
+  const std::string command =
+      "fieldproof run --endpoint 'exec:./server 0011_for_1132 {tty} --name it'\\''s --more' --out x";
+  for (std::size_t width = 30; width < 90; ++width) {
+    const std::string folded = fold("  replay  " + command + "\n", width);
+    std::string pasted = folded.substr(folded.find("fieldproof"));
+    for (std::size_t at = 0, end = 0; (end = folded.find('\n', at)) != folded.npos; at = end + 1)
+      EXPECT_LE(end - at, width) << folded;
+    // As a shell reads it.
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      for (std::size_t at = 0; (at = pasted.find(from, at)) != pasted.npos; at += to.size())
+        pasted.replace(at, from.size(), to);
+    };
+    replace("'\\\n'", "");
+    while (pasted.find(" \\\n ") != pasted.npos) replace(" \\\n ", " \\\n");
+    replace(" \\\n", " ");
+    replace("\\\n", "");
+    EXPECT_EQ(pasted, command + "\n") << width << '\n' << folded;
+  }
+}
+
 TEST(Fold, ColoursTakeNoColumns) {
   EXPECT_EQ(columns_of("\x1b[1;31mFAIL\x1b[0m"), 4u);
   EXPECT_EQ(fold("\x1b[1;31mFAIL\x1b[0m a b", 8), "\x1b[1;31mFAIL\x1b[0m a b");

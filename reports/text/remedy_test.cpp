@@ -23,8 +23,15 @@ TEST(Remedy, ReasonsThatTheSameEndsHaveTheSame) {
             remedy_of("needs delay_ms = 50; the profile declares 0"));
 }
 
+TEST(Remedy, ASecondLineTakesAWire) {
+  EXPECT_THAT(remedy_of("needs a second line to the same device, which the bench has not: services "
+                        "= {\"modbus-rtu\":{\"station\":3}}"),
+              HasSubstr("a wire of its own"));
+}
+
 TEST(Remedy, AnUnknownReasonStandsForItselfWithoutItsValues) {
   EXPECT_EQ(remedy_of("the moon is at 17 degrees"), "the moon is at # degrees");
+  EXPECT_EQ(remedy_of("the bench's own clock has stopped"), "the bench's own clock has stopped");
   EXPECT_EQ(remedy_of(""), "no reason given");
 }
 

@@ -180,6 +180,14 @@ TEST_F(Traceability, our_own_manuals_have_nothing_open) {
   EXPECT_THAT(run_tool({"list", "--coverage"}).out, HasSubstr(" with a reason, 0 open; "));
 }
 
+TEST_F(Traceability, sections_have_the_titles_of_the_manuals) {
+  EXPECT_EQ(run_tool({"list", "--coverage", "--html", folder_ / "own.html"}).code, 0);
+  const ParsedHtml page(read_text(folder_ / "own.html"));
+  EXPECT_GT(page.count("//summary/span[@class='name']/i"), 300u);
+  EXPECT_THAT(page.texts("//summary/span[starts-with(text(), '7.1.5 (1)')]/i"),
+              testing::Contains(HasSubstr("Individual reading of device")));
+}
+
 TEST_F(Traceability, bad_options_are_named) {
   EXPECT_EQ(run_tool({"list", "--markdown"}).code, 2);
   EXPECT_EQ(list({"--filter", "x"}).code, 2);

@@ -39,7 +39,23 @@ TEST(Friction, a_run_that_judged_nothing_says_why) {
   EXPECT_EQ(finished.code, 4) << finished.out << finished.err;
   EXPECT_THAT(finished.out, HasSubstr("\nnothing was judged:\n"));
   EXPECT_THAT(finished.out,
-              HasSubstr(" cases: xgt-cnet is not what this endpoint speaks (modbus-rtu)"));
+              HasSubstr("  SKIP          xgt-cnet is not what this endpoint speaks (modbus-rtu)"));
+}
+
+/// Nor is it left to the reports why a part was not judged.
+TEST(Friction, a_run_says_why_the_rest_was_not_judged) {
+  const TestFolder folder;
+  const Finished finished =
+      run_tool({"run", "--endpoint", emulated_plc, "--profile", "xbc-h", "--filter",
+                "xgt_cnet/status_by_service/power_off_clears:xgt_cnet/line/delay/d10:"
+                "xgt_cnet/channels/*:xgt_cnet/rss/two_words/*:modbus_rtu/station/*",
+                "--role", "server", "--out", folder / "out"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("\nnot judged, and why, or what it takes:\n"));
+  EXPECT_THAT(finished.out, HasSubstr("BLOCKED       a way to what no command reads: --control COMMAND, or a "
+                        "look in XG5000\n"));
+  EXPECT_THAT(finished.out,
+              HasSubstr("SKIP          modbus-rtu is not what this endpoint speaks (xgt-cnet)\n"));
 }
 
 }  // namespace

@@ -126,6 +126,65 @@ TEST_F(HtmlReportInBrowser, cases_are_searched_filtered_and_sorted_by_clicks) {
   EXPECT_EQ(seen[10], true) << "a result leads to its case";
 }
 
+TEST_F(HtmlReportInBrowser, cases_are_filtered_by_section) {
+  const std::vector<json> seen = browse({
+      {"open", "file://" + red()},
+      {"click", "#find input"},
+      {"choose", "#find [name=section]", "xgb-cnet-en-1.6, 7.1.5"},
+      {"eval", "document.querySelector('#find [name=section]').value"},
+      {"eval", "[...document.querySelectorAll('#found tbody tr')].map(r => r.cells[2].textContent)"},
+      {"eval",
+       "[...document.querySelectorAll('details.section')].find(d => d.dataset.section ==="
+       " document.querySelector('#find [name=section]').value)"
+       ".querySelectorAll('.lines tr, .passes tr, .case').length"},
+      {"eval", "location.hash.startsWith('#section=xgb-cnet-en-1.6')"},
+  });
+  ASSERT_EQ(seen.size(), 5u);
+  const std::string section = seen[1];
+  EXPECT_THAT(section, StartsWith("xgb-cnet-en-1.6, 7.1.5"));
+  const std::vector<std::string> found = seen[2];
+  EXPECT_THAT(found, Each(section)) << "of no other section";
+  EXPECT_FALSE(found.empty());
+  EXPECT_EQ(seen[3], found.size()) << "and all of it";
+  EXPECT_EQ(seen[4], true);
+}
+
+/// On a telephone, too: when the answer was due, and each word of a difference in one piece.
+TEST_F(HtmlReportInBrowser, a_failure_can_be_read_at_400_pixels) {
+  const auto inside = [](const std::string& what) {
+    return "[...document.querySelectorAll('.wire')].filter(w => w.checkVisibility()).map(w => "
+           "w.querySelector('" +
+           what +
+           "').getBoundingClientRect()).every(r => r.left >= 0 && r.right <= innerWidth && r.height "
+           "> 0)";
+  };
+  const std::vector<json> seen = browse(
+      {{"size", 400, 800},
+       {"open", "file://" + red()},
+       {"eval", "[...document.querySelectorAll('.wire')].filter(w => w.checkVisibility()).length"},
+       {"eval", inside(".limit-text")},
+       {"eval", inside(".limit")},
+       {"eval",
+        "Math.min(...[...document.querySelectorAll('.wire.narrow text')].filter(t => "
+        "t.checkVisibility()).map(t => t.getBoundingClientRect().height))"},
+       {"eval",
+        "[...document.querySelectorAll('.differences td:first-child')].filter(c => "
+        "c.checkVisibility() && c.textContent === 'BCC').map(c => c.getBoundingClientRect().height "
+        "/ parseFloat(getComputedStyle(c).lineHeight))"},
+       {"size", 1280, 800},
+       {"eval",
+        "[...document.querySelectorAll('.wire.narrow')].filter(w => w.checkVisibility()).length"}});
+  ASSERT_EQ(seen.size(), 7u);
+  EXPECT_GT(seen[1], 0);
+  EXPECT_EQ(seen[2], true) << "the words of the limit";
+  EXPECT_EQ(seen[3], true) << "its line";
+  EXPECT_GT(seen[4], 9) << "letters that can be read";
+  const std::vector<double> lines = seen[5];
+  EXPECT_FALSE(lines.empty());
+  EXPECT_THAT(lines, Each(testing::Lt(2))) << "lines of text that BCC takes";
+  EXPECT_EQ(seen[6], 0) << "a window has the wide picture alone";
+}
+
 TEST_F(HtmlReportInBrowser, an_address_keeps_what_was_asked) {
   const std::vector<json> seen =
       browse({{"open", "file://" + red() + "#q=bit_areas&verdict=FAIL&sort=name"},
@@ -201,6 +260,58 @@ TEST_F(HtmlReportInBrowser, the_sheet_has_few_pages) {
       EXPECT_EQ(seen[4 * i + 4], 0) << "the sheet alone is printed";
     }
   }
+}
+
+std::string without_blanks(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return c <= ' '; });
+  return text;
+}
+
+/// The text of each page, in the order of the document.
+std::vector<std::string> pages_of(const std::string& pdf) {
+  const Finished text = run_program({"pdftotext", "-raw", pdf, "-"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  std::vector<std::string> pages;
+  std::istringstream all(text.out);
+  for (std::string page; std::getline(all, page, '\f');) pages.push_back(without_blanks(page));
+  return pages;
+}
+
+/// How many rows of a table each page has that has any.
+std::vector<std::size_t> rows_on_pages(const std::vector<std::string>& rows,
+                                       const std::vector<std::string>& pages) {
+  std::vector<std::size_t> counts;
+  std::size_t page = 0, at = 0, next = 0;
+  for (std::size_t here = 0; page < pages.size(); ++page, at = 0, here = 0) {
+    for (; next < rows.size(); ++next, ++here) {
+      const std::string row = without_blanks(rows[next]);
+      const std::size_t found = pages[page].find(row, at);
+      if (found == std::string::npos) break;
+      at = found + row.size();
+    }
+    if (here > 0) counts.push_back(here);
+  }
+  EXPECT_EQ(next, rows.size()) << "not printed: " << (next < rows.size() ? rows[next] : "");
+  return counts;
+}
+
+TEST_F(HtmlReportInBrowser, no_row_of_the_sheet_is_left_alone_on_a_page) {
+  if (run_program({"sh", "-c", "command -v pdftotext"}).code != 0)
+    GTEST_SKIP() << "pdftotext is not installed; on Debian: apt-get install poppler-utils";
+  for (const std::string& page : {qualified(), red()})
+    for (const auto& [width, height] : {std::pair{8.27, 11.69}, std::pair{8.5, 11.0}}) {
+      const std::vector<json> seen = browse(
+          {{"open", page},
+           {"pdf", folder_ / "sheet.pdf", width, height},
+           {"eval",
+            "[...document.querySelectorAll('.sheet table')].map(t => [...t.tBodies[0].rows].map(r "
+            "=> r.textContent)).filter(rows => rows.length > 2)"}});
+      ASSERT_EQ(seen.size(), 3u);
+      const std::vector<std::string> pages = pages_of(folder_ / "sheet.pdf");
+      EXPECT_EQ(pages.size(), seen[1].get<std::size_t>());
+      for (const std::vector<std::string> rows : seen[2])
+        EXPECT_THAT(rows_on_pages(rows, pages), Each(Ge(2u))) << rows.front() << " on " << width;
+    }
 }
 
 }  // namespace

@@ -74,11 +74,29 @@ TEST_F(OnATerminal, a_replayed_command_can_be_pasted) {
 }
 
 TEST_F(OnATerminal, of_many_failures_the_first_are_told) {
+  // Of eight kinds, since of one kind three are told in full.
+  const std::vector<std::string> wrong{
+      wrong_word,
+      "[ACK st 'rSB' '01' '02' '0000' ETX BCC]",
+      "[ACK st 'rSS' '02' '02' '0000' ETX BCC]",
+      "[ACK '05' 'rSS' '01' '02' '0000' ETX BCC]",
+      "[ACK st 'rSS' '01' '02' '0000' ETX BCC!]",
+      "[ACK st 'rSS' '01' '04' '00000000' ETX BCC]",
+      "[NAK st 'rSS' '1132' ETX BCC]",
+      "'no frame'"};
   std::vector<nlohmann::ordered_json> vectors;
-  for (int i = 0; i < 50; ++i)
-    vectors.push_back(small_vector("many/n" + std::to_string(100 + i), wrong_word));
+  for (std::size_t i = 0; i < 50; ++i)
+    vectors.push_back(
+        small_vector("many/n" + std::to_string(100 + i), wrong[i % wrong.size()]));
   const Finished finished = run({"run", "--vectors", write_vectors(folder_, vectors)});
   EXPECT_EQ(finished.code, 1);
+  std::size_t in_full = 0, lines = 0;
+  for (const std::string& line : text_lines(finished.out)) {
+    in_full += line.starts_with("  received  ");
+    lines += line.starts_with("FAIL ");
+  }
+  EXPECT_EQ(in_full, 20u);
+  EXPECT_EQ(lines, 40u) << "and as many in a line each";
   EXPECT_THAT(finished.out, HasSubstr("further failures are counted"));
   EXPECT_THAT(finished.out, HasSubstr("50  FAIL"));
   EXPECT_THAT(finished.out, Not(HasSubstr("many/n149")));
