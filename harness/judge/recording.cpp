@@ -28,7 +28,8 @@ results::Recording make_recording(const PreparedCase& prepared, const Transcript
   recording.stimulus = prepared.stimulus;
   recording.station = prepared.station;
   for (const exchange::StepRecord& step : transcript.steps)
-    recording.steps.push_back({step.cause, step.memory, step.refused, step.refused_by_device});
+    recording.steps.push_back({step.cause, step.memory, step.refused, step.refused_by_device,
+                               step.cause != Time{} || step.deadline != Time{}});
   recording.flooded = transcript.flooded;
   recording.dead = transcript.dead;
   recording.timing_floor = rules.timing_floor;

@@ -32,7 +32,7 @@ void shift(CaseResult& result, Duration by) {
   const auto later = [by](auto&... times) { ((times += by), ...); };
   for (Event& event : result.exchange) later(event.start, event.end);
   for (StepOutcome& step : result.recording.steps)
-    if (step.stimulus != Time{}) later(step.stimulus);  // else it has none
+    if (step.timed) later(step.stimulus);
   if (!result.due.empty()) later(result.due.from, result.due.until);
   for (AxisTrace& axis : result.trace.axes) {
     for (AxisTrace::Sample& sample : axis.samples) later(sample.time);

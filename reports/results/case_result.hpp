@@ -57,6 +57,7 @@ struct StepOutcome {
   std::vector<std::pair<std::string, std::string>> memory;  // check: address, and what it held
   std::string refused;  // set, check, do: why it could not be done
   bool refused_by_device = false;
+  bool timed = true;  // `stimulus` is a moment; not in files, where 0 is none or the beginning
 };
 
 /// Where a case was moved on a real device: what it names in these words of the area lies so many
