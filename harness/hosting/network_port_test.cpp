@@ -29,6 +29,7 @@ class NetworkPortTest : public testing::Test {
       std::vector<pollfd> fds;
       port->add_to(fds);
       if (::poll(fds.data(), fds.size(), 5000) <= 0) return Burst{.bytes = {}, .peer = "time-out"};
+      port->heard(fds);
     }
   }
   std::unique_ptr<HostPort> port = std::move(*open_network_port({":0", ":0", 502, 502}));
