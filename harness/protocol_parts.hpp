@@ -56,6 +56,12 @@ class MemoryRequests {
   /// Do this request and its reply carry a check? Without one a damaged request may do harm
   /// elsewhere, and a damaged reply looks like a sound one.
   virtual bool is_checked([[maybe_unused]] ByteView request) const { return true; }
+  /// What a write request sets where it arrives whole: addresses and their digits. Empty: nothing,
+  /// or nobody can tell; only for requests that are not checked.
+  virtual std::vector<std::pair<std::string, std::string>> sets(
+      [[maybe_unused]] ByteView request) const {
+    return {};
+  }
   /// The same request in a mode in which neither it nor its reply carries a check; empty: there is
   /// no such mode.
   virtual Bytes without_check([[maybe_unused]] ByteView request) const { return {}; }

@@ -280,10 +280,13 @@ void Bench::execute(const PreparedCase& prepared, CaseResult& result) {
     set_up_answered_ = saving_.was_answered();
     if (!saved) return;
   }
-  if (prepare_device(prepared, result)) exchange(prepared, result);
+  if (prepare_device(prepared, result)) {
+    if (real) saving_.before_exchange(prepared);
+    exchange(prepared, result);
+    if (real) saving_.after_exchange(result, known_->port_failed);
+  }
   if (!real) return;
-  if (const std::string problem = saving_.restore(); !problem.empty())
-    result.notes.push_back("not put back what it wrote: " + problem);
+  set_up_answered_ = saving_.put_back(result, !known_->stopped.empty()) && set_up_answered_;
   if (const Status back = endpoint_.put_back(); !back)
     result.notes.push_back("not put back what it set: " + back.error().message);
 }
@@ -386,7 +389,7 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (!real || prepared.is_client() || known_->interrupted) return false;
   if (!memory_.refused() && result.verdict == Verdict::blocked) return false;  // --control says no
   if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
-  if (memory_.silent()) recovery_.look_for_device(result, result.message);
+  if (memory_.lost()) recovery_.look_for_device(result, result.message);
   return false;
 }
 
@@ -456,7 +459,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
                      fail(fmt::format("{}cannot set {}: no answer{}", exchange::set_up_failure,
                                       address, not_tried)));
     const Status done = set(address, hex);
-    known_->set_ups_unanswered *= memory_.silent() ? 1 : 0;
+    known_->set_ups_unanswered *= memory_.lost() ? 1 : 0;
     if (done) continue;
     if (done.error().refused) return give_up(Verdict::blocked, done.error());
     if (!memory_.refused())
@@ -472,7 +475,7 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
 
 /// It was silent when memory was set, and answers the bench's probe: what sets nothing goes on.
 bool Bench::only_writes_are_unanswered(const PreparedCase& prepared) {
-  if (!memory_.silent() || prepared.is_client() || !known_->answers) return false;
+  if (!memory_.lost() || prepared.is_client() || !known_->answers) return false;
   const Result<exchange::Sign> alive =
       exchange_.anything_answers(prepared.station, 3 * options_.profile.response_max);
   const bool answers = alive && *alive == exchange::Sign::alive;

@@ -63,6 +63,8 @@ class Bench {
   /// After the last case: tries again to put back what could not be. Empty, or what a real device
   /// does not hold as before.
   std::string put_back();
+  /// Requests that may have changed memory which nobody can tell (UncheckedWrites::doubtful).
+  std::string doubtful_writes() const { return saving_.doubtful_writes(); }
   /// The last: a device that was set up by --control becomes what this bench declares. Empty, or
   /// what is wrong.
   std::string leave_as_declared();
@@ -115,7 +117,7 @@ class Bench {
   ReadyCase last_ready_;
   std::string not_up_;           // why the device cannot be asked as it is to be set up here
   bool just_started_ = false;    // for the present case
-  bool set_up_answered_ = true;  // in the present case: saving and setting memory
+  bool set_up_answered_ = true;  // in the present case: saving, setting and restoring memory
   bool silent_ = false;          // nothing came in start()
 };
 

@@ -24,7 +24,7 @@ struct BenchOptions {
   safety::WriteFence fence;
   int station = 1;  // the device's, where the endpoint cannot become another station
   std::string power_cycle_command;    // --power-cycle: what switches a real device off and on
-  int max_restarts = 20;              // --max-restarts: of a device that the bench starts itself
+  int max_restarts = 20;              // --max-restarts (WorthAsking)
   std::string replay;                 // command line that the id of the case completes
   exchange::Channel aux;              // --aux: a second channel of the PLC under test
   harness::Protocols known{{}};       // of further services that a case speaks to

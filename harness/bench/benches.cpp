@@ -225,6 +225,15 @@ std::string Benches::put_back() {
   return open;
 }
 
+std::string Benches::doubtful_writes() const {
+  std::string all;
+  for (const Member& member : members_)
+    for (const auto& [key, set_up] : member.set_ups)
+      if (const std::string one = set_up.bench->doubtful_writes(); !one.empty())
+        all += (all.empty() ? "" : "; ") + one;
+  return all;
+}
+
 bool Benches::interrupted() const {
   return std::ranges::any_of(members_,
                              [](const Member& member) { return member.bench().interrupted(); });

@@ -72,6 +72,8 @@ class Benches {
   std::vector<results::CaseResult> set_up_findings() const;
   /// `Bench::put_back` of all.
   std::string put_back();
+  /// `Bench::doubtful_writes` of all.
+  std::string doubtful_writes() const;
 
   bool interrupted() const;
   /// The port itself is gone.

@@ -67,8 +67,12 @@ bool Recovery::look_for_device(CaseResult& result, const std::string& what) {
     return false;
   }
   if (*alive == exchange::Sign::alive) return true;
+  const std::string dead = what + "; " + exchange::why_dead(*alive);
+  if (result.verdict == Verdict::fail)
+    result.notes.push_back(dead);
+  else
+    result.message = dead;
   result.verdict = Verdict::fail;
-  result.message = what + "; nothing answers any more";
   revive(result);
   return false;
 }
@@ -78,12 +82,14 @@ void Recovery::start_again(CaseResult& result) {
       !options_.power_cycle_command.empty() || options_.endpoint_is_stimulus ||
       options_.max_restarts == 0)
     return;
-  const auto last = std::ranges::find(result.exchange.rbegin(), result.exchange.rend(),
-                                      results::Event::Kind::sent, &results::Event::kind);
-  const std::string frame = last == result.exchange.rend()
-                                ? "in the set-up"
-                                : "after " + notation::print_bytes(last->bytes);
-  result.message = fmt::format("the device ended {}: {}", frame, known_.stopped);
+  const Bytes last = endpoint_.last_sent();
+  const bool of_case = std::ranges::any_of(result.exchange, [&](const results::Event& event) {
+    return event.kind == results::Event::Kind::sent && event.bytes == last;
+  });
+  result.message = fmt::format(
+      "the device ended {}{}: {}", of_case ? "" : "while its memory was read or set, ",
+      last.empty() ? "before it was asked" : "after " + notation::print_bytes(last),
+      known_.stopped);
   result.verdict = Verdict::fail;
   known_.stopped.clear();
   known_.port_failed = false;
@@ -91,7 +97,7 @@ void Recovery::start_again(CaseResult& result) {
 }
 
 void Recovery::revive(CaseResult& result) {
-  if (endpoint_.capabilities().can_power_cycle && options_.power_cycle_command.empty())
+  if (endpoint_.capabilities().can_power_cycle || !options_.power_cycle_command.empty())
     if (std::string enough = known_.worth_asking.restart(result); !enough.empty())
       return stop(std::move(enough));
   if (!power_cycle(result))

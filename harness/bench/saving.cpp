@@ -34,7 +34,7 @@ bool Saving::save_partner(const PreparedCase& prepared, CaseResult& result) {
   if (saved) return true;
   result.verdict = over_aux_.port_failed() ? Verdict::error : Verdict::blocked;
   result.message = "--aux: " + saved.error().message;
-  if (over_aux_.port_failed() || over_aux_.silent()) recovery_.stop(result.message, &saved.error());
+  if (over_aux_.port_failed() || over_aux_.lost()) recovery_.stop(result.message, &saved.error());
   return false;
 }
 
@@ -48,12 +48,12 @@ bool Saving::save(const PreparedCase& prepared, CaseResult& result) {
   safety::SavedMemory& memory = memory_of(prepared);
   const Status saved = memory.save(written);
   answered_ = !memory.unserved();
-  if (saved && memory.damaged() > 0 && writes_without_check(prepared)) {
+  if (saved && memory.damaged() > 0 && !unchecked_writes(prepared).empty()) {
     result.verdict = Verdict::blocked;
     result.message = fmt::format(
         "the line has damaged {} answers to what the bench reads before it writes; this case "
-        "writes by a request without a check, which could write elsewhere when it is damaged, too. "
-        "Mend the line (cable, termination, ground, speed)",
+        "writes by a request without a right check, which could write elsewhere when it is "
+        "damaged, too. Mend the line (cable, termination, ground, speed)",
         memory.damaged());
     return false;
   }
@@ -63,26 +63,47 @@ bool Saving::save(const PreparedCase& prepared, CaseResult& result) {
   if (endpoint_.capabilities().can_power_cycle && !memory.port_failed() && !prepared.is_client() &&
       options_.journal) {
     result.notes.push_back(saved.error().message);
-    return !memory.silent() || recovery_.look_for_device(result, saved.error().message);
+    return !memory.lost() || recovery_.look_for_device(result, saved.error().message);
   }
   result.verdict = memory.port_failed() ? Verdict::error : Verdict::blocked;
   result.message = (prepared.is_client() ? "--aux: " : "") + saved.error().message;
   if (memory.port_failed())
     recovery_.stop("the port failed before " + result.id + ": " + result.message, &saved.error());
-  else if (memory.silent())
+  else if (memory.lost())
     prepared.is_client() ? recovery_.stop(result.message)
                          : void(recovery_.look_for_device(result, saved.error().message));
   return false;
 }
 
-/// On a line; a network has its own checks.
-bool Saving::writes_without_check(const PreparedCase& prepared) const {
-  if (protocol_.default_port() != 0 || !protocol_.memory() || prepared.is_client()) return false;
-  return std::ranges::any_of(prepared.steps, [&](const exchange::PreparedStep& step) {
-    if (step.step->kind != vectors::Step::Kind::send) return false;
-    const Bytes& request = step.frames.front().frame.bytes;
-    return !protocol_.written_by(request).empty() && !protocol_.memory()->is_checked(request);
-  });
+/// The requests of a case by which it writes without a check. A device that forgets all with its
+/// process can lose nothing.
+std::vector<Bytes> Saving::unchecked_writes(const PreparedCase& prepared) const {
+  std::vector<Bytes> all;
+  if (prepared.is_client() || endpoint_.capabilities().can_power_cycle) return all;
+  for (const exchange::PreparedStep& step : prepared.steps)
+    if (step.step->kind == vectors::Step::Kind::send)
+      if (const Bytes& request = step.frames.front().frame.bytes;
+          writes_without_check(request, protocol_))
+        all.push_back(request);
+  return all;
+}
+
+bool Saving::put_back(CaseResult& result, bool stopped) {
+  bool answered = true;
+  for (safety::SavedMemory* memory : {&own_, &over_aux_}) {
+    const std::string problem = memory->restore();
+    if (problem.empty()) continue;
+    const std::string note = "not put back what it wrote: " + problem;
+    result.notes.push_back(note);
+    if (memory != &own_ || stopped || memory->failure().interrupted) continue;
+    answered = !memory->unserved();
+    if (memory->port_failed())
+      recovery_.stop(fmt::format("the port failed after {}: {}", result.id, problem),
+                     &memory->failure());
+    else if (memory->lost())
+      recovery_.look_for_device(result, note);
+  }
+  return answered;
 }
 
 std::string Saving::restore() {

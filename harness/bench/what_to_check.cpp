@@ -27,6 +27,11 @@ std::string why_silent(const exchange::Channel& device, exchange::Sign sign) {
         "table of hosts lets this computer in and that other clients leave it a "
         "connection (a device takes few)",
         where);
+  if (sign == exchange::Sign::endless)
+    return fmt::format(
+        "what comes from {} does not end, so that no request gets an answer: check that nobody else "
+        "sends there, and that speed, data bits, parity and stop bits are those of the device",
+        where);
   if (sign == exchange::Sign::echo && on_network(device))
     return fmt::format(
         "the bench hears its own requests: echo on {}: whatever listens there sends back what it "

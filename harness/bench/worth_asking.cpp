@@ -10,7 +10,10 @@ namespace {
 
 using results::Event;
 
-constexpr int most_doubt = 20;  // cases without a whole frame; those that take long count for more
+constexpr int most_doubt = 10;  // cases without a whole frame; those that take long count for more
+constexpr int fruitful = 10;    // cases that pass after a restart
+constexpr int most_fruitless = 3;
+constexpr const char* lost = "died, fell mute or sent without end";
 
 bool begins_with_frame(ByteView came, const harness::Protocol& protocol) {
   const auto length = protocol.frame_length(came);
@@ -37,6 +40,7 @@ bool anything_whole(const results::CaseResult& result, const harness::Protocol& 
 
 std::string WorthAsking::after(const results::CaseResult& result, const harness::Protocol& protocol,
                                bool set_up) {
+  passed_ += result.verdict == results::Verdict::pass;
   const bool asked = std::ranges::any_of(
       result.exchange, [](const Event& event) { return event.kind == Event::Kind::sent; });
   if ((!asked && set_up) || !protocol.has_frame_ends()) return {};
@@ -53,10 +57,18 @@ std::string WorthAsking::after(const results::CaseResult& result, const harness:
 }
 
 std::string WorthAsking::restart(const results::CaseResult& result) {
+  fruitless_ = restarts_ == 0 || passed_ >= fruitful ? 0 : fruitless_ + 1;
+  passed_ = 0;
+  if (fruitless_ == most_fruitless)
+    return fmt::format(
+        "the device was started again {} times in a row, and lost each time before {} cases had "
+        "passed (it {}), the last time in {}; it is not started again",
+        most_fruitless, fruitful, lost, result.id);
   if (restarts_++ < max_restarts_) return {};
   return fmt::format(
-      "the device died {} times, the last time in {}; it is not started again (--max-restarts {})",
-      restarts_, result.id, max_restarts_);
+      "the device was lost {} times (it {}), the last time in {}; it is not started again "
+      "(--max-restarts {})",
+      restarts_, lost, result.id, max_restarts_);
 }
 
 }  // namespace fieldproof::bench

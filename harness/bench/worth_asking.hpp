@@ -11,8 +11,9 @@ namespace fieldproof::bench {
 
 class WorthAsking {
  public:
-  /// `max_restarts`: how often a device that the bench starts itself is started again after it
-  /// died.
+  /// `max_restarts`: how often a device that the bench starts itself is started again, after it
+  /// died or fell mute, in all. It is given up sooner where that is of no use: three times in a row
+  /// fewer than ten cases passed in between.
   explicit WorthAsking(int max_restarts) : max_restarts_(max_restarts) {}
 
   /// After a case that was executed; `set_up`: the device answered what set it up, be it by a
@@ -24,8 +25,9 @@ class WorthAsking {
 
  private:
   int max_restarts_;
-  int restarts_ = 0;
-  int doubt_ = 0;  // since the last whole frame
+  int restarts_ = 0, fruitless_ = 0;
+  int passed_ = 0;  // since it was started
+  int doubt_ = 0;   // since the last whole frame
 };
 
 }  // namespace fieldproof::bench

@@ -37,7 +37,7 @@ TEST_F(WorthAskingTest, ADeviceThatSendsFramesIs) {
 }
 
 TEST_F(WorthAskingTest, OneThatSendsHalvesIsNot) {
-  EXPECT_EQ(cases_until_the_end(with("<x")), 20);
+  EXPECT_EQ(cases_until_the_end(with("<x")), 10);
   EXPECT_THAT(worth_.after(with("<x"), protocol_, true),
               HasSubstr("no whole frame came from the device in the last cases, up to p/a/b: what "
                         "failed"));
@@ -63,30 +63,55 @@ TEST_F(WorthAskingTest, TwoHalvesAreNoFrame) {
   CaseResult halves = with("<x");
   halves.exchange.push_back({Event::Kind::sent, 0ns, 0ns, to_bytes("<probe>"), ""});
   halves.exchange.push_back({Event::Kind::received, 0ns, 0ns, to_bytes("<y"), ""});
-  EXPECT_EQ(cases_until_the_end(halves), 20);
+  EXPECT_EQ(cases_until_the_end(halves), 10);
   halves.exchange.back().bytes = to_bytes("<y>");
   EXPECT_EQ(cases_until_the_end(halves), 100);
 }
 
 TEST_F(WorthAskingTest, AFrameWipesTheDoubt) {
   for (int i = 0; i < 50; ++i)
-    EXPECT_EQ(worth_.after(with(i % 10 == 9 ? "<x>" : "<"), protocol_, true), "");
+    EXPECT_EQ(worth_.after(with(i % 5 == 4 ? "<x>" : "<"), protocol_, true), "");
 }
 
 TEST_F(WorthAskingTest, WhatTakesLongCountsForMore) {
   CaseResult endless = with("<xxxxx");
   endless.recording.flooded = true;
-  EXPECT_EQ(cases_until_the_end(endless), 4);
+  EXPECT_EQ(cases_until_the_end(endless), 2);
 }
 
 TEST_F(WorthAskingTest, ASetUpThatNobodyAnswersCountsForMore) {
-  EXPECT_EQ(cases_until_the_end(with(""), false), 4);
+  EXPECT_EQ(cases_until_the_end(with(""), false), 2);
 }
 
 TEST_F(WorthAskingTest, ADeviceIsStartedAgainSoOften) {
   EXPECT_EQ(worth_.restart(with("")), "");
   EXPECT_EQ(worth_.restart(with("")), "");
-  EXPECT_THAT(worth_.restart(with("")), HasSubstr("died 3 times, the last time in p/a/b"));
+  EXPECT_THAT(worth_.restart(with("")),
+              HasSubstr("was lost 3 times (it died, fell mute or sent without end), the last time in "
+                        "p/a/b; it is not started again (--max-restarts 2)"));
+}
+
+TEST_F(WorthAskingTest, NotWhereItDiesAgainBeforeTenCasesHavePassed) {
+  CaseResult passed = with("<x>");
+  passed.verdict = results::Verdict::pass;
+  const auto pass = [&](WorthAsking& worth, int count) {
+    for (int i = 0; i < count; ++i) EXPECT_EQ(worth.after(passed, protocol_, true), "");
+  };
+  WorthAsking worth(20);
+  EXPECT_EQ(worth.restart(with("")), "") << "what was before it counts for nothing";
+  for (int i = 0; i < 2; ++i) {
+    pass(worth, 9);
+    EXPECT_EQ(worth.restart(with("")), "");
+  }
+  pass(worth, 9);
+  EXPECT_THAT(worth.restart(with("")),
+              HasSubstr("started again 3 times in a row, and lost each time before 10 cases had "
+                        "passed"));
+  WorthAsking useful(20);
+  for (int i = 0; i < 20; ++i) {
+    pass(useful, i % 3 == 2 ? 10 : 9);
+    EXPECT_EQ(useful.restart(with("")), "") << i;
+  }
 }
 
 }  // namespace

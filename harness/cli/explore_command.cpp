@@ -241,8 +241,9 @@ class Exploration {
   void put_back() {
     if (end_.interrupted) os::clear_interrupt();
     if (const std::string open = ports_.front().put_back(); !open.empty() && !plan_.ends_with_run)
-      end_.not_restored = fmt::format("NOT RESTORED: {}; type: fieldproof restore {}",
-                                      run::bounded(open), run::shell_word(plan_.journal));
+      end_.not_restored = run::not_restored(open, plan_.journal);
+    if (const std::string writes = ports_.front().doubtful_writes(); !writes.empty())
+      end_.not_restored += (end_.not_restored.empty() ? "" : "\n") + run::not_sure(writes);
   }
 
   const ExploreOptions& options_;

@@ -385,12 +385,16 @@ class Run {
   /// What is still open in the journal; also after Ctrl-C, for which the device is none the worse.
   void put_back() {
     if (end_.interrupted) os::clear_interrupt();
-    for (std::size_t i = 0; i < ports_.size(); ++i)
+    const auto tell = [&](const std::string& text) {
+      end_.not_restored += (end_.not_restored.empty() ? "" : "\n") + text;
+    };
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
       if (const std::string open = ports_[i].put_back();
           !open.empty() && (!plan_.dut(i).ends_with_run || plan_.dut(i).aux))
-        end_.not_restored += fmt::format("{}NOT RESTORED: {}; type: fieldproof restore {}",
-                                         end_.not_restored.empty() ? "" : "\n", run::bounded(open),
-                                         run::shell_word(plan_.dut(i).journal));
+        tell(run::not_restored(open, plan_.dut(i).journal));
+      if (const std::string writes = ports_[i].doubtful_writes(); !writes.empty())
+        tell(run::not_sure(writes));
+    }
   }
 
   const RunOptions& options_;

@@ -67,6 +67,8 @@ class Endpoint {
   virtual bool configures(std::string_view) const { return false; }
   /// How often the device under test was started by this endpoint: what it knew before is gone.
   virtual unsigned starts() const { return 0; }
+  /// What was sent last to a device that this endpoint has started, while it ran; empty: nothing.
+  virtual Bytes last_sent() const { return {}; }
 
   /// Opens a connection to `port` of the device, or a datagram port of the bench that talks to it
   /// (capabilities().connections, .datagrams); 0: the port of the endpoint's name, else of its

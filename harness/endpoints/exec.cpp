@@ -38,6 +38,7 @@ class ExecEndpoint final : public Endpoint {
   Status start(const nlohmann::json& config) {
     running_ = command_.filled(config);
     ++starts_;
+    last_sent_.clear();
     link_.set_far_end(nullptr);
     child_.reset();
     os::drop_waiting_bytes(link_.fd());
@@ -69,8 +70,13 @@ class ExecEndpoint final : public Endpoint {
   }
   bool configures(std::string_view key) const override { return command_.takes(key); }
   unsigned starts() const override { return starts_; }
+  Bytes last_sent() const override { return last_sent_; }
   using Endpoint::send;
-  Result<Sent> send(ByteView bytes, LinkId) override { return link_.send(bytes); }
+  Result<Sent> send(ByteView bytes, LinkId) override {
+    Result<Sent> sent = link_.send(bytes);
+    if (sent) last_sent_.assign(bytes.begin(), bytes.end());
+    return sent;
+  }
   Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
 
   Status tell(std::string_view line) override {
@@ -99,6 +105,7 @@ class ExecEndpoint final : public Endpoint {
   nlohmann::json config_ = nlohmann::json::object();  // of the present case
   std::string running_;                               // the command, filled
   unsigned starts_ = 0;
+  Bytes last_sent_;
   os::UniqueFd slave_;  // kept open: no close of the device under test ends the line
   std::string path_;
   os::FdLink link_;

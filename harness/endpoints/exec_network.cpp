@@ -52,6 +52,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
 
   bool configures(std::string_view key) const override { return command_.takes(key); }
   unsigned starts() const override { return starts_; }
+  Bytes last_sent() const override { return last_sent_; }
 
   Result<LinkId> open(Transport transport, std::uint16_t port) override {
     if (!child_)
@@ -66,6 +67,14 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
                                                           : connect_when_ready(port);
     if (!fd) return fd.error();
     return sockets().add(transport, std::move(*fd), port);
+  }
+
+  using Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId link) override {
+    const bool ran = child_ && !child_->ended();
+    Result<Sent> sent = NetworkEndpoint::send(bytes, link);
+    if (sent && ran) last_sent_.assign(bytes.begin(), bytes.end());
+    return sent;
   }
 
   Status tell(std::string_view line) override {
@@ -85,6 +94,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   Status start(bool client) {
     running_ = command_.filled(config_);
     ++starts_;
+    last_sent_.clear();
     sockets().set_far_end(nullptr);
     child_.reset();
     sockets().lose_all();
@@ -143,6 +153,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   nlohmann::json config_;  // of the present case
   std::string running_;    // the command, filled
   unsigned starts_ = 0;
+  Bytes last_sent_;
   os::RemoteHost host_;
   os::PtyPair pty_;
   NetworkPorts defaults_;

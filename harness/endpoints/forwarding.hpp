@@ -20,6 +20,7 @@ class Forwarding : public Endpoint {
   Status begin(const nlohmann::json& config) override { return to_.begin(config); }
   bool configures(std::string_view key) const override { return to_.configures(key); }
   unsigned starts() const override { return to_.starts(); }
+  Bytes last_sent() const override { return to_.last_sent(); }
 
   Result<LinkId> open(Transport transport, std::uint16_t port) override {
     return to_.open(transport, port);

@@ -12,14 +12,6 @@ namespace {
 
 bool has_probe(const Channel& to) { return !to.protocol->probe(to.station, {}).empty(); }
 
-std::string why_dead(Sign sign) {
-  switch (sign) {
-    case Sign::refused: return "it refuses every connection";
-    case Sign::ended: return "it closes every connection without an answer";
-    default: return "nothing answers any more";
-  }
-}
-
 }  // namespace
 
 void CaseRun::finish() {
@@ -28,7 +20,7 @@ void CaseRun::finish() {
   const bool alive = heard || hear_the_rest();
   if (!prepared_.runs_by_clock()) links_.leave_over();
   close_links();
-  if (!alive && !transcript_.trouble) look_for_life();
+  if ((!alive || transcript_.flooded) && !transcript_.trouble) look_for_life();
 }
 
 /// Before what still belongs to the case is waited for. Who has the token matters to its timing.
@@ -87,6 +79,7 @@ bool CaseRun::probe(Link& link, std::optional<int> step) {
     }
     if (answered || !link.hears || !links_.listen(link, until)) break;
   }
+  if (!answered) hear_end(link);
   // A device that answers every request in a form of its own must still reach the case that names
   // the fault: replies come in order, so the last frame is its answer to the probe.
   if (!answered && end < link.pending.bytes().size()) {
@@ -104,9 +97,26 @@ bool CaseRun::probe(Link& link, std::optional<int> step) {
   return end > 0;
 }
 
+/// What answers no probe and goes on, without a pause, for longer than the longest frame takes does
+/// not end.
+void CaseRun::hear_end(const Link& link) {
+  const Time cut_off = now() + longest_reply(link.to.protocol->longest_frame(),
+                                             link.to.endpoint->character_time());
+  while (!link.pending.empty() && link.hears &&
+         links_.listen(link, link.pending.last() + around_.timing.pause))
+    transcript_.flooded = now() >= cut_off;
+}
+
 void CaseRun::look_for_life() {
   Channel device = around_.device;
   device.station = prepared_.station;
+  if (transcript_.flooded && !implicit_transport(device)) {
+    const Result<bool> silent =
+        settle(*device.endpoint, around_.timing.pause, 3 * around_.timing.response_max);
+    if (silent && !*silent) transcript_.dead = why_dead(Sign::endless);
+    if (!silent) transcript_.trouble = silent.error();
+    if (!silent || !*silent) return;
+  }
   const Result<Sign> sign =
       Sanity(device, around_.timing)
           .anything_answers(3 * around_.timing.response_max, prepared_.reply_delay());
@@ -148,7 +158,7 @@ Result<bool> CaseRun::is_asked(Duration patience) {
   // A clock goes on asking: there the next case drains the line.
   const bool came = asked();
   if (came && !prepared_.runs_by_clock()) {
-    const Status settled =
+    const Result<bool> settled =
         settle(*around_.device.endpoint, prepared_.client_settles() + around_.timing.quiet);
     if (!settled) return settled.error();
   }

@@ -141,11 +141,9 @@ void CaseRun::await_frame(const PreparedStep& step) {
         link->pending.empty()
             ? give_up
             : std::max(record().deadline, link->pending.last() + around_.timing.quiet);
-    if (!links_.listen(*link, std::min(until, cut_off))) break;
-    if (link->to.endpoint->now() >= cut_off) {
-      transcript_.flooded = true;
-      break;
-    }
+    const bool heard = links_.listen(*link, std::min(until, cut_off));
+    if (link->to.endpoint->now() >= cut_off) transcript_.flooded = true;
+    if (!heard || transcript_.flooded) break;
     link = links_.find(step.link);
   }
   take_frame(*link, length);

@@ -81,6 +81,7 @@ class CaseRun {
   bool probe(Link& link, std::optional<int> step);
   bool hear_the_rest();
   bool probe_links();
+  void hear_end(const Link& link);
   void look_for_life();
   void close_links();
 

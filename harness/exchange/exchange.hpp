@@ -33,7 +33,10 @@ class Exchange {
   Result<bool> anything_is_asked(const PreparedCase& prepared, Duration patience);
   /// Client role: listens until the device is silent for so long; at most ten seconds. Nothing of
   /// it is judged.
-  Status settle(Duration silence) { return exchange::settle(*device_.endpoint, silence); }
+  Status settle(Duration silence) {
+    const Result<bool> silent = exchange::settle(*device_.endpoint, silence);
+    return silent ? ok() : Status(silent.error());
+  }
   /// What somebody else has asked for: unasked_bytes() at this station.
   Result<Bytes> unasked_bytes(int station, Duration watch) {
     return exchange::unasked_bytes(at(station), watch, timing_);

@@ -55,6 +55,7 @@ Result<Bytes> MemoryAccess::ask(const Channel& server, ByteView request) {
     reply.insert(reply.end(), burst->bytes.begin(), burst->bytes.end());
   }
   silent_ = reply.empty();
+  endless_ = reply.size() > flood_limit;
   // An answer that is only late must not be taken for one to what is asked next.
   if (silent_)
     if (const Status over = let_pass(server, ExchangeTiming().late_watch); !over)
@@ -62,6 +63,10 @@ Result<Bytes> MemoryAccess::ask(const Channel& server, ByteView request) {
   asked_.assign(request.begin(), request.end());
   answered_ = reply;
   return reply;
+}
+
+std::string MemoryAccess::why(const Error& error) const {
+  return endless_ ? std::string(without_end) : error.message;
 }
 
 std::string MemoryAccess::said() const {
@@ -80,8 +85,9 @@ Status MemoryAccess::let_pass(const Channel& server, Duration silence) {
     if (!burst) return burst.error();
     if (burst->bytes.empty()) return ok();
     heard += burst->bytes.size();
-    until = burst->end() + ExchangeTiming().quiet;
+    until = burst->end() + ExchangeTiming().pause;
   }
+  endless_ = true;
   return ok();
 }
 
@@ -104,7 +110,8 @@ Result<Bytes> MemoryAccess::set_again(const Channel& server, ByteView request) {
 Result<Bytes> MemoryAccess::sound(const Channel& server, ByteView request, Result<Bytes> reply) {
   for (int i = 0; i < repeats && reply && !reply->empty() && !unsound_; ++i) {
     if (server.protocol->sound_reply(request, *reply)) break;
-    if (const Status over = let_pass(server, ExchangeTiming().quiet); !over) return over.error();
+    if (const Status over = let_pass(server, ExchangeTiming().pause); !over) return over.error();
+    if (endless_) break;
     reply = ask(server, request);
   }
   unserved_ = !reply || !server.protocol->sound_reply(request, *reply);
@@ -117,7 +124,7 @@ Result<Bytes> MemoryAccess::sound(const Channel& server, ByteView request, Resul
 Result<Bytes> MemoryAccess::ask_in_any_mode(const Channel& server, ByteView request,
                                             const std::function<bool(ByteView)>& taken) {
   Result<Bytes> reply = ask_again(server, request);
-  if (!reply || silent_ || taken(*reply)) return reply;
+  if (!reply || lost() || taken(*reply)) return reply;
   const Bytes plain = server.protocol->memory()->without_check(request);
   if (plain.empty()) return reply;
   Result<Bytes> other = ask(server, plain);
@@ -139,7 +146,7 @@ Status MemoryAccess::write(const Channel& server, const std::string& address,
     if (!reply) return reply.error();
     const Status accepted = server.protocol->write_reply(*reply);
     refused_ = !accepted;
-    if (!accepted) return fail("cannot set " + address + ": " + accepted.error().message);
+    if (!accepted) return fail("cannot set " + address + ": " + why(accepted.error()));
   }
   return ok();
 }
@@ -156,7 +163,7 @@ Result<std::string> MemoryAccess::read(const Channel& server, const std::string&
     if (!reply) return reply.error();
     const Result<std::string> part = server.protocol->read_reply(*reply);
     refused_ = !part;
-    if (!part) return fail("cannot read " + address + ": " + part.error().message);
+    if (!part) return fail("cannot read " + address + ": " + why(part.error()));
     value += *part;
   }
   return value.substr(0, digits);

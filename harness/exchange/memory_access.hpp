@@ -22,6 +22,8 @@ PlaceName place_name(std::string_view address);
 
 /// How the message of a case begins whose set-up the device did not take.
 inline constexpr std::string_view set_up_failure = "set-up: ";
+/// What came to a request goes on for longer than the longest frame.
+inline constexpr std::string_view without_end = "the reply does not end";
 
 class MemoryAccess {
  public:
@@ -44,8 +46,8 @@ class MemoryAccess {
   bool refused() const { return refused_; }
   /// The last request got no sound answer, not even a refusal.
   bool unserved() const { return unserved_; }
-  /// The last request was not answered at all.
-  bool silent() const { return silent_; }
+  /// The last request was not answered at all, or without an end.
+  bool lost() const { return silent_ || endless_; }
 
   /// The last request over the wire, and what came to it, for reports.
   std::string said() const;
@@ -73,6 +75,7 @@ class MemoryAccess {
   Result<Channel> partner(const PlaceName& name) const;
   Visit& visit_of(const Channel& server);
   Status let_pass(const Channel& server, Duration silence);
+  std::string why(const Error& error) const;
 
   Channel device_;
   Duration patience_;
@@ -80,7 +83,8 @@ class MemoryAccess {
   Arming* arming_;
   Visit visit_;
   std::optional<Visit> aux_visit_;
-  bool refused_ = false, unserved_ = false, silent_ = false;
+  bool refused_ = false, unserved_ = false;
+  bool silent_ = false, endless_ = false;
   bool mute_ = false;     // it was silent, and was so when it was asked again
   bool unsound_ = false;  // what the device answers does not become sound by asking again
   Bytes asked_, answered_;

@@ -6,8 +6,6 @@ namespace fieldproof::exchange {
 
 namespace {
 
-constexpr Duration settle_patience = 10s;
-
 bool has(ByteView bytes, ByteView part) { return !std::ranges::search(bytes, part).empty(); }
 
 }  // namespace
@@ -31,6 +29,7 @@ Result<Sign> Sanity::anything_answers(Duration patience, Duration reply_delay, b
     const Status listened =
         hear_answers(std::min(give_up, sent->end + patient + reply_delay), begun);
     if (!listened) return listened.error();
+    if (endless_) return Sign::endless;
     if (answers_ > 0 || !heard_.empty()) return Sign::alive;
     if (!visit_.ended()) continue;
     sign = visit_.refused() ? Sign::refused : Sign::ended;
@@ -45,14 +44,17 @@ Result<Sign> Sanity::anything_answers(Duration patience, Duration reply_delay, b
 Status Sanity::hear_answers(Time until, Time begun) {
   const Time cut_off =
       until + longest_reply(device_.protocol->longest_frame(), device_.endpoint->character_time());
+  endless_ = false;
   while (answers_ < probes_) {
     const Result<Burst> burst = visit_.receive(until);
     if (!burst) return burst.error();
+    endless_ = device_.endpoint->now() >= cut_off && !heard_.empty() && answers_ == 0;
     if (burst->bytes.empty()) return ok();
     heard_.insert(heard_.end(), burst->bytes.begin(), burst->bytes.end());
     if (all_.size() < flood_limit)
       all_.insert(all_.end(), burst->bytes.begin(), burst->bytes.end());
-    if (heard_.size() > flood_limit) return ok();
+    endless_ = heard_.size() > flood_limit;
+    if (endless_) return ok();
     answers_ += take_frames(heard_);
     // Answers to earlier probes may still be on their way: as long as the first one took.
     const Time now = device_.endpoint->now();
@@ -132,7 +134,7 @@ Result<Sign> Sanity::first_sign(Duration patience) {
     const Result<bool> back = comes_back(request, last);
     if (!back) return back.error();
     if (*back) continue;
-    const Status quiet = settle(*device_.endpoint, timing_.quiet);
+    const Result<bool> quiet = settle(*device_.endpoint, timing_.quiet);
     return quiet ? sign : quiet.error();
   }
   return Sign::echo;
@@ -152,21 +154,31 @@ Result<results::ResponseTimes> Sanity::time_probes(int count, Duration budget) {
     if (*took) times.add(to_ms(**took));
   }
   // Late or second answers are not for the first case to find.
-  if (const Status quiet = settle(*device_.endpoint, late ? timing_.late_watch : timing_.quiet);
+  if (const Result<bool> quiet =
+          settle(*device_.endpoint, late ? timing_.late_watch : timing_.quiet);
       !quiet)
     return quiet.error();
   return times;
 }
 
-Status settle(endpoints::Endpoint& endpoint, Duration silence) {
-  const Time give_up = endpoint.now() + settle_patience;
+std::string why_dead(Sign sign) {
+  switch (sign) {
+    case Sign::refused: return "it refuses every connection";
+    case Sign::ended: return "it closes every connection without an answer";
+    case Sign::endless: return "it sends without end";
+    default: return "nothing answers any more";
+  }
+}
+
+Result<bool> settle(endpoints::Endpoint& endpoint, Duration silence, Duration patience) {
+  const Time give_up = endpoint.now() + patience;
   for (std::size_t heard = 0; endpoint.now() < give_up && heard <= flood_limit;) {
     const Result<Burst> burst = endpoint.receive(endpoint.now() + silence);
     if (!burst) return burst.error();
-    if (is_nothing(*burst)) return ok();
+    if (is_nothing(*burst)) return true;
     heard += burst->bytes.size();
   }
-  return ok();
+  return false;
 }
 
 }  // namespace fieldproof::exchange

@@ -3,6 +3,8 @@
 // for the settings of an unknown device, sends it, too.)
 #pragma once
 
+#include <string>
+
 #include "harness/exchange/channel.hpp"
 #include "harness/exchange/timing.hpp"
 #include "harness/exchange/visit.hpp"
@@ -14,10 +16,14 @@ namespace fieldproof::exchange {
 enum class Sign {
   alive,
   silent,
+  endless,  // what comes does not end: it is no answer to anything
   refused,  // the connection: nothing listens there
   ended,    // the device took the connection and closed it without a word
   echo      // what was sent comes back, whatever comes behind it
 };
+
+/// What is wrong with a device that is not `alive`: "nothing answers any more".
+std::string why_dead(Sign sign);
 
 class Sanity {
  public:
@@ -50,10 +56,11 @@ class Sanity {
   Bytes heard_;                           // of frames that are not complete yet
   Bytes all_;                             // since the first probe, at most flood_limit and a burst
   std::size_t probes_ = 0, answers_ = 0;  // over the present connection
+  bool endless_ = false;                  // what came to the last of them
 };
 
-/// Listens until the endpoint is silent for so long; at most ten seconds, or a flood. Nothing of it
-/// is judged.
-Status settle(endpoints::Endpoint& endpoint, Duration silence);
+/// Listens until the endpoint is silent for so long; no longer than `patience`, or a flood. Nothing
+/// of it is judged. False: it is not silent then.
+Result<bool> settle(endpoints::Endpoint& endpoint, Duration silence, Duration patience = 10s);
 
 }  // namespace fieldproof::exchange

@@ -11,6 +11,7 @@ struct ExchangeTiming {
       700ms;  // how much longer a late answer is waited for, so that it can be named
   Duration promised_silence = 1s;  // simulated time: each silence is waited out in full
   Duration quiet = 100ms;          // no further byte for so long: what is incomplete stays so
+  Duration pause = 2 * quiet;      // what comes after less than this goes on
 };
 
 /// How long a whole frame may be on its way at most: twice its characters, and a second for pauses

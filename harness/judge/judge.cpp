@@ -109,8 +109,8 @@ class Judge {
       last = event.end;
     }
     if (count > exchange::flood_limit) return "the device floods the line: it sends without end";
-    return fmt::format("the {} does not end: {} bytes came in {:.0f} ms", frame(), count,
-                       to_ms(last - first));
+    return fmt::format("the {} does not end: {} bytes came in {:.0f} ms",
+                       client_ ? "request" : "reply", count, to_ms(last - first));
   }
 
   std::string frame() const { return client_ ? "request" : "answer"; }

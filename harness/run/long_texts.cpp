@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/system/shell_word.hpp"
+
 namespace fieldproof::run {
 
 namespace {
@@ -16,6 +18,18 @@ std::string bounded(std::string_view text) {
   if (text.size() <= longest) return std::string(text);
   return fmt::format("{} ... ({} characters left out) ... {}", text.substr(0, kept_at_an_end),
                      text.size() - 2 * kept_at_an_end, text.substr(text.size() - kept_at_an_end));
+}
+
+std::string not_restored(const std::string& places, const std::string& journal) {
+  return fmt::format("NOT RESTORED: {}; type: fieldproof restore {}", bounded(places),
+                     os::shell_word(journal));
+}
+
+std::string not_sure(const std::string& writes) {
+  return fmt::format(
+      "NOT SURE that all is as it was: {}; mend the line (cable, termination, ground, speed) and "
+      "compare the memory of the device with what it should hold",
+      bounded(writes));
 }
 
 void LongTexts::shorten(results::CaseResult& result) {

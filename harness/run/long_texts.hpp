@@ -13,6 +13,11 @@ namespace fieldproof::run {
 /// At most about a thousand characters: the middle of a longer text is left out, and counted.
 std::string bounded(std::string_view text);
 
+/// What a run says at its end of memory that is not as it was (Benches::put_back), and of writes
+/// that may have changed some (Benches::doubtful_writes).
+std::string not_restored(const std::string& places, const std::string& journal);
+std::string not_sure(const std::string& writes);
+
 class LongTexts {
  public:
   /// Message, differences and notes are bounded. A long note that an earlier case had is told by

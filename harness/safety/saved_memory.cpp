@@ -74,7 +74,7 @@ Status SavedMemory::save(const std::vector<Protocol::Written>& written) {
   std::vector<OpenEntry> entries;
   std::optional<Error> unreadable;
   for (const Protocol::Written& one : joined(written)) {
-    if (unreadable && silent()) break;  // it does not answer for the next either
+    if (unreadable && lost()) break;  // it does not answer for the next either
     for (const Protocol::Place& place : protocol_.places(one)) {
       const Key key{place.address, place.digits};
       if (!known_.contains(key)) {
@@ -85,7 +85,7 @@ Status SavedMemory::save(const std::vector<Protocol::Written>& written) {
           unreadable =
               Error{"cannot save what it writes: " + reading.why.message, reading.why.interrupted};
           if (port_failed()) return *unreadable;
-          if (silent()) break;
+          if (lost()) break;
           continue;
         }
         known_[key] = reading.digits;
@@ -150,8 +150,9 @@ std::string SavedMemory::restore() {
     if (!is_same_device(one->device, device_)) continue;
     Status done = put_back(*one);
     if (done) done = journal_->restored(*one);
-    if (!done && problem.empty()) problem = done.error().message;
-    if (!done && (port_failed() || silent())) break;  // nobody answers the next either
+    if (!done && problem.empty()) why_ = done.error();
+    if (!done && problem.empty()) problem = why_.message;
+    if (!done && (port_failed() || lost())) break;  // nobody answers the next either
   }
   memory_.leave();
   return problem;

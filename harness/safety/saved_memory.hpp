@@ -26,12 +26,20 @@ class SavedMemory {
   /// on the disk when this returns. Errors say why the case must not write; what could be read is
   /// in the journal then, too.
   Status save(const std::vector<harness::Protocol::Written>& written);
-  /// The last error of `save` was of the port, not of the device.
+  /// Of the last `restore` that has left something.
+  const Error& failure() const { return why_; }
+  /// The last error, of `save` or `restore`, was of the port, not of the device.
   bool port_failed() const { return failure_ == Reading::Kind::port; }
-  /// The last error of `save` is that the device did not answer.
-  bool silent() const { return failure_ == Reading::Kind::unanswered; }
+  /// It is that the device did not answer, or without an end.
+  bool lost() const {
+    return failure_ == Reading::Kind::unanswered || failure_ == Reading::Kind::endless;
+  }
   /// It is that no sound answer came.
-  bool unserved() const { return silent() || failure_ == Reading::Kind::unsure; }
+  bool unserved() const { return lost() || failure_ == Reading::Kind::unsure; }
+  /// What a place holds now (SureAccess::look).
+  Reading look(const std::string& address, std::size_t digits) {
+    return memory_.look(address, digits);
+  }
   /// SureAccess::damaged.
   unsigned damaged() const { return memory_.damaged(); }
 
@@ -57,6 +65,7 @@ class SavedMemory {
   JournalDevice device_;
   std::shared_ptr<Journal> journal_;
   Reading::Kind failure_ = Reading::Kind::digits;  // of the last save or put_back
+  Error why_;                                      // of the last restore
   std::map<Key, std::string>
       known_;  // what places held when this run first came to them; empty: no such memory
 };

@@ -48,11 +48,16 @@ Reading SureAccess::once(const Requests& requests, std::size_t digits) {
 }
 
 /// What is damaged may be followed by more of it. (After silence MemoryAccess waits by itself.)
-void SureAccess::settle() {
+/// False: by more than the longest frame has.
+bool SureAccess::settle() {
   memory_.leave();
+  const Duration silence = exchange::ExchangeTiming().late_watch;
+  const Result<bool> silent = exchange::settle(
+      *device_.endpoint, silence,
+      silence + exchange::longest_reply(device_.protocol->longest_frame(),
+                                        device_.endpoint->character_time()));
   // A port that fails here fails in the next request, too, which then says so.
-  [[maybe_unused]] const Status silent =
-      exchange::settle(*device_.endpoint, exchange::ExchangeTiming().late_watch);
+  return !silent || *silent;
 }
 
 Reading SureAccess::ask(const Requests& requests, std::size_t digits, bool twice) {
@@ -65,13 +70,14 @@ Reading SureAccess::ask(const Requests& requests, std::size_t digits, bool twice
     Reading reading = once(requests, digits);
     const bool sound = is_sound(reading);
     damaged_ += sound && damaged;
-    damaged = reading.kind == Kind::unsure;
+    damaged = reading.kind == Kind::unsure || reading.kind == Kind::unanswered;
     if (reading.kind == Kind::port) return reading;
     const bool enough = !twice && reading.kind == Kind::digits;
     if (sound) hopeless_ = false;
     if (sound && (enough || (last && agree(*last, reading)))) return reading;
     if (!sound) why = reading.why;
-    if (reading.kind == Kind::unsure || last) settle();
+    if ((reading.kind == Kind::unsure || last) && !settle())
+      return {Kind::endless, "", fail(std::string(exchange::without_end))};
     if (reading.kind == Kind::unanswered && ++silences == patience_with_silence) return reading;
     last.reset();
     if (sound) last = std::move(reading);
@@ -83,8 +89,8 @@ Reading SureAccess::ask(const Requests& requests, std::size_t digits, bool twice
 /// In a mode without checks: a device that the bench has started may have no other. One that has
 /// answered with checks, and is silent now, is not asked again.
 void SureAccess::ask_without_checks(const Requests& checked, std::size_t digits, Reading& reading) {
-  const bool lost =
-      reading.kind == Kind::port || (reading.kind == Kind::unanswered && answers_ && !unchecked_);
+  const bool lost = reading.kind == Kind::port || reading.kind == Kind::endless ||
+                    (reading.kind == Kind::unanswered && answers_ && !unchecked_);
   if (!may_go_unchecked_ || reading.kind == Kind::digits || lost) return;
   Requests plain;
   for (const Bytes& request : checked)
@@ -132,7 +138,8 @@ Status SureAccess::write_one(const std::string& address, ByteView request) {
     if (done) return ok();
     why = done.error();
     refusals += bool(sound);
-    if (!sound && !reply->empty()) settle();
+    if (!sound && !reply->empty() && !settle())
+      return fail(fmt::format("cannot set {}: {}", address, exchange::without_end));
   }
   refused_ = refusals == 2;
   return fail(fmt::format("cannot set {}: {}", address, why.message));

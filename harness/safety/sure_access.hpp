@@ -18,6 +18,7 @@ struct Reading {
     refused,     // by the device, twice
     no_request,  // of the protocol reads it
     unanswered,  // not a byte, again and again
+    endless,     // what came did not end
     unsure,      // damaged again and again, or never twice the same
     port         // the port failed
   };
@@ -44,7 +45,7 @@ class SureAccess {
   /// The last error of write() came from the device, soundly.
   bool refused() const { return refused_; }
 
-  /// Answers that were damaged, and sound when they were asked for again: the line is bad.
+  /// Answers that were damaged or lost, and sound when they were asked for again: the line is bad.
   unsigned damaged() const { return damaged_; }
 
   /// After the last request for now (MemoryAccess::leave).
@@ -57,7 +58,7 @@ class SureAccess {
   Reading until_sure(const std::string& address, std::size_t digits, bool twice);
   Reading ask(const Requests& requests, std::size_t digits, bool twice);
   Status write_one(const std::string& address, ByteView request);
-  void settle();
+  bool settle();
 
   exchange::Channel device_;
   exchange::MemoryAccess memory_;

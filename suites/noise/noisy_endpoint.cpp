@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/exchange/channel.hpp"
+#include "harness/exchange/sanity.hpp"
 
 namespace fieldproof::noise {
 
@@ -21,7 +22,20 @@ Status NoisyEndpoint::count_transmission() {
 
 Result<LinkId> NoisyEndpoint::open(Transport transport, std::uint16_t port) {
   if (const Status there = count_transmission(); !there) return there.error();
-  return device_.open(transport, port);
+  const Result<LinkId> link = device_.open(transport, port);
+  if (link) open_.insert(*link);
+  return link;
+}
+
+Status NoisyEndpoint::close(LinkId link, Closing how) {
+  open_.erase(link);
+  return device_.close(link, how);
+}
+
+NoisyEndpoint::~NoisyEndpoint() {
+  [[maybe_unused]] const Result<bool> silent = exchange::settle(device_, 1s);
+  for (const LinkId link : open_)
+    [[maybe_unused]] const Status closed = device_.close(link, Closing::rst);
 }
 
 Bytes NoisyEndpoint::damaged(ByteView bytes) {

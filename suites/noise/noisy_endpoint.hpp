@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <random>
+#include <set>
 
 #include "harness/endpoints/emulator.hpp"
 
@@ -21,6 +22,9 @@ struct Badness {
 class NoisyEndpoint : public endpoints::Endpoint {
  public:
   NoisyEndpoint(endpoints::Endpoint& device, const Badness& badness, std::uint64_t seed);
+  /// What the device still had to answer comes, and nobody hears it; it gives up the connections
+  /// that nobody has closed.
+  ~NoisyEndpoint() override;
 
   /// The device as it is, for who looks at it past the line.
   endpoints::Endpoint& device() { return device_; }
@@ -34,7 +38,7 @@ class NoisyEndpoint : public endpoints::Endpoint {
   /// A real device is what it is.
   Status begin(const nlohmann::json&) override { return ok(); }
   Result<LinkId> open(Transport transport, std::uint16_t port) override;
-  Status close(LinkId link, Closing how) override { return device_.close(link, how); }
+  Status close(LinkId link, Closing how) override;
   using Endpoint::send;
   Result<Sent> send(ByteView bytes, LinkId link) override;
   Result<Burst> receive(Time deadline) override;
@@ -50,6 +54,7 @@ class NoisyEndpoint : public endpoints::Endpoint {
   endpoints::Capabilities capabilities_;
   std::mt19937_64 random_;
   std::deque<Burst> late_;  // in the order in which they come
+  std::set<LinkId> open_;
 };
 
 }  // namespace fieldproof::noise

@@ -2,6 +2,7 @@
 // and memory. The figures in the README are of such runs, and of devices that take minutes.
 #include <gmock/gmock.h>
 
+#include <memory>
 #include <numeric>
 
 #include "suites/tool/tool_files.hpp"
@@ -46,6 +47,11 @@ class HostileRuns : public testing::Test {
                      "--filter", one.network ? "modbus_tcp/*" : "xgt_cnet/*", "--role", "server",
                      "--max-restarts", "1", "--out", out_});
   }
+  static std::string device_dying_of(const std::string& text) {
+    return "exec:/usr/bin/python3 " FIELDPROOF_SOURCE_DIR
+           "/suites/tool/testdata/device.py die_of {tty} " +
+           text;
+  }
   TestFolder folder_;
   std::string out_ = folder_ / "out";
 };
@@ -69,6 +75,88 @@ INSTANTIATE_TEST_SUITE_P(OnAPty, HostileDevices,
                          [](const auto& one) { return std::string(one.param.behaviour); });
 INSTANTIATE_TEST_SUITE_P(OnASocket, HostileDevices, testing::Values(Hostile{"flood", true}),
                          [](const auto& one) { return std::string(one.param.behaviour); });
+
+/// They wait more than they compute: all at once.
+TEST_F(HostileRuns, OthersEndSoonOverAWholeSuiteAndSayWhy) {
+  const std::pair<std::string, std::string> why[] = {
+      {"mute", "the device was lost 1 times"},
+      {"stuck", "the device was lost 1 times"},
+      {"trickle", "the device was lost 1 times"},
+      {"garbage", "no whole frame came from the device in the last cases"}};
+  std::vector<std::unique_ptr<Process>> runs;
+  for (const auto& [behaviour, reason] : why)
+    runs.push_back(std::make_unique<Process>(tool_arguments(
+        {"run", "--endpoint", device(behaviour, false), "--profile", "xbc-h", "--filter",
+         "xgt_cnet/*", "--role", "server", "--max-restarts", "0", "--out", out_ + behaviour})));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto& [behaviour, reason] = why[i];
+    SCOPED_TRACE(behaviour);
+    const Finished finished = runs[i]->wait();
+    EXPECT_EQ(finished.code, 3) << finished.out.substr(0, 4000);
+    EXPECT_THAT(finished.err, HasSubstr(reason));
+    EXPECT_LT(size_of(out_ + behaviour), 8'000'000u);
+    const Results results = read_results(out_ + behaviour + "/results.ndjson");
+    EXPECT_LE(results.counts()["FAIL"] + results.counts()["ERROR"], 25u);
+    EXPECT_GT(results.counts()["BLOCKED"], 2000u);
+    expect_reports(out_ + behaviour);
+  }
+}
+
+/// Good for the measuring of the link and some cases; then each answer begins well, and goes on.
+TEST_F(HostileRuns, AReplyThatDoesNotEndIsNamedSo) {
+  const Finished finished =
+      run_tool({"run", "--endpoint", device("endless", false), "--profile", "xbc-h", "--vectors",
+                write_vectors(folder_, many_vectors(20)), "--max-restarts", "0", "--out", out_});
+  EXPECT_EQ(finished.code, 3) << finished.out;
+  const Results results = read_results(out_ + "/results.ndjson");
+  EXPECT_GT(results.counts()["PASS"], 2u);
+  EXPECT_EQ(results.counts()["FAIL"], 1u);
+  const auto failed = std::ranges::find(results.cases, "FAIL", [](const nlohmann::json& one) {
+    return one.at("verdict").get<std::string>();
+  });
+  ASSERT_NE(failed, results.cases.end());
+  EXPECT_THAT(failed->at("message").get<std::string>(), HasSubstr("the reply does not end: "));
+  EXPECT_THAT(failed->dump(), HasSubstr("link dead after this frame: it sends without end"));
+}
+
+TEST_F(HostileRuns, WhatNeverStopsIsNamedBeforeTheFirstCase) {
+  const Finished finished =
+      run_tool({"run", "--endpoint",
+                "exec:/usr/bin/python3 " FIELDPROOF_SOURCE_DIR
+                "/suites/tool/testdata/device.py flood {tty}",
+                "--profile", "xbc-h", "--vectors", write_vectors(folder_, many_vectors(2)), "--out",
+                out_});
+  EXPECT_EQ(finished.code, 3) << finished.out;
+  EXPECT_THAT(finished.err, HasSubstr("does not end, so that no request gets an answer"));
+  EXPECT_TRUE(read_results(out_ + "/results.ndjson").cases.empty());
+}
+
+/// One frame kills it: that case names the frame, and the others are judged.
+TEST_F(HostileRuns, ADeviceWithAFaultIsStartedAgain) {
+  std::vector<nlohmann::ordered_json> vectors = many_vectors(3);
+  vectors[1]["given"]["memory"] = {{"%MW100", "1234"}};
+  const Finished finished =
+      run_tool({"run", "--endpoint", device_dying_of("wSS0106%MW1001234"), "--profile", "xbc-h",
+                "--vectors", write_vectors(folder_, vectors), "--out", out_});
+  EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
+  const Results results = read_results(out_ + "/results.ndjson");
+  EXPECT_EQ(results.counts(), (std::map<std::string, std::size_t>{{"FAIL", 1}, {"PASS", 2}}));
+  EXPECT_THAT(results.of("xgt_cnet/many/n1001").at("message").get<std::string>(),
+              HasSubstr("the device ended while its memory was read or set, after ENQ "
+                        "'01wSS0106%MW1001234' EOT"));
+}
+
+TEST_F(HostileRuns, OneThatDiesInEachCaseIsGivenUp) {
+  const Finished finished =
+      run_tool({"run", "--endpoint", device_dying_of("%MW100"), "--profile", "xbc-h", "--vectors",
+                write_vectors(folder_, many_vectors(8)), "--out", out_});
+  EXPECT_EQ(finished.code, 3) << finished.out;
+  EXPECT_THAT(finished.err, HasSubstr("started again 3 times in a row, and lost each time before "
+                                      "10 cases had passed"));
+  EXPECT_EQ(read_results(out_ + "/results.ndjson").counts(),
+            (std::map<std::string, std::size_t>{{"BLOCKED", 4}, {"FAIL", 4}}));
+  EXPECT_THAT(finished.out, HasSubstr("the device ended after ENQ '01rSS0106%MW100' EOT"));
+}
 
 /// What came is in every report by both ends, count and hash; nobody judges it again from them.
 TEST_F(HostileRuns, OfAFloodTheReportsHaveAnExtract) {
@@ -112,15 +200,20 @@ TEST_F(HostileRuns, OfAFloodTheReportsHaveAnExtract) {
       << merged.out << merged.err;
 }
 
-/// A device that only floods is one finding with its count, at the end of the console, in JUnit and
-/// in HTML.
+/// What fails for the same reason again and again is one finding with its count, at the end of the
+/// console, in JUnit and in HTML.
 TEST_F(HostileRuns, TheSameFailureIsToldOnce) {
-  const Finished finished = run({"flood"});
+  std::vector<nlohmann::ordered_json> vectors;
+  for (int i = 0; i < 5; ++i)
+    vectors.push_back(small_vector("many/n" + std::to_string(i), wrong_word));
+  const Finished finished =
+      run_tool({"run", "--endpoint", device("good", false), "--profile", "xbc-h", "--vectors",
+                write_vectors(folder_, vectors), "--out", out_});
   EXPECT_THAT(finished.out, HasSubstr("red:\n  "));
   EXPECT_THAT(finished.out, HasSubstr(" cases: "));
   EXPECT_THAT(finished.out, HasSubstr(" (first: xgt_cnet/"));
-  EXPECT_THAT(read_text(out_ + "/junit.xml"), AllOf(HasSubstr("<property name=\"finding 2\""),
-                                                    HasSubstr("finding 2, as xgt_cnet/")));
+  EXPECT_THAT(read_text(out_ + "/junit.xml"), AllOf(HasSubstr("<property name=\"finding 1\""),
+                                                    HasSubstr("finding 1, as xgt_cnet/")));
   EXPECT_THAT(read_text(out_ + "/report.html"), HasSubstr("<section class=\"cause\">"));
 }
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "suites/tool/at_moment.hpp"
+#include "suites/tool/joined_ptys.hpp"
 #include "suites/tool/plc_client.hpp"
 #include "suites/tool/tool_files.hpp"
 
@@ -210,6 +211,94 @@ TEST_F(Restore, AfterTheDeviceFellSilentRestorePutsBack) {
   expect_vanished("the link is dead since ");
   device_.signal(SIGCONT);
   restores();
+}
+
+/// A bit in twelve bursts flips, both ways: in the run, which is killed, in the next one and in
+/// `restore`.
+TEST_F(Restore, OverANoisyLineMemoryIsAsBeforeOrNamed) {
+  adapter_.reset();
+  std::vector<nlohmann::ordered_json> vectors = many_vectors(6);
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    vectors[i]["given"]["memory"] = {{fmt::format("%MW{}", 100 + i), "1234"}, {"%MW110", "5678"}};
+  const std::string written = write_vectors(folder_, vectors);
+  std::string said;
+  {
+    Process noisy({"/usr/bin/python3", FIELDPROOF_SOURCE_DIR "/suites/tool/testdata/noisy_line.py",
+                   folder_ / "noisy", folder_ / "device", "5"});
+    ASSERT_TRUE(noisy.wait_for("ready"));
+    const auto arguments = [&](const std::string& out) {
+      return std::vector<std::string>{"run",       "--endpoint", "serial:" + (folder_ / "noisy"),
+                                      "--profile", "xbc-h",      "--vectors",
+                                      written,     "--out",      folder_ / out,
+                                      "--floor",   "1ms",        "--allow-write",
+                                      "M100-M119"};
+    };
+    std::filesystem::create_directories(folder_ / "out");
+    {
+      const FileWatch watch(journal());
+      Process killed(tool_arguments(arguments("out")));
+      EXPECT_TRUE(watch.wait_until(
+          [](const std::string& text) { return std::ranges::count(text, '\n') >= 5; }));
+      killed.signal(SIGKILL);
+      killed.wait();
+    }
+    const Finished restored = run_tool({"restore", journal()});
+    said += restored.out;
+    EXPECT_EQ(restored.code, restored.out.find("NOT RESTORED") == std::string::npos ? 0 : 3)
+        << restored.out << restored.err;
+    const Finished run = run_tool(arguments("whole"));
+    EXPECT_THAT(run.code, testing::AnyOf(0, 1, 3)) << run.err;
+    if (run.err.find("NOT RESTORED") != std::string::npos) {
+      EXPECT_EQ(run.code, 3);
+      const Finished again = run_tool({"restore", folder_ / "whole/journal.ndjson"});
+      said += again.out;
+    }
+  }
+  plug_in();
+  for (const auto& [name, reply] : memory())
+    if (before_.at(name) != reply) {
+      EXPECT_THAT(said, HasSubstr("NOT RESTORED")) << name;
+    }
+}
+
+/// A device that keeps what was written: said once, with the word and what it held.
+TEST_F(Restore, WhatCannotBePutBackIsSaidOnce) {
+  const JoinedPtys line;
+  Process behind({"/usr/bin/python3", FIELDPROOF_SOURCE_DIR "/suites/tool/testdata/device.py",
+                  "sticky", line.device()});
+  std::vector<nlohmann::ordered_json> vectors = many_vectors(4);
+  for (nlohmann::ordered_json& one : vectors) one["given"]["memory"] = {{"%MW100", "1111"}};
+  const Finished run =
+      run_tool({"run", "--endpoint", "serial:" + line.bench(), "--profile", "xbc-h", "--vectors",
+                write_vectors(folder_, vectors), "--allow-write", "M100", "--floor", "1ms", "--out",
+                folder_ / "out"});
+  EXPECT_EQ(run.code, 3) << run.out << run.err;
+  const std::string due = "NOT RESTORED: %MW100 = 0000; type: fieldproof restore ";
+  const std::size_t first = run.err.find(due);
+  ASSERT_NE(first, std::string::npos) << run.err;
+  EXPECT_EQ(run.err.find("NOT RESTORED", first + 1), std::string::npos) << run.err;
+  const std::string junit = read_text(folder_ / "out/junit.xml");
+  const std::size_t in_junit = junit.find("NOT RESTORED");
+  ASSERT_NE(in_junit, std::string::npos);
+  EXPECT_LT(junit.size(), 30'000u);
+}
+
+/// Each repetition writes and puts back 45 words: closed entries leave the journal.
+TEST_F(Restore, TheJournalOfManyRepetitionsStaysSmall) {
+  std::vector<nlohmann::ordered_json> vectors = many_vectors(1);
+  nlohmann::ordered_json memory;
+  for (int word = 110; word < 200; word += 2) memory[fmt::format("%MW{}", word)] = "1234";
+  vectors[0]["given"]["memory"] = memory;
+  vectors[0]["steps"][1]["expect"] = "[ACK st 'rSS' '01' '02' x:4 ETX BCC]";
+  const Finished run = run_tool(
+      {"run", "--endpoint", endpoint(), "--profile", "xbc-h", "--vectors",
+       write_vectors(folder_, vectors), "--allow-write", "M110-M199", "--floor", "1ms", "--repeat",
+       "25", "--out", folder_ / "out"});
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  const std::vector<std::string> lines = text_lines(read_text(journal()));
+  EXPECT_GT(lines.size(), 0u);
+  EXPECT_LT(lines.size(), 2u * 45 * 25 - 1000) << "of all that were written";
+  expect_as_before();
 }
 
 /// Cut off in the middle of a case, with a line that the disk has not got whole.

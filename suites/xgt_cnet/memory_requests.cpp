@@ -6,6 +6,7 @@
 #include <charconv>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "harness/device_names.hpp"
 #include "harness/notation/beginning.hpp"
@@ -205,6 +206,22 @@ std::vector<Protocol::Written> written_by(ByteView frame, const plc::PlcModel* m
     if (is_name(field)) result.push_back(harness::memory_at(model, field.text, count));
   if (result.empty()) result.push_back({"?", 0, ~0u, "an unknown place"});
   return result;
+}
+
+/// Each name is followed by its data. A bit that is set to anything but 0 or 1 reads otherwise.
+std::vector<std::pair<std::string, std::string>> sets(ByteView request) {
+  std::vector<std::pair<std::string, std::string>> all;
+  if (written_by(request).empty()) return all;
+  std::string name;
+  for (const Field& field : explain(request)) {
+    if (is_name(field)) name = field.text;
+    if (!field.name.starts_with("data")) continue;
+    const bool bit = name.size() > 2 && std::toupper(name[2]) == 'X';
+    if (name.empty() || !from_hex(field.text)) return {};
+    if (bit && field.text != "00" && field.text != "01") return {};
+    all.emplace_back(std::exchange(name, {}), field.text);
+  }
+  return all;
 }
 
 std::vector<Protocol::AddressField> address_fields(ByteView request, const plc::PlcModel& model) {

@@ -23,6 +23,7 @@ Result<std::string> read_reply(ByteView reply);
 /// harness::MemoryRequests, of the same names.
 bool answers(ByteView request, ByteView reply);
 bool is_checked(ByteView request);
+std::vector<std::pair<std::string, std::string>> sets(ByteView request);
 Bytes without_check(ByteView request);
 
 /// What a request frame would write. Without a model device names are read leniently: what a name

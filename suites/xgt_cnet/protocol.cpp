@@ -116,6 +116,9 @@ class XgtCnet : public harness::PlcProtocol,
     return xgt_cnet_suite::answers(request, reply);
   }
   bool is_checked(ByteView request) const override { return xgt_cnet_suite::is_checked(request); }
+  std::vector<std::pair<std::string, std::string>> sets(ByteView request) const override {
+    return xgt_cnet_suite::sets(request);
+  }
   Bytes without_check(ByteView request) const override {
     return xgt_cnet_suite::without_check(request);
   }

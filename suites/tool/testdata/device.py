@@ -7,6 +7,9 @@ With the number of a port they listen there and speak Modbus TCP: reads find zer
   mute N             is silent for ever after the N-th request
   flood [N]          sends without end from the request after the N-th on (else the first)
   trickle N          sends one byte every 100 ms without end from the request after the N-th on
+  endless N          the same behind the head of an answer
+  die_of TEXT        ends at each request that has TEXT in it, as a device does with a fault
+  sticky             holds 1111 instead of zero from the first write on
   half N             sends the first half of its answers from the request after the N-th on
   garbage N          sends 40 bytes of noise instead of answers from the request after the N-th on
   drip               sends its answers, one byte a second
@@ -30,8 +33,11 @@ import tty
 ENQ, ACK, EOT, ETX = b"\x05", b"\x06", b"\x04", b"\x03"
 
 
+written = False  # of `sticky`
+
+
 def answer(request):
-    head = ACK + request[1:6] + b"01020000" + ETX
+    head = ACK + request[1:6] + (b"01021111" if written else b"01020000") + ETX
     return head + b"%02X" % (sum(head) % 256) if request[3:4].islower() else head
 
 
@@ -90,7 +96,8 @@ def flood(port):
         os.write(port, b"\x00" * 4096)
 
 
-def trickle(port):
+def trickle(port, head=b""):
+    os.write(port, head)
     while True:
         os.write(port, b"0")
         select.select([], [], [], 0.1)
@@ -130,8 +137,8 @@ def main():
 
 
 class Device:
-    good_at_first = ("die", "mute", "tell", "tell_flood", "close", "trickle", "half", "garbage",
-                     "stuck", "flood")
+    good_at_first = ("die", "mute", "tell", "tell_flood", "close", "trickle", "endless", "half",
+                     "garbage", "stuck", "flood")
 
     def __init__(self, behaviour, arguments):
         self.behaviour, self.arguments = behaviour, arguments
@@ -143,9 +150,13 @@ class Device:
         while True:
             request = requests.next()
             self.asked += 1
+            global written
+            written = written or (self.behaviour == "sticky" and b"w" in request)
             whole = answer_to(request)
             if self.last is not None and self.asked > self.last:
                 self.misbehave(port, whole)
+            elif self.behaviour == "die_of" and self.arguments[0].encode() in request:
+                os._exit(3)
             elif self.behaviour == "drip":
                 drip(port, whole)
             elif self.behaviour == "twice":
@@ -176,6 +187,8 @@ class Device:
             pass
         elif behaviour == "trickle":
             trickle(port)
+        elif behaviour == "endless":
+            trickle(port, whole[:6])
         elif behaviour == "flood":
             flood(port)
         elif behaviour == "die":
