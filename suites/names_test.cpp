@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/config_keys.hpp"
+#include "harness/vectors/loader.hpp"
 #include "suites/protocols.hpp"
 
 namespace fieldproof::suites {
@@ -191,6 +193,18 @@ TEST(Names, AreFoundInCodeAndInQuotesAndNotInComments) {
   EXPECT_THAT(found("ModbusServer server; isXbcH();"), ElementsAre("modbus", "xbc"));
   EXPECT_THAT(found("\"write %MW100\""), ElementsAre("%mw1"));
   EXPECT_THAT(found("// as xgt-cnet\n/* %MW0 */ int executor = '\"'; // \"xbc\""), IsEmpty());
+}
+
+/// A profile that declares another one has a slip.
+TEST(ConfigKeys, AreThoseOfAllVectors) {
+  const vectors::VectorSet all =
+      vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors", {protocols(), {}});
+  std::set<std::string> unknown;
+  for (const vectors::Case& one : all.cases)
+    for (const auto& [key, value] : one.config.items())
+      if (!harness::is_config_key(key)) unknown.insert(one.id + ": " + key);
+  EXPECT_GT(all.cases.size(), 9000u);
+  EXPECT_THAT(unknown, testing::IsEmpty());
 }
 
 }  // namespace

@@ -93,12 +93,12 @@ void Recovery::start_again(CaseResult& result) {
   result.verdict = Verdict::fail;
   known_.stopped.clear();
   known_.port_failed = false;
-  revive(result);
+  revive(result, true);
 }
 
-void Recovery::revive(CaseResult& result) {
+void Recovery::revive(CaseResult& result, bool ended) {
   if (endpoint_.capabilities().can_power_cycle || !options_.power_cycle_command.empty())
-    if (std::string enough = known_.worth_asking.restart(result); !enough.empty())
+    if (std::string enough = known_.worth_asking.restart(result, ended); !enough.empty())
       return stop(std::move(enough));
   if (!power_cycle(result))
     stop(fmt::format(

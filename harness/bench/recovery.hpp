@@ -38,7 +38,7 @@ class Recovery {
  private:
   bool gave_up(const exchange::PreparedCase& prepared, const Error& trouble,
                results::CaseResult& result);
-  void revive(results::CaseResult& result);
+  void revive(results::CaseResult& result, bool ended = false);
 
   endpoints::Endpoint& endpoint_;
   const BenchOptions& options_;

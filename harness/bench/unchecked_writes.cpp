@@ -35,6 +35,11 @@ bool is_refused(const Asked& one, const Protocol& protocol) {
   return protocol.sound_reply(one.request, one.reply) && !protocol.write_reply(one.reply);
 }
 
+/// Some devices take lower-case digits, and answer with upper-case ones.
+bool same(const std::string& digits, const std::string& others) {
+  return from_hex(digits) == from_hex(others);
+}
+
 /// May they have changed it?
 bool meets(const auto& place, const std::vector<Protocol::Written>& written,
            const Protocol& protocol) {
@@ -61,7 +66,7 @@ void UncheckedWrites::before(const std::vector<Bytes>& requests, const Protocol&
     Write& write = writes_.emplace_back(Write{request, protocol.memory()->sets(request)});
     for (const auto& [address, digits] : write.sets) {
       const Reading held = memory.look(address, digits.size());
-      write.shows = write.shows && held.kind == Reading::Kind::digits && held.digits != digits;
+      write.shows = write.shows && held.kind == Reading::Kind::digits && !same(held.digits, digits);
     }
   }
 }
@@ -98,11 +103,11 @@ bool UncheckedWrites::is_lost(Write& write, const Due& due, safety::SavedMemory&
   write.shows = write.shows && !write.sets.empty();
   for (const auto& [address, digits] : write.sets) {
     const auto last = due.find(address);
-    const bool over = last == due.end() || last->second != digits;  // written over since
+    const bool over = last == due.end() || !same(last->second, digits);  // written over since
     const Reading holds = over ? Reading{} : memory.look(address, digits.size());
     const bool none = over || holds.kind == Reading::Kind::refused;
     write.shows = write.shows && !none;
-    lost = lost || (!none && (holds.kind != Reading::Kind::digits || holds.digits != digits));
+    lost = lost || (!none && (holds.kind != Reading::Kind::digits || !same(holds.digits, digits)));
   }
   return lost;
 }

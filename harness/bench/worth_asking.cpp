@@ -10,10 +10,9 @@ namespace {
 
 using results::Event;
 
-constexpr int most_doubt = 10;  // cases without a whole frame; those that take long count for more
+constexpr int most_doubt = 20;  // cases without a whole frame; those that take long count for more
 constexpr int fruitful = 10;    // cases that pass after a restart
-constexpr int most_fruitless = 3;
-constexpr const char* lost = "died, fell mute or sent without end";
+constexpr int most_fruitless = 6;
 
 bool begins_with_frame(ByteView came, const harness::Protocol& protocol) {
   const auto length = protocol.frame_length(came);
@@ -56,19 +55,19 @@ std::string WorthAsking::after(const results::CaseResult& result, const harness:
       result.id, result.message);
 }
 
-std::string WorthAsking::restart(const results::CaseResult& result) {
-  fruitless_ = restarts_ == 0 || passed_ >= fruitful ? 0 : fruitless_ + 1;
+std::string WorthAsking::restart(const results::CaseResult& result, bool ended) {
+  if (!ended) fruitless_ = restarts_ == 0 || passed_ >= fruitful ? 0 : fruitless_ + 1;
   passed_ = 0;
   if (fruitless_ == most_fruitless)
     return fmt::format(
-        "the device was started again {} times in a row, and lost each time before {} cases had "
-        "passed (it {}), the last time in {}; it is not started again",
-        most_fruitless, fruitful, lost, result.id);
+        "the device was started again {} times, and fell mute or sent without end each time before "
+        "{} cases had passed, the last time in {}; it is not started again",
+        most_fruitless, fruitful, result.id);
   if (restarts_++ < max_restarts_) return {};
   return fmt::format(
-      "the device was lost {} times (it {}), the last time in {}; it is not started again "
-      "(--max-restarts {})",
-      restarts_, lost, result.id, max_restarts_);
+      "the device was lost {} times (it ended, fell mute or sent without end), the last time in {}; "
+      "it is not started again (--max-restarts {})",
+      restarts_, result.id, max_restarts_);
 }
 
 }  // namespace fieldproof::bench

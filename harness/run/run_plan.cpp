@@ -227,6 +227,9 @@ Status read_timing_options(const RunOptions& options, RunPlan& plan) {
       return fail("--floor and --loop exclude each other: the floor is given, or it is measured");
     const Result<EndpointName> loop = endpoints::parse_endpoint(options.loop);
     if (!loop) return fail("--loop: " + loop.error().message);
+    for (const Protocol* protocol : plan.protocols)
+      if (const Status right = endpoints::check_options(*loop, *protocol); !right)
+        return fail("--loop: " + right.error().message);
     plan.loop = *loop;
   }
   if (!options.matrix.empty()) {
@@ -358,6 +361,23 @@ safety::JournalDevice aux_device(const RunOptions& options, const EndpointName& 
           partner};
 }
 
+/// A port beside the device's.
+Status plan_aux(const RunOptions& options, DutPlan& plan) {
+  Result<EndpointName> aux = endpoints::parse_endpoint(options.aux);
+  if (!aux) return aux.error();
+  const std::optional<int> station =
+      vectors::config_station({{"station", aux->option("station", "1")}}, 1);
+  if (!station)
+    return fail(
+        fmt::format("station '{}' is not a number from 0 to 255", aux->option("station", "1")));
+  plan.bench.aux_device = aux_device(options, *aux, *station, plan);
+  const Result<const Protocol*> protocol = plan.known.choose(plan.bench.aux_device.protocol, "");
+  if (!protocol) return protocol.error();
+  const Status right = endpoints::check_options(*aux, endpoints::spoken_over(*aux, **protocol));
+  if (right) plan.aux = std::move(*aux);
+  return right;
+}
+
 /// `profile` becomes the name of the device's profile.
 Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols& known,
                               const std::string& dut, const std::vector<const Case*>& selected,
@@ -417,17 +437,9 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
     return fail(
         "--control -: the bench has not started this device; give --control a command, or start "
         "the device by exec:");
-  if (!options->aux.empty()) {
-    Result<EndpointName> aux = endpoints::parse_endpoint(options->aux);
-    if (!aux) return fail("--aux: " + aux.error().message);
-    const std::optional<int> station =
-        vectors::config_station({{"station", aux->option("station", "1")}}, 1);
-    if (!station)
-      return fail(fmt::format("--aux: station '{}' is not a number from 0 to 255",
-                              aux->option("station", "1")));
-    plan.bench.aux_device = aux_device(*options, *aux, *station, plan);
-    plan.aux = std::move(*aux);
-  }
+  if (!options->aux.empty())
+    if (const Status right = plan_aux(*options, plan); !right)
+      return fail("--aux: " + right.error().message);
   if (const Status checked =
           bench::check_fingerprint(plan.identity.fingerprint, *plan.protocols.front());
       !checked)

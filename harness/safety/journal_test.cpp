@@ -115,6 +115,16 @@ TEST_F(JournalTest, OtherDamageIsNamedByItsLine) {
   EXPECT_THAT(read_journal(path_).error().message, HasSubstr("journal.ndjson, line 3"));
 }
 
+/// A slip on the command line must not empty somebody's file.
+TEST_F(JournalTest, AnotherFileStaysAsItIs) {
+  std::filesystem::create_directories(folder_ + "/out");
+  for (const char* text : {"hello", "hello\n", "{\"seed\": 1}", "{\"saved\": 1}\n"}) {
+    std::ofstream(path_) << text;
+    EXPECT_THAT(Journal::open(path_).error().message, HasSubstr("journal")) << text;
+    EXPECT_EQ(std::filesystem::file_size(path_), std::string_view(text).size());
+  }
+}
+
 TEST_F(JournalTest, WithNothingOpenItBeginsAnew) {
   std::vector<OpenEntry> entries = two();
   {

@@ -165,8 +165,7 @@ void add_run(CLI::App& app, run::RunOptions& run) {
                  "After so many results that fail the gate the rest is not run (BLOCKED)")
       ->check(CLI::Range(1, 1'000'000));
   app.add_option("--max-restarts", run.max_restarts,
-                 "How often a device is started again that was lost (20); three times in a row before "
-                 "ten cases have passed are enough")
+                 "How often a device is started again that ended or fell mute (20)")
       ->check(CLI::Range(0, 1'000'000));
   app.add_flag("--dry-run", run.dry_run, "Print what would run");
   app.add_flag("--skip-absent", run.skip_absent, "Exit 77 when the hardware is not there");
@@ -210,8 +209,7 @@ void add_explore(CLI::App& app, cli::ExploreOptions& explore) {
   app.add_option("--power-cycle", run.power_cycle,
                  "Command that switches a real device off and on");
   app.add_option("--max-restarts", run.max_restarts,
-                 "How often a device is started again that was lost (20); three times in a row before "
-                 "ten cases have passed are enough")
+                 "How often a device is started again that ended or fell mute (20)")
       ->check(CLI::Range(0, 1'000'000));
   app.add_option("--floor", run.floor, "The link's own uncertainty, instead of measuring it: 2ms");
   add_gate(app, run);

@@ -528,9 +528,10 @@ TEST_F(BadDevices, one_that_hangs) {
 }
 
 TEST_F(BadDevices, one_that_floods) {
-  const Finished finished = run(device("flood"), 2);
+  const Finished finished = run(device("flood", "24"), 4);
   EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
-  EXPECT_EQ(results().counts(), (std::map<std::string, std::size_t>{{"FAIL", 2}}));
+  EXPECT_GE(results().counts().at("PASS"), 1u);
+  EXPECT_GE(results().counts().at("FAIL"), 1u);
   EXPECT_THAT(finished.out, HasSubstr("floods"));
   expect_reports(folder_ / "out");
 }

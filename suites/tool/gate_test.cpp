@@ -268,6 +268,9 @@ TEST_F(Gate, WhatIsWrongBeforeAByteIsSentIsUsage) {
         {"emulator:xbc-h?protocol=xgt-cnet&colour=1", "there is no key 'colour'"},
         {"pty:xbc-h?protocol=xgt-cnet&mode=runn", "mode is 'runn', which is not run or stop"}})
     refused({"--endpoint", endpoint, "--profile", "xbc-h"}, why);
+  for (const char* beside : {"--aux", "--loop"})
+    refused({"--endpoint", good_device, "--profile", "xbc-h", beside, "serial:/dev/null?frame=9N1"},
+            std::string(beside) + ": cannot open serial:/dev/null: the data bits are not 7 or 8");
   refused({"--endpoint", good_device, "--profile", "xbc-h", "--allow-write", ""},
           "--allow-write needs a range");
   refused({"--endpoint", good_device, "--profile",
@@ -275,6 +278,11 @@ TEST_F(Gate, WhatIsWrongBeforeAByteIsSentIsUsage) {
                          R"({"name": "p", "model": "xbc-h", "protocols": ["modbus-rtu"],
                              "config": {"bit_read_base": "Q9"}})")},
           "cannot use profile p: cannot place bit_read_base 'Q9' on xbc-h");
+  refused({"--endpoint", good_device, "--profile",
+           folder_.write("keys.json",
+                         R"({"name": "p", "model": "xbc-h", "protocols": ["modbus-rtu"],
+                             "config": {"word_reed_base": "D0"}})")},
+          "keys.json: unknown key config.word_reed_base; did you mean word_read_base?");
 }
 
 /// The recipes of the README as they are printed, with a good device in the place of ./my_plc.

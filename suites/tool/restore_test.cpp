@@ -301,6 +301,12 @@ TEST_F(Restore, TheJournalOfManyRepetitionsStaysSmall) {
   expect_as_before();
 }
 
+TEST_F(Restore, WhatIsNoJournalIsSaid) {
+  const Finished finished = run_tool({"restore", folder_.write("letter.txt", "hello")});
+  EXPECT_EQ(finished.code, 2) << finished.out;
+  EXPECT_THAT(finished.err, HasSubstr("letter.txt is no journal"));
+}
+
 /// Cut off in the middle of a case, with a line that the disk has not got whole.
 TEST_F(Restore, ARunDoesNotWriteOverWhatIsOpen) {
   const std::string entry =

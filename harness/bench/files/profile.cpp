@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "harness/config_keys.hpp"
 #include "reports/results/whole_file.hpp"
 #include "src/base/duration.hpp"
 #include "src/base/json_trouble.hpp"
@@ -84,6 +85,15 @@ void read_timing(const json& timing, Profile& profile) {
   }
 }
 
+void read_config(const json& config, Profile& profile) {
+  check(config.is_object(), "config", "an object: {\"station\": 1}");
+  for (const auto& [key, value] : config.items())
+    if (!harness::is_config_key(key))
+      throw std::runtime_error(fmt::format("unknown key config.{}{}", key,
+                                           suggestion(key, harness::config_keys)));
+  profile.config.update(config);
+}
+
 void read_exclude(const json& exclude, Profile& profile) {
   const auto has = [](const json& entry, const char* key) {
     return entry.is_object() && entry.contains(key) && entry[key].is_string();
@@ -113,7 +123,7 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
   else if (key == "protocols")
     profile.protocols = texts_of(key, value);
   else if (key == "config")
-    check(value.is_object(), key, "an object: {\"station\": 1}"), profile.config.update(value);
+    read_config(value, profile);
   else if (key == "timing")
     read_timing(value, profile);
   else if (key == "exclude")

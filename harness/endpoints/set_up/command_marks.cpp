@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
+#include "harness/config_keys.hpp"
 #include "harness/system/shell_word.hpp"
 #include "src/base/spelling.hpp"
 
@@ -19,46 +21,18 @@ using nlohmann::json;
 
 constexpr std::array<std::string_view, 4> base_keys{"bit_read_base", "bit_write_base",
                                                     "word_read_base", "word_write_base"};
-/// In the order of vectors/README.md; `port` is where the device listens.
-constexpr std::array<std::string_view, 34> config_keys{"station",
-                                                       "role",
-                                                       "mode",
-                                                       "line",
-                                                       "model",
-                                                       "protocol",
-                                                       "bases",
-                                                       "config",
-                                                       "rs485",
-                                                       "neighbours",
-                                                       "delay_ms",
-                                                       "inter_character_ms",
-                                                       "time_out",
-                                                       "p2p",
-                                                       "bit_read_base",
-                                                       "bit_write_base",
-                                                       "tables",
-                                                       "word_read_base",
-                                                       "word_write_base",
-                                                       "write_order",
-                                                       "definition",
-                                                       "connections",
-                                                       "waiting_time",
-                                                       "header_check",
-                                                       "base",
-                                                       "slot",
-                                                       "error",
-                                                       "host_table",
-                                                       "services",
-                                                       "monitor",
-                                                       "instructions",
-                                                       "module",
-                                                       "driver",
-                                                       "version"};
+/// What a command can be told beside the keys of a configuration.
+constexpr std::array<std::string_view, 4> marks_of_case{"model", "protocol", "bases", "config"};
 /// What the bench fills in itself.
 constexpr std::array<std::string_view, 3> own_marks{"tty", "port", "udp_port"};
 
-bool is_config_key(std::string_view word) {
-  return std::ranges::find(config_keys, word) != config_keys.end();
+bool is_one_of(std::span<const std::string_view> words, std::string_view word) {
+  return std::ranges::find(words, word) != words.end();
+}
+
+bool is_mark_of_case(std::string_view word) {
+  return is_one_of(marks_of_case, word) ||
+         (harness::is_config_key(word) && !is_one_of(own_marks, word));
 }
 
 /// Calls `each` with the place of every `{word}` and the word; `each` returns how many characters
@@ -96,11 +70,12 @@ std::string plain(const json& value) {
 }
 
 Status CommandMarks::check(std::string_view command) {
-  std::vector<std::string_view> known(config_keys.begin(), config_keys.end());
+  std::vector<std::string_view> known(harness::config_keys.begin(), harness::config_keys.end());
+  known.insert(known.end(), marks_of_case.begin(), marks_of_case.end());
   known.insert(known.end(), own_marks.begin(), own_marks.end());
   std::string wrong;
   for_each_word(std::string(command), [&](std::size_t, const std::string& word) {
-    const bool is_known = std::ranges::find(known, word) != known.end();
+    const bool is_known = is_one_of(known, word);
     if (const std::string near = is_known ? "" : suggestion(word, known);
         wrong.empty() && !near.empty())
       wrong = fmt::format("there is no mark {{{}}}{}", word, near);
@@ -110,8 +85,8 @@ Status CommandMarks::check(std::string_view command) {
 }
 
 bool CommandMarks::takes(std::string_view key) const {
-  if (!is_config_key(key)) return false;
-  const bool is_base = std::ranges::find(base_keys, key) != base_keys.end();
+  if (!is_mark_of_case(key)) return false;
+  const bool is_base = is_one_of(base_keys, key);
   bool found = false;
   for_each_word(command_, [&](std::size_t, const std::string& word) {
     found = found || word == key || word == "config" || (word == "bases" && is_base);
@@ -123,7 +98,7 @@ bool CommandMarks::takes(std::string_view key) const {
 std::string CommandMarks::filled(const json& config) const {
   std::string text = command_;
   for_each_word(text, [&](std::size_t at, const std::string& word) -> std::size_t {
-    if (!is_config_key(word)) return word.size() + 2;
+    if (!is_mark_of_case(word)) return word.size() + 2;
     const std::string value = os::shell_word(value_of(word, config));
     text.replace(at, word.size() + 2, value);
     return value.size();
