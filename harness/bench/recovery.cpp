@@ -54,7 +54,8 @@ void Recovery::after(const PreparedCase& prepared, const exchange::Transcript& t
     }
   }
   // Emulators become a fresh device with the next case.
-  if (dead && endpoint_.capabilities().real_device) revive(result);
+  if (dead && endpoint_.capabilities().real_device)
+    revive(result, prepared.listens_for_silence());
 }
 
 bool Recovery::look_for_device(CaseResult& result, const std::string& what) {
@@ -96,9 +97,9 @@ void Recovery::start_again(CaseResult& result) {
   revive(result, true);
 }
 
-void Recovery::revive(CaseResult& result, bool ended) {
+void Recovery::revive(CaseResult& result, bool odd) {
   if (endpoint_.capabilities().can_power_cycle || !options_.power_cycle_command.empty())
-    if (std::string enough = known_.worth_asking.restart(result, ended); !enough.empty())
+    if (std::string enough = known_.worth_asking.restart(result, odd); !enough.empty())
       return stop(std::move(enough));
   if (!power_cycle(result))
     stop(fmt::format(

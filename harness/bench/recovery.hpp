@@ -38,7 +38,8 @@ class Recovery {
  private:
   bool gave_up(const exchange::PreparedCase& prepared, const Error& trouble,
                results::CaseResult& result);
-  void revive(results::CaseResult& result, bool ended = false);
+  /// `odd`: it was lost behind what a device may not answer, or its program has ended.
+  void revive(results::CaseResult& result, bool odd = false);
 
   endpoints::Endpoint& endpoint_;
   const BenchOptions& options_;

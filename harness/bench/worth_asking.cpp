@@ -12,7 +12,7 @@ using results::Event;
 
 constexpr int most_doubt = 20;  // cases without a whole frame; those that take long count for more
 constexpr int fruitful = 10;    // cases that pass after a restart
-constexpr int most_fruitless = 6;
+constexpr int most_fruitless = 3;
 
 bool begins_with_frame(ByteView came, const harness::Protocol& protocol) {
   const auto length = protocol.frame_length(came);
@@ -55,13 +55,13 @@ std::string WorthAsking::after(const results::CaseResult& result, const harness:
       result.id, result.message);
 }
 
-std::string WorthAsking::restart(const results::CaseResult& result, bool ended) {
-  if (!ended) fruitless_ = restarts_ == 0 || passed_ >= fruitful ? 0 : fruitless_ + 1;
+std::string WorthAsking::restart(const results::CaseResult& result, bool odd) {
+  if (!odd) fruitless_ = restarts_ == 0 || passed_ >= fruitful ? 0 : fruitless_ + 1;
   passed_ = 0;
   if (fruitless_ == most_fruitless)
     return fmt::format(
-        "the device was started again {} times, and fell mute or sent without end each time before "
-        "{} cases had passed, the last time in {}; it is not started again",
+        "the device was started again {} times, and fell mute or sent without end in ordinary "
+        "requests each time before {} cases had passed, the last time in {}; it is not started again",
         most_fruitless, fruitful, result.id);
   if (restarts_++ < max_restarts_) return {};
   return fmt::format(
