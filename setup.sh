@@ -49,6 +49,8 @@ build() {
   local launcher=()
   # Paths relative to this folder: another clone of the same tree hits the same cache.
   export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+  # Without these it takes no file that uses a precompiled header.
+  export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
   command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   # Its g++ is 11, and C++20 wants 12.
   if [ -z "${CXX:-}" ] && [ "$(release)" = ubuntu-22.04 ]; then export CXX=g++-12; fi
