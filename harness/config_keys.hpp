@@ -8,14 +8,14 @@
 
 namespace fieldproof::harness {
 
-inline constexpr std::array<std::string_view, 48> config_keys{
+inline constexpr std::array<std::string_view, 49> config_keys{
     "station", "role", "mode", "line", "rs485", "neighbours", "delay_ms", "inter_character_ms",
     "time_out", "p2p", "bit_read_base", "bit_write_base", "tables", "word_read_base",
     "word_write_base", "write_order", "definition", "connections", "waiting_time", "header_check",
     "base", "slot", "error", "host_table", "services", "monitor", "instructions", "module",
     "driver", "version", "bench_line", "stations", "servos", "ports", "routes", "ip", "port",
     "channel", "modem", "sms", "network", "network_ms", "dtr", "rts", "link", "reply_end",
-    "module_hangs", "hs_link"};
+    "module_hangs", "hs_link", "program"};
 
 inline bool is_config_key(std::string_view word) {
   return std::ranges::find(config_keys, word) != config_keys.end();
