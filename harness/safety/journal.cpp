@@ -13,6 +13,7 @@
 
 #include "harness/endpoints/endpoint.hpp"
 #include "reports/results/file_error.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 
 namespace fieldproof::safety {
@@ -86,7 +87,7 @@ Result<Contents> read(const std::string& path) {
       return fail(
           fmt::format("cannot read journal {}, line {}: {}; repair the line, it may be all that is "
                       "known of a device's values",
-                      path, number, error.what()));
+                      path, number, json_trouble(error)));
     }
     contents.size += text.size() + 1;
     contents.lines = number;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "reports/results/whole_file.hpp"
+#include "src/base/json_trouble.hpp"
 
 namespace fieldproof::vectors {
 
@@ -71,7 +72,7 @@ Result<FaultMatrix> parse_fault_matrix(const std::string& text) try {
   return matrix;
 } catch (const std::exception& error) {
   return fail(fmt::format("cannot read faults.json: {}; write it anew with fieldproof_faults",
-                          error.what()));
+                          json_trouble(error)));
 }
 
 Result<FaultMatrix> load_fault_matrix(const std::filesystem::path& folder) {

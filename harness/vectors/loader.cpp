@@ -74,7 +74,7 @@ class FileLoader {
     if (problems.empty()) try {
         read(vector);
       } catch (const std::exception& error) {
-        report(piece, error.what());
+        report(piece, json_trouble(error));
       }
   }
 

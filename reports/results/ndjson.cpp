@@ -13,6 +13,7 @@
 
 #include "reports/results/file_error.hpp"
 #include "reports/results/result_json.hpp"
+#include "src/base/json_trouble.hpp"
 #include "src/base/nesting.hpp"
 
 namespace fieldproof::results {
@@ -66,7 +67,7 @@ class Reader {
     try {
       return take(parsed.begin().key(), parsed.begin().value());
     } catch (const json::exception& error) {
-      return damaged(error.what());
+      return damaged(json_trouble(error));
     }
   }
 
