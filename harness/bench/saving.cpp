@@ -88,6 +88,20 @@ std::vector<Bytes> Saving::unchecked_writes(const PreparedCase& prepared) const 
   return all;
 }
 
+/// Memory that changes in a case without a request: the bench sets it, or does something to the
+/// device after which anything may stand anywhere.
+std::vector<Protocol::Written> Saving::changes(const PreparedCase& prepared) const {
+  static const Protocol::Written anywhere{"?", 0, 0, ""};
+  std::vector<Protocol::Written> all;
+  for (const exchange::PreparedStep& step : prepared.steps) {
+    if (step.step->kind == vectors::Step::Kind::act) all.push_back(anywhere);
+    if (step.step->kind == vectors::Step::Kind::set)
+      for (const auto& [address, digits] : step.step->memory)
+        all.push_back(protocol_.named(address, digits.size()).value_or(anywhere));
+  }
+  return all;
+}
+
 bool Saving::put_back(CaseResult& result, bool stopped) {
   bool answered = true;
   for (safety::SavedMemory* memory : {&own_, &over_aux_}) {

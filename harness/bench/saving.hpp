@@ -30,7 +30,7 @@ class Saving {
   /// Around the exchange of a case that writes without a check (UncheckedWrites). `cut_off`: the port
   /// failed in it.
   void before_exchange(const exchange::PreparedCase& prepared) {
-    unchecked_.before(unchecked_writes(prepared), protocol_, own_);
+    unchecked_.before(unchecked_writes(prepared), changes(prepared), protocol_, own_);
   }
   void after_exchange(const results::CaseResult& result, bool cut_off) {
     unchecked_.after(result, protocol_, own_, cut_off);
@@ -53,6 +53,7 @@ class Saving {
   }
   bool save_partner(const exchange::PreparedCase& prepared, results::CaseResult& result);
   std::vector<Bytes> unchecked_writes(const exchange::PreparedCase& prepared) const;
+  std::vector<harness::Protocol::Written> changes(const exchange::PreparedCase& prepared) const;
 
   const endpoints::Endpoint& endpoint_;
   const harness::Protocol& protocol_;

@@ -58,12 +58,15 @@ bool writes_without_check(ByteView request, const Protocol& protocol) {
           !harness::faultless(protocol.explain_as(request, true)));
 }
 
-void UncheckedWrites::before(const std::vector<Bytes>& requests, const Protocol& protocol,
-                             safety::SavedMemory& memory) {
+void UncheckedWrites::before(const std::vector<Bytes>& requests,
+                             const std::vector<Protocol::Written>& changes,
+                             const Protocol& protocol, safety::SavedMemory& memory) {
   writes_.clear();
   for (const Bytes& request : requests) {
     if (!writes_without_check(request, protocol)) continue;
     Write& write = writes_.emplace_back(Write{request, protocol.memory()->sets(request)});
+    const auto changed = [&](const Place& place) { return meets(place, changes, protocol); };
+    if (std::erase_if(write.sets, changed) > 0) write.shows = false;
     for (const auto& [address, digits] : write.sets) {
       const Reading held = memory.look(address, digits.size());
       write.shows = write.shows && held.kind == Reading::Kind::digits && !same(held.digits, digits);

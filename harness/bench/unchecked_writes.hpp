@@ -15,9 +15,11 @@ namespace fieldproof::bench {
 
 class UncheckedWrites {
  public:
-  /// Of a case, in its order. Notes what the places hold that they name.
-  void before(const std::vector<Bytes>& requests, const harness::Protocol& protocol,
-              safety::SavedMemory& memory);
+  /// Of a case, in its order. Notes what the places hold that they name; but for those that the case
+  /// itself `changes` by other means (the bench sets them, the power goes), where nothing shows.
+  void before(const std::vector<Bytes>& requests,
+              const std::vector<harness::Protocol::Written>& changes,
+              const harness::Protocol& protocol, safety::SavedMemory& memory);
   /// Looks whether what the device has not refused stands where it belongs. `cut_off`: the port
   /// failed, so that there was no answer to hear.
   void after(const results::CaseResult& result, const harness::Protocol& protocol,

@@ -58,6 +58,7 @@ std::string WorthAsking::after(const results::CaseResult& result, const harness:
 std::string WorthAsking::restart(const results::CaseResult& result, bool odd) {
   if (!odd) fruitless_ = restarts_ == 0 || passed_ >= fruitful ? 0 : fruitless_ + 1;
   passed_ = 0;
+  doubt_ = 0;  // it answers when it is up again, or the run ends
   if (fruitless_ == most_fruitless)
     return fmt::format(
         "the device was started again {} times, and fell mute or sent without end in ordinary "
