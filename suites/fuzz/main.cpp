@@ -1,5 +1,6 @@
 // fieldproof_fuzz [TARGET...] [--inputs N] [--seed S] [--from I]: feeds each target with inputs
-// that are nearly right. Ends with 0, or as a crash does; what was fed last is said then, with the
+// that are nearly right. --protocol NAME: of the targets whose first byte chooses one, this one
+// alone. Ends with 0, or as a crash does; what was fed last is said then, with the
 // command that feeds it again. fieldproof_fuzz --write-seeds FOLDER: the good inputs, for
 // libFuzzer.
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "suites/fuzz/chosen.hpp"
 #include "suites/fuzz/mutator.hpp"
 #include "suites/fuzz/targets.hpp"
 
@@ -37,7 +39,18 @@ struct Options {
   std::vector<std::string> targets;
   std::uint64_t inputs = 100'000, seed = 1, from = 0;
   std::string seeds;  // a folder
+  std::string protocol;
 };
+
+/// With --protocol: no others.
+std::vector<Bytes> seeds_of(const fuzz::Target& target, const std::string& protocol) {
+  std::vector<Bytes> seeds = target.seeds();
+  if (!protocol.empty())
+    std::erase_if(seeds, [&](const Bytes& one) {
+      return one.empty() || fuzz::protocol_of(one.front()).name() != protocol;
+    });
+  return seeds;
+}
 
 /// The good inputs as files: FOLDER/TARGET/0001.
 void write_seeds(const fuzz::Target& target, const std::filesystem::path& folder) {
@@ -51,10 +64,14 @@ void write_seeds(const fuzz::Target& target, const std::filesystem::path& folder
 }
 
 void feed(const fuzz::Target& target, const Options& options) {
-  const fuzz::Mutator mutator(target.seeds(), options.seed);
+  const fuzz::Mutator mutator(seeds_of(target, options.protocol), options.seed);
+  const std::string more = options.protocol.empty() ? "" : " --protocol " + options.protocol;
   for (std::uint64_t i = options.from; i < options.from + options.inputs; ++i) {
-    now_fed = fmt::format("{} --seed {} --from {} --inputs 1", target.name, options.seed, i);
-    target.feed(mutator.input(i));
+    now_fed =
+        fmt::format("{} --seed {} --from {} --inputs 1{}", target.name, options.seed, i, more);
+    Bytes input = mutator.input(i);
+    if (!more.empty() && !input.empty()) input.front() = *fuzz::number_of(options.protocol);
+    target.feed(input);
   }
   fmt::print("{:<11} {} inputs: nothing crashed, no rule was broken\n", target.name,
              options.inputs);
@@ -78,9 +95,15 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Another one gives other inputs");
   app.add_option("--from", options.from, "The number of the first input");
   app.add_option("--write-seeds", options.seeds, "Feed nothing, write the good inputs to a folder");
+  app.add_option("--protocol", options.protocol, "Frames, devices and memory of this one alone")
+      ->check([](const std::string& name) {
+        return fuzz::number_of(name) ? "" : "there is no protocol '" + name + "'";
+      });
   CLI11_PARSE(app, argc, argv);
   std::erase_if(targets, [&](const fuzz::Target& one) {
-    return !options.targets.empty() && std::ranges::count(options.targets, one.name) == 0;
+    const bool wanted =
+        options.targets.empty() || std::ranges::count(options.targets, one.name) > 0;
+    return !wanted || (!options.protocol.empty() && !one.chooses);
   });
 #if defined(__SANITIZE_ADDRESS__)
   __sanitizer_set_death_callback(last_words);

@@ -14,10 +14,11 @@ namespace fieldproof::fuzz {
 
 namespace {
 constexpr std::array every_target{
-    Target{"frames", "codecs and stream splitters of all protocols", feed_frames,
-           frames_of_vectors},
-    Target{"devices", "the emulated devices", feed_device, streams_of_vectors},
-    Target{"memory", "requests for an address and its digits", feed_memory, memory_of_vectors},
+    Target{"frames", "codecs and stream splitters of all protocols", feed_frames, frames_of_vectors,
+           true},
+    Target{"devices", "the emulated devices", feed_device, streams_of_vectors, true},
+    Target{"memory", "requests for an address and its digits", feed_memory, memory_of_vectors,
+           true},
     Target{"clients", "emulated devices that ask", feed_client, good_partners},
     Target{"control", "what a bench tells an emulated device by --control", feed_control,
            good_controls},

@@ -16,6 +16,7 @@ struct Target {
   std::string_view what;  // for --help
   void (*feed)(ByteView input);
   std::vector<Bytes> (*seeds)();  // good inputs, to begin with
+  bool chooses = false;           // the first byte chooses the protocol (protocol_of)
 };
 
 std::span<const Target> targets();
