@@ -348,6 +348,7 @@ bool Bench::set_up_device(const PreparedCase& prepared, CaseResult& result) {
   known_->starts = endpoint_.starts();
   known_->config = config;
   if (!started && !changed) return true;
+  if (prepared.is_shut_out()) return true;
   if (prepared.is_client()) return !started || arming_.started_anew();  // it answers no probe
   const Result<exchange::Sign> sign = answers_when_set_up(prepared, started);
   if (sign && *sign == exchange::Sign::alive) return true;
@@ -376,9 +377,9 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (!real)
     if (Status begun = endpoint_.begin(eligibility_.device_config(*prepared.source)); !begun)
       return give_up(Verdict::error, begun.error());
-  if (prepared.source->fresh && real && !just_started_ &&
-      !recovery_.power_cycle(result, prepared.is_client()))
-    return give_up(Verdict::blocked, fail("the device did not come back from the power cycle"));
+  if (real)
+    if (const Status fresh = be_fresh(prepared, result); !fresh)
+      return give_up(Verdict::blocked, fresh.error());
   if (real && !prepared.is_client() && !meets_premises(prepared, result)) return false;
   // What a clock asked between the cases is no part of this one. It waits for its answer before it
   // asks again.
@@ -391,6 +392,17 @@ bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {
   if (!memory_.refused()) return give_up(Verdict::error, Error{result.message});
   if (memory_.lost()) recovery_.look_for_device(result, result.message);
   return false;
+}
+
+/// Who counts what was asked since power-on has not been asked then.
+Status Bench::be_fresh(const PreparedCase& prepared, CaseResult& result) {
+  const bool counts = prepared.counts_from_power_on();
+  if (!counts && (!prepared.source->fresh || just_started_)) return ok();
+  const Status renewed = prepared.is_client() ? refuse("") : endpoint_.renew();
+  if (renewed) result.notes.push_back("switched the device off and on");
+  if (renewed || counts) return renewed;
+  if (recovery_.power_cycle(result, prepared.is_client())) return ok();
+  return fail("the device did not come back from the power cycle");
 }
 
 /// What is not as it must be before the case; empty: all is.

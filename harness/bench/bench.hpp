@@ -95,6 +95,7 @@ class Bench {
   void execute(const exchange::PreparedCase& prepared, results::CaseResult& result);
   void exchange(const exchange::PreparedCase& prepared, results::CaseResult& result);
   bool set_up_device(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  Status be_fresh(const exchange::PreparedCase& prepared, results::CaseResult& result);
   bool prepare_device(const exchange::PreparedCase& prepared, results::CaseResult& result);
   void judge_exchange(const exchange::PreparedCase& prepared,
                       const exchange::Transcript& transcript, results::CaseResult& result);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "harness/bench/device_set_up.hpp"
+#include "harness/bench/fewest_starts.hpp"
 
 namespace fieldproof::bench {
 
@@ -35,9 +36,10 @@ Result<Benches> Benches::open(const endpoints::EndpointName& name,
   return benches;
 }
 
-Result<Benches::SetUp> Benches::make_set_up(const Member& member, const json& needed,
-                                            const BenchOptions& declared) {
-  BenchOptions options = declared;
+namespace {
+
+/// Those of a device that is declared so, and needed otherwise.
+BenchOptions set_up_options(const json& needed, BenchOptions options) {
   options.profile.config.update(needed);
   options.profile.config.erase("model");
   options.profile.model = needed.value("model", options.profile.model);
@@ -47,6 +49,14 @@ Result<Benches::SetUp> Benches::make_set_up(const Member& member, const json& ne
     options.device.model = options.profile.model;
     options.device.config = options.profile.config;
   }
+  return options;
+}
+
+}  // namespace
+
+Result<Benches::SetUp> Benches::make_set_up(const Member& member, const json& needed,
+                                            const BenchOptions& declared) {
+  BenchOptions options = set_up_options(needed, declared);
   SetUp set_up;
   if (member.endpoint->capabilities().real_device) {
     Result<std::unique_ptr<harness::Protocol>> configured =
@@ -77,28 +87,48 @@ Bench& Benches::bench_for(const vectors::Case& source) {
     if (!made) return member.bench();
     member.set_ups.emplace(key, std::move(*made));
   }
-  return *member.set_ups.at(key).bench;
+  member.last = member.set_ups.at(key).bench.get();
+  return *member.last;
 }
 
 std::vector<const vectors::Case*> Benches::grouped(
     const std::vector<const vectors::Case*>& cases) const {
-  std::map<std::string, std::vector<const vectors::Case*>> groups;
-  std::vector<std::string> order{"{}"};
-  for (const vectors::Case* one : cases) {
-    const std::string needed = needed_by(*one, member_for(*one)).dump();
-    if (!groups.contains(needed) && needed != order.front()) order.push_back(needed);
-    groups[needed].push_back(one);
-  }
-  std::vector<const vectors::Case*> sorted;
-  for (const std::string& needed : order)
-    std::ranges::copy(groups[needed], std::back_inserter(sorted));
-  return sorted;
+  if (!members_.front().endpoint->capabilities().real_device) return cases;
+  return fewest_starts(cases, [this](const vectors::Case& source) {
+    const Member& member = member_for(source);
+    const json needed = needed_by(source, member);
+    return SetUpOfCase{started_with(source, member, needed), needed.dump(),
+                       source.fresh && could_each_run({&source}).front()};
+  });
+}
+
+/// What the device is started with for it.
+std::string Benches::started_with(const vectors::Case& source, const Member& member,
+                                  const json& needed) {
+  const BenchOptions options = set_up_options(needed, member.options);
+  json config = whole_config(options.profile, options.station, *member.protocol);
+  if (source.config.contains("role")) config["role"] = source.config["role"];
+  return member.endpoint->started_with(config);
 }
 
 Status Benches::start() {
   for (Member& member : members_) {
     if (!member.bench().stopped().empty()) continue;
     if (Status alive = member.bench().start(); !alive) return alive;
+  }
+  return ok();
+}
+
+Status Benches::still_answers() {
+  const auto as_it_is = [](const Member& member) {
+    return member.last ? member.last->start() : member.bench().start();
+  };
+  for (Member& member : members_) {
+    if (!member.bench().stopped().empty()) continue;
+    Status alive = as_it_is(member);
+    // The last case may have set it up so that it answers nobody.
+    if (!alive && !alive.error().interrupted) alive = member.bench().start();
+    if (!alive) return alive;
   }
   return ok();
 }

@@ -22,6 +22,8 @@ class Benches {
 
   /// The sanity exchange of each; of those that have not stopped.
   Status start();
+  /// The same of each as its last case has left it: none is started anew for it.
+  Status still_answers();
 
   /// Bench::silent_line of the first that has one.
   std::optional<exchange::Channel> silent_line() const;
@@ -46,8 +48,7 @@ class Benches {
   /// Bench::run_ahead, and what another one of this device makes of it.
   std::optional<results::CaseResult> run_ahead(const vectors::Case& source);
   results::CaseResult conclude(const vectors::Case& source, std::optional<results::CaseResult> ahead);
-  /// The cases that want one set-up behind each other, those of the declared device first: each
-  /// change may cost a restart.
+  /// In the order that starts the device the least often (fewest_starts).
   std::vector<const vectors::Case*> grouped(const std::vector<const vectors::Case*>& cases) const;
 
   /// How many of these cases could run if the options were others; nothing is sent.
@@ -97,6 +98,7 @@ class Benches {
     BenchOptions options;  // of the device as it is declared
     std::shared_ptr<Standing> known;
     std::map<std::string, SetUp> set_ups{};  // by needed_set_up; "{}": as it is declared
+    Bench* last = nullptr;                   // of the last case
 
     Bench& bench() const { return *set_ups.at("{}").bench; }
   };
@@ -111,6 +113,8 @@ class Benches {
   static Result<SetUp> make_set_up(const Member& member, const nlohmann::json& needed,
                                    const BenchOptions& options);
   static nlohmann::json needed_by(const vectors::Case& source, const Member& member);
+  static std::string started_with(const vectors::Case& source, const Member& member,
+                                  const nlohmann::json& needed);
   Bench& bench_for(const vectors::Case& source);
 
   std::vector<Member> members_;

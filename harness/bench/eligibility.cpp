@@ -298,7 +298,7 @@ Ruling Eligibility::blocked(const Case& source, const PreparedCase& prepared) co
       if (!why.empty()) return {Verdict::blocked, why};
   if (std::string why = undeclared(source.config); !why.empty())
     return {prepared.is_client() && arming_.declares() ? Verdict::skip : Verdict::blocked, why};
-  if (prepared.looks_at_counters() && prepared.counts_from_power_on() && can.control)
+  if (prepared.counts_from_power_on() && can.control && !can.renews)
     return {Verdict::blocked,
             "looks at the status counters as they are from power-on; the bench's own requests have "
             "moved them"};

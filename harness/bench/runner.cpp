@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <stdexcept>
 
 #include "reports/results/shard.hpp"
@@ -79,14 +80,32 @@ std::pair<std::string, std::string> split_id(const std::string& id) {
   return {id.substr(0, cut), id.substr(cut + 1)};
 }
 
+/// GoogleTest puts the tests of one suite together, wherever they are registered: a section that
+/// comes again is another suite, so that the cases keep their order.
+class SuiteNames {
+ public:
+  std::string next(const std::string& section) {
+    if (section != last_) ++times_[section];
+    last_ = section;
+    const int times = times_[section];
+    return times == 1 ? section : fmt::format("{}#{}", section, times);
+  }
+
+ private:
+  std::string last_;
+  std::map<std::string, int> times_;  // how often it has begun
+};
+
 }  // namespace
 
 std::size_t run_with_gtest(const std::vector<const vectors::Case*>& cases,
                            const RunnerOptions& options, const RunCase& run) {
   initialize(options);
   Context context{&run};
+  SuiteNames suites;
   for (const vectors::Case* source : cases) {
-    const auto [suite, name] = split_id(source->id);
+    const auto [section, name] = split_id(source->id);
+    const std::string suite = suites.next(section);
     testing::RegisterTest(
         suite.c_str(), name.c_str(), nullptr, nullptr, source->file.c_str(), 1,
         [source, &context]() -> testing::Test* { return new CaseTest(*source, context); });

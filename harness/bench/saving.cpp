@@ -40,6 +40,7 @@ bool Saving::save_partner(const PreparedCase& prepared, CaseResult& result) {
 
 bool Saving::save(const PreparedCase& prepared, CaseResult& result) {
   answered_ = true;
+  if (prepared.is_shut_out()) return true;  // what --control sets it puts back
   if (!save_partner(prepared, result)) return false;
   const std::vector<Protocol::Written> written = eligibility_.written_by(prepared);
   if (std::ranges::any_of(written, &Protocol::Written::unknown))

@@ -58,6 +58,8 @@ struct ProbeOptions {
   int wait_ms = 500;                                             // for the first byte of an answer
   bool all = false;                                              // go on after the first find
   bool fingerprint = false;                                      // of each device that was found
+  std::string profile;  // of a program that the bench starts: what its command is told; empty: the
+                        // usual
 };
 /// What `probe` has found, to go on with.
 struct ProbedDevice {

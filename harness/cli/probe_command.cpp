@@ -191,14 +191,22 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
   if (!spoken)
     return run::complain("cannot open " + options.endpoint + ": " + spoken.error().message,
                          run::exit_code::usage);
-  const probe::LineOpener open = probe::line_opener(*endpoint, **spoken);
+  const harness::Protocol& first = space->protocols.empty() ? **spoken : *space->protocols.front();
+  const probe::LineOpener port = probe::line_opener(*endpoint, first);
+  const probe::LineOpener open = [&](const line::LineSettings& settings) {
+    Result<std::unique_ptr<endpoints::Endpoint>> device = port(settings);
+    if (device)
+      if (const Status told = tell_what_to_be(**device, *endpoint, first, options.profile); !told)
+        device = told.error();
+    return device;
+  };
 
   os::catch_interrupts();
   {
-    const Result<std::unique_ptr<endpoints::Endpoint>> first =
-        open(probe::make_plan(*space, protocols).front().line);
-    if (!first) return run::complain(first.error().message, run::exit_code::trouble);
-    const endpoints::Capabilities& link = (*first)->capabilities();
+    const Result<std::unique_ptr<endpoints::Endpoint>> there =
+        port(probe::make_plan(*space, protocols).front().line);
+    if (!there) return run::complain(there.error().message, run::exit_code::trouble);
+    const endpoints::Capabilities& link = (*there)->capabilities();
     if (endpoints::kind_of(*endpoint).local_port && !link.wire) space->settable = false;  // a pty
   }
   const std::vector<probe::Trial> plan = probe::make_plan(*space, protocols);

@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include "harness/bench/benches.hpp"
+#include "harness/bench/device_set_up.hpp"
 #include "harness/bench/files/profile.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/endpoints/kinds.hpp"
 #include "harness/paths.hpp"
 #include "harness/probe/target.hpp"
 #include "harness/run/run_report.hpp"
@@ -33,6 +35,21 @@ std::string profile_of_a_module(const harness::Protocol& protocol) {
 }
 
 }  // namespace
+
+Status tell_what_to_be(endpoints::Endpoint& device, const EndpointName& name,
+                       const harness::Protocol& protocol, const std::string& profile) {
+  const endpoints::KindOf& kind = endpoints::kind_of(name);
+  if (kind.emulated || !kind.can_restart) return ok();
+  bench::Profile declared;
+  Result<bench::Profile> loaded = bench::load_profile(
+      profile.empty() ? profile_of_a_module(protocol) : profile, harness::find_data().profiles);
+  if (!loaded && !profile.empty()) return loaded.error();
+  if (loaded) declared = std::move(*loaded);
+  nlohmann::json own = declared.config;
+  if (name.options.contains("station")) own["station"] = name.option("station", "");
+  return device.begin(
+      bench::whole_config(declared, vectors::config_station(own, 1).value_or(1), protocol));
+}
 
 std::string probe_run_line(const EndpointName& endpoint, const probe::Trial& device,
                            bool settable) {

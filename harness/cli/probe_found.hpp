@@ -9,6 +9,11 @@
 
 namespace fieldproof::cli {
 
+/// A program that the bench starts is told what the profile declares before it is asked; without one
+/// what that of a module of the protocol does.
+Status tell_what_to_be(endpoints::Endpoint& device, const endpoints::EndpointName& name,
+                       const harness::Protocol& protocol, const std::string& profile);
+
 /// "fieldproof run --endpoint ... --profile ...": its own module's profile is for the engineer to
 /// choose. `settable`: the line has speed and frame.
 std::string probe_run_line(const endpoints::EndpointName& endpoint, const probe::Trial& device,

@@ -98,7 +98,12 @@ int probe_servers(const ProbeOptions& options, const EndpointName& endpoint, con
   const auto open = [&](const Protocol& protocol) {
     EndpointName name = endpoint;
     name.options["protocol"] = protocol.name();
-    return endpoints::open_endpoint(name, protocol);
+    Result<std::unique_ptr<endpoints::Endpoint>> device =
+        endpoints::open_endpoint(name, protocol);
+    if (device)
+      if (const Status told = tell_what_to_be(**device, name, protocol, options.profile); !told)
+        device = told.error();
+    return device;
   };
   const Result<std::vector<ServerFinding>> findings =
       probe::find_servers(open, wanted, protocols, wait);

@@ -100,7 +100,7 @@ class Run {
         end_.trouble = benches_.stopped();
       // The last sanity exchange: whatever the cases left behind, the device still answers.
       if (!os::interrupted() && lines_.live())
-        if (const Status still = benches_.start(); !still && !still.error().interrupted)
+        if (const Status still = benches_.still_answers(); !still && !still.error().interrupted)
           end_.trouble = "after the last case: " + still.error().message;
       report_set_up();
       // Waivers that the whole run has shown to be needless turn the gate red.

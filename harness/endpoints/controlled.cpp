@@ -51,6 +51,7 @@ Controlled::Controlled(std::unique_ptr<Endpoint> device, const harness::Protocol
       starts_(device_->starts()),
       beside_(static_cast<bool>(program_)) {
   capabilities_.control = true;
+  capabilities_.renews = !beside_;
   if (program_) return;
   program_.tell = [this](const std::string& line) { return device_->tell(line); };
   program_.answer = [this](Duration longest) { return device_->answer(longest); };
@@ -198,6 +199,16 @@ Status Controlled::act(std::string_view action) {
   if (!answer) return answer.error();
   if (!answer->contains("unsupported")) return ok();
   return refuse(fmt::format("cannot do '{}': --control does not support it", action));
+}
+
+Status Controlled::renew() {
+  if (!capabilities_.renews) return Endpoint::renew();
+  const Result<json> answer = ask({{"do", "power_cycle"}});
+  if (!answer) return answer.error();
+  capabilities_.renews = !answer->contains("unsupported");
+  if (!capabilities_.renews) return Endpoint::renew();
+  told_["mode"] = nullptr;  // the one in which it comes up
+  return ok();
 }
 
 /// What an action has changed is told again before the next case: "stop" changes the mode, "error

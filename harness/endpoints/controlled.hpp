@@ -47,6 +47,8 @@ class Controlled final : public Forwarding {
   Status set(std::string_view address, std::string_view hex) override;
   Result<std::string> get(std::string_view address, std::size_t digits) override;
   Status act(std::string_view action) override;
+  /// What it was told to be, it is still; a program beside the device cannot say when that is up.
+  Status renew() override;
   Status put_back() override;
 
  private:

@@ -84,6 +84,12 @@ Status Endpoint::act(std::string_view action) {
                           describe()));
 }
 
+Status Endpoint::renew() {
+  return refuse(fmt::format("cannot switch {} off and on without asking whether it is up again, "
+                            "which moves its counters: --control - knows no \"power_cycle\"",
+                            describe()));
+}
+
 Status Endpoint::tell(std::string_view) {
   return fail(fmt::format(
       "cannot tell {} what to request: the bench has not started it; give --stimulus a command",

@@ -30,6 +30,7 @@ struct Capabilities {
   bool control = false;    // real device: a program beside it reaches what its protocol does not
   bool real_device = false;  // the write fence binds; configuration is what is declared
   bool can_power_cycle = false;
+  bool renews = false;       // as far as it is known, see Endpoint::renew
   bool connections = false;  // links are opened and closed (TCP); there is no line 0
   bool datagrams = false;    // one send is one packet (UDP)
   bool shared = false;       // a line behind a serial server, which may let others in, too
@@ -69,6 +70,9 @@ class Endpoint {
   virtual unsigned starts() const { return 0; }
   /// What was sent last to a device that this endpoint has started, while it ran; empty: nothing.
   virtual Bytes last_sent() const { return {}; }
+  /// What begin(config) starts the device under test with: between cases alike in it none is
+  /// started. Empty: no configuration wants a start.
+  virtual std::string started_with(const nlohmann::json&) const { return {}; }
 
   /// Opens a connection to `port` of the device, or a datagram port of the bench that talks to it
   /// (capabilities().connections, .datagrams); 0: the port of the endpoint's name, else of its
@@ -98,6 +102,9 @@ class Endpoint {
   virtual Status set(std::string_view address, std::string_view hex);
   virtual Result<std::string> get(std::string_view address, std::size_t digits);
   virtual Status act(std::string_view action);
+  /// Off and on by a word to the device, which answers when it is up (capabilities().renews): no
+  /// request that looks for it moves its counters. Errors that are `refused`: it knows no such word.
+  virtual Status renew();
   /// Puts back what set() has changed in a real device since the case began.
   virtual Status put_back() { return ok(); }
   /// What moved since the case began, and who had the token (EmulatedDevice::trace).

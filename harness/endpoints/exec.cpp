@@ -28,6 +28,7 @@ class ExecEndpoint final : public Endpoint {
  public:
   ExecEndpoint(const EndpointName& name, os::PtyPair pty, Duration floor)
       : command_(name.target),
+        config_(config_of(name)),
         slave_(std::move(pty.slave)),
         path_(pty.path),
         link_(std::move(pty.master), describe()) {
@@ -35,8 +36,62 @@ class ExecEndpoint final : public Endpoint {
     capabilities_.timing_floor = floor;
   }
 
-  Status start(const nlohmann::json& config) {
-    running_ = command_.filled(config);
+  const Capabilities& capabilities() const override { return capabilities_; }
+  std::string describe() const override { return "exec:" + command_.text(); }
+  Time now() const override { return link_.now(); }
+  /// A pty has no wire; pauses in characters are meant at the default speed.
+  Duration character_time() const override { return line::LineSettings{}.character_time(); }
+  Status begin(const nlohmann::json& config) override {
+    config_ = config;
+    return child_ && command_.filled(config) == running_ ? ok() : start();
+  }
+  bool configures(std::string_view key) const override { return command_.takes(key); }
+  unsigned starts() const override { return starts_; }
+  Bytes last_sent() const override { return last_sent_; }
+  std::string started_with(const nlohmann::json& config) const override {
+    return command_.filled(config);
+  }
+  using Endpoint::send;
+  Result<Sent> send(ByteView bytes, LinkId) override {
+    if (const Status started = be_started(); !started) return started.error();
+    Result<Sent> sent = link_.send(bytes);
+    if (sent) last_sent_.assign(bytes.begin(), bytes.end());
+    return sent;
+  }
+  Result<Burst> receive(Time deadline) override {
+    if (const Status started = be_started(); !started) return started.error();
+    return link_.receive(deadline);
+  }
+
+  Status tell(std::string_view line) override {
+    if (is_stdio())
+      return fail(
+          fmt::format("cannot tell {} what to request: its standard input is the port; write "
+                      "{{tty}} where the command takes its path",
+                      describe()));
+    if (const Status started = be_started(); !started) return started;
+    if (os::write_line(input_.get(), std::string(line))) return ok();
+    return fail(fmt::format("cannot tell {} what to request: {}", describe(), child_->how()));
+  }
+
+  std::string answer(Duration patience) override {
+    return child_ ? child_->answer(patience) : std::string();
+  }
+
+  Status act(std::string_view action) override {
+    if (action == "power_cycle") return start();
+    return fail(
+        fmt::format("cannot do '{}' on {}: the bench can only power_cycle it", action, describe()));
+  }
+
+ private:
+  bool is_stdio() const { return command_.text().find(tty_mark) == std::string::npos; }
+
+  /// By whoever asks it first, where no case has said what it is to be.
+  Status be_started() { return child_ ? ok() : start(); }
+
+  Status start() {
+    running_ = command_.filled(config_);
     ++starts_;
     last_sent_.clear();
     link_.set_far_end(nullptr);
@@ -59,51 +114,10 @@ class ExecEndpoint final : public Endpoint {
     return ok();
   }
 
-  const Capabilities& capabilities() const override { return capabilities_; }
-  std::string describe() const override { return "exec:" + command_.text(); }
-  Time now() const override { return link_.now(); }
-  /// A pty has no wire; pauses in characters are meant at the default speed.
-  Duration character_time() const override { return line::LineSettings{}.character_time(); }
-  Status begin(const nlohmann::json& config) override {
-    config_ = config;
-    return command_.filled(config) == running_ ? ok() : start(config);
-  }
-  bool configures(std::string_view key) const override { return command_.takes(key); }
-  unsigned starts() const override { return starts_; }
-  Bytes last_sent() const override { return last_sent_; }
-  using Endpoint::send;
-  Result<Sent> send(ByteView bytes, LinkId) override {
-    Result<Sent> sent = link_.send(bytes);
-    if (sent) last_sent_.assign(bytes.begin(), bytes.end());
-    return sent;
-  }
-  Result<Burst> receive(Time deadline) override { return link_.receive(deadline); }
-
-  Status tell(std::string_view line) override {
-    if (is_stdio())
-      return fail(
-          fmt::format("cannot tell {} what to request: its standard input is the port; write "
-                      "{{tty}} where the command takes its path",
-                      describe()));
-    if (os::write_line(input_.get(), std::string(line))) return ok();
-    return fail(fmt::format("cannot tell {} what to request: {}", describe(), child_->how()));
-  }
-
-  std::string answer(Duration patience) override { return child_->answer(patience); }
-
-  Status act(std::string_view action) override {
-    if (action == "power_cycle") return start(config_);
-    return fail(
-        fmt::format("cannot do '{}' on {}: the bench can only power_cycle it", action, describe()));
-  }
-
- private:
-  bool is_stdio() const { return command_.text().find(tty_mark) == std::string::npos; }
-
   Capabilities capabilities_;
   CommandMarks command_;
-  nlohmann::json config_ = nlohmann::json::object();  // of the present case
-  std::string running_;                               // the command, filled
+  nlohmann::json config_;  // of the present case
+  std::string running_;    // the command, filled
   unsigned starts_ = 0;
   Bytes last_sent_;
   os::UniqueFd slave_;  // kept open: no close of the device under test ends the line
@@ -152,9 +166,7 @@ Result<std::unique_ptr<Endpoint>> open_exec(const EndpointName& name,
   if (!floor) return floor.error();
   Result<os::PtyPair> pty = os::open_pty_pair();
   if (!pty) return pty.error();
-  auto endpoint = std::make_unique<ExecEndpoint>(name, std::move(*pty), *floor);
-  if (const Status started = endpoint->start(config_of(name)); !started) return started.error();
-  return std::unique_ptr<Endpoint>(std::move(endpoint));
+  return std::unique_ptr<Endpoint>(std::make_unique<ExecEndpoint>(name, std::move(*pty), *floor));
 }
 
 }  // namespace fieldproof::endpoints

@@ -10,6 +10,7 @@ namespace fieldproof::endpoints {
 
 /// Runs COMMAND by /bin/sh. `{tty}` in it becomes the path of the pty; without any mark, stdin and
 /// stdout are the pty. With `{port}` it is a device on a network instead, see open_exec_network.
+/// It is started by the first begin(), or by the first that is sent to it or waited for.
 /// `act("power_cycle")` ends it with all its children and starts it anew; so does begin() where the
 /// command takes what is otherwise than in the last case (CommandMarks). Options: floor_ms,
 /// station, protocol, echo. When it ends, send and receive fail and say its exit status and the
@@ -28,7 +29,7 @@ Status check_command(const EndpointName& name);
 /// `{port}` for protocols of networks, and for none else.
 Status check_command_for(const EndpointName& name, const harness::Protocol& protocol);
 
-/// What the command is told before the first case.
+/// What the command is told where no case has begun.
 nlohmann::json config_of(const EndpointName& name);
 
 /// `command` with `value` for each `mark`.

@@ -53,6 +53,9 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   bool configures(std::string_view key) const override { return command_.takes(key); }
   unsigned starts() const override { return starts_; }
   Bytes last_sent() const override { return last_sent_; }
+  std::string started_with(const nlohmann::json& config) const override {
+    return command_.filled(config) + (config.value("role", "server") == "client" ? " client" : "");
+  }
 
   Result<LinkId> open(Transport transport, std::uint16_t port) override {
     if (!child_)
@@ -82,7 +85,9 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
     return fail(fmt::format("cannot tell {} what to request: {}", describe(), child_->how()));
   }
 
-  std::string answer(Duration patience) override { return child_->answer(patience); }
+  std::string answer(Duration patience) override {
+    return child_ ? child_->answer(patience) : std::string();
+  }
 
   Status act(std::string_view action) override {
     if (action == "power_cycle") return start(client_);

@@ -21,6 +21,9 @@ class Forwarding : public Endpoint {
   bool configures(std::string_view key) const override { return to_.configures(key); }
   unsigned starts() const override { return to_.starts(); }
   Bytes last_sent() const override { return to_.last_sent(); }
+  std::string started_with(const nlohmann::json& config) const override {
+    return to_.started_with(config);
+  }
 
   Result<LinkId> open(Transport transport, std::uint16_t port) override {
     return to_.open(transport, port);
@@ -38,6 +41,7 @@ class Forwarding : public Endpoint {
     return to_.get(address, digits);
   }
   Status act(std::string_view action) override { return to_.act(action); }
+  Status renew() override { return to_.renew(); }
   Status put_back() override { return to_.put_back(); }
   Trace trace() const override { return to_.trace(); }
   Status tell(std::string_view line) override { return to_.tell(line); }

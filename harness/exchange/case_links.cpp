@@ -77,24 +77,33 @@ void CaseRun::act(const std::string& action) {
     return;
   }
   Arming* const told = client_ && can().real_device ? around_.arming : nullptr;
-  const Status done =
-      told && told->follows(action) ? told->act(action) : around_.device.endpoint->act(action);
-  if (!done) {
-    record().refused = done.error().message;
-  } else if (told) {
-    // A client answers no probe.
-    if (const Status again = told->done(action); !again) record().refused = again.error().message;
-  } else if (action == "power_cycle" && can().real_device) {
-    // A real device needs time to start again.
-    Channel device = around_.device;
-    device.station = prepared_.station;
-    const Result<Sign> back =
-        Sanity(device, around_.timing)
-            .anything_answers(restart_patience, prepared_.reply_delay(), true);
-    if (!back) transcript_.trouble = back.error();
-  }
+  Status done = ok();
+  if (action == "power_cycle" && can().real_device && !told)
+    done = cycle_power();
+  else if (told && told->follows(action))
+    done = told->act(action);
+  else
+    done = around_.device.endpoint->act(action);
+  if (done && told) done = told->done(action);  // a client answers no probe
+  if (!done) record().refused = done.error().message;
   links_.restart(now());
   links_.note(now(), "do " + action);
+}
+
+/// By a word to the device, where it takes one; else it needs time to start again, and is asked
+/// until it answers, which its counters count.
+Status CaseRun::cycle_power() {
+  endpoints::Endpoint& endpoint = *around_.device.endpoint;
+  const Status told = endpoint.renew();
+  if (told || prepared_.counts_from_power_on()) return told;
+  if (const Status done = endpoint.act("power_cycle"); !done) return done;
+  Channel device = around_.device;
+  device.station = prepared_.station;
+  const Result<Sign> back =
+      Sanity(device, around_.timing)
+          .anything_answers(restart_patience, prepared_.reply_delay(), true);
+  if (!back) transcript_.trouble = back.error();
+  return ok();
 }
 
 /// Requests for memory go over a link of the case that waits for nothing: a further connection
@@ -128,8 +137,9 @@ void CaseRun::settle_before_look() {
   }
 }
 
+/// Those from power-on are taken as they are.
 void CaseRun::note_counters() {
-  if (client_ || !can().control) return;
+  if (client_ || !can().control || prepared_.counts_from_power_on()) return;
   for (const PreparedStep& one : prepared_.steps)
     if (one.step->kind == Step::Kind::check)
       for (const auto& [address, hex] : one.step->memory)

@@ -69,6 +69,7 @@ class CaseRun {
   void await_opening(const PreparedStep& step);
 
   void act(const std::string& action);
+  Status cycle_power();
   void set_memory(const std::vector<std::pair<std::string, std::string>>& memory);
   void look_at_memory(const vectors::Step& step);
   void settle_before_look();

@@ -192,7 +192,9 @@ Status MemoryAccess::set(const PreparedCase& prepared, const std::string& addres
     return other ? write(*other, std::string(name.address), hex) : Status(other.error());
   }
   if (!prepared.is_client()) {
-    const bool by_itself = bool(device_.protocol->write_requests(prepared.station, address, hex));
+    const bool by_itself =
+        bool(device_.protocol->write_requests(prepared.station, address, hex)) &&
+        !(prepared.goes_past_the_wire() && device_.endpoint->capabilities().control);
     if (!by_itself && device_.endpoint->capabilities().control)
       return device_.endpoint->set(address, hex);
     return write(by_itself || !aux_ ? own(prepared) : aux_, address, hex);
@@ -219,7 +221,9 @@ Result<std::string> MemoryAccess::get(const PreparedCase& prepared, const std::s
     return other ? read(*other, std::string(name.address), digits)
                  : Result<std::string>(other.error());
   }
-  const bool readable = bool(device_.protocol->read_requests(prepared.station, address, digits));
+  const bool readable =
+      bool(device_.protocol->read_requests(prepared.station, address, digits)) &&
+      !(prepared.goes_past_the_wire() && device_.endpoint->capabilities().control);
   if (!prepared.is_client() && !readable && device_.endpoint->capabilities().control)
     return device_.endpoint->get(address, digits);
   const bool by_itself = !prepared.is_client() && (!aux_ || readable);

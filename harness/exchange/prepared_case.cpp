@@ -36,7 +36,14 @@ bool PreparedCase::runs_by_clock() const {
 }
 
 bool PreparedCase::answers_probes() const {
-  return has_probe && !is_client() && !source->config.contains("bench_line");
+  return has_probe && !is_client() && !source->config.contains("bench_line") && !is_shut_out();
+}
+
+bool PreparedCase::is_shut_out() const {
+  return source->config.contains("host_table") && !is_client() &&
+         std::ranges::none_of(steps, [](const PreparedStep& step) {
+           return step.step->kind == Step::Kind::send || step.step->kind == Step::Kind::expect;
+         });
 }
 
 Duration PreparedCase::client_time_out() const {
@@ -72,6 +79,7 @@ bool PreparedCase::looks_at_counters() const {
 }
 
 bool PreparedCase::counts_from_power_on() const {
+  if (is_client()) return false;
   bool sent = false, disturbed = false;
   for (const PreparedStep& one : steps) {
     const Step& step = *one.step;

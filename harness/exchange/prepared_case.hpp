@@ -39,8 +39,11 @@ struct PreparedCase {
   bool is_client() const;  // the module asks, the bench answers
   /// A block asks at the pace of a clock: there is always one more request.
   bool runs_by_clock() const;
-  /// A device that asks, or one whose line settings differ from the bench's, answers no probe.
+  /// A device that asks, whose line settings differ from the bench's, or that lets nobody in,
+  /// answers no probe.
   bool answers_probes() const;
+  /// Its host table leaves the bench out.
+  bool is_shut_out() const;
   /// What the client under test waits for an answer (client_program.hpp).
   Duration client_time_out() const;
   /// How long what it has asked last may disturb the next case: on a line until its time-out; on a
@@ -52,8 +55,11 @@ struct PreparedCase {
   bool listens_for_silence() const;
   bool looks_at_counters() const;  // a check of @status, @errors or @services
   /// It looks at them before anything was sent, after a restart, or after memory that is reached by
-  /// requests: on a real device they have counted what the bench itself has asked.
+  /// requests, which would count what the bench itself has asked: they are to count from power-on.
   bool counts_from_power_on() const;
+  /// Requests of the bench's own would not be answered, or would be counted: what it sets and looks
+  /// at goes past the wire, where there is a way.
+  bool goes_past_the_wire() const { return is_shut_out() || counts_from_power_on(); }
   /// The shortest pause or wait, or 0 when there is none.
   Duration shortest_pause(Duration character_time) const;
 };

@@ -2,6 +2,8 @@
 // judges.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "suites/tool/tool_files.hpp"
@@ -40,6 +42,59 @@ TEST(ExampleDevice, IsGivenStationAndWriteOrder) {
   tool_tests::Results results = tool_tests::read_results(folder / "results.ndjson");
   EXPECT_EQ(results.counts()["BLOCKED"], 0u) << finished.out;
   EXPECT_EQ(results.counts()["PASS"], 17u);
+}
+
+/// The inverter behind a script that writes down what it is started with.
+class CountedStarts : public testing::Test {
+ protected:
+  CountedStarts() {
+    const std::string script = folder_.write(
+        "counted", "#!/bin/sh\nport=$1\nshift\necho \"$*\" >>starts\n"
+                   "exec python3 -B " FIELDPROOF_SOURCE_DIR
+                   "/suites/example/inverter.py $port \"$@\"\n");
+    std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  }
+
+  /// Runs the tool in the folder; what the device was started with, in order.
+  std::vector<std::string> starts(const std::vector<std::string>& arguments) {
+    finished_ = tool_tests::run_tool(arguments, {.environment = {}, .folder = folder_.path()});
+    return tool_tests::text_lines(tool_tests::read_text(folder_ / "starts"));
+  }
+
+  const std::string counted_ = "exec:./counted {tty} {station} {write_order} {delay_ms}";
+  TestFolder folder_;
+  Finished finished_;
+};
+
+/// Cases are grouped over the whole run: a command line that another one has followed does not come
+/// again. What is switched off by a case is started with the same once more.
+TEST_F(CountedStarts, AreAsManyAsCommandLinesAndPowerCycles) {
+  const std::vector<std::string> all =
+      starts({"run", "--endpoint", counted_, "--control", "-", "--profile", "inverter", "--role",
+              "server", "--filter", "ls_bus/*", "--out", folder_ / "out"});
+  EXPECT_EQ(finished_.code, 0) << finished_.out << finished_.err;
+  const std::set<std::string> different(all.begin(), all.end());
+  EXPECT_GT(different.size(), 10u);
+  std::vector<std::string> groups = all;
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  EXPECT_EQ(groups.size(), different.size());
+  constexpr std::size_t power_cycles = 2;  // ls_bus/frame_structure/power_cycle_*
+  EXPECT_EQ(all.size(), different.size() + power_cycles);
+}
+
+TEST_F(CountedStarts, HaveEveryMarkFilledFromTheFirst) {
+  EXPECT_THAT(starts({"run", "--endpoint", counted_, "--profile", "inverter", "--filter",
+                      "ls_bus/read/*", "--role", "server", "--out", folder_ / "out"}),
+              testing::ElementsAre("1 address_first 0"));
+  EXPECT_EQ(finished_.code, 0) << finished_.out << finished_.err;
+}
+
+/// `init` asks it before anybody has said which profile it is of.
+TEST_F(CountedStarts, OfInitHaveEveryMarkFilledFromTheFirst) {
+  const std::vector<std::string> all = starts({"init", "--yes", "--endpoint", counted_,
+                                               "--protocol", "ls-bus", "--no-run"});
+  EXPECT_EQ(finished_.code, 0) << finished_.out << finished_.err;
+  EXPECT_THAT(all, testing::ElementsAre("1 address_first 0"));
 }
 
 TEST(ExampleDevice, WhatItDoesNotSupportIsBlockedAndSaysSo) {
