@@ -90,6 +90,14 @@ Bytes FrameMonitor::advance(Time now) {
   return bytes;
 }
 
+Status FrameMonitor::act(std::string_view action) {
+  const Status done = device_->act(action);
+  if (!done || action != "power_cycle") return done;
+  close();
+  last_.reset();
+  return done;
+}
+
 Result<std::string> FrameMonitor::get(std::string_view address, std::size_t digits) const {
   if (address != "@monitor") return device_->get(address, digits);
   return hex_number(last_ ? last_->number : 0u, static_cast<int>(digits == 0 ? 2 : digits));

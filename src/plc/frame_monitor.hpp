@@ -51,7 +51,7 @@ struct MonitorRules {
 
 /// Passes everything on to its device, and back; what crosses its first line is monitored. Also a
 /// name of the back door: "@monitor" is the number of the last frame's result, 00 before there is
-/// one.
+/// one since power-on.
 class FrameMonitor : public EmulatedDevice, public line::Device {
  public:
   using Record = std::function<void(const MonitoredFrame&)>;
@@ -78,7 +78,7 @@ class FrameMonitor : public EmulatedDevice, public line::Device {
     return device_->set(address, hex);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
-  Status act(std::string_view action) override { return device_->act(action); }
+  Status act(std::string_view action) override;
   Trace trace() const override { return device_->trace(); }
 
  private:

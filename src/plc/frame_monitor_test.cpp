@@ -62,6 +62,7 @@ class Monitored {
       monitor_->advance(*wake);
     now_ = std::max(now_, until);
   }
+  void power_cycle() { EXPECT_TRUE(monitor_->act("power_cycle")); }
   std::string last() const { return *monitor_->get("@monitor", 0); }
   std::string get(std::string_view address) const { return *monitor_->get(address, 0); }
 
@@ -122,6 +123,15 @@ TEST(FrameMonitor, WhatTheDeviceAnswersToIsOver) {
 
 TEST(FrameMonitor, TheBackDoorLeadsToTheDevice) {
   EXPECT_EQ(Monitored().get("@status"), "of the device: @status");
+}
+
+TEST(FrameMonitor, KnowsNoFrameAfterAPowerCycle) {
+  Monitored one;
+  one.hear("Who?");
+  one.run(30ms);
+  EXPECT_NE(one.last(), "00");
+  one.power_cycle();
+  EXPECT_EQ(one.last(), "00");
 }
 
 TEST(FrameMonitor, Views) {

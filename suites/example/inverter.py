@@ -4,11 +4,16 @@
 LS Bus: ENQ station(2) command(1) ... sum(2) EOT, all in hex digits. On standard input it takes the
 wishes of --control, see README.md beside it.
 """
-import json, os, selectors, sys, tty
+import json, os, selectors, sys, time, tty
 
 station, count_first = int(sys.argv[2]), sys.argv[3] == "count_first"
-parameters = {address: 0 for address in [*range(0x1000), *range(0x1200, 0x1300)]}
 read_only = {*range(4), *range(9, 16)}
+settings = {"delay_ms": 0, "rs485": False, "neighbours": []}  # others on the line, which it stands in for
+
+def fresh(): return {address: 0 for address in [*range(0x1000), *range(0x1200, 0x1300)]}
+
+inverters = {station: fresh()}  # what each station holds
+parameters = inverters[station]
 
 def is_hex(text):
     return all(letter in "0123456789abcdefABCDEF" for letter in text)
@@ -16,7 +21,7 @@ def is_hex(text):
 def checksum(text):
     return f"{sum(text.encode('latin-1')) & 255:02X}"
 
-def served(command, rest):
+def served(parameters, command, rest):
     """The reply's data, or the two letters of an error."""
     if command not in ("R", "W"): return None, "IF"
     if command == "W" and count_first: rest = rest[1:5] + rest[:1] + rest[5:]
@@ -33,14 +38,21 @@ def served(command, rest):
 def reply(frame):
     """To what stands between ENQ and EOT; nothing where it is no request to this station."""
     text = frame.decode("latin-1")
-    if len(text) < 5 or text[:2].upper() != f"{station:02X}": return b""
-    data, error = served(text[2], text[3:-2]) if text[-2:].upper() == checksum(text[:-2]) else (None, "FE")
+    asked = [held for number, held in inverters.items() if text[:2].upper() == f"{number:02X}"]
+    if len(text) < 5 or not asked: return b""
+    data, error = served(asked[0], text[2], text[3:-2]) if text[-2:].upper() == checksum(text[:-2]) else (None, "FE")
     head, body = ("\x15", text[:3] + error) if error else ("\x06", text[:3] + data)
     return (head + body + checksum(body) + "\x04").encode("latin-1")
 
 def obey(wish):
-    """{"set": {"1230": "00FF"}}, {"get": ["1230"]}; the bench adds what it needs on the command line."""
+    """{"config": {"delay_ms": 400}}, {"set": {"1230": "00FF"}}, {"get": ["1230"]}."""
     (verb, what), = wish.items()
+    if verb == "config":
+        settings.update((key, value) for key, value in what.items() if key in settings)
+        for number in inverters.keys() - {station}: del inverters[number]
+        inverters.update((number, fresh()) for number in settings["neighbours"] or [])
+        unknown = [key for key in what if key not in settings]
+        return {"unsupported": unknown} if unknown else {"ok": True}
     if verb not in ("set", "get") or any(int(name, 16) not in parameters for name in what): return {"unsupported": True}
     if verb == "get": return {"values": {name: f"{parameters[int(name, 16)]:04X}" for name in what}}
     parameters.update({int(name, 16): int(value, 16) for name, value in what.items()})
@@ -62,5 +74,6 @@ while True:
             if byte == 0x05: frame = bytearray()
             elif frame is not None and byte != 0x04: frame = frame + bytes([byte]) if len(frame) < 254 else None  # 8.1.1 Note 3)
             elif frame is not None:
+                if settings["rs485"]: time.sleep((settings["delay_ms"] or 0) / 1000)
                 os.write(line, reply(frame))
                 frame = None

@@ -149,6 +149,45 @@ TEST_F(HtmlReportInBrowser, cases_are_filtered_by_section) {
   EXPECT_EQ(seen[4], true);
 }
 
+/// As large as a run of all vectors may become.
+TEST_F(HtmlReportInBrowser, ten_thousand_cases_are_in_it_and_searched) {
+  constexpr std::size_t many = 10'000;
+  std::string log;
+  std::vector<std::string> cases;
+  for (const std::string& line : text_lines(read_text(default_run().out() + "/results.ndjson")))
+    line.starts_with(R"({"case":)") ? cases.push_back(line) : void(log += line + '\n');
+  const std::size_t end = log.find(R"({"end":)");
+  ASSERT_NE(end, std::string::npos);
+  std::string lines;
+  for (std::size_t i = 0; i < many; ++i) {
+    json one = json::parse(cases[i % cases.size()]);
+    one["case"]["id"] = one["case"]["id"].get<std::string>() + "/of_many_" + std::to_string(i);
+    lines += one.dump() + '\n';
+  }
+  const std::string page = folder_ / "many.html";
+  EXPECT_EQ(run_tool({"report", folder_.write("many.ndjson", log.insert(end, lines)), "--html", page})
+                .code,
+            0);
+  const std::vector<json> seen = browse({
+      {"open", "file://" + page},
+      {"eval",
+       "[...document.querySelectorAll('.tiles [data-count]')].reduce((sum, one) => sum + "
+       "parseInt(one.textContent.replace(/\\D/g, '')), 0)"},
+      {"click", "#find input"},
+      {"type", "of_many_9876"},
+      {"eval", "parseInt(document.querySelector('#find output').textContent)"},
+      {"eval",
+       "[...document.querySelectorAll('#found tbody tr')].map(r => r.cells[1].textContent)"},
+      {"click", "#found tbody a"},
+      {"eval", "document.querySelector('.seen').checkVisibility()"},
+  });
+  ASSERT_EQ(seen.size(), 5u);
+  EXPECT_EQ(seen[1], many);
+  EXPECT_EQ(seen[2], 1);
+  EXPECT_THAT(seen[3].get<std::vector<std::string>>(), testing::ElementsAre(HasSubstr("of_many_9876")));
+  EXPECT_EQ(seen[4], true) << "the result leads to its case";
+}
+
 /// On a telephone, too: when the answer was due, and each word of a difference in one piece.
 TEST_F(HtmlReportInBrowser, a_failure_can_be_read_at_400_pixels) {
   const auto inside = [](const std::string& what) {
@@ -231,6 +270,20 @@ TEST_F(HtmlReportInBrowser, nothing_is_wider_than_400_pixels) {
   }
 }
 
+std::string sheet(std::ptrdiff_t paper) { return "sheet" + std::to_string(paper) + ".pdf"; }
+
+/// By a program that has not made it: as many pages, and on the first who was judged, how, and where
+/// to sign.
+void read_by_others(const std::string& pdf, int pages) {
+  if (run_program({"sh", "-c", "command -v pdfinfo pdftotext"}).code != 0) return;
+  EXPECT_THAT(run_program({"pdfinfo", pdf}).out,
+              testing::ContainsRegex("Pages: +" + std::to_string(pages) + "\n"));
+  const std::string first = run_program({"pdftotext", "-layout", "-l", "1", pdf, "-"}).out;
+  for (const char* text : {"Conformance of", "endpoint", "profile", "GATE", "Tested by",
+                           "Approved by", "Signature"})
+    EXPECT_THAT(first, HasSubstr(text));
+}
+
 /// Both papers: what is signed on the first page, what was not judged from the second on.
 TEST_F(HtmlReportInBrowser, the_sheet_has_few_pages) {
   struct Paper {
@@ -243,7 +296,7 @@ TEST_F(HtmlReportInBrowser, the_sheet_has_few_pages) {
     for (const Paper& paper : papers)
       actions.insert(
           actions.end(),
-          {{"pdf", folder_ / "sheet.pdf", paper.width, paper.height},
+          {{"pdf", folder_ / sheet(&paper - papers.data()), paper.width, paper.height},
            {"paper", paper.width - 28 / 25.4, paper.inside()},
            {"eval",
             "document.querySelector('.signatures').getBoundingClientRect().bottom + scrollY"},
@@ -255,6 +308,7 @@ TEST_F(HtmlReportInBrowser, the_sheet_has_few_pages) {
     ASSERT_EQ(seen.size(), 9u);
     for (std::size_t i = 0; i < papers.size(); ++i) {
       EXPECT_THAT(seen[4 * i + 1].get<int>(), AllOf(Ge(2), Le(6))) << papers[i].width << page;
+      read_by_others(folder_ / sheet(i), seen[4 * i + 1].get<int>());
       EXPECT_LE(seen[4 * i + 2].get<double>(), papers[i].inside() * 96) << "the first page";
       EXPECT_EQ(seen[4 * i + 3], "page") << "what was not judged begins another";
       EXPECT_EQ(seen[4 * i + 4], 0) << "the sheet alone is printed";

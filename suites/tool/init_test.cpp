@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <fstream>
 
+#include "harness/system/sockets/test_sockets.hpp"
+#include "reports/text/fold.hpp"
 #include "suites/tool/tool_files.hpp"
 
 namespace fieldproof::tool_tests {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -75,6 +78,65 @@ TEST(Init, AProgramOnANetworkIsAskedByEveryProtocol) {
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   const nlohmann::json bench = nlohmann::json::parse(read(folder / "bench.json"));
   EXPECT_THAT(bench["devices"]["dut"]["endpoint"], HasSubstr("protocol=modbus-tcp"));
+}
+
+/// A server on a port of its own is found as one: no protocol is named.
+TEST(Init, AServerAtAnyPortIsFoundAndItsCasesAreRun) {
+  const TestFolder folder;
+  const std::string address =
+      "127.0.0.1:" + std::to_string(os::test::port_of(os::test::bound(SOCK_STREAM)));
+  Process plc(tool_arguments({"emulate", "xbc-h?protocol=modbus-tcp", "--tcp", address}));
+  ASSERT_TRUE(plc.wait_for("tcp " + address));
+  const Finished finished =
+      init(folder, {"--endpoint", "tcp:" + address, "--profile", "xbc-h", "--allow-write", "all"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  const nlohmann::json bench = nlohmann::json::parse(read(folder / "bench.json"));
+  EXPECT_THAT(bench["devices"]["dut"]["endpoint"],
+              AllOf(HasSubstr("tcp:" + address), HasSubstr("protocol=modbus-tcp")));
+  Results results = read_results(folder / "fieldproof-out/results.ndjson");
+  EXPECT_GT(results.counts()["PASS"], 100u);
+}
+
+/// And a line behind a port, too.
+TEST(Init, ALineBehindAPortIsSearchedWhereNoServerIs) {
+  const TestFolder folder;
+  const std::string address =
+      "127.0.0.1:" + std::to_string(os::test::port_of(os::test::bound(SOCK_STREAM)));
+  Process plc(tool_arguments({"emulate", "xbc-h", "--tcp", address}));
+  ASSERT_TRUE(plc.wait_for("tcp " + address));
+  const Finished finished = init(folder, {"--endpoint", "tcp:" + address, "--no-run"});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  const nlohmann::json bench = nlohmann::json::parse(read(folder / "bench.json"));
+  EXPECT_THAT(bench["devices"]["dut"]["endpoint"], HasSubstr("protocol=xgt-cnet"));
+}
+
+/// `script` makes the terminal; what is typed waits there until it is read.
+TEST(Init, ItsQuestionsAreAnsweredOnATerminal) {
+  const TestFolder folder;
+  folder.write("typed", inverter + "?protocol=ls-bus\n\nfan\n\n1.2\ngitlab\n");
+  const std::string call = "stty cols 80 -echo && exec " + quoted(FIELDPROOF_TOOL) + " init";
+  const Finished finished =
+      run_program({"bash", "-c", "script --quiet --return --command \"$1\" /dev/null <typed",
+                   "bash", call},
+                  {{}, folder.path()});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  for (const char* question :
+       {"Where is the device? (--endpoint): ", "Which model is it? (--profile) [inverter]: ",
+        "Its name on this bench? (--name) [dut]: ", "Serial number, if any? (--serial): ",
+        "Firmware version, if known? (--firmware): ", "(--ci) [none]: "})
+    EXPECT_THAT(finished.out, HasSubstr(question));
+  for (const std::string& line : text_lines(finished.out))
+    for (std::size_t at = 0; at < line.size(); at = line.find('\r', at) + 1) {
+      const std::string drawn = line.substr(at, line.find('\r', at) - at);
+      EXPECT_LE(text::columns_of(drawn), 80u) << drawn;
+      if (line.find('\r', at) == std::string::npos) break;
+    }
+  const nlohmann::json bench = nlohmann::json::parse(read(folder / "bench.json"));
+  EXPECT_EQ(bench["devices"]["fan"]["profile"], "inverter");
+  EXPECT_EQ(bench["devices"]["fan"]["identity"]["firmware"], "1.2");
+  EXPECT_FALSE(bench["devices"]["fan"]["identity"].contains("serial"));
+  EXPECT_GT(read_results(folder / "fieldproof-out/results.ndjson").counts()["PASS"], 150u);
+  EXPECT_THAT(read(folder / ".gitlab-ci.yml"), HasSubstr("--dut fan"));
 }
 
 TEST(Init, WhatNoOneAnswersIsNamed) {

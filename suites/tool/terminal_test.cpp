@@ -61,6 +61,20 @@ TEST_F(OnATerminal, a_red_run_fits) {
   EXPECT_THAT(too_wide(run(verbose)), IsEmpty());
 }
 
+/// What is quoted for the shell, too: in the line to replay, and where `probe` says how to go on.
+TEST_F(OnATerminal, a_command_with_a_long_endpoint_fits) {
+  const std::string why = " # so that the quotes of this word hold more than a line of a terminal has";
+  std::vector<std::string> red = broken_run();
+  red[2] += why;
+  const Finished failed = run(red);
+  EXPECT_THAT(failed.out, HasSubstr("replay    fieldproof run"));
+  EXPECT_THAT(too_wide(failed), IsEmpty());
+  const Finished probed =
+      run({"probe", red[2], "--protocol", "xgt-cnet", "--station", "1", "--wait", "200"});
+  EXPECT_THAT(probed.out, HasSubstr("go on with    fieldproof run"));
+  EXPECT_THAT(too_wide(probed), IsEmpty());
+}
+
 TEST_F(OnATerminal, a_replayed_command_can_be_pasted) {
   const std::string out = run(broken_run()).out;
   const std::size_t begin = out.find("replay    ") + 10;
