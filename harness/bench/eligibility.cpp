@@ -108,6 +108,10 @@ std::string Eligibility::undeclared(const json& config) const {
     if (!has.is_null() &&
         means_the_same(options_.profile, key, without_programs(has), value, protocol_))
       continue;
+    if (key == "services")
+      return fmt::format(
+          "needs a second line to the same device, which the bench has not: services {}",
+          plain(value));
     const bool refused = endpoint_.capabilities().control && !endpoint_.configures(key);
     return fmt::format("needs {} = {}; the profile declares {}{}", key, plain(value),
                        has.is_null() ? "nothing" : plain(has),

@@ -207,6 +207,7 @@ Status Controlled::renew() {
   if (!answer) return answer.error();
   capabilities_.renews = !answer->contains("unsupported");
   if (!capabilities_.renews) return Endpoint::renew();
+  to_.lose_links();
   told_["mode"] = nullptr;  // the one in which it comes up
   return ok();
 }

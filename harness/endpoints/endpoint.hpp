@@ -105,6 +105,8 @@ class Endpoint {
   /// Off and on by a word to the device, which answers when it is up (capabilities().renews): no
   /// request that looks for it moves its counters. Errors that are `refused`: it knows no such word.
   virtual Status renew();
+  /// The device has lost its power: what was open leads nowhere any more.
+  virtual void lose_links() {}
   /// Puts back what set() has changed in a real device since the case began.
   virtual Status put_back() { return ok(); }
   /// What moved since the case began, and who had the token (EmulatedDevice::trace).

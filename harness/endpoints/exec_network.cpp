@@ -79,6 +79,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
     if (sent && ran) last_sent_.assign(bytes.begin(), bytes.end());
     return sent;
   }
+  void lose_links() override { sockets().lose_all(); }
 
   Status tell(std::string_view line) override {
     if (os::write_line(input_.get(), std::string(line))) return ok();

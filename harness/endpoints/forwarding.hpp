@@ -42,6 +42,7 @@ class Forwarding : public Endpoint {
   }
   Status act(std::string_view action) override { return to_.act(action); }
   Status renew() override { return to_.renew(); }
+  void lose_links() override { to_.lose_links(); }
   Status put_back() override { return to_.put_back(); }
   Trace trace() const override { return to_.trace(); }
   Status tell(std::string_view line) override { return to_.tell(line); }

@@ -78,6 +78,7 @@ void CaseRun::act(const std::string& action) {
   }
   Arming* const told = client_ && can().real_device ? around_.arming : nullptr;
   Status done = ok();
+  if (action == "power_cycle") links_.lose(*around_.device.endpoint);
   if (action == "power_cycle" && can().real_device && !told)
     done = cycle_power();
   else if (told && told->follows(action))
@@ -128,11 +129,13 @@ void CaseRun::set_memory(const std::vector<std::pair<std::string, std::string>>&
 }
 
 /// A frame that nobody answers (the bench's own reply to a client) is still on its way when the
-/// send returns.
+/// send returns. What another station has answered is still to end for the one that is looked at.
 void CaseRun::settle_before_look() {
   const bool unanswered = index() > 0 && last_sending_ == index() - 1;
-  if (!unanswered || can().simulated) return;
-  const Time settled = last_sender_->last_sent.end + around_.timing.quiet;
+  if (can().simulated || !last_sender_ || !(unanswered || neighbours_)) return;
+  const Time settled = std::max(last_sender_->last_sent.end,
+                                neighbours_ ? last_sender_->last_heard : Time{}) +
+                       around_.timing.quiet;
   while (links_.listen(*last_sender_, settled)) {
   }
 }

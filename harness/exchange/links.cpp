@@ -193,6 +193,11 @@ void Links::take(const endpoints::Endpoint& from, Burst burst) {
   transcript_.flooded = transcript_.flooded || link->pending.bytes().size() > flood_limit;
 }
 
+void Links::lose(const endpoints::Endpoint& device) {
+  for (Link& link : links_)
+    link.lost |= link.network && !link.datagrams() && link.to.endpoint == &device;
+}
+
 void Links::close(Link& link, Closing how) {
   if (link.by_device && link.datagrams()) {  // there is nothing to end
     link.sends = link.hears = false;

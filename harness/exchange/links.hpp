@@ -23,6 +23,7 @@ struct Link {
   bool hears = true;       // more may come
   bool gone = false;       // reset, or vanished: there is nothing left to close
   bool jilted = false;     // the device ended it before the bench did
+  bool lost = false;       // the device has had no power since it was opened
   bool asked = false;      // no step has taken anything since the last one that sent
 
   Pending pending;
@@ -37,7 +38,7 @@ struct Link {
 
   bool datagrams() const { return network && transport == Transport::udp; }
   /// Nothing that was sent waits for its rest: a probe would be read as one.
-  bool between_frames() const { return sends && hears && unfinished.empty(); }
+  bool between_frames() const { return sends && hears && !lost && unfinished.empty(); }
   /// Nothing is under way: a request of the bench's own disturbs no step.
   bool idle() const;
 };
@@ -73,6 +74,8 @@ class Links {
   /// What came on `from`, to whoever listened there.
   void take(const endpoints::Endpoint& from, Burst burst);
   void close(Link& link, Closing how);
+  /// The device has lost its power, and its connections with it.
+  void lose(const endpoints::Endpoint& device);
 
   /// Answers are counted from now: memory was set, a link was opened.
   void restart(Time now);

@@ -42,7 +42,7 @@ constexpr const char* most =
     "split_write/*";
 
 const std::vector<NotThere> without_back_door{
-    {"xgt_fenet/cnet_and_fenet/", "needs services = "},
+    {"xgt_fenet/cnet_and_fenet/", "needs a second line to the same device"},
     {"xgt_fenet/connections/dedicated_", "needs connections = "},
     {"xgt_fenet/connections/power_cycle", "cannot do power_cycle"},
     {"xgt_fenet/connections/vanished_place_is_free", "needs waiting_time = 2"},
