@@ -102,6 +102,56 @@ TEST_F(ControlledTest, AfterARestartItIsToldAnew) {
   EXPECT_THAT(asked, ElementsAre(R"({"config":{"mode":"stop"}})", R"({"config":{"mode":"stop"}})"));
 }
 
+/// The program of the device itself.
+struct Obedient : Silent {
+  Status tell(std::string_view line) override {
+    told.emplace_back(line);
+    return ok();
+  }
+  std::string answer(Duration patience) override { return patience == 0ns ? "" : says; }
+  void lose_links() override { ++lost; }
+
+  std::vector<std::string> told;
+  std::string says = R"({"ok": true})";
+  int lost = 0;
+};
+
+TEST(ControlledProgram, IsSwitchedOffAndOnByAWordAndKeepsWhatItWasTold) {
+  auto own = std::make_unique<Obedient>();
+  Obedient& program = *own;
+  const harness::TestProtocol protocol;
+  Controlled device(std::move(own), protocol, {});
+  ASSERT_TRUE(device.begin({{"mode", "run"}, {"delay_ms", 0}}));
+  ASSERT_TRUE(device.begin({{"mode", "run"}, {"delay_ms", 5}}));
+  ASSERT_TRUE(device.renew());
+  EXPECT_EQ(program.lost, 1);
+  EXPECT_EQ(program.starts(), 1u);
+  ASSERT_TRUE(device.begin({{"mode", "run"}, {"delay_ms", 5}}));
+  EXPECT_THAT(program.told, ElementsAre(R"({"config":{"delay_ms":5}})", R"({"do":"power_cycle"})",
+                                        R"({"config":{"mode":"run"}})"))
+      << "it may come up in another mode";
+}
+
+TEST(ControlledProgram, ThatKnowsNoPowerCycleIsNotAskedForItAgain) {
+  auto own = std::make_unique<Obedient>();
+  Obedient& program = *own;
+  program.says = R"({"unsupported": true})";
+  const harness::TestProtocol protocol;
+  Controlled device(std::move(own), protocol, {});
+  for (int i = 0; i < 2; ++i) {
+    const Status renewed = device.renew();
+    ASSERT_FALSE(renewed);
+    EXPECT_TRUE(renewed.error().refused);
+  }
+  EXPECT_EQ(program.told.size(), 1u);
+  EXPECT_FALSE(device.capabilities().renews);
+}
+
+TEST_F(ControlledTest, AProgramBesideTheDeviceCannotSayWhenItIsUpAgain) {
+  EXPECT_TRUE(device().renew().error().refused);
+  EXPECT_THAT(asked, IsEmpty());
+}
+
 TEST_F(ControlledTest, WhatAnActionChangedIsToldBeforeTheNextCase) {
   declare({{"mode", "run"}});
   answers = {R"({"ok": true})", R"({"ok": true})", R"({"ok": true})", R"({"ok": true})"};

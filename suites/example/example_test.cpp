@@ -125,14 +125,44 @@ TEST(ControlOption, SetsUpAPlc) {
        " emulate 'xbc-h?protocol=modbus-ascii&station={station}' --control - --pty {tty}",
        "--control", "-", "--protocol", "modbus-ascii", "--profile", "xbc-h", "--role", "server",
        "--filter",
-       // Counters at power-on are not seen: the bench asks before it looks.
-       "modbus_ascii/bases/*:modbus_ascii/modes/*:modbus_ascii/station*/*:*/status*/*:"
-       "-*/status/power_cycle",
+       "modbus_ascii/bases/*:modbus_ascii/modes/*:modbus_ascii/station*/*:*/status*/*",
        "--out", folder.path()});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   tool_tests::Results results = tool_tests::read_results(folder / "results.ndjson");
   EXPECT_EQ(results.counts()["BLOCKED"], 0u) << finished.out;
   EXPECT_GT(results.counts()["PASS"], 50u);
+}
+
+/// Past the wire: who is shut out cannot ask, and what is asked would be counted.
+TEST(ControlOption, JudgesWhatCountsFromPowerOnAndAHostTableThatShutsTheBenchOut) {
+  const TestFolder folder;
+  const Finished finished = tool_tests::run_tool(
+      {"run", "--endpoint",
+       "exec:" FIELDPROOF_TOOL
+       " emulate 'xbc-h?protocol=xgt-fenet' --control - --tcp {port} --udp {udp_port}",
+       "--control", "-", "--protocol", "xgt-fenet", "--profile", "xbc-h", "--role", "server",
+       "--filter", "xgt_fenet/host_table/*:xgt_fenet/status/*:-*/not_listed_udp/*", "--out",
+       folder.path()});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  tool_tests::Results results = tool_tests::read_results(folder / "results.ndjson");
+  EXPECT_EQ(results.counts()["BLOCKED"], 0u) << finished.out;
+  EXPECT_EQ(results.verdict("xgt_fenet/status/power_cycle"), "PASS");
+  EXPECT_EQ(results.verdict("xgt_fenet/host_table/empty"), "PASS");
+}
+
+/// A frame monitor that has seen nothing yet, and a station behind another one's answer.
+TEST(ControlOption, JudgesAFrameMonitorAndNeighbours) {
+  const TestFolder folder;
+  const Finished finished = tool_tests::run_tool(
+      {"run", "--endpoint",
+       "exec:" FIELDPROOF_TOOL " emulate 'xbc-h?protocol=modbus-rtu' --control - --pty {tty}",
+       "--control", "-", "--protocol", "modbus-rtu", "--profile", "xbc-h", "--role", "server",
+       "--filter", "modbus_rtu/frame_monitor/*:modbus_rtu/station/several*:modbus_rtu/status/*",
+       "--out", folder.path()});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  tool_tests::Results results = tool_tests::read_results(folder / "results.ndjson");
+  EXPECT_EQ(results.counts()["BLOCKED"], 0u) << finished.out;
+  EXPECT_GT(results.counts()["PASS"], 5u);
 }
 
 }  // namespace

@@ -128,8 +128,9 @@ TEST(Init, ItsQuestionsAreAnsweredOnATerminal) {
   // But for what was typed and for the questions, between which no Enter stands.
   for (std::string line : text_lines(finished.out)) {
     line.erase(std::min(line.find('\r'), line.size()));
-    if (line.find("(--") == std::string::npos && !line.starts_with("exec:"))
+    if (line.find("(--") == std::string::npos && !line.starts_with("exec:")) {
       EXPECT_LE(text::columns_of(line), 80u) << line;
+    }
   }
   const nlohmann::json bench = nlohmann::json::parse(read(folder / "bench.json"));
   EXPECT_EQ(bench["devices"]["fan"]["profile"], "inverter");
