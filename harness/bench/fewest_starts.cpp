@@ -28,7 +28,7 @@ class Numbers {
 };
 
 std::vector<Placed> places_of(const std::vector<const vectors::Case*>& cases,
-                           const std::function<SetUpOfCase(const vectors::Case&)>& set_up_of) {
+                              const std::function<SetUpOfCase(const vectors::Case&)>& set_up_of) {
   std::vector<SetUpOfCase> set_ups;
   for (const vectors::Case* one : cases) set_ups.push_back(set_up_of(*one));
   Numbers starts, needs;

@@ -76,7 +76,8 @@ int find_device(const InitOptions& options, const EndpointName& endpoint, const 
   servers.protocols = servers_to_ask(probe, endpoint, known);
   if (!servers.protocols.empty()) {
     const int code = probe_command(servers, known, &found);
-    if (!found.empty() || code != run::exit_code::failed || endpoints::kind_of(endpoint).free_target)
+    if (!found.empty() || code != run::exit_code::failed ||
+        endpoints::kind_of(endpoint).free_target)
       return code;
   }
   return probe_command(probe, known, &found);

@@ -9,8 +9,8 @@
 
 namespace fieldproof::cli {
 
-/// A program that the bench starts is told what the profile declares before it is asked; without one
-/// what that of a module of the protocol does.
+/// A program that the bench starts is told what the profile declares before it is asked; without
+/// one what that of a module of the protocol does.
 Status tell_what_to_be(endpoints::Endpoint& device, const endpoints::EndpointName& name,
                        const harness::Protocol& protocol, const std::string& profile);
 

@@ -98,8 +98,7 @@ int probe_servers(const ProbeOptions& options, const EndpointName& endpoint, con
   const auto open = [&](const Protocol& protocol) {
     EndpointName name = endpoint;
     name.options["protocol"] = protocol.name();
-    Result<std::unique_ptr<endpoints::Endpoint>> device =
-        endpoints::open_endpoint(name, protocol);
+    Result<std::unique_ptr<endpoints::Endpoint>> device = endpoints::open_endpoint(name, protocol);
     if (device)
       if (const Status told = tell_what_to_be(**device, name, protocol, options.profile); !told)
         device = told.error();

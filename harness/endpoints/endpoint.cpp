@@ -85,9 +85,10 @@ Status Endpoint::act(std::string_view action) {
 }
 
 Status Endpoint::renew() {
-  return refuse(fmt::format("cannot switch {} off and on without asking whether it is up again, "
-                            "which moves its counters: --control - knows no \"power_cycle\"",
-                            describe()));
+  return refuse(
+      fmt::format("cannot switch {} off and on without asking whether it is up again, "
+                  "which moves its counters: --control - knows no \"power_cycle\"",
+                  describe()));
 }
 
 Status Endpoint::tell(std::string_view) {

@@ -103,7 +103,8 @@ class Endpoint {
   virtual Result<std::string> get(std::string_view address, std::size_t digits);
   virtual Status act(std::string_view action);
   /// Off and on by a word to the device, which answers when it is up (capabilities().renews): no
-  /// request that looks for it moves its counters. Errors that are `refused`: it knows no such word.
+  /// request that looks for it moves its counters. Errors that are `refused`: it knows no such
+  /// word.
   virtual Status renew();
   /// The device has lost its power: what was open leads nowhere any more.
   virtual void lose_links() {}

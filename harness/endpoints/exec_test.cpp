@@ -54,6 +54,18 @@ TEST(Exec, IsStartedAnewWhereACaseNeedsAnotherCommandLine) {
   EXPECT_EQ(receive_text(*endpoint, "5\n"), "5\n") << "as it was";
 }
 
+TEST(Exec, IsStartedOnceWithWhatTheFirstCaseNeeds) {
+  const auto endpoint = open("echo {delay_ms} >{tty}; exec cat <{tty}");
+  EXPECT_EQ(endpoint->starts(), 0u);
+  ASSERT_TRUE(endpoint->begin({{"delay_ms", 10}}));
+  EXPECT_EQ(receive_text(*endpoint, "10\n"), "10\n");
+  EXPECT_EQ(endpoint->starts(), 1u);
+  EXPECT_EQ(endpoint->started_with({{"delay_ms", 10}, {"station", 3}}),
+            endpoint->started_with({{"delay_ms", 10}, {"station", 5}}))
+      << "the command takes no station";
+  EXPECT_NE(endpoint->started_with({{"delay_ms", 10}}), endpoint->started_with({{"delay_ms", 20}}));
+}
+
 TEST(Exec, WhatAChildSaysBesidesTheLineIsNotOnTheLine) {
   const auto endpoint = open("echo chatter; echo more >&2; cat <{tty} >{tty}");
   ASSERT_TRUE(endpoint->send(to_bytes("x")));

@@ -100,9 +100,8 @@ Status CaseRun::cycle_power() {
   if (const Status done = endpoint.act("power_cycle"); !done) return done;
   Channel device = around_.device;
   device.station = prepared_.station;
-  const Result<Sign> back =
-      Sanity(device, around_.timing)
-          .anything_answers(restart_patience, prepared_.reply_delay(), true);
+  const Result<Sign> back = Sanity(device, around_.timing)
+                                .anything_answers(restart_patience, prepared_.reply_delay(), true);
   if (!back) transcript_.trouble = back.error();
   return ok();
 }
@@ -133,9 +132,9 @@ void CaseRun::set_memory(const std::vector<std::pair<std::string, std::string>>&
 void CaseRun::settle_before_look() {
   const bool unanswered = index() > 0 && last_sending_ == index() - 1;
   if (can().simulated || !last_sender_ || !(unanswered || neighbours_)) return;
-  const Time settled = std::max(last_sender_->last_sent.end,
-                                neighbours_ ? last_sender_->last_heard : Time{}) +
-                       around_.timing.quiet;
+  const Time settled =
+      std::max(last_sender_->last_sent.end, neighbours_ ? last_sender_->last_heard : Time{}) +
+      around_.timing.quiet;
   while (links_.listen(*last_sender_, settled)) {
   }
 }

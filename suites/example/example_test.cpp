@@ -49,10 +49,10 @@ TEST(ExampleDevice, IsGivenStationAndWriteOrder) {
 class CountedStarts : public testing::Test {
  protected:
   CountedStarts() {
-    const std::string script = folder_.write(
-        "counted", "#!/bin/sh\nport=$1\nshift\necho \"$*\" >>starts\n"
-                   "exec python3 -B " FIELDPROOF_SOURCE_DIR
-                   "/suites/example/inverter.py $port \"$@\"\n");
+    const std::string script = folder_.write("counted",
+                                             "#!/bin/sh\nport=$1\nshift\necho \"$*\" >>starts\n"
+                                             "exec python3 -B " FIELDPROOF_SOURCE_DIR
+                                             "/suites/example/inverter.py $port \"$@\"\n");
     std::filesystem::permissions(script, std::filesystem::perms::owner_all);
   }
 
@@ -72,8 +72,8 @@ class CountedStarts : public testing::Test {
 TEST_F(CountedStarts, AreAsManyAsCommandLinesAndPowerCycles) {
   const std::vector<std::string> all =
       starts({"run", "--endpoint", "exec:./counted {tty} {station} {write_order}", "--control", "-",
-              "--profile", "inverter", "--role",
-              "server", "--filter", "ls_bus/*", "--out", folder_ / "out"});
+              "--profile", "inverter", "--role", "server", "--filter", "ls_bus/*", "--out",
+              folder_ / "out"});
   EXPECT_EQ(finished_.code, 0) << finished_.out << finished_.err;
   const std::set<std::string> different(all.begin(), all.end());
   EXPECT_GE(different.size(), 11u);
@@ -93,19 +93,19 @@ TEST_F(CountedStarts, HaveEveryMarkFilledFromTheFirst) {
 
 /// `init` asks it before anybody has said which profile it is of.
 TEST_F(CountedStarts, OfInitHaveEveryMarkFilledFromTheFirst) {
-  const std::vector<std::string> all = starts({"init", "--yes", "--endpoint", counted_,
-                                               "--protocol", "ls-bus", "--no-run"});
+  const std::vector<std::string> all =
+      starts({"init", "--yes", "--endpoint", counted_, "--protocol", "ls-bus", "--no-run"});
   EXPECT_EQ(finished_.code, 0) << finished_.out << finished_.err;
   EXPECT_THAT(all, testing::ElementsAre("1 address_first 0"));
 }
 
 TEST(ControlOption, WhatItDoesNotSupportIsBlockedAndSaysSo) {
   const TestFolder folder;
-  const Finished finished = tool_tests::run_tool(
-      {"run", "--endpoint", inverter, "--control",
-       "while read -r wish; do echo '{\"unsupported\": true}'; done", "--profile", "inverter",
-       "--filter", "ls_bus/stations/two_inverters", "--role", "server", "-v", "--out",
-       folder.path()});
+  const Finished finished =
+      tool_tests::run_tool({"run", "--endpoint", inverter, "--control",
+                            "while read -r wish; do echo '{\"unsupported\": true}'; done",
+                            "--profile", "inverter", "--filter", "ls_bus/stations/two_inverters",
+                            "--role", "server", "-v", "--out", folder.path()});
   EXPECT_THAT(finished.out, HasSubstr("needs neighbours = [2], which --control does not support"));
 }
 
@@ -124,8 +124,7 @@ TEST(ControlOption, SetsUpAPlc) {
        "exec:" FIELDPROOF_TOOL
        " emulate 'xbc-h?protocol=modbus-ascii&station={station}' --control - --pty {tty}",
        "--control", "-", "--protocol", "modbus-ascii", "--profile", "xbc-h", "--role", "server",
-       "--filter",
-       "modbus_ascii/bases/*:modbus_ascii/modes/*:modbus_ascii/station*/*:*/status*/*",
+       "--filter", "modbus_ascii/bases/*:modbus_ascii/modes/*:modbus_ascii/station*/*:*/status*/*",
        "--out", folder.path()});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   tool_tests::Results results = tool_tests::read_results(folder / "results.ndjson");

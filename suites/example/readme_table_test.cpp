@@ -1,5 +1,5 @@
-// The table of README "A program that can be set up": what a run judges of each device there is what
-// the table says.
+// The table of README "A program that can be set up": what a run judges of each device there is
+// what the table says.
 #include <gmock/gmock.h>
 
 #include <list>
@@ -83,11 +83,10 @@ TEST_F(ReadmeTable, HasWhatARunGives) {
     SCOPED_TRACE(row.filter);
     std::map<std::string, std::size_t> counts =
         tool_tests::read_results(folder_ / (row.filter + "/results.ndjson")).counts();
-    const std::size_t skipped = counts["SKIP"],
-                      open = counts["BLOCKED"] + counts["INCONCLUSIVE"];
-    const std::size_t all = std::accumulate(
-        counts.begin(), counts.end(), std::size_t{},
-        [](std::size_t sum, const auto& one) { return sum + one.second; });
+    const std::size_t skipped = counts["SKIP"], open = counts["BLOCKED"] + counts["INCONCLUSIVE"];
+    const std::size_t all =
+        std::accumulate(counts.begin(), counts.end(), std::size_t{},
+                        [](std::size_t sum, const auto& one) { return sum + one.second; });
     EXPECT_EQ(row.declared, all - skipped);
     EXPECT_EQ(row.judged, all - skipped - open);
     EXPECT_EQ(std::accumulate(row.rest.begin(), row.rest.end(), std::size_t{}), open)

@@ -115,10 +115,9 @@ TEST(Init, ItsQuestionsAreAnsweredOnATerminal) {
   const TestFolder folder;
   folder.write("typed", inverter + "?protocol=ls-bus\n\nfan\n\n1.2\ngitlab\n");
   const std::string call = "stty cols 80 -echo && exec " + quoted(FIELDPROOF_TOOL) + " init";
-  const Finished finished =
-      run_program({"bash", "-c", "script --quiet --return --command \"$1\" /dev/null <typed",
-                   "bash", call},
-                  {{}, folder.path()});
+  const Finished finished = run_program(
+      {"bash", "-c", "script --quiet --return --command \"$1\" /dev/null <typed", "bash", call},
+      {{}, folder.path()});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   for (const char* question :
        {"Where is the device? (--endpoint): ", "Which model is it? (--profile) [inverter]: ",
