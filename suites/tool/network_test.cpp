@@ -27,6 +27,7 @@ class Emulated : public EmulatedServer {
 const std::vector<NotThere> without_back_door{
     {"modbus_tcp/client/", "nothing makes the device ask: give --stimulus COMMAND"},
     {"modbus_tcp/bases/", "the profile declares "},
+    {"modbus_tcp/bases/of_each_service", "needs a second line to the same device"},
     {"modbus_tcp/cnet_and_tcp/", "needs a second line to the same device"},
     {"modbus_tcp/connections/dedicated_", "needs connections = "},
     {"modbus_tcp/connections/vanished_place_is_free", "needs waiting_time = 2"},
