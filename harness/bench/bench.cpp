@@ -434,6 +434,20 @@ bool Bench::meets_premises(const PreparedCase& prepared, CaseResult& result) {
   return false;
 }
 
+/// What cannot be set is as the case begins, or the case cannot run. Errors that are not of the
+/// device or of the value are of the port (MemoryAccess::refused).
+Status Bench::holds(const PreparedCase& prepared, const Protocol::Setting& given,
+                    const std::string& why_not_set) {
+  const auto& [address, hex] = given;
+  const Result<std::string> held = memory_.get(prepared, address, hex.size());
+  if (!held) return held.error();
+  if (from_hex(*held) == from_hex(hex)) return ok();
+  Error error = fail(fmt::format("cannot set {}: {}; it holds {}, and the case begins with {}",
+                                 address, why_not_set, *held, hex));
+  error.refused = true;
+  return error;
+}
+
 /// Sets the given memory; whatever makes a real client ask is told of the case.
 bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
   const auto give_up = [&](Verdict verdict, const Error& error) {
@@ -470,7 +484,9 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
       return give_up(Verdict::blocked,
                      fail(fmt::format("{}cannot set {}: no answer{}", exchange::set_up_failure,
                                       address, not_tried)));
-    const Status done = set(address, hex);
+    const std::string why_not = eligibility_.only_read(prepared, {address, hex});
+    const Status done =
+        why_not.empty() ? set(address, hex) : holds(prepared, {address, hex}, why_not);
     known_->set_ups_unanswered *= memory_.lost() ? 1 : 0;
     if (done) continue;
     if (done.error().refused) return give_up(Verdict::blocked, done.error());

@@ -83,6 +83,8 @@ class Bench {
   const ReadyCase& ready_for(const vectors::Case& source);
   Result<std::string> unmet_premise(const exchange::PreparedCase& prepared);
   bool meets_premises(const exchange::PreparedCase& prepared, results::CaseResult& result);
+  Status holds(const exchange::PreparedCase& prepared, const harness::Protocol::Setting& given,
+               const std::string& why_not_set);
   nlohmann::json begin_config(const vectors::Case& source) const;
   judging::JudgeRules rules() const;
   exchange::ExchangeTiming timing() const;

@@ -203,6 +203,18 @@ std::string Eligibility::motion_objection(const PreparedCase& prepared) const {
   return {};
 }
 
+std::string Eligibility::only_read(const PreparedCase& prepared,
+                                   const Protocol::Setting& given) const {
+  const auto& [address, hex] = given;
+  const endpoints::Capabilities& can = endpoint_.capabilities();
+  if (can.back_door || can.control || prepared.is_client()) return {};
+  if (!exchange::place_name(address).partner.empty()) return {};
+  const Result<std::vector<Bytes>> requests =
+      protocol_.write_requests(prepared.station, address, hex);
+  if (requests || !protocol_.read_requests(prepared.station, address, hex.size())) return {};
+  return requests.error().message;
+}
+
 std::string Eligibility::fence_objection(const PreparedCase& prepared) const {
   const Result<std::vector<Protocol::Written>> over_aux = written_over_aux(prepared);
   if (!over_aux) return over_aux.error().message;
@@ -211,11 +223,14 @@ std::string Eligibility::fence_objection(const PreparedCase& prepared) const {
       return why;
   if (prepared.is_client()) return {};
   if (std::string why = motion_objection(prepared); !why.empty()) return why;
-  for (const auto& [address, hex] : settings_of(prepared)) {
+  const std::vector<Protocol::Setting> settings = settings_of(prepared);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const auto& [address, hex] = settings[i];
     if (!exchange::place_name(address).partner.empty()) continue;
     const Result<std::vector<Bytes>> requests =
         protocol_.write_requests(prepared.station, address, hex);
-    if (requests) continue;
+    const bool is_given = i < prepared.source->memory.size();
+    if (requests || (is_given && !only_read(prepared, settings[i]).empty())) continue;
     const auto named = protocol_.named(address, hex.size());
     if (!endpoint_.capabilities().control || !named)
       return fmt::format("cannot set {}: {}", address, requests.error().message);
@@ -309,6 +324,11 @@ Ruling Eligibility::blocked(const Case& source, const PreparedCase& prepared) co
   if (prepared.looks_at_counters() && !prepared.is_client() && !can.control)
     return {Verdict::blocked,
             "looks at the status counters, which no command reads; see XG5000, status by service"};
+  if (prepared.looks_for_what_is_kept() && can.can_power_cycle && !can.control &&
+      options_.power_cycle_command.empty())
+    return {Verdict::blocked,
+            "looks for what is kept without power; a program that is started again has forgotten "
+            "it: --control can switch it off and on"};
   if (source.fresh && !can.can_power_cycle && !can.control && options_.power_cycle_command.empty())
     return {Verdict::blocked, "needs a device fresh from power-on; give --power-cycle COMMAND"};
   return {};

@@ -63,6 +63,10 @@ class Eligibility {
   Result<std::vector<harness::Protocol::Written>> written_over_aux(
       const exchange::PreparedCase& prepared) const;
   std::vector<std::string> moved_axes(const exchange::PreparedCase& prepared) const;
+  /// Given memory that nothing sets, but something reads: it may hold what the case begins with.
+  /// Empty, or why it cannot be set.
+  std::string only_read(const exchange::PreparedCase& prepared,
+                        const harness::Protocol::Setting& given) const;
 
  private:
   Ruling outside_profile(const vectors::Case& source) const;

@@ -93,6 +93,21 @@ bool PreparedCase::counts_from_power_on() const {
   return false;
 }
 
+bool PreparedCase::looks_for_what_is_kept() const {
+  const auto is_zero = [](const auto& place) {
+    return is_counter(place) || place.second.find_first_not_of('0') == std::string::npos;
+  };
+  bool again = false;  // it was off, and nothing has been done to it since
+  for (const PreparedStep& one : steps) {
+    const Step& step = *one.step;
+    if (again && step.kind == Step::Kind::check && !std::ranges::all_of(step.memory, is_zero))
+      return true;
+    if (step.kind == Step::Kind::wait || step.kind == Step::Kind::check) continue;
+    again = step.kind == Step::Kind::act && step.action == "power_cycle";
+  }
+  return false;
+}
+
 Duration PreparedCase::shortest_pause(Duration character_time) const {
   Duration shortest{};
   const auto consider = [&](Duration pause) {

@@ -60,6 +60,9 @@ struct PreparedCase {
   /// Requests of the bench's own would not be answered, or would be counted: what it sets and looks
   /// at goes past the wire, where there is a way.
   bool goes_past_the_wire() const { return is_shut_out() || counts_from_power_on(); }
+  /// Behind a loss of power it looks for what was there before: a program that is started again has
+  /// forgotten it.
+  bool looks_for_what_is_kept() const;
   /// The shortest pause or wait, or 0 when there is none.
   Duration shortest_pause(Duration character_time) const;
 };

@@ -270,7 +270,8 @@ TEST_F(Gate, WhatIsWrongBeforeAByteIsSentIsUsage) {
     refused({"--endpoint", endpoint, "--profile", "xbc-h"}, why);
   for (const char* beside : {"--aux", "--loop"})
     refused({"--endpoint", good_device, "--profile", "xbc-h", beside, "serial:/dev/null?frame=9N1"},
-            std::string(beside) + ": cannot open serial:/dev/null: the data bits are not 7 or 8");
+            std::string(beside) + ": cannot open serial:/dev/null: cannot read line settings "
+                                  "'9600-9N1': the data bits are not 7 or 8");
   refused({"--endpoint", good_device, "--profile", "xbc-h", "--allow-write", ""},
           "--allow-write needs a range");
   refused({"--endpoint", good_device, "--profile",
@@ -282,7 +283,7 @@ TEST_F(Gate, WhatIsWrongBeforeAByteIsSentIsUsage) {
            folder_.write("keys.json",
                          R"({"name": "p", "model": "xbc-h", "protocols": ["modbus-rtu"],
                              "config": {"word_reed_base": "D0"}})")},
-          "keys.json: unknown key config.word_reed_base; did you mean word_read_base?");
+          "keys.json: unknown key config.word_reed_base; did you mean 'word_read_base'?");
 }
 
 /// The recipes of the README as they are printed, with a good device in the place of ./my_plc.

@@ -40,6 +40,10 @@ class Restore : public testing::Test {
     client.fill(xbc());
     before_ = client.read(xbc());
   }
+  /// The system gives the pty of this device to another one.
+  ~Restore() override {
+    std::filesystem::remove_all(std::string(::getenv("XDG_STATE_HOME")) + "/fieldproof");
+  }
 
   /// The adapter: a pty for the bench, joined to that of the device. The device keeps its memory
   /// without it.

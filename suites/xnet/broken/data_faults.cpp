@@ -168,7 +168,7 @@ std::vector<Fault> data_faults() {
        "xnet/instruction_ethernet/held", "B:D0"},
       {"executed_twice", "an edge executes twice", twice, "xnet/instruction_ethernet/annular",
        "SD194"},
-      {"late", "everything is done 250 ms late", all_late, "xnet/configuration_motion_bus/no_cable",
+      {"late", "everything is done 250 ms late", all_late, "xnet/timing_omms/back_on_the_bus",
        "SD2000"},
       {"release_ignored", "goes on when the condition is off", ignores("release"),
        "xnet/instruction_ethernet/held", "B:D0"},
