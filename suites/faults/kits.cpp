@@ -188,6 +188,8 @@ std::vector<Kit> kits() {
           client("modbus-rtu client", "modbus_rtu"),
           client("modbus-ascii client", "modbus_ascii"),
           client("ls-bus client", "ls_bus"),
+          client("xgt-fenet client", "xgt_fenet"),
+          client("modbus-tcp client", "modbus_tcp"),
           client("user-frames client", "user_frames"),
           client("udata", "udata"),
           mailing_module()};
