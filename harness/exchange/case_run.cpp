@@ -42,11 +42,16 @@ void CaseRun::execute() {
   for (const PreparedStep& one : prepared_.steps) {
     for (int i = 0; i < one.step->times && !stopped(); ++i) {
       step(one);
-      // What follows is said on a connection that is not there.
-      const bool missing = one.step->kind == Step::Kind::expect_open && !links_.find(one.link);
-      if (missing || !record().refused.empty()) return;
+      if (is_missing(one) || !record().refused.empty()) return;
     }
   }
+}
+
+/// The device has not opened it: what follows is said on a link that is not there.
+bool CaseRun::is_missing(const PreparedStep& step) {
+  const Link* const link = links_.find(step.link);
+  return (step.step->kind == Step::Kind::expect_open && !link) ||
+         (step.step->kind == Step::Kind::expect && link && link->id == not_there);
 }
 
 void CaseRun::step(const PreparedStep& step) {

@@ -42,6 +42,7 @@ class CaseRun {
 
  private:
   void begin();
+  bool is_missing(const PreparedStep& step);
   void step(const PreparedStep& step);
   bool stopped() const { return transcript_.trouble || transcript_.flooded; }
   StepRecord& record() { return transcript_.steps.back(); }

@@ -13,8 +13,6 @@ using results::Event;
 
 namespace {
 
-constexpr LinkId not_there = ~LinkId{0};
-
 std::string where(const Link& link) {
   return link.port == 0
              ? std::string()

@@ -10,6 +10,9 @@
 
 namespace fieldproof::exchange {
 
+/// Of a link that the device has yet to open.
+constexpr LinkId not_there = ~LinkId{0};
+
 /// A line, a connection, a datagram port.
 struct Link {
   std::string name;  // as the vector has it; empty: the line, or the implicit connection

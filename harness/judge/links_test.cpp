@@ -273,6 +273,14 @@ TEST_F(LinksTest, AConnectionOfTheDeviceIsNamed) {
             "the device did not open a connection within 20 ms");
 }
 
+TEST_F(LinksTest, WhereTheDeviceNeverCameNothingIsSaid) {
+  const Judgement result =
+      judged(R"({"expect": "'<q>'"}, {"send": "'<s>'"})", R"({"role": "client"})");
+  EXPECT_EQ(result.verdict, Verdict::fail);
+  EXPECT_THAT(result.message, HasSubstr("no request within"));
+  EXPECT_THAT(network.done, Not(Contains(HasSubstr("<s>"))));
+}
+
 TEST_F(LinksTest, AConnectionOfTheDeviceDuringAWaitHasNoReason) {
   network.of_device = {{{}, 1ms, {}, first_own_link, LinkEvent::opened, 502, "192.0.2.1:4711"}};
   EXPECT_EQ(judged(R"({"wait": "201ms"}, {"expect_open": "a"})", R"({"role": "client"})").message,
