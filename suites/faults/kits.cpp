@@ -153,7 +153,7 @@ Kit client(const std::string& name, const std::string& folder) {
   std::vector<const p2p_broken::Fault*> own;
   for (const p2p_broken::Fault& one : p2p_broken::faults())
     if (one.caught_by.starts_with(folder + "/") && ends(one.name)) own.push_back(&one);
-  const bool any_model = folder == "user_frames";
+  const bool any_model = folder.starts_with("user_frames");
   const auto run_one = [=](std::optional<std::size_t> fault, const Case& source) {
     const auto behaviour = fault ? own[*fault]->make() : p2p_broken::Behaviour{};
     return run(source, any_model ? "" : model_of(source, "xbc-h"),
@@ -191,6 +191,7 @@ std::vector<Kit> kits() {
           client("xgt-fenet client", "xgt_fenet"),
           client("modbus-tcp client", "modbus_tcp"),
           client("user-frames client", "user_frames"),
+          client("user-frames-net client", "user_frames_net"),
           client("udata", "udata"),
           mailing_module()};
 }

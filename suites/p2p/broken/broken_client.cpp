@@ -81,7 +81,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_client(const Behaviour&
                                                                 std::string_view model,
                                                                 const nlohmann::json& config) {
   if (protocol == "udata") return make_broken_udata_port(behaviour, model, config);
-  if (protocol == "xgt-fenet" || protocol == "modbus-tcp")
+  if (protocol == "xgt-fenet" || protocol == "modbus-tcp" || protocol == "user-frames-net")
     return make_broken_network_client(behaviour, protocol, model, config);
   plc::PortConfig port;
   if (plc::find_plc_model(model)) port.model = model;

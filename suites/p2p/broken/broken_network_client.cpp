@@ -4,9 +4,12 @@
 #include "src/modbus/p2p_driver.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/ethernet.hpp"
+#include "src/user_frames/network_server.hpp"
+#include "src/user_frames/p2p_driver.hpp"
 #include "src/xgt_fenet/p2p_driver.hpp"
 #include "src/xgt_fenet/server.hpp"
 #include "suites/p2p/broken/broken_core.hpp"
+#include "suites/user_frames/definition_files.hpp"
 
 namespace fieldproof::p2p_broken {
 
@@ -17,15 +20,33 @@ using p2p::P2pParameters;
 
 namespace {
 
-std::unique_ptr<p2p::P2pDriver> good_driver(std::string_view protocol) {
-  if (protocol == "modbus-tcp") return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp);
-  return std::make_unique<xgt_fenet::FenetP2pDriver>();
+constexpr std::string_view of_frames = "user-frames-net";
+
+using MakeGood = std::function<std::unique_ptr<p2p::P2pDriver>()>;
+
+/// `model` names the frames.
+Result<MakeGood> good_driver(std::string_view protocol, std::string_view model,
+                             const P2pParameters& parameters) {
+  if (protocol == "modbus-tcp")
+    return MakeGood([] { return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp); });
+  if (protocol != of_frames)
+    return MakeGood([] { return std::make_unique<xgt_fenet::FenetP2pDriver>(); });
+  const auto frames =
+      user_frames_suite::load_definition(model, user_frames_suite::definitions_folder());
+  if (!frames) return frames.error();
+  return MakeGood([definition = frames->definition, blocks = parameters.blocks] {
+    return user_frames::make_user_frame_network_driver(definition, blocks,
+                                                       user_frames::network_gap);
+  });
 }
 
 NetworkPartner partner_of(std::string_view protocol, const P2pParameters& parameters) {
   const bool datagrams = parameters.transport == Transport::udp;
   const std::uint16_t fenet = datagrams ? xgt_fenet::udp_port : xgt_fenet::tcp_port;
-  return {parameters.partner, protocol == "modbus-tcp" ? std::uint16_t{502} : fenet,
+  return {parameters.partner,
+          protocol == "modbus-tcp" ? std::uint16_t{502}
+          : protocol == of_frames  ? user_frames::first_network_port
+                                   : fenet,
           parameters.transport};
 }
 
@@ -33,13 +54,12 @@ NetworkPartner partner_of(std::string_view protocol, const P2pParameters& parame
 class BrokenNetworkClient : public plc::EmulatedDevice, public net::Host {
  public:
   BrokenNetworkClient(const plc::PlcModel& model, const P2pParameters& parameters, bool run,
-                      const Behaviour& behaviour, std::string_view protocol)
+                      const Behaviour& behaviour, std::string_view protocol, const MakeGood& good)
       : core_(model, parameters, run, behaviour) {
     NetworkPartner partner = partner_of(protocol, parameters);
     if (behaviour.partner) behaviour.partner(partner);
     const auto driver = [&](BrokenDriver::Asked asked) {
-      auto made =
-          std::make_unique<BrokenDriver>(good_driver(protocol), behaviour, std::move(asked));
+      auto made = std::make_unique<BrokenDriver>(good(), behaviour, std::move(asked));
       drivers_.push_back(made.get());
       return made;
     };
@@ -101,7 +121,8 @@ class BrokenNetworkClient : public plc::EmulatedDevice, public net::Host {
 Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_network_client(
     const Behaviour& behaviour, std::string_view protocol, std::string_view model,
     const nlohmann::json& config) {
-  const Result<const plc::PlcModel*> plc = plc::known_plc_model(model);
+  const std::string_view of = protocol == of_frames ? "xbc-h" : model;
+  const Result<const plc::PlcModel*> plc = plc::known_plc_model(of);
   if (!plc) return plc.error();
   p2p::P2pRules rules = p2p::network_p2p_rules();
   bool run = true;
@@ -112,8 +133,10 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_network_client(
   const Result<P2pParameters> parameters =
       p2p::parse_p2p_parameters(config.at("p2p"), **plc, rules);
   if (!parameters) return parameters.error();
+  const Result<MakeGood> good = good_driver(protocol, model, *parameters);
+  if (!good) return good.error();
   return std::unique_ptr<plc::EmulatedDevice>(
-      std::make_unique<BrokenNetworkClient>(**plc, *parameters, run, behaviour, protocol));
+      std::make_unique<BrokenNetworkClient>(**plc, *parameters, run, behaviour, protocol, *good));
 }
 
 }  // namespace fieldproof::p2p_broken

@@ -12,7 +12,8 @@ const std::vector<Fault>& faults() {
   static const std::vector<Fault> table = broken::gather<Fault>(
       {trigger_faults, result_faults, xgt_request_faults, xgt_reply_faults, modbus_faults,
        ls_bus_faults, user_frame_faults, udata_faults, narrow_faults, fenet_request_faults,
-       fenet_reply_faults, network_faults});
+       fenet_reply_faults, network_faults, modbus_tcp_request_faults, modbus_tcp_answer_faults,
+       modbus_tcp_link_faults, user_frame_network_faults});
   return table;
 }
 
@@ -48,6 +49,12 @@ MakeBehaviour ends(std::function<void(const Outcome& before, Outcome& now)> edit
       return false;
     }};
   };
+}
+
+MakeBehaviour hides(std::uint16_t status) {
+  return ends([=](const Outcome& before, Outcome& now) {
+    if (now.status == status) now = before;
+  });
 }
 
 MakeBehaviour asks_for(std::function<void(P2pBlock& block)> edit) {
@@ -91,6 +98,12 @@ MakeBehaviour after_saving(std::function<void(const P2pBlock& block, PlcMemory& 
           edit(block, memory);
         return error;
       });
+}
+
+Behaviour does_not_reconnect() {
+  return {.does = [](std::vector<Burst>& doings) {
+    std::erase_if(doings, [](const Burst& one) { return one.link > first_own_link; });
+  }};
 }
 
 }  // namespace fieldproof::p2p_broken

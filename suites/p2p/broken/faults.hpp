@@ -30,6 +30,10 @@ std::vector<Fault> narrow_faults();
 std::vector<Fault> fenet_request_faults();
 std::vector<Fault> fenet_reply_faults();
 std::vector<Fault> network_faults();
+std::vector<Fault> modbus_tcp_request_faults();
+std::vector<Fault> modbus_tcp_answer_faults();
+std::vector<Fault> modbus_tcp_link_faults();
+std::vector<Fault> user_frame_network_faults();
 
 // How their rows are made.
 MakeBehaviour trigger(Trigger trigger);
@@ -41,6 +45,10 @@ MakeBehaviour each_block(std::function<void(p2p::P2pBlock& block)> edit);
 MakeBehaviour shows(std::function<void(p2p::P2pParameters& parameters)> edit);
 /// Changes what a block shows.
 MakeBehaviour ends(std::function<void(const Outcome& before, Outcome& now)> edit);
+/// An end with this STATUS leaves no trace.
+MakeBehaviour hides(std::uint16_t status);
+/// A connection that was lost is not opened again.
+Behaviour does_not_reconnect();
 /// Asks for another block than it should; the reply is judged against the right one.
 MakeBehaviour asks_for(std::function<void(p2p::P2pBlock& block)> edit);
 /// Spoils the request.

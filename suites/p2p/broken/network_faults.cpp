@@ -28,12 +28,6 @@ MakeBehaviour repeats_after(std::uint16_t status) {
   };
 }
 
-MakeBehaviour hides(std::uint16_t status) {
-  return ends([=](const Outcome& before, Outcome& now) {
-    if (now.status == status) now = before;
-  });
-}
-
 Behaviour connects_at_once() {
   return {.does = [first = true](std::vector<Burst>& doings) mutable {
     if (std::exchange(first, false)) {
@@ -47,12 +41,6 @@ Behaviour connects_at_once() {
     std::erase_if(doings, [](const Burst& one) {
       return one.event == LinkEvent::opened && one.link == first_own_link;
     });
-  }};
-}
-
-Behaviour does_not_reconnect() {
-  return {.does = [](std::vector<Burst>& doings) {
-    std::erase_if(doings, [](const Burst& one) { return one.link > first_own_link; });
   }};
 }
 
