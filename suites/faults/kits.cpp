@@ -136,6 +136,18 @@ Kit user_frames_port() {
   return {"user-frames", "user_frames", names(user_frames_broken::faults()), concerns, run_one};
 }
 
+Kit user_frames_server() {
+  const auto run_one = [](std::optional<std::size_t> fault, const Case& source) {
+    const auto behaviour =
+        fault ? user_frames_broken::server_faults()[*fault].make : user_frames_broken::Behaviour{};
+    return run(source, "", [=](std::string_view model, const json& config) {
+      return user_frames_broken::make_broken_server(behaviour, model, config);
+    });
+  };
+  return {"user-frames-net", "user_frames_net", names(user_frames_broken::server_faults()),
+          is_server_case, run_one};
+}
+
 /// A module that mails: each of its cases is one of a client.
 Kit mailing_module() {
   const std::vector<email_broken::Fault>& table = email_broken::faults();
@@ -184,6 +196,7 @@ std::vector<Kit> kits() {
                        hs_link_broken::make_broken_network),
           inverter(),
           user_frames_port(),
+          user_frames_server(),
           client("xgt-cnet client", "xgt_cnet"),
           client("modbus-rtu client", "modbus_rtu"),
           client("modbus-ascii client", "modbus_ascii"),

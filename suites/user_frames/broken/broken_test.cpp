@@ -38,6 +38,35 @@ INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
 
 TEST(HealthyPort, PassesTheWholeSuite) { broken::expect_healthy(cases(), 200, against({})); }
 
+/// Servers on a network; their clients are in suites/p2p/broken.
+const broken::Cases& server_cases() {
+  static const broken::Cases all = broken::cases_of(
+      "user_frames_net/*", [](const Case& one) { return !vectors::is_client_case(one); });
+  return all;
+}
+
+auto server(const Behaviour& behaviour) {
+  return [behaviour](const Case& source) {
+    const auto make = [&](std::string_view model, const nlohmann::json& config) {
+      return make_broken_server(behaviour, model, config);
+    };
+    return broken::run_in_process(source, "", make, broken::bare_profile(source));
+  };
+}
+
+class OnANetwork : public testing::TestWithParam<Fault> {};
+
+TEST_P(OnANetwork, IsCaught) {
+  broken::expect_caught(GetParam(), server_cases(), server(GetParam().make));
+}
+
+INSTANTIATE_TEST_SUITE_P(Broken, OnANetwork, testing::ValuesIn(server_faults()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(HealthyServer, PassesTheWholeSuite) {
+  broken::expect_healthy(server_cases(), 30, server({}));
+}
+
 TEST(UserFrameFacts, HoldInTheTables) {
   const vectors::VectorSet set =
       vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors/user_frames");
@@ -48,7 +77,10 @@ TEST(UserFrameFacts, HoldInTheTables) {
   }
 }
 
-TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 40); }
+TEST(FaultTable, NamesAreUnique) {
+  broken::expect_unique_names(faults(), 40);
+  broken::expect_unique_names(server_faults(), 30);
+}
 
 }  // namespace
 }  // namespace fieldproof::user_frames_broken

@@ -10,6 +10,7 @@
 
 #include "src/plc/emulated_device.hpp"
 #include "src/user_frames/frame.hpp"
+#include "suites/broken/edge.hpp"
 #include "suites/broken/fault.hpp"
 
 namespace fieldproof::user_frames_broken {
@@ -20,13 +21,16 @@ struct Behaviour {
   std::function<void(nlohmann::json& config)> set_to;
   std::function<Bytes(const Bytes& frame)> says;  // instead of `frame`
   std::string deaf_to;                            // an action that changes nothing: "stop"
+  broken::Edge edge{};                            // of a server on a network
 };
 
 /// `caught_by` is the id of a case.
 using Fault = broken::FaultOf<Behaviour>;
 
-/// All of them. "none" is no fault and not among them.
+/// All of a port. "none" is no fault and not among them.
 const std::vector<Fault>& faults();
+/// Those of a server on a network (FEnet EN 7.7.4).
+const std::vector<Fault>& server_faults();
 
 std::vector<Fault> check_faults();
 std::vector<Fault> frame_faults();
@@ -51,5 +55,9 @@ void insert_behind(user_frames::UserFrame& frame, std::size_t position,
 Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_port(const Behaviour& behaviour,
                                                               std::string_view model,
                                                               nlohmann::json config);
+/// The same on a network.
+Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(const Behaviour& behaviour,
+                                                                std::string_view model,
+                                                                nlohmann::json config);
 
 }  // namespace fieldproof::user_frames_broken
