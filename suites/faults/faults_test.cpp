@@ -17,8 +17,6 @@ void PrintTo(const Kit& kit, std::ostream* out) { *out << kit.name; }
 
 namespace {
 
-using results::Verdict;
-
 const std::string folder = FIELDPROOF_SOURCE_DIR "/vectors";
 constexpr const char* again = "write it anew: fieldproof_faults vectors (README, Figures)";
 
@@ -55,7 +53,7 @@ class Faults : public testing::TestWithParam<Kit> {
 /// The case that turns red by this fault: the one of the fault's table, or where that takes a port
 /// (memory that was written before, a device that was started anew) the first of the file.
 std::string catcher(const Kit& kit, std::size_t fault, const vectors::Case* of_table) {
-  if (of_table && kit.run(fault, *of_table).verdict == Verdict::fail) return of_table->id;
+  if (of_table && turns_red(*of_table, kit.run(fault, *of_table).verdict)) return of_table->id;
   const auto at = std::ranges::find(written(kit.name).faults, kit.faults[fault].name);
   const auto position = static_cast<std::size_t>(at - written(kit.name).faults.begin());
   for (const auto& [id, by] : written(kit.name).killed)
@@ -70,7 +68,7 @@ TEST_P(Faults, AreAllCaughtByNamedCases) {
     const std::string& name = kit.faults[i].name;
     const std::string id = catcher(kit, i, find(kit.faults[i].caught_by));
     const vectors::Case* const one = find(id);
-    const bool red = one && kit.run(i, *one).verdict == Verdict::fail;
+    const bool red = one && turns_red(*one, kit.run(i, *one).verdict);
     EXPECT_TRUE(red) << name << " is not caught by " << kit.faults[i].caught_by;
     EXPECT_TRUE(says_red(written(kit.name), name, id))
         << "faults.json does not know that " << id << " catches " << name << "; " << again;
@@ -94,7 +92,7 @@ TEST_P(Faults, AreAsTheFileSays) {
     const vectors::Case& one = *cases[random() % cases.size()];
     const std::string& name = kit.faults[fault].name;
     if (std::ranges::find(device.faults, name) == device.faults.end()) continue;  // said above
-    EXPECT_EQ(kit.run(fault, one).verdict == Verdict::fail, says_red(device, name, one.id))
+    EXPECT_EQ(turns_red(one, kit.run(fault, one).verdict), says_red(device, name, one.id))
         << one.id << " against " << name << ": faults.json says otherwise; " << again;
   }
 }

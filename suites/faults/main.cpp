@@ -25,7 +25,7 @@ vectors::BrokenDevice run_all(const faults::Kit& kit, const std::vector<vectors:
     if (kit.run(std::nullopt, one).verdict != results::Verdict::pass) continue;
     std::set<std::size_t>& by = device.killed[one.id];
     for (std::size_t i = 0; i < kit.faults.size(); ++i)
-      if (kit.run(i, one).verdict == results::Verdict::fail) by.insert(i);
+      if (faults::turns_red(one, kit.run(i, one).verdict)) by.insert(i);
   }
   return device;
 }
@@ -51,6 +51,24 @@ int explore_all(const std::string& folder, const std::vector<std::string>& devic
   return 0;
 }
 
+std::string shown(const results::CaseResult& result) {
+  std::string fields;
+  for (const results::Difference& one : result.differences) fields += "; " + one.field;
+  return fmt::format("{} {}{}", results::to_string(result.verdict), result.message, fields);
+}
+
+/// What a case says of each fault of the devices that it is about.
+int show_case(const std::string& folder, const std::string& id) {
+  for (const faults::Kit& kit : faults::kits())
+    for (const vectors::Case& one : cases_in(folder, kit)) {
+      if (one.id != id || !kit.concerns(one)) continue;
+      fmt::print("{}: none: {}\n", kit.name, shown(kit.run(std::nullopt, one)));
+      for (std::size_t i = 0; i < kit.faults.size(); ++i)
+        fmt::print("{}: {}: {}\n", kit.name, kit.faults[i].name, shown(kit.run(i, one)));
+    }
+  return 0;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -61,11 +79,14 @@ int main(int count, char** arguments) {
         "usage: fieldproof_faults FOLDER-OF-VECTORS [DEVICE...]\n"
         "Writes faults.json there, anew or for these devices (\"modbus-rtu client\") alone.\n"
         "       fieldproof_faults --explore FOLDER-OF-VECTORS [DEVICE...]\n"
-        "Prints which faults `explore` finds.\n");
+        "Prints which faults `explore` finds.\n"
+        "       fieldproof_faults --case FOLDER-OF-VECTORS ID\n"
+        "Prints what a case says of each fault.\n");
     return 2;
   }
   if (given.front() == "--explore" && given.size() > 1)
     return explore_all(given[1], {given.begin() + 2, given.end()});
+  if (given.front() == "--case" && given.size() == 3) return show_case(given[1], given[2]);
   const std::string& folder = given.front();
   const Result<vectors::FaultMatrix> known = vectors::load_fault_matrix(folder);
   if (!known && given.size() > 1) return fmt::print(stderr, "{}\n", known.error().message), 2;
