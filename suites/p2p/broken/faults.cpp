@@ -42,6 +42,11 @@ MakeBehaviour shows(std::function<void(p2p::P2pParameters& parameters)> edit) {
   return [=] { return Behaviour{.shows = edit}; };
 }
 
+MakeBehaviour shows_blocks(std::function<void(P2pBlock& block)> edit) {
+  return shows(
+      [=](p2p::P2pParameters& parameters) { std::ranges::for_each(parameters.blocks, edit); });
+}
+
 MakeBehaviour ends(std::function<void(const Outcome& before, Outcome& now)> edit) {
   return [=] {
     return Behaviour{.ends = [=](const Outcome& before, Outcome& now) {

@@ -43,6 +43,7 @@ MakeBehaviour deaf_to(std::string action);
 MakeBehaviour works_with(std::function<void(p2p::P2pParameters& parameters)> edit);
 MakeBehaviour each_block(std::function<void(p2p::P2pBlock& block)> edit);
 MakeBehaviour shows(std::function<void(p2p::P2pParameters& parameters)> edit);
+MakeBehaviour shows_blocks(std::function<void(p2p::P2pBlock& block)> edit);
 /// Changes what a block shows.
 MakeBehaviour ends(std::function<void(const Outcome& before, Outcome& now)> edit);
 /// An end with this STATUS leaves no trace.

@@ -151,6 +151,27 @@ std::vector<Fault> network_faults() {
       {"net_registers_of_parameter_1", "the parameters of P2P 2 are shown in those of P2P 1",
        shows([](p2p::P2pParameters& parameters) { parameters.parameter = 1; }),
        "xgt_fenet/client/limits/registers/p2b0", "%NW1312 holds 0000"},
+      {"net_names_not_shown", "N shows no names", shows_blocks([](P2pBlock& block) {
+         block.variables.clear();
+       }),
+       "xgt_fenet/client/limits/names_in_n", "%NW1 holds"},
+      {"net_second_name_not_shown", "N shows the first area alone",
+       shows_blocks([](P2pBlock& block) { block.variables.resize(1); }),
+       "xgt_fenet/client/limits/names_in_n", "%NW1 holds"},
+      {"net_third_name_shown", "N shows the last area in the places of those that are not used",
+       shows_blocks([](P2pBlock& block) { block.variables.push_back(block.variables.back()); }),
+       "xgt_fenet/client/limits/names_in_n", "%NW11 holds"},
+      {"net_size_in_elements", "N shows the sizes in elements",
+       shows_blocks([](P2pBlock& block) { block.type = 'B'; }),
+       "xgt_fenet/client/limits/names_in_n", "%NW1 holds"},
+      {"net_read_and_save_swapped", "N shows what is read where what is saved belongs",
+       shows_blocks([](P2pBlock& block) { block.function = P2pBlock::Function::write; }),
+       "xgt_fenet/client/limits/names_in_n", "%NW1 holds"},
+      {"net_shows_16_blocks", "N shows the blocks below 16 alone",
+       shows([](p2p::P2pParameters& parameters) {
+         std::erase_if(parameters.blocks, [](const P2pBlock& one) { return one.number >= 16; });
+       }),
+       "xgt_fenet/client/limits/registers/p1b31", "%NW1271 holds 0000"},
       {"net_edge_missed", "every second rising edge is not seen",
        trigger(Trigger::every_second_edge), "xgt_fenet/client/schedule/edge", "no request within"},
       {"net_level_for_edge", "a flag that stays on asks again and again", trigger(Trigger::level),

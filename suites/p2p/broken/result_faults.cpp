@@ -24,11 +24,6 @@ void exchange_function(P2pBlock& block) {
   block.function = block.function == Function::read ? Function::write : Function::read;
 }
 
-MakeBehaviour shows_blocks(std::function<void(P2pBlock& block)> edit) {
-  return shows(
-      [=](p2p::P2pParameters& parameters) { std::ranges::for_each(parameters.blocks, edit); });
-}
-
 }  // namespace
 
 std::vector<Fault> result_faults() {

@@ -33,7 +33,9 @@ class BrokenXnet : public broken::WrappedDevice {
 
   Status set(std::string_view address, std::string_view hex) override {
     const std::string name(address);
-    return WrappedDevice::set(behaviour_.set_name ? behaviour_.set_name(name) : name, hex);
+    const std::string own =
+        behaviour_.set_value ? behaviour_.set_value(name, std::string(hex)) : std::string(hex);
+    return WrappedDevice::set(behaviour_.set_name ? behaviour_.set_name(name) : name, own);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
     const std::string name(address);

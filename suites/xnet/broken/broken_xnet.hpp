@@ -28,12 +28,15 @@ struct Behaviour {
   /// Where a name that is set, or looked at, is found instead.
   std::function<std::string(const std::string&name)> set_name{}, look_name{};
   std::function<std::string(const std::string& name, const std::string& hex)> value{};
+  /// What is set instead.
+  std::function<std::string(const std::string& name, const std::string& hex)> set_value{};
   Duration late{};  // actions act so much later
 };
 
 using Fault = broken::FaultOf<std::function<Behaviour()>>;
 std::vector<Fault> data_faults();
 std::vector<Fault> motion_faults();
+std::vector<Fault> default_faults();
 const std::vector<Fault>& faults();
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_xnet(const Behaviour& behaviour,
