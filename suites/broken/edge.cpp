@@ -7,22 +7,24 @@ namespace fieldproof::broken {
 /// One channel.
 class EdgeDevice::Line : public line::Device {
  public:
-  Line(line::Device& right, const Edge& edge) : right_(right), edge_(edge) {}
+  Line(line::Device& right, const Edge& edge, unsigned channel)
+      : right_(right), edge_(edge), channel_(channel) {}
 
   void receive(const Burst& burst) override {
     Burst heard = burst;
-    if (!edge_.hears || edge_.hears(heard)) right_.receive(heard);
+    if (!edge_.hears || edge_.hears(heard, channel_)) right_.receive(heard);
   }
   std::optional<Time> wake_at() const override { return right_.wake_at(); }
   Bytes advance(Time now) override {
     Bytes bytes = right_.advance(now);
-    if (edge_.says && !bytes.empty()) edge_.says(bytes);
+    if (edge_.says && !bytes.empty()) edge_.says(bytes, channel_);
     return bytes;
   }
 
  private:
   line::Device& right_;
   const Edge& edge_;
+  unsigned channel_;
 };
 
 EdgeDevice::EdgeDevice(std::unique_ptr<plc::EmulatedDevice> right, Edge edge)
@@ -34,7 +36,7 @@ line::Device* EdgeDevice::line(unsigned channel) {
   line::Device* const right = right_->line(channel);
   if (!right) return nullptr;
   std::unique_ptr<Line>& own = lines_[right];
-  if (!own) own = std::make_unique<Line>(*right, edge_);
+  if (!own) own = std::make_unique<Line>(*right, edge_, channel);
   return own.get();
 }
 

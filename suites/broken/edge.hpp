@@ -15,12 +15,15 @@ namespace fieldproof::broken {
 
 /// One fault at work. What is empty is done right.
 struct Edge {
-  std::function<bool(Burst& burst)> hears{};  // on a line; false: not heard
-  std::function<void(Bytes& bytes)> says{};   // on a line
+  /// On the line of a channel, 0 the main one; false: not heard.
+  std::function<bool(Burst& burst, unsigned channel)> hears{};
+  std::function<void(Bytes& bytes, unsigned channel)> says{};
   std::function<bool(Burst& burst)> hears_link{};
   std::function<void(std::vector<Burst>& doings)> does{};  // on links
   /// What is shown at an address of the back door.
   std::function<std::string(std::string_view address, std::string right)> shows{};
+  /// What is set there instead.
+  std::function<std::string(std::string_view address, std::string hex)> sets{};
   std::string deaf_to{};  // an action that changes nothing
 };
 
@@ -41,7 +44,8 @@ class EdgeDevice : public plc::EmulatedDevice, public net::Host {
   std::vector<Burst> advance(Time now) override;
 
   Status set(std::string_view address, std::string_view hex) override {
-    return right_->set(address, hex);
+    return edge_.sets ? right_->set(address, edge_.sets(address, std::string(hex)))
+                      : right_->set(address, hex);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   Status act(std::string_view action) override {

@@ -14,6 +14,8 @@
 #include "suites/modbus/broken/faults.hpp"
 #include "suites/modbus/tcp_broken/broken_server.hpp"
 #include "suites/p2p/broken/faults.hpp"
+#include "suites/protocols.hpp"
+#include "suites/services/broken/faults.hpp"
 #include "suites/user_frames/broken/faults.hpp"
 #include "suites/xgt_cnet/broken/broken_server.hpp"
 #include "suites/xgt_fenet/broken/broken_server.hpp"
@@ -148,6 +150,20 @@ Kit user_frames_server() {
           is_server_case, run_one};
 }
 
+/// A PLC around its services, of any protocol.
+Kit whole_plc() {
+  const std::vector<services_broken::Fault>& table = services_broken::faults();
+  const auto run_one = [&table](std::optional<std::size_t> fault, const Case& source) {
+    const auto behaviour = fault ? table[*fault].make() : services_broken::Behaviour{};
+    const harness::Protocol& protocol = *suites::protocols().find(source.protocol);
+    return run(services_broken::set_up(behaviour, source), "",
+               [&](std::string_view model, const json& config) {
+                 return services_broken::make_broken_plc(behaviour, protocol, model, config);
+               });
+  };
+  return {"plc", "*", names(table), services_broken::concerns, run_one};
+}
+
 /// A module that mails: each of its cases is one of a client.
 Kit mailing_module() {
   const std::vector<email_broken::Fault>& table = email_broken::faults();
@@ -211,7 +227,8 @@ std::vector<Kit> kits() {
           client("user-frames client", "user_frames"),
           client("user-frames-net client", "user_frames_net"),
           client("udata", "udata"),
-          mailing_module()};
+          mailing_module(),
+          whole_plc()};
 }
 
 }  // namespace fieldproof::faults
