@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/base/burst.hpp"
-#include "src/plc/plc.hpp"
+#include "src/plc/emulated_device.hpp"
 
 namespace fieldproof::broken {
 
@@ -66,7 +66,7 @@ using FirstFrame = std::optional<std::size_t> (*)(ByteView stream);
 class NetworkServer : public plc::EmulatedDevice, public net::Host {
  public:
   template <typename Settings>
-  NetworkServer(const NetworkBehaviour<Settings>& behaviour, std::unique_ptr<plc::Plc> good,
+  NetworkServer(const NetworkBehaviour<Settings>& behaviour, std::unique_ptr<plc::EmulatedDevice> good,
                 FirstFrame first_frame)
       : behaviour_{{}, behaviour.hear, behaviour.misread, behaviour.edit, behaviour.act},
         good_(std::move(good)),
@@ -100,7 +100,7 @@ class NetworkServer : public plc::EmulatedDevice, public net::Host {
   void collect();
 
   NetworkBehaviour<Any> behaviour_;
-  std::unique_ptr<plc::Plc> good_;
+  std::unique_ptr<plc::EmulatedDevice> good_;
   Server server_;
   FirstFrame first_frame_;
   std::map<LinkId, Bytes> streams_;

@@ -46,6 +46,17 @@ void sort_blocks(json& own) {
     return number_of(a, "block", 0) < number_of(b, "block", 0);
   });
 }
+/// What is sent is taken from station 2 as well.
+void takes_what_it_sends(json& own) {
+  json taken = json::array();
+  for (json block : own["blocks"])
+    if (block["mode"] == "send") {
+      block["mode"] = "receive";
+      block["station"] = 2;
+      taken.push_back(block);
+    }
+  for (const json& block : taken) own["blocks"].push_back(block);
+}
 void shorter(json& block) { block["size"] = std::max(1, number_of(block, "size", 1) - 1); }
 void next_number(json& block) { block["block"] = (number_of(block, "block", 0) + 1) % 64; }
 void next_station(json& block) { block["station"] = (number_of(block, "station", 0) + 1) % 64; }
@@ -132,6 +143,8 @@ const std::vector<Fault>& faults() {
        other_parameter(enabled), "hs_link/flags/disabled_from_the_start", "%LW0"},
       {"blocks_by_number", "the flags are in the order of the blocks' numbers, not of the list",
        other_parameter(sort_blocks), "hs_link/faults/stop", "%LW2"},
+      {"takes_what_it_sends", "a block that it sends is taken from others, too",
+       other_parameter(takes_what_it_sends), "hs_link/blocks/sending_takes_nothing", "%MW10"},
       {"last_word_lost", "saves one word less of a block", other_blocks(shorter),
        "hs_link/blocks/size/n2", ""},
       {"number_one_more", "takes the block of the next number", other_blocks(next_number),

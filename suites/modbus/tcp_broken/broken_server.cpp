@@ -7,6 +7,7 @@
 #include "src/modbus/bases.hpp"
 #include "src/modbus/data_space.hpp"
 #include "src/modbus/modbus_plc.hpp"
+#include "src/xnet/plc.hpp"
 
 namespace fieldproof::modbus_tcp_broken {
 
@@ -38,6 +39,12 @@ Result<std::unique_ptr<modbus::DataSpace>> data_of(plc::PlcMemory& memory,
 Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(const Behaviour& behaviour,
                                                                 std::string_view model,
                                                                 const nlohmann::json& config) {
+  if (model == xnet::xd) {  // its settings are its own
+    auto xinje = xnet::make_xinje_plc(modbus::ModbusMode::tcp, config);
+    if (!xinje) return xinje.error();
+    return std::unique_ptr<plc::EmulatedDevice>(
+        std::make_unique<broken::NetworkServer>(behaviour, std::move(*xinje), first_frame));
+  }
   Result<std::unique_ptr<plc::Plc>> good = plc::make_plc(model, config);
   if (!good) return good.error();
   modbus::TcpServerConfig settings = modbus::fenet_server();

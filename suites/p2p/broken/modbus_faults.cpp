@@ -96,6 +96,13 @@ MakeBehaviour understands_modbus(
   });
 }
 
+/// A block that ends with one STATUS shows another.
+MakeBehaviour status_told(std::uint16_t right, std::uint16_t wrong) {
+  return ends([=](const Outcome&, Outcome& now) {
+    if (now.status == right) now.status = wrong;
+  });
+}
+
 void accept_any_crc(Bytes& frame, const P2pBlock&) {
   if (mode_of(frame) == ModbusMode::ascii || frame.size() < 4) return;
   frame = modbus::encode_modbus_frame(ModbusMode::rtu, frame[0],
@@ -246,6 +253,23 @@ std::vector<Fault> modbus_faults() {
          reply.station = static_cast<Byte>(block.station);
        }),
        "modbus_rtu/client/error/wrong_station/s3", "%MW119 holds 13575ABC9BDF86427531FDB9"},
+      {"ascii_foreign_station", "the reply of another station is accepted",
+       understands_modbus([](ModbusFrame& reply, const P2pBlock& block) {
+         reply.station = static_cast<Byte>(block.station);
+       }),
+       "modbus_ascii/client/error/partner/wrong_station", "%MW119 holds"},
+      {"ascii_station_not_told", "the STATUS of another station is that of another function",
+       status_told(p2p::p2p_error::station, p2p::p2p_error::driver),
+       "modbus_ascii/client/error/partner/wrong_station", "%LW513 holds 0005"},
+      {"ascii_length_as_check", "the STATUS of a wrong length is that of a wrong check",
+       status_told(p2p::p2p_error::length, p2p::p2p_error::bcc),
+       "modbus_ascii/client/error/partner/short", "%LW513 holds 0003"},
+      {"ascii_not_hex_as_check", "the STATUS of what is no hex is that of a wrong check",
+       status_told(p2p::p2p_error::not_hex, p2p::p2p_error::bcc),
+       "modbus_ascii/client/error/partner/not_hex", "%LW513 holds 0003"},
+      {"ascii_head_as_time_out", "the STATUS of a wrong head is that of a time-out",
+       status_told(p2p::p2p_error::head, p2p::p2p_error::time_out),
+       "modbus_ascii/client/error/partner_without_frame/wrong_head", "%LW513 holds 000A"},
       {"exception_is_normal", "an exception is a normal end", takes(exception_is_normal),
        "modbus_rtu/client/error/exception/e02", "%LW512 holds 0001"},
       {"server_error_is_normal", "exception 04 is a normal end", takes(knows_no_server_error),

@@ -32,8 +32,10 @@ auto against(const Behaviour& behaviour) {
 
 class TheSuite : public testing::TestWithParam<Fault> {};
 
+/// A fault may remember: each case meets a new one.
 TEST_P(TheSuite, Catches) {
-  broken::expect_caught(GetParam(), cases(), against(GetParam().make()));
+  broken::expect_caught(GetParam(), cases(),
+                        [](const Case& source) { return against(GetParam().make())(source); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),

@@ -49,17 +49,17 @@ Behaviour line_ends_with_connection() {
                        }}};
 }
 
-/// For 50 ms behind what came on the network the line is not heard.
+/// While a frame comes on the line the network is not heard.
 Behaviour one_at_a_time() {
-  const auto last = std::make_shared<std::optional<Time>>();
+  const auto busy = std::make_shared<Time>();
   return {.edge = {.hears =
-                       [last](Burst& burst, unsigned channel) {
-                         return channel == 0 || !*last || burst.end() - **last > 50ms;
+                       [busy](Burst& burst, unsigned) {
+                         *busy = burst.end();
+                         return true;
                        },
                    .hears_link =
-                       [last](Burst& burst) {
-                         if (burst.event == LinkEvent::data) *last = burst.start;
-                         return true;
+                       [busy](Burst& burst) {
+                         return burst.event != LinkEvent::data || burst.start > *busy;
                        }}};
 }
 
@@ -84,8 +84,8 @@ std::vector<Fault> shared_faults() {
            if (key.ends_with("_base")) own[key] = value;
        }),
        "modbus_tcp/bases/of_each_service", ""},
-      {"one_service_at_a_time", "while the network is served the line is not heard", one_at_a_time,
-       "xgt_fenet/cnet_and_fenet/at_once", "no answer within"},
+      {"one_service_at_a_time", "while a frame comes on the line the network is not heard", one_at_a_time,
+       "modbus_tcp/cnet_and_tcp/at_once", "no answer within"},
       {"line_waits_for_network", "half a frame on the network holds up the line",
        line_waits_for_network, "xgt_fenet/cnet_and_fenet/half_frames", "no answer within"},
       {"line_ends_with_connection", "a connection that ends takes the line with it",
