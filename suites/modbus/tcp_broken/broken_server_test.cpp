@@ -12,12 +12,17 @@ void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 namespace {
 
-constexpr const char* model = "xbc-h";
+/// That of an XGB PLC, or of a XINJE one.
+const char* model_of(const Case& one) {
+  const bool xinje = one.models == std::vector<std::string>{"xd"};
+  return xinje ? "xd" : "xbc-h";
+}
 
-/// Of a server of this model alone: no client, no other service of the PLC.
+/// Of a server of these models alone: no client, no other service of the PLC.
 bool concerns(const Case& one) {
   return !vectors::is_client_case(one) && !one.config.contains("services") &&
-         std::ranges::find(one.models, model) != one.models.end();
+         one.level != "info" &&
+         std::ranges::find(one.models, model_of(one)) != one.models.end();
 }
 
 const broken::Cases& cases() {
@@ -26,7 +31,9 @@ const broken::Cases& cases() {
 }
 
 auto against(const Behaviour& behaviour) {
-  return broken::against(model, make_broken_server, behaviour);
+  return [behaviour](const Case& source) {
+    return broken::against(model_of(source), make_broken_server, behaviour)(source);
+  };
 }
 
 class TheSuite : public testing::TestWithParam<Fault> {};

@@ -3,8 +3,8 @@
 namespace fieldproof::modbus_tcp_broken {
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> all =
-      broken::gather<Fault>({header_faults, stream_faults, connection_faults, data_faults});
+  static const std::vector<Fault> all = broken::gather<Fault>(
+      {header_faults, stream_faults, connection_faults, data_faults, xinje_faults});
   return all;
 }
 

@@ -27,6 +27,7 @@ std::vector<Fault> header_faults();
 std::vector<Fault> stream_faults();
 std::vector<Fault> connection_faults();
 std::vector<Fault> data_faults();
+std::vector<Fault> xinje_faults();
 
 constexpr auto edits = Makes::edits;
 constexpr auto misreads = Makes::misreads;
