@@ -22,6 +22,7 @@ const char* word(Traced state) {
     case Traced::tested: return "tested";
     case Traced::failed: return "failed";
     case Traced::unjudged: return "not_judged";
+    case Traced::measured: return "measured";
     case Traced::table: return "table";
     case Traced::reasoned: return "reason";
     case Traced::open: break;
@@ -52,8 +53,8 @@ std::string first_why_not(const CoverageStatement& statement) {
 
 ordered_json counts_json(const CoverageCounts& counts, bool with_results) {
   ordered_json object{{"statements", counts.total}, {"with_vector", counts.with_vector()}};
-  for (const Traced state : {Traced::tested, Traced::failed, Traced::unjudged, Traced::table,
-                             Traced::reasoned, Traced::open})
+  for (const Traced state : {Traced::tested, Traced::failed, Traced::unjudged, Traced::measured,
+                             Traced::table, Traced::reasoned, Traced::open})
     object[word(state)] = counts.count(state);
   object["percent"] = counts.percent(with_results);
   return object;
@@ -62,7 +63,9 @@ ordered_json counts_json(const CoverageCounts& counts, bool with_results) {
 ordered_json vector_json(const CoverageVector& vector, bool with_results) {
   ordered_json object{{"id", vector.id},
                       {"title", vector.title},
-                      {"kind", vector.table ? "table" : "case"},
+                      {"kind", vector.table      ? "table"
+                               : vector.measured ? "measured"
+                                                 : "case"},
                       {"cases", vector.cases}};
   if (!with_results) return object;
   object["verdicts"] = ordered_json::object();
@@ -86,6 +89,8 @@ Traced CoverageStatement::state(bool with_results) const {
   if (vectors.empty()) return reason.empty() ? Traced::open : Traced::reasoned;
   if (std::ranges::all_of(vectors, [](const CoverageVector& vector) { return vector.table; }))
     return Traced::table;
+  const auto cannot_fail = [](const CoverageVector& one) { return one.table || one.measured; };
+  if (std::ranges::all_of(vectors, cannot_fail)) return Traced::measured;
   const Tally sum = verdicts();
   if (sum.of(Verdict::fail) + sum.of(Verdict::xfail) > 0) return Traced::failed;
   return !with_results || any_judged(sum) ? Traced::tested : Traced::unjudged;
@@ -131,10 +136,11 @@ std::string coverage_summary(const Coverage& coverage) {
                                  counts.count(Traced::reasoned), counts.count(Traced::open));
   if (coverage.with_results())
     text += fmt::format(
-        "; judged in {}: {}, of which {} failed; not judged there: {}, facts without wire effect: "
-        "{}",
+        "; judged in {}: {}, of which {} failed; not judged there: {}, measured without a "
+        "requirement: {}, facts without wire effect: {}",
         text::xml_line(coverage.results), counts.judged(), counts.count(Traced::failed),
-        counts.count(Traced::unjudged), counts.count(Traced::table));
+        counts.count(Traced::unjudged), counts.count(Traced::measured),
+        counts.count(Traced::table));
   if (coverage.with_faults)
     text += fmt::format(
         "; {} of those with vectors proved by a fault of a device that turns a case red which "
@@ -153,6 +159,7 @@ std::string trace_text(const CoverageStatement& statement, bool with_results) {
   if (state == Traced::table)
     return text + " of kind table, checked by `fieldproof lint`: no effect on the wire";
   text += ", " + plural(cases, "case");
+  if (state == Traced::measured) text += ", measured: the manual sets no requirement";
   return with_results ? text + ": " + verdicts_text(statement) + first_why_not(statement) : text;
 }
 

@@ -18,11 +18,12 @@ struct CoverageVector {
   std::size_t cases = 0;  // that it expands to
   text::Tally verdicts;   // of a run, where its results are given
   std::string why_not;    // why cases of it were not judged there: the first reason
+  bool measured = false;  // its cases are of level info: no requirement, none can fail
 };
 
 /// What became of a statement. `tested`, without results: it has a vector; with them: at least one
-/// case was judged, and none failed (`failed`: FAIL, or XFAIL).
-enum class Traced { tested, failed, unjudged, table, reasoned, open };
+/// case was judged, and none failed (`failed`: FAIL, or XFAIL). `measured`: no case of it can fail.
+enum class Traced { tested, failed, unjudged, measured, table, reasoned, open };
 
 struct CoverageStatement {
   std::string id, section, quote;
@@ -61,7 +62,7 @@ struct CoverageCounts {
   std::size_t count(Traced state) const;
   std::size_t judged() const { return count(Traced::tested) + count(Traced::failed); }
   std::size_t with_vector() const {
-    return judged() + count(Traced::unjudged) + count(Traced::table);
+    return judged() + count(Traced::unjudged) + count(Traced::measured) + count(Traced::table);
   }
   /// Judged statements of all, in percent; without results those with a table count too. 100 where
   /// there is none.

@@ -25,6 +25,7 @@ std::vector<Column> columns_of(const Coverage& coverage) {
   if (coverage.with_results())
     columns.insert(columns.end(), {{Traced::failed, "failed", "v-fail"},
                                    {Traced::unjudged, "not judged", "v-blocked"}});
+  columns.push_back({Traced::measured, "measured", "v-info"});
   columns.push_back({Traced::table, "tables", "v-pass"});
   columns.push_back({Traced::reasoned, "reasons", "v-skip"});
   columns.push_back({Traced::open, "open", "v-fail"});

@@ -45,7 +45,8 @@ reports::Coverage trace(const vectors::VectorSet& set,
           vectors
               .try_emplace(
                   one.vector_id,
-                  CoverageVector{one.vector_id, one.title, cases == &set.tables, 0, {}, {}})
+                  CoverageVector{one.vector_id, one.title, cases == &set.tables, 0, {}, {},
+                                 one.level == "info"})
               .first->second;
       ++vector.cases;
       vector_of[one.id] = &vector;

@@ -119,8 +119,19 @@ TEST_F(Traceability, has_the_verdicts_of_a_run) {
   EXPECT_THAT(finished.out,
               HasSubstr("m/3                                   1 vector, 1 case: 1 SKIP; SKIP: "));
   EXPECT_THAT(finished.out, HasSubstr("judged in " + results +
-                                      ": 2, of which 1 failed; not judged there: 1, facts without "
-                                      "wire effect: 1; coverage 20.0 %"));
+                                      ": 2, of which 1 failed; not judged there: 1, measured "
+                                      "without a requirement: 0, facts without wire effect: 1; "
+                                      "coverage 20.0 %"));
+}
+
+TEST_F(Traceability, what_is_only_measured_is_not_tested) {
+  ordered_json measured = citing(small_vector("v/measured"), {"m/6"});
+  measured["level"] = "info";
+  const std::string vectors = write_vectors(folder_, {measured});
+  const Finished finished = run_tool({"list", "--coverage", "--vectors", vectors, "--json"});
+  const nlohmann::json six = nlohmann::json::parse(finished.out)["manuals"][0]["statements"][5];
+  EXPECT_EQ(six["state"], "measured");
+  EXPECT_EQ(six["vectors"][0]["kind"], "measured");
 }
 
 TEST_F(Traceability, what_was_not_run_is_said) {
@@ -136,7 +147,7 @@ TEST_F(Traceability, every_form_counts_alike) {
   EXPECT_EQ(
       printed["counts"],
       nlohmann::json::parse(
-          R"({"statements": 10, "with_vector": 4, "tested": 1, "failed": 1, "not_judged": 1, "table": 1, "reason": 1, "open": 5, "percent": 20.0})"));
+          R"({"statements": 10, "with_vector": 4, "tested": 1, "failed": 1, "not_judged": 1, "measured": 0, "table": 1, "reason": 1, "open": 5, "percent": 20.0})"));
   EXPECT_EQ(printed["manuals"][0]["statements"][1]["vectors"][0]["verdicts"],
             nlohmann::json::parse(R"({"FAIL": 1})"));
 
