@@ -41,13 +41,15 @@ reports::Coverage trace(const vectors::VectorSet& set,
   std::set<std::string_view> proved;  // statements
   for (const std::vector<vectors::Case>* cases : {&set.cases, &set.tables})
     for (const vectors::Case& one : *cases) {
-      CoverageVector& vector =
-          vectors
-              .try_emplace(
-                  one.vector_id,
-                  CoverageVector{one.vector_id, one.title, cases == &set.tables, 0, {}, {},
-                                 one.level == "info"})
-              .first->second;
+      CoverageVector& vector = vectors
+                                   .try_emplace(one.vector_id, CoverageVector{one.vector_id,
+                                                                              one.title,
+                                                                              cases == &set.tables,
+                                                                              0,
+                                                                              {},
+                                                                              {},
+                                                                              one.level == "info"})
+                                   .first->second;
       ++vector.cases;
       vector_of[one.id] = &vector;
       for (const std::string_view statement : vectors::cited_by(one)) {

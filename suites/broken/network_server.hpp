@@ -66,8 +66,8 @@ using FirstFrame = std::optional<std::size_t> (*)(ByteView stream);
 class NetworkServer : public plc::EmulatedDevice, public net::Host {
  public:
   template <typename Settings>
-  NetworkServer(const NetworkBehaviour<Settings>& behaviour, std::unique_ptr<plc::EmulatedDevice> good,
-                FirstFrame first_frame)
+  NetworkServer(const NetworkBehaviour<Settings>& behaviour,
+                std::unique_ptr<plc::EmulatedDevice> good, FirstFrame first_frame)
       : behaviour_{{}, behaviour.hear, behaviour.misread, behaviour.edit, behaviour.act},
         good_(std::move(good)),
         server_{*good_},

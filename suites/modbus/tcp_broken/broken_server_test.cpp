@@ -20,8 +20,7 @@ const char* model_of(const Case& one) {
 
 /// Of a server of these models alone: no client, no other service of the PLC.
 bool concerns(const Case& one) {
-  return !vectors::is_client_case(one) && !one.config.contains("services") &&
-         one.level != "info" &&
+  return !vectors::is_client_case(one) && !one.config.contains("services") && one.level != "info" &&
          std::ranges::find(one.models, model_of(one)) != one.models.end();
 }
 

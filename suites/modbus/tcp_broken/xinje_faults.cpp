@@ -57,8 +57,7 @@ MakeBehaviour ends_early(bool (*concerns)(const Bytes& request)) {
 /// What lies behind an area reads as 0.
 MakeBehaviour empty_behind(bool (*concerns)(const Bytes& request)) {
   return edits([=](Bytes& reply, const Bytes& request) {
-    if (!concerns(request) || function_of(request) > 4 || !is_exception(reply) ||
-        reply.back() != 2)
+    if (!concerns(request) || function_of(request) > 4 || !is_exception(reply) || reply.back() != 2)
       return;
     const unsigned count = word_at(request, count_at);
     const unsigned bytes = is_of_coils(request) ? (count + 7) / 8 : 2 * count;

@@ -33,7 +33,8 @@ MakeBehaviour sends_pdu(std::function<void(Bytes& pdu)> edit) {
   return spoils([=](Bytes& frame) {
     Bytes pdu(frame.begin() + pdu_at, frame.end());
     edit(pdu);
-    frame = modbus::encode_mbap(static_cast<std::uint16_t>(number_at(frame, 0)), frame[unit_at], pdu);
+    frame =
+        modbus::encode_mbap(static_cast<std::uint16_t>(number_at(frame, 0)), frame[unit_at], pdu);
   });
 }
 
@@ -160,8 +161,8 @@ std::vector<Fault> modbus_tcp_request_faults() {
        "modbus_tcp/client/tcp/read_bit/f01_on", "function code: expected"},
       {"tcp_inputs_by_01", "bits of 1XXXX are read by function 01", function_by(2, 1),
        "modbus_tcp/client/tcp/read_bit/f02_on", "function code: expected"},
-      {"tcp_holding_registers_by_04", "words of 4XXXX are read by function 04",
-       function_by(3, 4), "modbus_tcp/client/tcp/read_single/f03", "function code: expected"},
+      {"tcp_holding_registers_by_04", "words of 4XXXX are read by function 04", function_by(3, 4),
+       "modbus_tcp/client/tcp/read_single/f03", "function code: expected"},
       {"tcp_input_registers_by_03", "words of 3XXXX are read by function 03", function_by(4, 3),
        "modbus_tcp/client/tcp/read_single/f04", "function code: expected"},
       {"tcp_coil_by_0f", "a single bit is written by function 0F",
@@ -278,10 +279,11 @@ std::vector<Fault> modbus_tcp_answer_faults() {
        }),
        "modbus_tcp/client/tcp/read_continuous/f01", "%MW119 holds"},
       {"tcp_saves_nothing", "a read ends, and saves nothing",
-       takes([](const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
-         PlcMemory elsewhere(memory.model());
-         return good.take(block, frame, elsewhere);
-       }),
+       takes(
+           [](const P2pDriver& good, const P2pBlock& block, const Bytes& frame, PlcMemory& memory) {
+             PlcMemory elsewhere(memory.model());
+             return good.take(block, frame, elsewhere);
+           }),
        "modbus_tcp/client/tcp/read_single/f03", "%MW119 holds 135724689BDF86427531FDB9"},
   };
 }
@@ -300,8 +302,7 @@ std::vector<Fault> modbus_tcp_link_faults() {
        [] { return Behaviour{.keeps_rests = true}; }, "modbus_tcp/client/tcp/rst_in_mid_answer",
        ""},
       {"tcp_lost_is_no_error", "a request whose connection is lost leaves no trace",
-       hides(p2p::p2p_error::send), "modbus_tcp/client/tcp/rst_before_answer",
-       "%LW512 holds 0000"},
+       hides(p2p::p2p_error::send), "modbus_tcp/client/tcp/rst_before_answer", "%LW512 holds 0000"},
       {"tcp_time_out_long", "10 s instead of 5 s",
        timing([](p2p::P2pClient::Timing& timing) { timing.time_out = 10s; }),
        "modbus_tcp/client/tcp/none", "%LW512 holds 0000"},
@@ -317,8 +318,8 @@ std::vector<Fault> modbus_tcp_link_faults() {
       {"tcp_two_at_once", "a block does not wait for the answer to another",
        [] { return Behaviour{.all_at_once = true}; }, "modbus_tcp/client/tcp/one_at_a_time", ""},
       {"tcp_one_connection", "all channels share a connection",
-       each_block([](P2pBlock& block) { block.channel = 1; }),
-       "modbus_tcp/client/tcp/two_channels", ""},
+       each_block([](P2pBlock& block) { block.channel = 1; }), "modbus_tcp/client/tcp/two_channels",
+       ""},
       {"tcp_power_cycle_keeps", "a connection is used on when the power was gone",
        deaf_to("power_cycle"), "modbus_tcp/client/tcp/power_cycle_while_busy", ""},
       {"tcp_both_edges", "the block fires when its flag falls, too", trigger(Trigger::both_edges),

@@ -151,9 +151,8 @@ std::vector<Fault> network_faults() {
       {"net_registers_of_parameter_1", "the parameters of P2P 2 are shown in those of P2P 1",
        shows([](p2p::P2pParameters& parameters) { parameters.parameter = 1; }),
        "xgt_fenet/client/limits/registers/p2b0", "%NW1312 holds 0000"},
-      {"net_names_not_shown", "N shows no names", shows_blocks([](P2pBlock& block) {
-         block.variables.clear();
-       }),
+      {"net_names_not_shown", "N shows no names",
+       shows_blocks([](P2pBlock& block) { block.variables.clear(); }),
        "xgt_fenet/client/limits/names_in_n", "%NW1 holds"},
       {"net_second_name_not_shown", "N shows the first area alone",
        shows_blocks([](P2pBlock& block) { block.variables.resize(1); }),

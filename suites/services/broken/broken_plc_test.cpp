@@ -14,8 +14,8 @@ namespace {
 
 /// What is only measured tells nothing apart.
 const broken::Cases& cases() {
-  static const broken::Cases all = broken::cases_of(
-      "*/*", [](const Case& one) { return concerns(one) && one.level != "info"; });
+  static const broken::Cases all =
+      broken::cases_of("*/*", [](const Case& one) { return concerns(one) && one.level != "info"; });
   return all;
 }
 

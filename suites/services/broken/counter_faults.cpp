@@ -19,10 +19,10 @@ MakeBehaviour counts(std::string_view counter, unsigned long (*wrong)(unsigned l
 Behaviour keeps_status() {
   return {.edge = {.shows = [first = std::string()](std::string_view address,
                                                     std::string right) mutable {
-    if (address != "@status") return right;
-    if (first.empty() && right != "00") first = right;
-    return first.empty() ? right : first;
-  }}};
+            if (address != "@status") return right;
+            if (first.empty() && right != "00") first = right;
+            return first.empty() ? right : first;
+          }}};
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ std::vector<Fault> counter_faults() {
   return {
       {"services_not_counted", "a request that is answered is not counted",
        counts("@services", never), "xgt_cnet/status_by_service/counts_add_up", "@services"},
-      {"services_counted_twice", "request and answer are counted each",
-       counts("@services", twice), "modbus_ascii/status/quiet", "@services"},
+      {"services_counted_twice", "request and answer are counted each", counts("@services", twice),
+       "modbus_ascii/status/quiet", "@services"},
       {"services_counted_once", "the count of services stays at 1", counts("@services", once),
        "xgt_cnet/status_by_service/each_service_counts", "@services"},
       {"errors_not_counted", "a frame that is no request is not counted", counts("@errors", never),
@@ -57,8 +57,6 @@ std::vector<Fault> counter_faults() {
        shows("@status", {"0B"}, "03"), "modbus_rtu/status/too_long", "@status"},
       {"not_hex_as_check", "what is no hex digit has the status of a wrong check",
        shows("@status", {"0D"}, "03"), "modbus_ascii/status/not_hex", "@status"},
-      {"counters_survive_power", "the counters outlive the power",
-       edge({.deaf_to = "power_cycle"}), "xgt_cnet/status_by_service/power_off_clears", "@status"},
   };
 }
 

@@ -33,8 +33,7 @@ namespace {
 /// What only this device shows: the counters of a server, what a loss of power ends.
 bool looks_behind(const vectors::Step& step) {
   constexpr std::string_view counters[] = {"@services", "@errors", "@status"};
-  return step.action == "power_cycle" ||
-         std::ranges::any_of(step.memory, [&](const auto& one) {
+  return step.action == "power_cycle" || std::ranges::any_of(step.memory, [&](const auto& one) {
            return std::ranges::find(counters, one.first) != std::end(counters);
          });
 }

@@ -50,21 +50,19 @@ MakeBehaviour delay(unsigned (*wrong)(unsigned right)) {
   };
 }
 
-Behaviour power_keeps_the_reply() { return {.edge = {.deaf_to = "power_cycle"}}; }
+Behaviour deaf_to_power() { return {.edge = {.deaf_to = "power_cycle"}}; }
 
 }  // namespace
 
 std::vector<Fault> line_faults() {
   return {
       {"speed_of_the_partner", "the speed is that of what comes, not the one that is set",
-       takes_from_partner([](LineSettings& own, const LineSettings& partner) {
-         own.baud = partner.baud;
-       }),
+       takes_from_partner(
+           [](LineSettings& own, const LineSettings& partner) { own.baud = partner.baud; }),
        "xgt_cnet/line/speed_differs/d9600_b19200", "where silence is due"},
       {"parity_of_the_partner", "the parity is that of what comes, not the one that is set",
-       takes_from_partner([](LineSettings& own, const LineSettings& partner) {
-         own.parity = partner.parity;
-       }),
+       takes_from_partner(
+           [](LineSettings& own, const LineSettings& partner) { own.parity = partner.parity; }),
        "xgt_cnet/line/parity_differs/d8e1_b8o1", "where silence is due"},
       {"format_of_the_partner", "data bits and parity are those of what comes",
        takes_from_partner([](LineSettings& own, const LineSettings& partner) {
@@ -90,8 +88,8 @@ std::vector<Fault> line_faults() {
       {"delay_halved", "the delay of RS-485 is half as long",
        delay([](unsigned right) { return right / 20 * 10; }), "modbus_rtu/timing/delay/d10",
        "bytes came"},
-      {"power_keeps_what_is_under_way", "what is under way outlives the power",
-       power_keeps_the_reply, "xgt_cnet/line/power_off_within_the_delay", ""},
+      {"power_changes_nothing", "requests, counters and calls outlive the power", deaf_to_power,
+       "xgt_cnet/line/power_off_within_the_delay", ""},
   };
 }
 

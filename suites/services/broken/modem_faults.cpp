@@ -49,10 +49,10 @@ MakeBehaviour always_set(const std::string& line) {
 /// A command needs no CR.
 Behaviour without_cr() {
   return {.edge = {.hears = [](Burst& burst, unsigned) {
-    const std::string text = to_text(burst.bytes);
-    if (text == "AT") burst.bytes = to_bytes("AT\r");
-    return text != "\r";
-  }}};
+            const std::string text = to_text(burst.bytes);
+            if (text == "AT") burst.bytes = to_bytes("AT\r");
+            return text != "\r";
+          }}};
 }
 
 }  // namespace
@@ -66,8 +66,8 @@ std::vector<Fault> modem_faults() {
        "bytes"},
       {"modem_no_connect", "dialling is answered by OK", replaced("CONNECT", "OK"),
        "udata/modem/dial", "expected"},
-      {"modem_keeps_data", "what follows CONNECT is not passed on", shows("@data",
-       {"30313233343536373839"}, ""), "udata/modem/dial", "@data"},
+      {"modem_keeps_data", "what follows CONNECT is not passed on",
+       shows("@data", {"30313233343536373839"}, ""), "udata/modem/dial", "@data"},
       {"modem_no_report", "an SMS is not reported", replaced("$006", ""), "udata/modem/bsm_sms",
        "no answer within"},
       {"modem_no_primo", "an RCU-890 answers an SMS by OK alone", replaced("*SKT*PRIMO:0", ""),
@@ -88,13 +88,10 @@ std::vector<Fault> modem_faults() {
        "where silence is due"},
       {"modem_forgets_commands", "behind its first answer the modem is deaf",
        [] {
-         return Behaviour{.edge = {.hears = [heard = 0](Burst&, unsigned) mutable {
-           return ++heard == 1;
-         }}};
+         return Behaviour{
+             .edge = {.hears = [heard = 0](Burst&, unsigned) mutable { return ++heard == 1; }}};
        },
        "udata/modem/data_mode", "no answer within"},
-      {"modem_power_keeps_the_call", "a call outlives the power", edge({.deaf_to = "power_cycle"}),
-       "udata/modem/power_ends_call", ""},
   };
 }
 

@@ -19,9 +19,9 @@ MakeBehaviour result(std::vector<std::string> from, std::string to) {
 Behaviour unknown_is_the_last() {
   return {.edge = {.shows = [last = std::string("00")](std::string_view address,
                                                        std::string right) mutable {
-    if (address == "@monitor" && right != "06") last = right;
-    return address == "@monitor" ? last : right;
-  }}};
+            if (address == "@monitor" && right != "06") last = right;
+            return address == "@monitor" ? last : right;
+          }}};
 }
 
 MakeBehaviour sets_up(std::function<void(json& config)> edit) {
@@ -46,20 +46,20 @@ std::vector<Fault> monitor_faults() {
        unknown_is_the_last, "xgt_cnet/frame_monitor/echo", "@monitor"},
       {"monitor_xgt_unknown", "frames of XGT are not known", result({"01", "02"}, "06"),
        "xgt_cnet/frame_monitor/server", "@monitor"},
-      {"monitor_client_as_server", "an XGT client is shown as an XGT server",
-       result({"02"}, "01"), "xgt_cnet/client_monitor/ko_client", "@monitor"},
-      {"monitor_server_as_client", "an XGT server is shown as an XGT client",
-       result({"01"}, "02"), "xgt_cnet/client_monitor/ko_server", "@monitor"},
+      {"monitor_client_as_server", "an XGT client is shown as an XGT server", result({"02"}, "01"),
+       "xgt_cnet/client_monitor/ko_client", "@monitor"},
+      {"monitor_server_as_client", "an XGT server is shown as an XGT client", result({"01"}, "02"),
+       "xgt_cnet/client_monitor/ko_server", "@monitor"},
       {"monitor_modbus_client_as_server", "a Modbus client is shown as a Modbus server",
        result({"04"}, "03"), "modbus_rtu/frame_monitor/client", "@monitor"},
       {"monitor_modbus_server_as_client", "a Modbus server is shown as a Modbus client",
        result({"03"}, "04"), "modbus_ascii/frame_monitor/server", "@monitor"},
-      {"monitor_modbus_as_xgt", "a Modbus server is shown as an XGT server",
-       result({"03"}, "01"), "modbus_rtu/frame_monitor/server", "@monitor"},
+      {"monitor_modbus_as_xgt", "a Modbus server is shown as an XGT server", result({"03"}, "01"),
+       "modbus_rtu/frame_monitor/server", "@monitor"},
       {"monitor_user_frames_unknown", "user-defined frames are not known", result({"05"}, "06"),
        "user_frames/client_px7/monitor", "@monitor"},
-      {"monitored_client_needs_no_link", "a client whose link is not enabled asks", sets_up(enabled),
-       "xgt_cnet/client_monitor/ko_link", ""},
+      {"monitored_client_needs_no_link", "a client whose link is not enabled asks",
+       sets_up(enabled), "xgt_cnet/client_monitor/ko_link", ""},
       {"monitored_client_asks_in_stop", "a client of a CPU in STOP asks", sets_up(runs),
        "xgt_cnet/client_monitor/ko_stop", ""},
       {"monitored_client_deaf_to_run", "a client does not begin with RUN", edge({.deaf_to = "run"}),

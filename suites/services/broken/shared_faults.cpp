@@ -84,8 +84,8 @@ std::vector<Fault> shared_faults() {
            if (key.ends_with("_base")) own[key] = value;
        }),
        "modbus_tcp/bases/of_each_service", ""},
-      {"one_service_at_a_time", "while a frame comes on the line the network is not heard", one_at_a_time,
-       "modbus_tcp/cnet_and_tcp/at_once", "no answer within"},
+      {"one_service_at_a_time", "while a frame comes on the line the network is not heard",
+       one_at_a_time, "modbus_tcp/cnet_and_tcp/at_once", "no answer within"},
       {"line_waits_for_network", "half a frame on the network holds up the line",
        line_waits_for_network, "xgt_fenet/cnet_and_fenet/half_frames", "no answer within"},
       {"line_ends_with_connection", "a connection that ends takes the line with it",

@@ -63,9 +63,7 @@ TEST_P(OnANetwork, IsCaught) {
 INSTANTIATE_TEST_SUITE_P(Broken, OnANetwork, testing::ValuesIn(server_faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(HealthyServer, PassesTheWholeSuite) {
-  broken::expect_healthy(server_cases(), 30, server({}));
-}
+TEST(HealthyServer, PassesTheWholeSuite) { broken::expect_healthy(server_cases(), 30, server({})); }
 
 TEST(UserFrameFacts, HoldInTheTables) {
   const vectors::VectorSet set =

@@ -38,8 +38,7 @@ Make holds(const std::string& reg, const std::string& from, const std::string& t
 
 Make takes(const std::string& reg, const std::string& from, const std::string& to) {
   return [=] {
-    return Behaviour{.set_value = [=, word = split(reg)](const std::string& text,
-                                                         std::string hex) {
+    return Behaviour{.set_value = [=, word = split(reg)](const std::string& text, std::string hex) {
       return other_word(text, std::move(hex), word, from, to);
     }};
   };

@@ -3,7 +3,8 @@
 namespace fieldproof::xnet_broken {
 
 const std::vector<Fault>& faults() {
-  static const std::vector<Fault> all = broken::gather<Fault>({data_faults, motion_faults, default_faults});
+  static const std::vector<Fault> all =
+      broken::gather<Fault>({data_faults, motion_faults, default_faults});
   return all;
 }
 
