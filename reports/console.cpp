@@ -113,8 +113,9 @@ std::string rough_time(double seconds) {
 
 std::string outcome(const Summary& summary, const ConsoleOptions& options) {
   const int code = summary.end.exit_code;
-  const char* const colour =
-      code != 0 ? "1;31" : text::is_less_than_half(summary.tally) ? "33" : "32";
+  const char* const colour = code != 0                                ? "1;31"
+                             : text::is_less_than_half(summary.tally) ? "33"
+                                                                      : "32";
   return fmt::format("exit {}: {}\n", code,
                      coloured(text::headline(summary.end, summary.tally), colour, options));
 }

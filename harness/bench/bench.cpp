@@ -24,7 +24,7 @@ using nlohmann::json;
 constexpr Duration start_patience =
     10s;  // a device that is started by the bench needs time to open its port
 constexpr int most_unanswered = 4;  // writes that set up a case; then no further one is tried
-constexpr int errors_to_stop = 5;  // then it is no longer the vectors, it is the bench
+constexpr int errors_to_stop = 5;   // then it is no longer the vectors, it is the bench
 
 }  // namespace
 

@@ -47,7 +47,8 @@ class Benches {
   results::CaseResult run(const vectors::Case& source);
   /// Bench::run_ahead, and what another one of this device makes of it.
   std::optional<results::CaseResult> run_ahead(const vectors::Case& source);
-  results::CaseResult conclude(const vectors::Case& source, std::optional<results::CaseResult> ahead);
+  results::CaseResult conclude(const vectors::Case& source,
+                               std::optional<results::CaseResult> ahead);
   /// In the order that starts the device the least often (fewest_starts).
   std::vector<const vectors::Case*> grouped(const std::vector<const vectors::Case*>& cases) const;
 

@@ -54,8 +54,7 @@ void Recovery::after(const PreparedCase& prepared, const exchange::Transcript& t
     }
   }
   // Emulators become a fresh device with the next case.
-  if (dead && endpoint_.capabilities().real_device)
-    revive(result, prepared.listens_for_silence());
+  if (dead && endpoint_.capabilities().real_device) revive(result, prepared.listens_for_silence());
 }
 
 bool Recovery::look_for_device(CaseResult& result, const std::string& what) {
@@ -87,10 +86,10 @@ void Recovery::start_again(CaseResult& result) {
   const bool of_case = std::ranges::any_of(result.exchange, [&](const results::Event& event) {
     return event.kind == results::Event::Kind::sent && event.bytes == last;
   });
-  result.message = fmt::format(
-      "the device ended {}{}: {}", of_case ? "" : "while its memory was read or set, ",
-      last.empty() ? "before it was asked" : "after " + notation::print_bytes(last),
-      known_.stopped);
+  result.message =
+      fmt::format("the device ended {}{}: {}", of_case ? "" : "while its memory was read or set, ",
+                  last.empty() ? "before it was asked" : "after " + notation::print_bytes(last),
+                  known_.stopped);
   result.verdict = Verdict::fail;
   known_.stopped.clear();
   known_.port_failed = false;

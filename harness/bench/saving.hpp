@@ -27,8 +27,8 @@ class Saving {
   /// The last `save` had sound answers, as far as it asked.
   bool was_answered() const { return answered_; }
 
-  /// Around the exchange of a case that writes without a check (UncheckedWrites). `cut_off`: the port
-  /// failed in it.
+  /// Around the exchange of a case that writes without a check (UncheckedWrites). `cut_off`: the
+  /// port failed in it.
   void before_exchange(const exchange::PreparedCase& prepared) {
     unchecked_.before(unchecked_writes(prepared), changes(prepared), protocol_, own_);
   }

@@ -25,7 +25,7 @@ struct Standing {
   nlohmann::json config;              // that the device was given last
   int errors_in_a_row = 0;
   int set_ups_unanswered = 0;  // in a row, of a device that answers otherwise
-  unsigned starts = 0;  // of the endpoint, when the device was last seen to answer
+  unsigned starts = 0;         // of the endpoint, when the device was last seen to answer
   bool port_failed = false;
   bool answers = false;  // the device answers probes
   bool interrupted = false;

@@ -94,8 +94,7 @@ void UncheckedWrites::after(const results::CaseResult& result, const Protocol& p
     const bool lost = is_lost(*write, due, memory);
     if (!lost && write->shows) continue;
     (lost ? lost_ : unseen_)
-        .push_back(
-            fmt::format("{} in {}", notation::print_beginning(write->request), result.id));
+        .push_back(fmt::format("{} in {}", notation::print_beginning(write->request), result.id));
   }
   writes_.clear();
 }

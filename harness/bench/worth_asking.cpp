@@ -62,11 +62,13 @@ std::string WorthAsking::restart(const results::CaseResult& result, bool odd) {
   if (fruitless_ == most_fruitless)
     return fmt::format(
         "the device was started again {} times, and fell mute or sent without end in ordinary "
-        "requests each time before {} cases had passed, the last time in {}; it is not started again",
+        "requests each time before {} cases had passed, the last time in {}; it is not started "
+        "again",
         most_fruitless, fruitful, result.id);
   if (restarts_++ < max_restarts_) return {};
   return fmt::format(
-      "the device was lost {} times (it ended, fell mute or sent without end), the last time in {}; "
+      "the device was lost {} times (it ended, fell mute or sent without end), the last time in "
+      "{}; "
       "it is not started again (--max-restarts {})",
       restarts_, result.id, max_restarts_);
 }

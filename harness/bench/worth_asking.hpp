@@ -13,16 +13,16 @@ class WorthAsking {
  public:
   /// `max_restarts`: how often a device that the bench starts itself is started again, after it
   /// ended, fell mute or sent without end, in all. One that falls mute or sends without end in
-  /// ordinary requests is given up sooner: where three times in a row fewer than ten cases passed in
-  /// between, it would do so in all of them.
+  /// ordinary requests is given up sooner: where three times in a row fewer than ten cases passed
+  /// in between, it would do so in all of them.
   explicit WorthAsking(int max_restarts) : max_restarts_(max_restarts) {}
 
   /// After a case that was executed; `set_up`: the device answered what set it up, be it by a
   /// refusal. Empty, or why the run ends here.
   std::string after(const results::CaseResult& result, const harness::Protocol& protocol,
                     bool set_up);
-  /// Before the bench starts a device again that was lost in `result`; `odd`: behind what a device may
-  /// not answer, or its program has ended. Empty, or why not.
+  /// Before the bench starts a device again that was lost in `result`; `odd`: behind what a device
+  /// may not answer, or its program has ended. Empty, or why not.
   std::string restart(const results::CaseResult& result, bool odd);
 
  private:

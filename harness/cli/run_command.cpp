@@ -125,8 +125,8 @@ class Run {
   /// Cases on simulated time run in threads. False: they cannot.
   bool go_ahead() {
     if (!benches_.simulated()) return true;
-    Result<std::vector<Benches>> more = run::open_more(
-        plan_, plan_.selected.size() * static_cast<std::size_t>(options_.repeat));
+    Result<std::vector<Benches>> more =
+        run::open_more(plan_, plan_.selected.size() * static_cast<std::size_t>(options_.repeat));
     if (!more) end_.trouble = more.error().message;
     if (!more || more->empty()) return bool(more);
     more_ = std::move(*more);

@@ -100,8 +100,8 @@ bool CaseRun::probe(Link& link, std::optional<int> step) {
 /// What answers no probe and goes on, without a pause, for longer than the longest frame takes does
 /// not end.
 void CaseRun::hear_end(const Link& link) {
-  const Time cut_off = now() + longest_reply(link.to.protocol->longest_frame(),
-                                             link.to.endpoint->character_time());
+  const Time cut_off =
+      now() + longest_reply(link.to.protocol->longest_frame(), link.to.endpoint->character_time());
   while (!link.pending.empty() && link.hears &&
          links_.listen(link, link.pending.last() + around_.timing.pause))
     transcript_.flooded = now() >= cut_off;

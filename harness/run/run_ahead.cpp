@@ -12,8 +12,7 @@ constexpr std::size_t batches_a_thread = 4;  // begun or waiting: enough that no
 }  // namespace
 
 RunAhead::RunAhead(std::vector<Runner> runners) {
-  for (Runner& run : runners)
-    threads_.emplace_back([this, run = std::move(run)] { serve(run); });
+  for (Runner& run : runners) threads_.emplace_back([this, run = std::move(run)] { serve(run); });
 }
 
 RunAhead::~RunAhead() {

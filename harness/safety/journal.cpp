@@ -67,9 +67,8 @@ void take(const json& line, Contents& contents) {
 /// A line that a kill has cut off: so much of one of ours.
 bool may_be_cut_off(std::string_view text) {
   constexpr std::string_view heads[] = {R"({"saved":{)", R"({"restored":{)"};
-  return std::ranges::any_of(heads, [&](std::string_view head) {
-    return text.starts_with(head.substr(0, text.size()));
-  });
+  return std::ranges::any_of(
+      heads, [&](std::string_view head) { return text.starts_with(head.substr(0, text.size())); });
 }
 
 Result<Contents> read(const std::string& path) {
@@ -93,9 +92,10 @@ Result<Contents> read(const std::string& path) {
     contents.lines = number;
   }
   if (!may_be_cut_off(text))
-    return fail(fmt::format("{} is no journal: its last line is none of one. A run keeps it in its "
-                            "folder of reports, as journal.ndjson",
-                            path));
+    return fail(
+        fmt::format("{} is no journal: its last line is none of one. A run keeps it in its "
+                    "folder of reports, as journal.ndjson",
+                    path));
   return contents;
 }
 

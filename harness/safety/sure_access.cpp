@@ -52,10 +52,10 @@ Reading SureAccess::once(const Requests& requests, std::size_t digits) {
 bool SureAccess::settle() {
   memory_.leave();
   const Duration silence = exchange::ExchangeTiming().late_watch;
-  const Result<bool> silent = exchange::settle(
-      *device_.endpoint, silence,
-      silence + exchange::longest_reply(device_.protocol->longest_frame(),
-                                        device_.endpoint->character_time()));
+  const Result<bool> silent =
+      exchange::settle(*device_.endpoint, silence,
+                       silence + exchange::longest_reply(device_.protocol->longest_frame(),
+                                                         device_.endpoint->character_time()));
   // A port that fails here fails in the next request, too, which then says so.
   return !silent || *silent;
 }

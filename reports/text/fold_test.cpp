@@ -36,7 +36,8 @@ TEST(Fold, ACommandCanStillBePasted) {
 
 TEST(Fold, AWordOfACommandThatIsWiderThanALineIsOneWordStill) {
   const std::string command =
-      "fieldproof run --endpoint 'exec:./server 0011_for_1132 {tty} --name it'\\''s --more' --out x";
+      "fieldproof run --endpoint 'exec:./server 0011_for_1132 {tty} --name it'\\''s --more' --out "
+      "x";
   for (std::size_t width = 30; width < 90; ++width) {
     const std::string folded = fold("  replay  " + command + "\n", width);
     std::string pasted = folded.substr(folded.find("fieldproof"));

@@ -100,10 +100,9 @@ std::vector<Reason> reasons_of(const Tally& tally, const Gate& gate) {
   if (judged + errors == 0)
     reasons.push_back({4, "nothing", "nothing selected or executed"});
   else if (share_judged(tally) < gate.min_judged)
-    reasons.push_back(
-        {1, "min-judged",
-         fmt::format("too little judged: {} ({:.1f}%), --min-judged asks for {:g}%",
-                     judged_text(tally), share_judged(tally), gate.min_judged)});
+    reasons.push_back({1, "min-judged",
+                       fmt::format("too little judged: {} ({:.1f}%), --min-judged asks for {:g}%",
+                                   judged_text(tally), share_judged(tally), gate.min_judged)});
   return reasons;
 }
 

@@ -16,8 +16,8 @@ std::vector<std::string> lines(const std::vector<std::pair<Verdict, std::string>
     unjudged.add(samples::with(verdict, "a/b", message));
   std::vector<std::string> lines;
   for (const UnjudgedReason& one : unjudged.reasons())
-    lines.push_back(std::string(results::to_string(one.verdict)) + ' ' +
-                    std::to_string(one.cases) + ' ' + one.text);
+    lines.push_back(std::string(results::to_string(one.verdict)) + ' ' + std::to_string(one.cases) +
+                    ' ' + one.text);
   return lines;
 }
 
@@ -33,11 +33,11 @@ TEST(Unjudged, AReasonIsALineAndBlockedComesFirst) {
 }
 
 TEST(Unjudged, TheGreatestOfAVerdictComesFirst) {
-  EXPECT_THAT(lines({{Verdict::skip, "is another protocol"},
-                     {Verdict::skip, "excluded by the profile: no such area"},
-                     {Verdict::skip, "excluded by the profile: no such area"}}),
-              ElementsAre("SKIP 2 excluded by the profile: no such area",
-                          "SKIP 1 is another protocol"));
+  EXPECT_THAT(
+      lines({{Verdict::skip, "is another protocol"},
+             {Verdict::skip, "excluded by the profile: no such area"},
+             {Verdict::skip, "excluded by the profile: no such area"}}),
+      ElementsAre("SKIP 2 excluded by the profile: no such area", "SKIP 1 is another protocol"));
 }
 
 TEST(Unjudged, OtherModelsAreOneReason) {

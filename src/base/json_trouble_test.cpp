@@ -22,9 +22,10 @@ TEST(JsonTrouble, names_the_place_and_what_is_due_there) {
   EXPECT_EQ("line 1, column 5: there is ']' where a value is due" + too_many, trouble("[1, ]"));
   EXPECT_EQ("line 1, column 4: there is ',' where a value is due; is there a comma too many?",
             trouble("[1,,2]"));
-  EXPECT_EQ("line 2, column 3: there is a text in quotes where ',' or '}' is due; is a comma missing "
-            "before it?",
-            trouble("{\"a\": 1\n\"b\": 2}"));
+  EXPECT_EQ(
+      "line 2, column 3: there is a text in quotes where ',' or '}' is due; is a comma missing "
+      "before it?",
+      trouble("{\"a\": 1\n\"b\": 2}"));
   EXPECT_EQ("line 1, column 6: there is a number where ':' is due", trouble("{\"a\" 1}"));
   EXPECT_EQ("line 1, column 7: the file ends where a value is due; is it complete?",
             trouble("{\"a\": "));
@@ -32,8 +33,7 @@ TEST(JsonTrouble, names_the_place_and_what_is_due_there) {
 }
 
 TEST(JsonTrouble, of_letters_is_named_by_them) {
-  EXPECT_EQ("line 1, column 5: invalid literal; last read: '[nul]'",
-            trouble("[nul]"));
+  EXPECT_EQ("line 1, column 5: invalid literal; last read: '[nul]'", trouble("[nul]"));
   EXPECT_NE(trouble("\"\xFF\"").find("UTF-8"), std::string::npos);
 }
 

@@ -135,11 +135,13 @@ class NoisyLine : public testing::TestWithParam<Setup> {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       if (before[i] == after[i]) continue;
       const Block& block = blocks_[i];
-      harness::Protocol::Written word = words_at(block.address, std::min<std::size_t>(4, block.digits));
+      harness::Protocol::Written word =
+          words_at(block.address, std::min<std::size_t>(4, block.digits));
       for (std::size_t at = 0; at < block.digits; at += 4, ++word.first_word, ++word.last_word)
         if (before[i].compare(at, 4, after[i], at, 4) != 0 &&
             std::ranges::none_of(named, [&](const auto& one) { return one.overlaps(word); }))
-          changed += fmt::format(" {}{}: {} was {}", block.address, at == 0 ? "" : fmt::format(" + {}", at / 4),
+          changed += fmt::format(" {}{}: {} was {}", block.address,
+                                 at == 0 ? "" : fmt::format(" + {}", at / 4),
                                  after[i].substr(at, 4), before[i].substr(at, 4));
     }
     return changed;
@@ -171,8 +173,8 @@ class NoisyLine : public testing::TestWithParam<Setup> {
     return options;
   }
 
-  /// Two cases over one bad line, and `fieldproof restore` with the cable plugged in again. What the
-  /// tool names is added to `named`; true: it says that it cannot answer for a write.
+  /// Two cases over one bad line, and `fieldproof restore` with the cable plugged in again. What
+  /// the tool names is added to `named`; true: it says that it cannot answer for a write.
   bool run(std::mt19937_64& random, Words& named) {
     Badness bad = badness(random);
     NoisyEndpoint line(*device_, bad, random());
@@ -183,8 +185,7 @@ class NoisyLine : public testing::TestWithParam<Setup> {
     std::string doubtful;
     {
       bench::Bench bench(line, protocol(), options(journal));
-      for (int i = 0; i < 2; ++i)
-        ++verdicts_[bench.run(cases_[random() % cases_.size()]).verdict];
+      for (int i = 0; i < 2; ++i) ++verdicts_[bench.run(cases_[random() % cases_.size()]).verdict];
       [[maybe_unused]] const std::string open = bench.put_back();
       doubtful = bench.doubtful_writes();
     }
@@ -245,7 +246,8 @@ TEST_P(NoisyLine, LeavesTheMemoryAsItWasOrSaysWhatItIsNot) {
   const int all = groups * runs_of_group;
   fmt::print(
       "{}: {} runs, {} with something to restore, {} in which it was said that it could not "
-      "be, {} with a write that nobody can answer for ({} of them changed another word); {} PASS, {} "
+      "be, {} with a write that nobody can answer for ({} of them changed another word); {} PASS, "
+      "{} "
       "FAIL, {} BLOCKED, {} ERROR\n",
       GetParam().protocol, all, left_open_, said_, doubtful_, astray_,
       verdicts_[results::Verdict::pass], verdicts_[results::Verdict::fail],
@@ -257,11 +259,7 @@ TEST_P(NoisyLine, LeavesTheMemoryAsItWasOrSaysWhatItIsNot) {
 }
 
 const Setup setups[] = {
-    {"xgt-cnet",
-     "xbc-h",
-     "xgt_cnet/w*:xgt_cnet/errors/*:xgt_cnet/data_types/*",
-     "all,P,Q,U",
-     true},
+    {"xgt-cnet", "xbc-h", "xgt_cnet/w*:xgt_cnet/errors/*:xgt_cnet/data_types/*", "all,P,Q,U", true},
     {"modbus-rtu", "xbc-h", "modbus_rtu/*", "all,P", true},
     {"modbus-ascii", "xbc-h", "modbus_ascii/*", "all,P", true},
     {"modbus-tcp", "xbc-h", "modbus_tcp/*", "all,P", false},

@@ -72,10 +72,11 @@ std::vector<BadInput> bad_inputs() {
   return {
       bad_vectors("malformed_json", "[{\"id\": \"xgt_cnet/bad/one\",\n \"rev\" 1}]",
                   {"line 2, column 8: there is a number where ':' is due"}),
-      bad_vectors("comma_too_many", "[{\"id\": \"xgt_cnet/bad/one\",\n \"rev\": 1,}]",
-                  {"1 problem in the vectors",
-                   "line 2, column 11: there is '}' where a text in quotes is due; is there a comma "
-                   "too many before it?"}),
+      bad_vectors(
+          "comma_too_many", "[{\"id\": \"xgt_cnet/bad/one\",\n \"rev\": 1,}]",
+          {"1 problem in the vectors",
+           "line 2, column 11: there is '}' where a text in quotes is due; is there a comma "
+           "too many before it?"}),
       bad_vectors("level_of_no_such_name", text_of(with(good, "level", "musst")),
                   {"'musst' is none of must, should, info; did you mean 'must'?"}),
       bad_vectors("not_utf8", "[{\"id\": \"\xFF\"}]", {"UTF-8"}),
@@ -173,9 +174,10 @@ std::vector<BadInput> bad_inputs() {
       bad_option("waivers_absent", {"--waivers", "FOLDER/nothing.json"}, {"FOLDER/nothing.json"}),
       bad_waivers("waivers_malformed", "[{\"id\": ",
                   {"FOLDER/waivers.json: line 1, column 9: the file ends where a value is due"}),
-      bad_waivers("waiver_owner_of_no_text",
-                  R"([{"id": "*", "reason": "r", "owner": 5, "text": "t", "expires": "2999-01-01"}])",
-                  {"waivers.json", "entry 0", "'owner' is not a text: who answers for it"}),
+      bad_waivers(
+          "waiver_owner_of_no_text",
+          R"([{"id": "*", "reason": "r", "owner": 5, "text": "t", "expires": "2999-01-01"}])",
+          {"waivers.json", "entry 0", "'owner' is not a text: who answers for it"}),
       bad_waivers("waiver_firmware_of_no_range",
                   R"([{"id": "*", "reason": "r", "owner": "o", "text": "t", "expires": "2999-01-01",
                       "firmware": "1.4"}])",

@@ -15,17 +15,17 @@ using nlohmann::json;
 /// A device of its own process, and the profile that is given to the bench.
 struct Device {
   std::string name;
-  std::string options;      // of the emulated PLC
-  json declared;  // "config" of the profile
-  std::size_t judged;       // cases that pass, at least
+  std::string options;  // of the emulated PLC
+  json declared;        // "config" of the profile
+  std::size_t judged;   // cases that pass, at least
 };
 
 const json bits_at_p0{{"bit_write_base", "P0"}};
 /// Cnet EN 6.1.3: the dialog of the settings as it is printed.
 const json printed_dialog{{"bit_read_base", "M0"},
-                                    {"bit_write_base", "M0"},
-                                    {"word_read_base", "D0"},
-                                    {"word_write_base", "D0"}};
+                          {"bit_write_base", "M0"},
+                          {"word_read_base", "D0"},
+                          {"word_write_base", "D0"}};
 
 /// "&bit_write_base=P0"
 std::string as_options(const json& bases) {
@@ -42,8 +42,8 @@ std::vector<Device> devices() {
 
 std::unique_ptr<Process> run_against(const Device& device, const TestFolder& folder) {
   const json profile{{"name", device.name},         {"extends", "xbc-h"},
-                               {"title", "of a test"},        {"model", "xbc-h"},
-                               {"protocols", {"modbus-tcp"}}, {"config", device.declared}};
+                     {"title", "of a test"},        {"model", "xbc-h"},
+                     {"protocols", {"modbus-tcp"}}, {"config", device.declared}};
   folder.write(device.name + ".json", profile.dump());
   const std::string command = quoted(FIELDPROOF_TOOL) + " emulate " +
                               quoted("xbc-h?protocol=modbus-tcp" + device.options) +

@@ -1,5 +1,6 @@
-// Devices that are right in what a case is about, or odd in something else (testdata/odd_device.py):
-// nothing is blamed that the manuals do not forbid, and what is wrong is named where it is.
+// Devices that are right in what a case is about, or odd in something else
+// (testdata/odd_device.py): nothing is blamed that the manuals do not forbid, and what is wrong is
+// named where it is.
 #include <gmock/gmock.h>
 
 #include <memory>
@@ -27,10 +28,10 @@ class Blame : public testing::Test {
  protected:
   std::vector<std::string> arguments(const std::string& oddity, const std::string& protocol,
                                      const std::string& filter, const std::string& bytes = "") {
-    return {"run",       "--endpoint", odd_device(oddity, protocol, bytes),
-            "--profile", "xbc-h",      "--protocol",
-            protocol,    "--role",     "server",
-            "--filter",  filter,       "--out",
+    return {"run",          "--endpoint", odd_device(oddity, protocol, bytes),
+            "--profile",    "xbc-h",      "--protocol",
+            protocol,       "--role",     "server",
+            "--filter",     filter,       "--out",
             folder_ / "out"};
   }
   Finished run(std::vector<std::string> arguments, std::vector<std::string> more = {}) {
@@ -85,8 +86,9 @@ TEST_F(Blame, SeparateTablesAreTestedInFullButForTheOverlap) {
 
 TEST_F(Blame, RefusedWritesOfASetUpAreOneFinding) {
   for (const auto& [protocol, filter, answer] :
-       {std::tuple("xgt-cnet", "xgt_cnet/rss/two_words/*:xgt_cnet/rss/bit_is_00_or_01/*:"
-                               "xgt_cnet/rss/block_counts/*",
+       {std::tuple("xgt-cnet",
+                   "xgt_cnet/rss/two_words/*:xgt_cnet/rss/bit_is_00_or_01/*:"
+                   "xgt_cnet/rss/block_counts/*",
                    "NAK 0190"),
         std::tuple("modbus-ascii", "modbus_ascii/data/bits_01/*", "exception 04")}) {
     const Finished finished = run(arguments("no_writes", protocol, filter));
@@ -137,8 +139,7 @@ TEST_F(Blame, ARequestThatIsItsOwnReplyIsNoEcho) {
 }
 
 TEST_F(Blame, AnAnswerThatComesAgainIsNamedAsThat) {
-  const Finished finished =
-      run(arguments("stale", "xgt-cnet", "xgt_cnet/rss/two_words/*"));
+  const Finished finished = run(arguments("stale", "xgt-cnet", "xgt_cnet/rss/two_words/*"));
   EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
   const std::vector<json> failed = of_verdict("FAIL");
   EXPECT_EQ(failed.size(), 2u);
@@ -186,15 +187,17 @@ TEST(BitNames, BindAsPrintedWhereAnyReadingIsTheSame) {
           one.at("id") == "xgt_cnet/errors/printed_0011_bit")
         continue;
       const std::string area = (*bit)[1], digits = (*bit)[2];
-      EXPECT_TRUE(area == "T" || area == "C" || digits.find_first_not_of('0') == std::string::npos ||
+      EXPECT_TRUE(area == "T" || area == "C" ||
+                  digits.find_first_not_of('0') == std::string::npos ||
                   digits.find_first_not_of('0') == digits.size() - 1)
           << one.at("id") << ' ' << bit->str();
       EXPECT_TRUE(digits.back() <= '9') << one.at("id") << ' ' << bit->str();
     }
   }
   EXPECT_GT(decided, 100u);
-  for (const char* id : {"xgt_cnet/rss/bit_is_00_or_01/lower/on_c", "xgt_cnet/wss/type_bit/xbc_h_set_lower",
-                         "xgt_cnet/wss/bits_of_one_word/lower"})
+  for (const char* id :
+       {"xgt_cnet/rss/bit_is_00_or_01/lower/on_c", "xgt_cnet/wss/type_bit/xbc_h_set_lower",
+        "xgt_cnet/wss/bits_of_one_word/lower"})
     EXPECT_TRUE(std::ranges::any_of(all, [&](const json& one) {
       return one.at("id") == id && one.at("basis") == "decision";
     })) << id;

@@ -230,9 +230,10 @@ TEST_F(ClientRole, PreparedBlocksAreArmedAndLookedAtOverASecondChannel) {
   EXPECT_EQ(results.of("xgt_cnet/client/read/nak").at("message"), "%LW512 holds 0002, 0001 is due");
   EXPECT_EQ(results.verdict("xgt_cnet/client/write"), "BLOCKED")
       << "another block than the prepared one";
-  EXPECT_THAT(results.of("xgt_cnet/client/write").at("message").get<std::string>(),
-              HasSubstr(R"(listed there is another: function is "read", "write" is needed; save is )"
-                        R"(["%MW200"], ["%MW300"] is needed)"));
+  EXPECT_THAT(
+      results.of("xgt_cnet/client/write").at("message").get<std::string>(),
+      HasSubstr(R"(listed there is another: function is "read", "write" is needed; save is )"
+                R"(["%MW200"], ["%MW300"] is needed)"));
 }
 
 /// What the bench sets over the second channel is put back there: flags and data; after a kill by

@@ -139,8 +139,9 @@ TEST(EmulatorRun, fail_fast_ends_with_the_case_that_failed) {
   std::vector<nlohmann::ordered_json> vectors = many_vectors(400);
   vectors[300] = small_vector("many/n1300", wrong_word);
   for (const char* repeat : {"1", "3"}) {
-    const Finished finished = run_tool({"run", "--vectors", write_vectors(folder, vectors),
-                                        "--fail-fast", "--repeat", repeat, "--out", folder / "out"});
+    const Finished finished =
+        run_tool({"run", "--vectors", write_vectors(folder, vectors), "--fail-fast", "--repeat",
+                  repeat, "--out", folder / "out"});
     EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
     const Results results = read_results(folder / "out/results.ndjson");
     ASSERT_EQ(results.cases.size(), 301u);
@@ -150,9 +151,8 @@ TEST(EmulatorRun, fail_fast_ends_with_the_case_that_failed) {
 
 TEST(EmulatorRun, repeats_come_round_by_round) {
   const TestFolder folder;
-  const Finished finished =
-      run_tool({"run", "--vectors", write_vectors(folder, many_vectors(100)), "--repeat", "3",
-                "--out", folder / "out"});
+  const Finished finished = run_tool({"run", "--vectors", write_vectors(folder, many_vectors(100)),
+                                      "--repeat", "3", "--out", folder / "out"});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   const Results results = read_results(folder / "out/results.ndjson");
   ASSERT_EQ(results.cases.size(), 300u);

@@ -52,7 +52,8 @@ TEST(Friction, a_run_says_why_the_rest_was_not_judged) {
                 "--role", "server", "--out", folder / "out"});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   EXPECT_THAT(finished.out, HasSubstr("\nnot judged, and why, or what it takes:\n"));
-  EXPECT_THAT(finished.out, HasSubstr("BLOCKED       a way to what no command reads: --control COMMAND, or a "
+  EXPECT_THAT(finished.out,
+              HasSubstr("BLOCKED       a way to what no command reads: --control COMMAND, or a "
                         "look in XG5000\n"));
   EXPECT_THAT(finished.out,
               HasSubstr("SKIP          modbus-rtu is not what this endpoint speaks (xgt-cnet)\n"));

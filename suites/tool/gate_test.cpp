@@ -270,8 +270,9 @@ TEST_F(Gate, WhatIsWrongBeforeAByteIsSentIsUsage) {
     refused({"--endpoint", endpoint, "--profile", "xbc-h"}, why);
   for (const char* beside : {"--aux", "--loop"})
     refused({"--endpoint", good_device, "--profile", "xbc-h", beside, "serial:/dev/null?frame=9N1"},
-            std::string(beside) + ": cannot open serial:/dev/null: cannot read line settings "
-                                  "'9600-9N1': the data bits are not 7 or 8");
+            std::string(beside) +
+                ": cannot open serial:/dev/null: cannot read line settings "
+                "'9600-9N1': the data bits are not 7 or 8");
   refused({"--endpoint", good_device, "--profile", "xbc-h", "--allow-write", ""},
           "--allow-write needs a range");
   refused({"--endpoint", good_device, "--profile",

@@ -120,12 +120,10 @@ TEST_F(HostileRuns, AReplyThatDoesNotEndIsNamedSo) {
 }
 
 TEST_F(HostileRuns, WhatNeverStopsIsNamedBeforeTheFirstCase) {
-  const Finished finished =
-      run_tool({"run", "--endpoint",
-                "exec:/usr/bin/python3 " FIELDPROOF_SOURCE_DIR
-                "/suites/tool/testdata/device.py flood {tty}",
-                "--profile", "xbc-h", "--vectors", write_vectors(folder_, many_vectors(2)), "--out",
-                out_});
+  const Finished finished = run_tool(
+      {"run", "--endpoint",
+       "exec:/usr/bin/python3 " FIELDPROOF_SOURCE_DIR "/suites/tool/testdata/device.py flood {tty}",
+       "--profile", "xbc-h", "--vectors", write_vectors(folder_, many_vectors(2)), "--out", out_});
   EXPECT_EQ(finished.code, 3) << finished.out;
   EXPECT_THAT(finished.err, HasSubstr("does not end, so that no request gets an answer"));
   EXPECT_TRUE(read_results(out_ + "/results.ndjson").cases.empty());

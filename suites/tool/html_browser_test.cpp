@@ -132,7 +132,8 @@ TEST_F(HtmlReportInBrowser, cases_are_filtered_by_section) {
       {"click", "#find input"},
       {"choose", "#find [name=section]", "xgb-cnet-en-1.6, 7.1.5"},
       {"eval", "document.querySelector('#find [name=section]').value"},
-      {"eval", "[...document.querySelectorAll('#found tbody tr')].map(r => r.cells[2].textContent)"},
+      {"eval",
+       "[...document.querySelectorAll('#found tbody tr')].map(r => r.cells[2].textContent)"},
       {"eval",
        "[...document.querySelectorAll('details.section')].find(d => d.dataset.section ==="
        " document.querySelector('#find [name=section]').value)"
@@ -165,9 +166,10 @@ TEST_F(HtmlReportInBrowser, ten_thousand_cases_are_in_it_and_searched) {
     lines += one.dump() + '\n';
   }
   const std::string page = folder_ / "many.html";
-  EXPECT_EQ(run_tool({"report", folder_.write("many.ndjson", log.insert(end, lines)), "--html", page})
-                .code,
-            0);
+  EXPECT_EQ(
+      run_tool({"report", folder_.write("many.ndjson", log.insert(end, lines)), "--html", page})
+          .code,
+      0);
   const std::vector<json> seen = browse({
       {"size", 1280, 900},
       {"open", "file://" + page},
@@ -185,7 +187,8 @@ TEST_F(HtmlReportInBrowser, ten_thousand_cases_are_in_it_and_searched) {
   ASSERT_EQ(seen.size(), 5u);
   EXPECT_EQ(seen[1], many);
   EXPECT_EQ(seen[2], 1);
-  EXPECT_THAT(seen[3].get<std::vector<std::string>>(), testing::ElementsAre(HasSubstr("of_many_9876")));
+  EXPECT_THAT(seen[3].get<std::vector<std::string>>(),
+              testing::ElementsAre(HasSubstr("of_many_9876")));
   EXPECT_EQ(seen[4], true) << "the result leads to its case";
 }
 
@@ -195,7 +198,8 @@ TEST_F(HtmlReportInBrowser, a_failure_can_be_read_at_400_pixels) {
     return "[...document.querySelectorAll('.wire')].filter(w => w.checkVisibility()).map(w => "
            "w.querySelector('" +
            what +
-           "').getBoundingClientRect()).every(r => r.left >= 0 && r.right <= innerWidth && r.height "
+           "').getBoundingClientRect()).every(r => r.left >= 0 && r.right <= innerWidth && "
+           "r.height "
            "> 0)";
   };
   const std::vector<json> seen = browse(
@@ -273,15 +277,15 @@ TEST_F(HtmlReportInBrowser, nothing_is_wider_than_400_pixels) {
 
 std::string sheet(std::ptrdiff_t paper) { return "sheet" + std::to_string(paper) + ".pdf"; }
 
-/// By a program that has not made it: as many pages, and on the first who was judged, how, and where
-/// to sign.
+/// By a program that has not made it: as many pages, and on the first who was judged, how, and
+/// where to sign.
 void read_by_others(const std::string& pdf, int pages) {
   if (run_program({"sh", "-c", "command -v pdfinfo pdftotext"}).code != 0) return;
   EXPECT_THAT(run_program({"pdfinfo", pdf}).out,
               testing::ContainsRegex("Pages: +" + std::to_string(pages) + "\n"));
   const std::string first = run_program({"pdftotext", "-layout", "-l", "1", pdf, "-"}).out;
-  for (const char* text : {"Conformance of", "endpoint", "profile", "(exit ", "Tested by",
-                           "Approved by", "Signature"})
+  for (const char* text :
+       {"Conformance of", "endpoint", "profile", "(exit ", "Tested by", "Approved by", "Signature"})
     EXPECT_THAT(first, HasSubstr(text));
 }
 

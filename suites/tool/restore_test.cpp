@@ -294,10 +294,9 @@ TEST_F(Restore, TheJournalOfManyRepetitionsStaysSmall) {
   for (int word = 110; word < 200; word += 2) memory[fmt::format("%MW{}", word)] = "1234";
   vectors[0]["given"]["memory"] = memory;
   vectors[0]["steps"][1]["expect"] = "[ACK st 'rSS' '01' '02' x:4 ETX BCC]";
-  const Finished run = run_tool(
-      {"run", "--endpoint", endpoint(), "--profile", "xbc-h", "--vectors",
-       write_vectors(folder_, vectors), "--allow-write", "M110-M199", "--floor", "1ms", "--repeat",
-       "25", "--out", folder_ / "out"});
+  const Finished run = run_tool({"run", "--endpoint", endpoint(), "--profile", "xbc-h", "--vectors",
+                                 write_vectors(folder_, vectors), "--allow-write", "M110-M199",
+                                 "--floor", "1ms", "--repeat", "25", "--out", folder_ / "out"});
   EXPECT_EQ(run.code, 0) << run.out << run.err;
   const std::vector<std::string> lines = text_lines(read_text(journal()));
   EXPECT_GT(lines.size(), 0u);

@@ -63,7 +63,8 @@ TEST_F(OnATerminal, a_red_run_fits) {
 
 /// What is quoted for the shell, too: in the line to replay, and where `probe` says how to go on.
 TEST_F(OnATerminal, a_command_with_a_long_endpoint_fits) {
-  const std::string why = " # so that the quotes of this word hold more than a line of a terminal has";
+  const std::string why =
+      " # so that the quotes of this word hold more than a line of a terminal has";
   std::vector<std::string> red = broken_run();
   red[2] += why;
   const Finished failed = run(red);
@@ -89,19 +90,17 @@ TEST_F(OnATerminal, a_replayed_command_can_be_pasted) {
 
 TEST_F(OnATerminal, of_many_failures_the_first_are_told) {
   // Of eight kinds, since of one kind three are told in full.
-  const std::vector<std::string> wrong{
-      wrong_word,
-      "[ACK st 'rSB' '01' '02' '0000' ETX BCC]",
-      "[ACK st 'rSS' '02' '02' '0000' ETX BCC]",
-      "[ACK '05' 'rSS' '01' '02' '0000' ETX BCC]",
-      "[ACK st 'rSS' '01' '02' '0000' ETX BCC!]",
-      "[ACK st 'rSS' '01' '04' '00000000' ETX BCC]",
-      "[NAK st 'rSS' '1132' ETX BCC]",
-      "'no frame'"};
+  const std::vector<std::string> wrong{wrong_word,
+                                       "[ACK st 'rSB' '01' '02' '0000' ETX BCC]",
+                                       "[ACK st 'rSS' '02' '02' '0000' ETX BCC]",
+                                       "[ACK '05' 'rSS' '01' '02' '0000' ETX BCC]",
+                                       "[ACK st 'rSS' '01' '02' '0000' ETX BCC!]",
+                                       "[ACK st 'rSS' '01' '04' '00000000' ETX BCC]",
+                                       "[NAK st 'rSS' '1132' ETX BCC]",
+                                       "'no frame'"};
   std::vector<nlohmann::ordered_json> vectors;
   for (std::size_t i = 0; i < 50; ++i)
-    vectors.push_back(
-        small_vector("many/n" + std::to_string(100 + i), wrong[i % wrong.size()]));
+    vectors.push_back(small_vector("many/n" + std::to_string(100 + i), wrong[i % wrong.size()]));
   const Finished finished = run({"run", "--vectors", write_vectors(folder_, vectors)});
   EXPECT_EQ(finished.code, 1);
   std::size_t in_full = 0, lines = 0;

@@ -38,9 +38,8 @@ std::string text_of(const std::string& key, const json& value) {
 }
 
 std::vector<std::string> texts_of(const std::string& key, const json& value) {
-  const bool right = value.is_array() && std::ranges::all_of(value, [](const json& one) {
-                       return one.is_string();
-                     });
+  const bool right = value.is_array() &&
+                     std::ranges::all_of(value, [](const json& one) { return one.is_string(); });
   check(right, key, "a list of texts: [\"...\"]");
   return value;
 }
@@ -89,8 +88,8 @@ void read_config(const json& config, Profile& profile) {
   check(config.is_object(), "config", "an object: {\"station\": 1}");
   for (const auto& [key, value] : config.items())
     if (!harness::is_config_key(key))
-      throw std::runtime_error(fmt::format("unknown key config.{}{}", key,
-                                           suggestion(key, harness::config_keys)));
+      throw std::runtime_error(
+          fmt::format("unknown key config.{}{}", key, suggestion(key, harness::config_keys)));
   profile.config.update(config);
 }
 
