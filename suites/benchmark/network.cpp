@@ -1,7 +1,10 @@
 // Exchanges with an FEnet server: in process, and over loopback against what the system itself
 // takes.
 #include <fmt/format.h>
+#include <sched.h>
 #include <sys/socket.h>
+
+#include <optional>
 
 #include "harness/system/sockets/socket_connect.hpp"
 #include "harness/system/sockets/socket_listen.hpp"
@@ -54,8 +57,29 @@ struct Connection {
   }
 };
 
-void fenet_over_loopback_against_bare_ping_pong(benchmark::State& state, const std::string& tool) {
+/// This thread, and what it starts, runs on this processor alone as long as it lives.
+class OnProcessor {
+ public:
+  explicit OnProcessor(int number) {
+    sched_getaffinity(0, sizeof(before_), &before_);
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(number, &one);
+    sched_setaffinity(0, sizeof(one), &one);
+  }
+  ~OnProcessor() { sched_setaffinity(0, sizeof(before_), &before_); }
+
+ private:
+  cpu_set_t before_;
+};
+
+/// Both servers run on the processor `of_servers`, both clients on the first one: where the system
+/// chooses, one pair may share a processor while the other wakes one that sleeps, four times as
+/// slow.
+void fenet_over_loopback_against_bare_ping_pong(benchmark::State& state, const std::string& tool,
+                                                int of_servers) {
   const Example example = reads_of_a_word();
+  auto servers = std::make_optional<OnProcessor>(of_servers);
   const auto endpoint =
       open(fmt::format("exec:{} emulate 'xbc-h?protocol=xgt-fenet' --tcp {{port}}", tool), fenet());
   exchange::Exchange exchange(*endpoint, fenet(), {});
@@ -63,6 +87,10 @@ void fenet_over_loopback_against_bare_ping_pong(benchmark::State& state, const s
   const std::size_t reply = example.prepared.steps[1].frames[0].frame.bytes.size();
   const Connection connection;
   const BareEcho echo(connection.device.get(), request.size(), reply);
+  if (const Status begun = endpoint->begin(nlohmann::json::object()); !begun)
+    throw std::runtime_error(begun.error().message);
+  servers.reset();
+  const OnProcessor clients(0);
   compare(
       state, reads,
       [&] {
@@ -75,11 +103,14 @@ void fenet_over_loopback_against_bare_ping_pong(benchmark::State& state, const s
 
 void register_network(const std::string& tool, bool brief) {
   benchmark::RegisterBenchmark("fenet_in_process", fenet_in_process);
-  benchmark::RegisterBenchmark(
-      "fenet_over_loopback_against_bare_ping_pong",
-      [tool](benchmark::State& state) { fenet_over_loopback_against_bare_ping_pong(state, tool); })
-      ->Unit(benchmark::kMillisecond)
-      ->Iterations(brief ? 2 : 200);
+  for (const auto& [where, processor] : {std::pair("on_one_processor", 0), {"on_two", 1}})
+    benchmark::RegisterBenchmark(
+        fmt::format("fenet_over_loopback_against_bare_ping_pong/{}", where).c_str(),
+        [tool, processor = processor](benchmark::State& state) {
+          fenet_over_loopback_against_bare_ping_pong(state, tool, processor);
+        })
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(brief ? 2 : 200);
 }
 
 }  // namespace fieldproof::suites
