@@ -479,14 +479,14 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
         if (const Status reset = set(flag, "00"); !reset)
           return give_up(Verdict::error, reset.error());
   }
-  for (const auto& [address, hex] : prepared.source->memory) {
+  for (const Protocol::Setting& given : prepared.source->memory) {
+    const auto& [address, hex] = given;
     if (known_->set_ups_unanswered >= most_unanswered)
       return give_up(Verdict::blocked,
                      fail(fmt::format("{}cannot set {}: no answer{}", exchange::set_up_failure,
                                       address, not_tried)));
-    const std::string why_not = eligibility_.only_read(prepared, {address, hex});
-    const Status done =
-        why_not.empty() ? set(address, hex) : holds(prepared, {address, hex}, why_not);
+    const std::string why_not = eligibility_.only_read(prepared, given);
+    const Status done = why_not.empty() ? set(address, hex) : holds(prepared, given, why_not);
     known_->set_ups_unanswered *= memory_.lost() ? 1 : 0;
     if (done) continue;
     if (done.error().refused) return give_up(Verdict::blocked, done.error());

@@ -63,7 +63,6 @@ void UncheckedWrites::before(const std::vector<Bytes>& requests,
                              const Protocol& protocol, safety::SavedMemory& memory) {
   writes_.clear();
   for (const Bytes& request : requests) {
-    if (!writes_without_check(request, protocol)) continue;
     Write& write = writes_.emplace_back(Write{request, protocol.memory()->sets(request)});
     const auto changed = [&](const Place& place) { return meets(place, changes, protocol); };
     if (std::erase_if(write.sets, changed) > 0) write.shows = false;

@@ -15,9 +15,9 @@ namespace fieldproof::bench {
 
 class UncheckedWrites {
  public:
-  /// Of a case, in its order. Notes what the places hold that they name; but for those that the
-  /// case itself `changes` by other means (the bench sets them, the power goes), where nothing
-  /// shows.
+  /// Those of a case (writes_without_check), in its order. Notes what the places hold that they
+  /// name; but for those that the case itself `changes` by other means (the bench sets them, the
+  /// power goes), where nothing shows.
   void before(const std::vector<Bytes>& requests,
               const std::vector<harness::Protocol::Written>& changes,
               const harness::Protocol& protocol, safety::SavedMemory& memory);

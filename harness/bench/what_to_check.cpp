@@ -30,8 +30,7 @@ std::string why_silent(const exchange::Channel& device, exchange::Sign sign) {
   if (sign == exchange::Sign::endless)
     return fmt::format(
         "what comes from {} does not end, so that no request gets an answer: check that nobody "
-        "else "
-        "sends there, and that speed, data bits, parity and stop bits are those of the device",
+        "else sends there, and that speed, data bits, parity and stop bits are those of the device",
         where);
   if (sign == exchange::Sign::echo && on_network(device))
     return fmt::format(

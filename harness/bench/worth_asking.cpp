@@ -68,8 +68,7 @@ std::string WorthAsking::restart(const results::CaseResult& result, bool odd) {
   if (restarts_++ < max_restarts_) return {};
   return fmt::format(
       "the device was lost {} times (it ended, fell mute or sent without end), the last time in "
-      "{}; "
-      "it is not started again (--max-restarts {})",
+      "{}; it is not started again (--max-restarts {})",
       restarts_, result.id, max_restarts_);
 }
 

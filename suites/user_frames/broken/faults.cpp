@@ -107,16 +107,25 @@ class MisspeakingPort : public plc::SerialDevice {
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour,
-                                                         std::string_view model,
-                                                         nlohmann::json config) {
+Result<user_frames::FrameDefinition> broken_definition(const Behaviour& behaviour,
+                                                       std::string_view model,
+                                                       nlohmann::json& config) {
   Result<user_frames_suite::NamedDefinition> loaded =
       user_frames_suite::load_definition(model, user_frames_suite::definitions_folder());
   if (!loaded) return loaded.error();
   if (behaviour.works_with) behaviour.works_with(loaded->definition);
   if (behaviour.set_to) behaviour.set_to(config);
+  return std::move(loaded->definition);
+}
+
+Result<std::unique_ptr<EmulatedDevice>> make_broken_port(const Behaviour& behaviour,
+                                                         std::string_view model,
+                                                         nlohmann::json config) {
+  const Result<user_frames::FrameDefinition> definition =
+      broken_definition(behaviour, model, config);
+  if (!definition) return definition.error();
   Result<std::unique_ptr<EmulatedDevice>> port =
-      user_frames::make_user_frame_device(loaded->definition, config);
+      user_frames::make_user_frame_device(*definition, config);
   if (!port) return port.error();
   return std::unique_ptr<EmulatedDevice>(
       std::make_unique<MisspeakingPort>(std::move(*port), behaviour));

@@ -24,6 +24,11 @@ struct Behaviour {
   broken::Edge edge{};                            // of a server on a network
 };
 
+/// The shipped definition of that name, with what the fault makes of it and of the configuration.
+Result<user_frames::FrameDefinition> broken_definition(const Behaviour& behaviour,
+                                                       std::string_view model,
+                                                       nlohmann::json& config);
+
 /// `caught_by` is the id of a case.
 using Fault = broken::FaultOf<Behaviour>;
 

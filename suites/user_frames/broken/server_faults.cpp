@@ -267,12 +267,10 @@ const std::vector<Fault>& server_faults() {
 Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_server(const Behaviour& behaviour,
                                                                 std::string_view model,
                                                                 nlohmann::json config) {
-  Result<user_frames_suite::NamedDefinition> loaded =
-      user_frames_suite::load_definition(model, user_frames_suite::definitions_folder());
-  if (!loaded) return loaded.error();
-  if (behaviour.works_with) behaviour.works_with(loaded->definition);
-  if (behaviour.set_to) behaviour.set_to(config);
-  auto right = user_frames::make_user_frame_server(loaded->definition, config);
+  const Result<user_frames::FrameDefinition> definition =
+      broken_definition(behaviour, model, config);
+  if (!definition) return definition.error();
+  auto right = user_frames::make_user_frame_server(*definition, config);
   if (!right) return right.error();
   return std::unique_ptr<plc::EmulatedDevice>(
       std::make_unique<broken::EdgeDevice>(std::move(*right), behaviour.edge));
