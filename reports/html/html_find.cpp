@@ -50,6 +50,13 @@ function text(row, selector) {
   var node = row.querySelector(selector);
   return node ? node.textContent.trim() : "";
 }
+// What a cell says, without the words in its picture.
+function line_of(cell) {
+  if (!cell.querySelector("details")) return cell.textContent;
+  var copy = cell.cloneNode(true);
+  copy.querySelectorAll("details").forEach(function (picture) { picture.remove(); });
+  return copy.textContent;
+}
 // The cases stand in the rows and blocks of their sections.
 function read() {
   cases = [];
@@ -59,8 +66,8 @@ function read() {
       var is_row = row.tagName === "TR", name = text(row, is_row ? "th" : "b");
       var cells = is_row ? row.cells : [], last = cells.length ? cells[cells.length - 1].textContent : "";
       var is_pass = is_row && row.parentNode.parentNode.className === "passes";
-      var what = !is_row ? text(row, ".message") || text(row, ".title") : is_pass ? cells[1].textContent : last;
       var title = is_pass ? row.cells[0].title : text(row, ".title");
+      var what = !is_row ? text(row, ".message") || title : is_pass ? line_of(cells[1]) || title : last;
       cases.push({row: row, name: name, verdict: is_pass ? "PASS" : text(row, ".verdict"), section: where,
         protocol: name.split("/")[0], text: what, ms: is_pass ? parseFloat(last) : NaN, at: cases.length,
         hay: (name + " " + title + " " + what + " " + where).toLowerCase()});

@@ -14,7 +14,9 @@ using testing::AllOf;
 using testing::Each;
 using testing::Ge;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Le;
+using testing::Not;
 using testing::StartsWith;
 
 /// "chromium", or nothing.
@@ -150,6 +152,24 @@ TEST_F(HtmlReportInBrowser, cases_are_filtered_by_section) {
   EXPECT_EQ(seen[4], true);
 }
 
+/// A case that sends nothing is found by its title, not by the words in its picture.
+TEST_F(HtmlReportInBrowser, cases_with_a_picture_show_their_titles) {
+  const std::vector<json> seen = browse({
+      {"open", default_run().out() + "/report.html"},
+      {"click", "#find input"},
+      {"type", "xnet/instruction_motos"},
+      {"eval",
+       "[...document.querySelectorAll('#found tbody tr')].map(r => r.cells[3].textContent)"},
+      {"eval",
+       "[...document.querySelectorAll('.passes tr')].filter(r => r.querySelector('svg') && "
+       "r.cells[0].textContent.startsWith('xnet/instruction_motos')).length"},
+  });
+  ASSERT_EQ(seen.size(), 3u);
+  const std::vector<std::string> found = seen[1];
+  EXPECT_THAT(found, Each(AllOf(Not(StartsWith("motion")), Not(IsEmpty()))));
+  EXPECT_GT(seen[2], 0) << "there are pictures";
+}
+
 /// As large as a run of all vectors may become.
 TEST_F(HtmlReportInBrowser, ten_thousand_cases_are_in_it_and_searched) {
   constexpr std::size_t many = 10'000;
@@ -263,15 +283,18 @@ TEST_F(HtmlReportInBrowser, all_is_there_without_a_script) {
 }
 
 TEST_F(HtmlReportInBrowser, nothing_is_wider_than_400_pixels) {
+  // The run that is qualified has the pictures of motion and of the token, too.
   for (const std::string& page : {qualified(), red()}) {
     const std::vector<json> seen = browse({{"size", 400, 800},
                                            {"open", page + "#q=rss"},
                                            {"eval", overflow},
                                            {"eval", open_all},
-                                           {"eval", overflow}});
-    ASSERT_EQ(seen.size(), 3u);
+                                           {"eval", overflow},
+                                           {"eval", "document.querySelectorAll('svg').length"}});
+    ASSERT_EQ(seen.size(), 4u);
     EXPECT_EQ(seen[1], 0) << page;
     EXPECT_EQ(seen[2], 0) << page << " with all of it open";
+    if (page == qualified()) EXPECT_GT(seen[3], 40) << "pictures";
   }
 }
 
