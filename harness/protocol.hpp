@@ -92,6 +92,8 @@ class Protocol {
   /// The length of the first complete frame in `bytes`, or nothing while it is incomplete.
   virtual std::optional<std::size_t> frame_length(ByteView bytes) const = 0;
 
+  /// Does it begin as frames of this protocol alone do, whatever follows?
+  virtual bool has_mark([[maybe_unused]] ByteView frame) const { return false; }
   /// The parts of a frame, as far as it can be read; never fails.
   virtual std::vector<Field> explain(ByteView frame) const = 0;
   /// The same where the bench knows who sends it: a reply that happens to have the form of a

@@ -15,15 +15,15 @@ bool on_network(const exchange::Channel& device) {
 std::string why_silent(const exchange::Channel& device, exchange::Sign sign) {
   const std::string where = device.endpoint->describe();
   const int station = device.station;
-  if (sign == exchange::Sign::refused)
+  if (sign == exchange::Sign::refused && device.endpoint->was_refused())
     return fmt::format(
         "connection refused: nothing listens on {}; check the address, the port and "
         "that the server of the device is enabled, and that its table of hosts lets "
         "this computer in",
         where);
-  if (sign == exchange::Sign::ended)
+  if (sign == exchange::Sign::ended || sign == exchange::Sign::refused)
     return fmt::format(
-        "{} takes a connection and closes it without an answer: check that its "
+        "{} takes a connection and ends it without an answer: check that its "
         "table of hosts lets this computer in and that other clients leave it a "
         "connection (a device takes few)",
         where);

@@ -23,8 +23,10 @@ namespace {
 
 void print_traffic(const hosting::Traffic& traffic) {
   run::tell(fmt::format("{}\n", hosting::monitor_line(traffic)));
-  if (!traffic.bytes.empty())
-    run::tell(fmt::format("    {}\n", notation::print_bytes(traffic.bytes)));
+  // Binary frames have no other notation than the hex of that line.
+  if (const std::string bytes = notation::print_bytes(traffic.bytes);
+      bytes != to_hex(traffic.bytes))
+    run::tell(fmt::format("    {}\n", bytes));
   std::fflush(stdout);
 }
 
@@ -53,6 +55,17 @@ Result<std::unique_ptr<EmulatedDevice>> make_stations(const harness::Protocol& p
   return std::unique_ptr<EmulatedDevice>(std::make_unique<plc::MultiDrop>(std::move(devices)));
 }
 
+/// `protocol` in a file of configuration may only repeat what the command line says.
+Status check_protocol_key(const nlohmann::json& config, std::string_view file,
+                          const harness::Protocol& protocol) {
+  const auto key = config.find("protocol");
+  if (key == config.end() || *key == protocol.name()) return ok();
+  return fail(fmt::format(
+      "cannot use {}: protocol is {}, and this is a device of {}; write MODEL?protocol=NAME on the "
+      "command line, and what serves beside it under services",
+      file, key->dump(), protocol.name()));
+}
+
 /// Is the device given a way that its protocol runs on?
 Status check_addresses(const EmulateOptions& options, const harness::Protocol& protocol) {
   const auto wrong = [&](const std::string& why) {
@@ -68,7 +81,10 @@ Status check_addresses(const EmulateOptions& options, const harness::Protocol& p
   const bool socket = !options.tcp.empty() || !options.udp.empty();
   if (port == 0 && !options.udp.empty())
     return wrong("runs on a serial line, which datagrams do not carry; leave --udp out");
-  const bool only_asks = !options.p2p.empty() && options.pty.empty() && options.tty.empty();
+  const bool line = !options.pty.empty() || !options.tty.empty();
+  if (port == 0 && socket && line)
+    return wrong("is on one serial line; leave --tcp, or --pty and --tty out");
+  const bool only_asks = !options.p2p.empty() && !line;
   if (port != 0 && !socket && !only_asks)
     return wrong(fmt::format("runs on a network; give --tcp 127.0.0.1:{}, or another port", port));
   for (const Transport transport : {Transport::tcp, Transport::udp}) {
@@ -101,6 +117,8 @@ int emulate_command(const EmulateOptions& options, const harness::Protocols& pro
         options.p2p.empty() ? read_config_file(file) : read_p2p_file(file);
     if (!config) return run::complain(config.error().message, run::exit_code::usage);
     host.config = *config;
+    if (const Status same = check_protocol_key(host.config, file, **protocol); !same)
+      return run::complain(same.error().message, run::exit_code::usage);
   }
   for (const auto& [key, value] : name->options)
     if (key != "protocol") host.config[key] = value;

@@ -50,6 +50,7 @@ Result<FrameReading> best_reading(const FrameOptions& options,
   Result<FrameReading> best = read_as(protocols.front(), options);
   for (const harness::Protocol* protocol : protocols) {
     Result<FrameReading> other = read_as(*protocol, options);
+    if (other && protocol->has_mark(other->bytes)) return other;
     if (best && other && other->fields.size() > 1 && other->strangeness() < best->strangeness())
       best = std::move(other);
   }
@@ -73,8 +74,11 @@ int frame_command(const FrameOptions& options, const harness::Protocols& protoco
   const Result<FrameReading> reading = best_reading(options, protocols);
   if (!reading) return run::complain(reading.error().message, run::exit_code::usage);
   const ByteView bytes = reading->bytes;
-  run::tell(fmt::format("{}\n{}\n{}, {} bytes\n\n", notation::print_bytes(bytes), to_hex(bytes),
-                        reading->protocol->name(), bytes.size()));
+  const std::string hex_of_all = to_hex(bytes);
+  if (const std::string text = notation::print_bytes(bytes); text != hex_of_all)
+    run::tell(text + '\n');
+  run::tell(
+      fmt::format("{}\n{}, {} bytes\n\n", hex_of_all, reading->protocol->name(), bytes.size()));
   for (const harness::Field& field : reading->fields) {
     const std::string hex = to_hex(bytes.subspan(field.offset, field.size));
     run::tell(fmt::format("{:>4}  {:<22} {:<30} {}\n", field.offset, field.name, field.text,

@@ -9,11 +9,9 @@
 #include "harness/bench/files/profile.hpp"
 #include "harness/cli/ci_job.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/probe_network.hpp"
 #include "harness/cli/questions.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/paths.hpp"
-#include "harness/probe/servers.hpp"
 #include "harness/run/run_report.hpp"
 #include "reports/compare/result_file.hpp"
 #include "reports/results/whole_file.hpp"
@@ -46,40 +44,12 @@ std::vector<std::string> ports_here() {
   return ports;
 }
 
-/// Every protocol that is asked on a network, where nobody says which, and `probe` alone would
-/// search a line there: a program on a port, an address with a port of its own.
-std::vector<std::string> servers_to_ask(const ProbeOptions& probe, const EndpointName& endpoint,
-                                        const harness::Protocols& known) {
-  const endpoints::KindOf& kind = endpoints::kind_of(endpoint);
-  const bool on_network = kind.free_target ? endpoint.target.find("{port}") != std::string::npos
-                                           : kind.connections && !kind.emulated && !kind.listens;
-  if (!on_network || !probe.protocols.empty() || endpoint.options.contains("protocol") ||
-      endpoint.options.contains("line"))
-    return {};
-  const Result<std::vector<const harness::Protocol*>> usual =
-      servers_to_probe(probe, endpoint, known);
-  if (!usual || !usual->empty()) return {};
-  std::vector<std::string> names;
-  for (const harness::Protocol* one : known)
-    if (probe::is_network_server(*one)) names.emplace_back(one->name());
-  return names;
-}
-
-/// Servers first; where none is, there may be a line behind that port.
-int find_device(const InitOptions& options, const EndpointName& endpoint, const std::string& text,
+int find_device(const InitOptions& options, const std::string& text,
                 const harness::Protocols& known, std::vector<ProbedDevice>& found) {
   ProbeOptions probe;
   probe.endpoint = text;
   probe.profile = options.profile;
   if (!options.protocol.empty()) probe.protocols = {options.protocol};
-  ProbeOptions servers = probe;
-  servers.protocols = servers_to_ask(probe, endpoint, known);
-  if (!servers.protocols.empty()) {
-    const int code = probe_command(servers, known, &found);
-    if (!found.empty() || code != run::exit_code::failed ||
-        endpoints::kind_of(endpoint).free_target)
-      return code;
-  }
   return probe_command(probe, known, &found);
 }
 
@@ -229,7 +199,7 @@ int init_command(const InitOptions& options, const harness::Protocols& protocols
   answers.endpoint = *endpoint;
 
   std::vector<ProbedDevice> found;
-  const int probed = find_device(options, *endpoint, *where, protocols, found);
+  const int probed = find_device(options, *where, protocols, found);
   if (found.empty())
     return probed == run::exit_code::failed
                ? run::complain("no device was found there; nothing was written",

@@ -177,10 +177,12 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
                   std::vector<ProbedDevice>* found) {
   const Result<EndpointName> endpoint = endpoints::parse_endpoint(options.endpoint);
   if (!endpoint) return run::complain(endpoint.error().message, run::exit_code::usage);
-  const Result<std::vector<const harness::Protocol*>> servers =
-      servers_to_probe(options, *endpoint, protocols);
+  const Result<ServerSearch> servers = servers_to_probe(options, *endpoint, protocols);
   if (!servers) return run::complain(servers.error().message, run::exit_code::usage);
-  if (!servers->empty()) return probe_servers(options, *endpoint, *servers, protocols, found);
+  if (!servers->wanted.empty())
+    if (const int code = probe_servers(options, *endpoint, *servers, protocols, found);
+        code != search_a_line)
+      return code;
   Result<probe::SearchSpace> space = space_of(options, *endpoint, protocols);
   if (!space) return run::complain(space.error().message, run::exit_code::usage);
   probe::ProbeTiming timing;

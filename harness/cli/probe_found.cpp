@@ -21,13 +21,14 @@ using endpoints::EndpointName;
 namespace {
 
 /// A profile that speaks the protocol and binds nothing that the manuals leave open, of the
-/// protocol's first model where there is one; else that model.
+/// protocol's first model where there is one; else that model. Programs that test this bench are no
+/// modules.
 std::string profile_of_a_module(const harness::Protocol& protocol) {
   const std::string first = protocol.models().front();
   const std::filesystem::path folder = harness::find_data().profiles;
   for (const std::string& name : bench::profile_names(folder)) {
     const Result<bench::Profile> one = bench::load_profile(name, folder);
-    if (one && !one->binding_decisions && one->model == first &&
+    if (one && !one->peer && !one->binding_decisions && one->model == first &&
         std::ranges::count(one->protocols, protocol.name()) > 0)
       return name;
   }

@@ -69,8 +69,10 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
                               : ready_                    ? host_.connect(port, SOCK_STREAM)
                                                           : connect_when_ready(port);
     if (!fd) return fd.error();
+    refused_ = !*fd && host_.nobody_listens();
     return sockets().add(transport, std::move(*fd), port);
   }
+  bool was_refused() const override { return refused_; }
 
   using Endpoint::send;
   Result<Sent> send(ByteView bytes, LinkId link) override {
@@ -161,6 +163,7 @@ class ExecNetworkEndpoint final : public NetworkEndpoint {
   unsigned starts_ = 0;
   Bytes last_sent_;
   os::RemoteHost host_;
+  bool refused_ = false;  // the last one
   os::PtyPair pty_;
   NetworkPorts defaults_;
   std::uint16_t tcp_ = 0, udp_ = 0;

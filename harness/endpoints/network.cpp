@@ -34,7 +34,7 @@ class SocketEndpoint final : public NetworkEndpoint {
     Result<os::UniqueFd> fd =
         host_.connect(port, transport == Transport::tcp ? SOCK_STREAM : SOCK_DGRAM);
     if (!fd) return fd.error();
-    refused_ = !*fd;
+    refused_ = !*fd && host_.nobody_listens();
     return sockets().add(transport, std::move(*fd), port);
   }
   bool was_refused() const override { return refused_; }

@@ -65,6 +65,11 @@ Status check_network_use(const EndpointName& name, const harness::Protocol& prot
 }
 
 Status check_listen_name(const EndpointName& name) {
+  const std::string_view port = std::string_view(name.target).substr(name.target.starts_with(':'));
+  if (!port.empty() && port.find_first_not_of("0123456789") == port.npos)
+    return fail(fmt::format("{} is a port alone; write {}:127.0.0.1:{}, or the address of this "
+                            "computer at which the device finds it",
+                            port, name.kind, port));
   const Result<os::SocketName> read = read_target(name);
   return read ? check_options(name) : read.error();
 }

@@ -1,6 +1,9 @@
 // The steps of a case that open and close links, or look past them at the device.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "harness/exchange/case_run.hpp"
 
 namespace fieldproof::exchange {
@@ -141,11 +144,14 @@ void CaseRun::settle_before_look() {
 
 /// Those from power-on are taken as they are.
 void CaseRun::note_counters() {
+  constexpr std::array<std::string_view, 8> counts{"@services", "@errors",      "@sent",
+                                                   "@received", "@total_sent",  "@total_received",
+                                                   "@udp_sent", "@udp_received"};
   if (client_ || !can().control || prepared_.counts_from_power_on()) return;
   for (const PreparedStep& one : prepared_.steps)
     if (one.step->kind == Step::Kind::check)
       for (const auto& [address, hex] : one.step->memory)
-        if (address == "@services" || address == "@errors")
+        if (std::ranges::count(counts, address) > 0)
           if (const Result<std::string> value = memory_.get(prepared_, address, hex.size()))
             counters_[address] = *value;
 }

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <set>
 
 #include "harness/endpoints/set_up/device_control.hpp"
 #include "harness/hosting/bus_link.hpp"
@@ -32,6 +33,9 @@ constexpr int exit_trouble = 3;
 constexpr int most_at_once = 1000;
 /// So many links have names in the monitor.
 constexpr std::size_t most_names = 1000;
+
+bool has_line(const HostOptions& options) { return !options.pty.empty() || !options.tty.empty(); }
+bool has_both(const HostOptions& options) { return options.port != 0 && has_line(options); }
 
 void complain(const std::string& message) { fmt::print(stderr, "fieldproof: {}\n", message); }
 
@@ -63,6 +67,7 @@ class DeviceHost {
   void answer_lines();
   void power_cycle();
   void show(bool to_device, const Burst& burst);
+  bool is_known_to_stand(bool to_device, const Burst& burst);
 
   const HostOptions& options_;
   HostPort& port_;
@@ -78,6 +83,7 @@ class DeviceHost {
   bool control_closed_ = false;
   std::vector<pollfd> fds_;
   std::map<LinkId, std::string> names_;  // of links, for the monitor
+  std::set<LinkId> unanswered_;          // connections of the device's own, not known to stand
 };
 
 /// Replaces the device by a fresh one. What waits on the line belongs to the old one.
@@ -87,10 +93,26 @@ Status DeviceHost::begin(const json& config) {
   if (!options_.model.empty()) merged["model"] = options_.model;
   merged.emplace("station", 1);  // as the in-process emulator, and as a bench asks by default
   merged.emplace("inter_character_floor_ms", to_ms(port_.own_silence()));
+  if (has_both(options_) && merged.contains("services"))
+    for (auto& [name, service] : merged["services"].items())
+      if (service.is_object())
+        service.emplace("inter_character_floor_ms", to_ms(port_.own_silence()));
   Result<std::unique_ptr<plc::EmulatedDevice>> device = options_.make_device(merged);
   if (!device) return device.error();
   const std::string model = merged.value("model", "the device");
-  std::unique_ptr<Party> party = party_of(**device, options_.port != 0);
+  const bool network = options_.port != 0;
+  std::unique_ptr<Party> party = party_of(**device, network, !network || has_both(options_));
+  if (!party && has_both(options_) && (*device)->network())
+    return fail(
+        fmt::format("cannot emulate {}: it has no serial line beside its network; leave --pty and "
+                    "--tty out, or give it one: --config with "
+                    "{{\"services\": {{\"xgt-cnet\": {{}}}}}}",
+                    model));
+  if (network && !has_both(options_) && merged.contains("services") && line_of(**device))
+    return fail(
+        fmt::format("cannot emulate {}: of its services one is on a serial line, to which nothing "
+                    "leads; give --pty or --tty as well, or take it out of services",
+                    model));
   if (!party)
     return fail(fmt::format("cannot emulate {}: it has no {}", model,
                             options_.port != 0 ? "network; leave --tcp and --udp out"
@@ -271,7 +293,16 @@ void DeviceHost::show(bool to_device, const Burst& burst) {
   }
   const auto name = names_.find(burst.link);
   options_.monitor({clock_.now(), to_device, burst.bytes, burst.event,
-                    name == names_.end() ? "" : name->second});
+                    name == names_.end() ? "" : name->second, is_known_to_stand(to_device, burst)});
+}
+
+/// Of connections of the device's own.
+bool DeviceHost::is_known_to_stand(bool to_device, const Burst& burst) {
+  if (!to_device && burst.event == LinkEvent::opened) unanswered_.insert(burst.link);
+  const bool answered = to_device ? burst.event != LinkEvent::reset : port_.stands(burst.link);
+  const bool stands = answered || !unanswered_.contains(burst.link);
+  if (answered || burst.event == LinkEvent::reset) unanswered_.erase(burst.link);
+  return stands;
 }
 
 /// What happened on a link; empty: bytes were sent.
@@ -280,7 +311,9 @@ std::string happening(const Traffic& traffic) {
   switch (traffic.event) {
     case LinkEvent::opened: return traffic.to_device ? "connected" : "connects";
     case LinkEvent::closed: return fmt::format("closed by {} (FIN)", by);
-    case LinkEvent::reset: return fmt::format("reset by {} (RST)", by);
+    case LinkEvent::reset:
+      return traffic.stands ? fmt::format("reset by {} (RST)", by)
+                            : "refused, or out of reach: nothing was sent";
     case LinkEvent::data:
     case LinkEvent::datagram: break;
   }
@@ -292,6 +325,24 @@ void announce(const HostOptions& options, const std::string& where) {
   if (options.control > 0) return;  // a bench started it, and knows
   fmt::print("{}\n", where);
   std::fflush(stdout);
+}
+
+/// "line" of the device, or of its service on the line.
+std::string line_settings(const HostOptions& options) {
+  const auto line_in = [](const json& config) {
+    const auto line = config.find("line");
+    return line != config.end() && line->is_string() ? line->get<std::string>() : std::string();
+  };
+  std::string line = line_in(options.config);
+  if (has_both(options) && options.config.contains("services"))
+    for (const json& service : options.config["services"])
+      if (service.is_object() && line.empty()) line = line_in(service);
+  return line.empty() ? line::to_string(line::LineSettings{}) : line;
+}
+
+Result<std::unique_ptr<HostPort>> open_line(const HostOptions& options) {
+  return options.tty.empty() ? open_pty_port(options.pty)
+                             : open_tty_port(options.tty, line_settings(options));
 }
 
 int host(const HostOptions& options, Result<std::unique_ptr<HostPort>> port) {
@@ -329,22 +380,22 @@ std::string monitor_line(const Traffic& traffic) {
   if (const std::string what = happening(traffic); !what.empty())
     return fmt::format("{:>12.3f} ms  {}{}", to_ms(traffic.moment), link, what);
   return fmt::format("{:>12.3f} ms  {}{}  {:>4}  {}  {}", to_ms(traffic.moment), link,
-                     traffic.to_device ? "received" : "sent    ", traffic.bytes.size(),
-                     to_hex(traffic.bytes), text);
+                     traffic.to_device ? "received"
+                     : traffic.stands  ? "sent    "
+                                       : "waiting ",
+                     traffic.bytes.size(), to_hex(traffic.bytes), text);
 }
 
-int host_on_tty(const HostOptions& options) {
-  if (options.tty.empty()) return host(options, open_pty_port(options.pty));
-  const auto line = options.config.find("line");
-  const bool given = line != options.config.end() && line->is_string();
-  return host(options, open_tty_port(options.tty, given ? line->get<std::string>()
-                                                        : line::to_string(line::LineSettings{})));
-}
+int host_on_tty(const HostOptions& options) { return host(options, open_line(options)); }
 
 int host_on_socket(const HostOptions& options) {
   if (options.port == 0) return host(options, open_line_socket(options.tcp));
-  return host(options,
-              open_network_port({options.tcp, options.udp, options.port, options.udp_port}));
+  Result<std::unique_ptr<HostPort>> network =
+      open_network_port({options.tcp, options.udp, options.port, options.udp_port});
+  if (!network || !has_line(options)) return host(options, std::move(network));
+  Result<std::unique_ptr<HostPort>> line = open_line(options);
+  if (line) line = join_ports(std::move(*network), std::move(*line));
+  return host(options, std::move(line));
 }
 
 int host_device(const HostOptions& options) {

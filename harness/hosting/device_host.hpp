@@ -29,11 +29,13 @@ struct Traffic {
   ByteView bytes{};
   LinkEvent event = LinkEvent::data;
   std::string link{};  // "#1 127.0.0.1:40312"; empty: the line
+  bool stands = true;  // of a connection of the device's own: else these bytes wait, and of a
+                       // reset: it never stood
 };
 
 /// "    12.345 ms  received   20  05 30 31 ...  .01rSS..." on one line, without newline; of a link
 /// "    12.345 ms  #1 127.0.0.1:40312  received ...", or what happened on it: "connected", "closed
-/// by the client (FIN)", "reset by the device (RST)".
+/// by the client (FIN)", "reset by the device (RST)". Bytes that have not left are "waiting".
 std::string monitor_line(const Traffic& traffic);
 
 struct HostOptions {
@@ -64,7 +66,8 @@ int host_on_tty(const HostOptions& options);
 
 /// The same behind a listening socket. To a device on a line several clients may be connected: it
 /// hears them all, and what it sends goes to the one it heard last (to all before it heard any). To
-/// a device on a network each connection is a link, and each sender of datagrams to `options.udp`.
+/// a device on a network each connection is a link, and each sender of datagrams to `options.udp`;
+/// where `pty` or `tty` is given as well, the line of its services is there.
 int host_on_socket(const HostOptions& options);
 
 /// On sockets where the device runs on a network, or `options.tcp` is given; else on a tty.

@@ -345,6 +345,10 @@ TEST(DeviceHost, AMonitorLineHasTimeDirectionSizeHexAndText) {
       "01rSS");
   EXPECT_EQ(monitor_line({12'345'600ns, true, bytes}),
             "      12.346 ms  received     6  05 30 31 72 53 53  .01rSS");
+  EXPECT_EQ(monitor_line({12'345'600ns, false, bytes, LinkEvent::data, "#own 1", false}),
+            "      12.346 ms  #own 1  waiting      6  05 30 31 72 53 53  .01rSS");
+  EXPECT_EQ(monitor_line({0ns, true, {}, LinkEvent::reset, "#own 1", false}),
+            "       0.000 ms  #own 1  refused, or out of reach: nothing was sent");
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ class HostPort {
   virtual Result<std::optional<Burst>> read() = 0;
   /// What the device does. What nobody takes is lost, as on a line to which nobody listens.
   virtual void write(const Burst& burst) = 0;
+  /// Does a connection of the device's own stand? Else what it sends there waits, or is lost.
+  virtual bool stands([[maybe_unused]] LinkId link) const { return true; }
   /// A fresh device begins: drops what waits in either direction, and all links.
   virtual void flush() = 0;
 };
@@ -54,5 +56,8 @@ struct NetworkPortOptions {
 };
 /// Each connection and each peer of datagrams is a link.
 Result<std::unique_ptr<HostPort>> open_network_port(const NetworkPortOptions& options);
+/// A network, and a line beside it.
+std::unique_ptr<HostPort> join_ports(std::unique_ptr<HostPort> network,
+                                     std::unique_ptr<HostPort> line);
 
 }  // namespace fieldproof::hosting

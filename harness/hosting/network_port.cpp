@@ -50,6 +50,7 @@ class NetworkPort final : public HostPort {
     drop(links_.send(burst.link, burst.bytes));
   }
 
+  bool stands(LinkId link) const override { return links_.stands(link); }
   void flush() override { links_.end_all(); }
 
  private:

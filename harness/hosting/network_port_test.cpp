@@ -1,4 +1,8 @@
 #include <gmock/gmock.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <array>
 
 #include "harness/hosting/host_port.hpp"
 #include "harness/hosting/listening.hpp"
@@ -111,6 +115,40 @@ TEST_F(NetworkPortTest, APartnerThatRefusesIsAReset) {
   const Burst refused = next();
   EXPECT_EQ(refused.link, first_own_link);
   EXPECT_EQ(refused.event, LinkEvent::reset);
+}
+
+TEST_F(NetworkPortTest, AClientThatAsksOnWithoutReadingLosesNoAnswer) {
+  const os::UniqueFd client = connected(SOCK_STREAM, tcp);
+  next();
+  const std::string questions(10'000, '?'), answer(20, '!');  // one to each character
+  std::size_t sent = 0, heard = 0;
+  const auto serve = [&] {
+    std::vector<pollfd> fds;
+    port->add_to(fds);
+    if (::poll(fds.data(), fds.size(), 50) > 0) port->heard(fds);
+    const Result<std::optional<Burst>> burst = port->read();
+    if (!burst || !*burst) return false;
+    EXPECT_EQ((*burst)->event, LinkEvent::data);
+    std::string answers;
+    for (std::size_t i = 0; i < (*burst)->bytes.size(); ++i) answers += answer;
+    port->write({.bytes = to_bytes(answers), .link = (*burst)->link});
+    return (*burst)->event == LinkEvent::data;
+  };
+  for (bool goes_on = true; goes_on;) {
+    const ssize_t n =
+        ::send(client.get(), questions.data(), questions.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (n > 0) sent += static_cast<std::size_t>(n);
+    goes_on = n > 0 || serve();
+  }
+  std::array<char, 1 << 16> buffer;
+  for (bool goes_on = true; goes_on;) {
+    const bool served = serve();
+    const ssize_t n = ::recv(client.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
+    if (n > 0) heard += static_cast<std::size_t>(n);
+    goes_on = served || n > 0;
+  }
+  EXPECT_GT(sent, 100'000u);
+  EXPECT_EQ(heard, sent * answer.size());
 }
 
 TEST_F(NetworkPortTest, TheDeviceSendsDatagramsOfItsOwn) {

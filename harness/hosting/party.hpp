@@ -1,4 +1,4 @@
-// An emulated device on one of its ways, as its host deals with it.
+// An emulated device on its ways, as its host deals with it.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,10 @@ class Party {
   virtual bool listens(Transport transport, std::uint16_t port) const = 0;
 };
 
-/// The device's serial line, or its network; it must outlive the party. nullptr: it has none.
-std::unique_ptr<Party> party_of(plc::EmulatedDevice& device, bool network);
+/// The device's serial line, its network, or both together: a burst on line_link is of the line. It
+/// must outlive the party. nullptr: it has not both of those that are wanted.
+std::unique_ptr<Party> party_of(plc::EmulatedDevice& device, bool network, bool line);
+/// The line that it has, on whatever channel.
+line::Device* line_of(plc::EmulatedDevice& device);
 
 }  // namespace fieldproof::hosting

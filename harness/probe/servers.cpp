@@ -140,12 +140,12 @@ class Look {
                      "stands between");
     }
     if (is_reply(protocol_, request, *answer)) return server(answer->took);
-    if (answer->end == Answer::End::refused)
-      return finding(ServerKind::refused,
-                     "nothing listens there, or the connection is ended at once",
+    // Datagrams have no connection that could end: the host says that nobody has the port.
+    if (answer->end == Answer::End::refused ||
+        (transport_ == Transport::udp && answer->end == Answer::End::ended))
+      return finding(ServerKind::refused, "nothing listens there",
                      "set the driver of the module as server of this protocol: a module has one "
-                     "server driver, and the port of the other one refuses; or all channels are "
-                     "taken, or the host table lacks the address of this computer");
+                     "server driver, and the port of the other one refuses; or correct the port");
     return by_others(*answer);
   }
 
@@ -221,6 +221,20 @@ class Look {
   Port port_;
 };
 
+/// What over connections looks alike is told apart by datagrams: they need no channel.
+void tell_apart(ServerFinding& connections, const ServerFinding& datagrams) {
+  const ServerKind kind = connections.kind;
+  const bool ended = kind == ServerKind::ended;
+  if (datagrams.is_server() && (ended || kind == ServerKind::refused || kind == ServerKind::silent))
+    connections.advice =
+        "over UDP the module answers, so that its driver and its host table are right: all "
+        "channels are taken, close other clients";
+  if (ended && datagrams.kind == ServerKind::silent)
+    connections.advice =
+        "over UDP it is silent, too: most likely the host table of the module lacks the address "
+        "of this computer; else all channels are taken: close other clients";
+}
+
 }  // namespace
 
 std::string_view to_string(ServerKind kind) {
@@ -247,13 +261,16 @@ Result<std::vector<ServerFinding>> find_servers(const NetworkOpener& open,
   for (const Protocol* protocol : wanted) {
     Result<std::unique_ptr<Endpoint>> endpoint = open(*protocol);
     if (!endpoint) return endpoint.error();
+    std::vector<ServerFinding> of_one;
     for (const Transport transport : {Transport::tcp, Transport::udp}) {
       const endpoints::Capabilities& can = (*endpoint)->capabilities();
       if (transport == Transport::tcp ? !can.connections : !can.datagrams) continue;
       Result<ServerFinding> found = Look(**endpoint, *protocol, transport, known, wait).look();
       if (!found) return found.error();
-      findings.push_back(std::move(*found));
+      of_one.push_back(std::move(*found));
     }
+    if (of_one.size() == 2) tell_apart(of_one[0], of_one[1]);
+    std::ranges::move(of_one, std::back_inserter(findings));
   }
   return findings;
 }

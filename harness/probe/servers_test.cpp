@@ -66,6 +66,40 @@ TEST(Servers, ThatTheHostTableKeepsUsFromAreNamed) {
   EXPECT_EQ(found[0].kind, ServerKind::ended);
   EXPECT_EQ(found[1].kind, ServerKind::silent);
   for (const ServerFinding& one : found) EXPECT_THAT(one.advice, HasSubstr("host table"));
+  EXPECT_THAT(found[0].advice, HasSubstr("most likely the host table"));
+}
+
+/// A bench whose other connections keep every channel.
+class Taken final : public endpoints::EmulatorEndpoint {
+ public:
+  using EmulatorEndpoint::EmulatorEndpoint;
+  Status take(int channels) {
+    for (int i = 0; i < channels; ++i)
+      if (const Result<LinkId> link = open(Transport::tcp, 0); !link) return link.error();
+    return ok();
+  }
+};
+
+TEST(Servers, WithoutAFreeChannelAnswerOverDatagrams) {
+  const auto found = look(
+      [](const Protocol& wanted) -> Result<std::unique_ptr<Endpoint>> {
+        auto endpoint = std::make_unique<Taken>(
+            endpoints::EndpointName{"emulator", "xbc-h", {}},
+            [&](std::string_view model, const nlohmann::json& of) {
+              return wanted.make_device(model, of);
+            },
+            endpoints::Decorator{}, wanted.default_port());
+        Status ready = endpoint->begin(nlohmann::json::object());
+        if (ready) ready = endpoint->take(4);
+        if (!ready) return ready.error();
+        return std::unique_ptr<Endpoint>(std::move(endpoint));
+      },
+      "xgt-fenet");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].kind, ServerKind::ended);
+  EXPECT_THAT(found[0].advice, HasSubstr("all channels are taken"));
+  EXPECT_THAT(found[0].advice, testing::Not(HasSubstr("lacks the address")));
+  EXPECT_EQ(found[1].kind, ServerKind::server);
 }
 
 TEST(Servers, AreThoseOfNetworks) {

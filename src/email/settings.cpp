@@ -268,10 +268,11 @@ Status read_server(ObjectReader& entry, EmailSettings& settings) {
   unsigned port = smtp_port, period = shortest_period, unused = 0;
   std::string not_used;
   entry.reader.boolean("use", settings.use);
-  entry.reader.text("server", settings.server);
+  entry.reader.host("server", settings.server);
   entry.reader.whole("port", 65'535, port);
   entry.reader.whole("period_s", longest_period, period);
-  for (const char* key : {"pop3_server", "account", "password"}) entry.reader.text(key, not_used);
+  entry.reader.host("pop3_server", not_used);
+  for (const char* key : {"account", "password"}) entry.reader.text(key, not_used);
   entry.reader.whole("interval_s", longest_period, unused);
   if (const Status read = entry.done(); !read) return read;
   if (port == 0) return entry.wrong("port is 0; leave it out for 25, the port of SMTP");

@@ -62,6 +62,15 @@ TEST(EmailSettings, KnowWhatIsNotUsed) {
   EXPECT_EQ(email.period, 1h);
 }
 
+TEST(EmailSettings, ItsServerIsAHost) {
+  for (const char* key : {"server", "pop3_server"}) {
+    const auto wrong = parse_email_settings(with(settings(), {{key, "300.1.1.1"}}));
+    ASSERT_FALSE(wrong) << key;
+    EXPECT_THAT(wrong.error().message, testing::HasSubstr(std::string("cannot read p2p.email: ") +
+                                                          key + " is \"300.1.1.1\""));
+  }
+}
+
 TEST(EmailSettings, EventsHaveNumbersOfTheirOwn) {
   const EmailSettings email = parsed(event("stop_to_run", {{"message", 0}, {"to", 9}}));
   ASSERT_TRUE(email.events[static_cast<std::size_t>(CpuEvent::stop_to_run)]);

@@ -39,6 +39,9 @@ void HsNetwork::exchange() {
     for (Broadcast& block : station->advance(now_))
       sent.emplace_back(station.get(), std::move(block));
   deliver(sent);
+  for (const auto& [sender, block] : sent)
+    for (const auto& other : stations_)
+      if (other.get() != sender) other->count(block);
   for (auto& [sender, block] : sent) block.communicates = sender->communicates();
   deliver(sent);
   show_flags();
@@ -77,7 +80,7 @@ Result<std::string> HsNetwork::get(std::string_view address, std::size_t digits)
   std::string_view own = address;
   const Station* const station = named(own, "", ':');
   if (!station) return fail(fmt::format("cannot read {}: there is no such station", address));
-  return plc::get_by_name(station->memory(), own, digits);
+  return station->get(own, digits);
 }
 
 Status HsNetwork::act(std::string_view action) {

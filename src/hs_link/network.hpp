@@ -23,7 +23,8 @@ class HsNetwork : public plc::SerialDevice {
   std::optional<Time> wake_at() const override;
   Bytes advance(Time now) override;
 
-  /// "%MW100" is of the first station, "2:%MW100" of station 2. Errors name the address.
+  /// "%MW100" is of the first station, "2:%MW100" of station 2, and so are "@sent" and "@received",
+  /// its packets. Errors name the address.
   Status set(std::string_view address, std::string_view hex) override;
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   /// "run", "stop", "power_cycle", "error on", "error off", "link on", "link off" of the first;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/plc/counters.hpp"
+
 namespace fieldproof::hs_link {
 
 Station::Station(const plc::PlcModel& model, Parameter parameter, bool run)
@@ -21,6 +23,7 @@ void Station::enable(bool enabled) {
 
 void Station::power(bool on) {
   powered_ = on;
+  sent_ = received_ = 0;
   forget();
 }
 
@@ -55,6 +58,7 @@ std::vector<Broadcast> Station::advance(Time now) {
     const Block& block = parameter_.blocks[k];
     if (!block.sends) continue;
     sent.push_back(broadcast_of(block));
+    ++sent_;
     heard_[k] = {now, run_, error_, true};
   }
   return sent;
@@ -75,10 +79,22 @@ void Station::hear(const Broadcast& sent, Time now) {
   if (!works()) return;
   for (std::size_t k = 0; k < parameter_.blocks.size(); ++k) {
     const Block& block = parameter_.blocks[k];
-    if (block.sends || block.station != sent.station || block.number != sent.block) continue;
+    if (!takes(block, sent)) continue;
     heard_[k] = {now, sent.run, sent.error, sent.communicates};
     save(block, sent.words);
   }
+}
+
+void Station::count(const Broadcast& sent) {
+  if (works() && std::ranges::any_of(parameter_.blocks,
+                                     [&](const Block& block) { return takes(block, sent); }))
+    ++received_;
+}
+
+Result<std::string> Station::get(std::string_view name, std::size_t digits) const {
+  if (name == "@sent") return plc::counter_text(sent_, digits);
+  if (name == "@received") return plc::counter_text(received_, digits);
+  return plc::get_by_name(memory_, name, digits);
 }
 
 /// As far as both reach (DECISIONS.md hslink/sizes).

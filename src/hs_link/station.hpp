@@ -41,6 +41,10 @@ class Station {
   /// What it sends at `now`.
   std::vector<Broadcast> advance(Time now);
   void hear(const Broadcast& block, Time now);
+  /// What it hears may be told again; it is counted once.
+  void count(const Broadcast& block);
+  /// "@sent", "@received": packets since power-on (table 2-8), each a block. Other names of memory.
+  Result<std::string> get(std::string_view name, std::size_t digits) const;
   /// Every registered block goes or comes as it should.
   bool communicates() const;
   /// After all that happens at `now`.
@@ -55,6 +59,9 @@ class Station {
   /// How long after a block its TRX stays on (DECISIONS.md hslink/trx-off).
   Duration patience() const;
   bool is_heard(const Heard& heard, Time now) const;
+  bool takes(const Block& block, const Broadcast& sent) const {
+    return !block.sends && block.station == sent.station && block.number == sent.block;
+  }
   void begin(Time now);
   void forget();
   Broadcast broadcast_of(const Block& block) const;
@@ -66,6 +73,7 @@ class Station {
   bool run_, error_ = false, powered_ = true;
   bool begun_ = false;        // it is told the time by the first advance
   std::vector<Heard> heard_;  // of each block
+  std::uint32_t sent_ = 0, received_ = 0;
   std::optional<Time> next_sending_;
   bool was_well_ = false;  // RLINK, which stays on
 };

@@ -291,7 +291,7 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel&
   reader.whole("parameter", p2p_parameters, parameters.parameter);
   reader.whole("channel", rules.channels, parameters.channel);
   reader.boolean("link", parameters.link);
-  reader.text("partner", parameters.partner);
+  reader.host("partner", parameters.partner);
   reader.whole("port", 65'535u, parameters.port);
   bool datagrams = false;
   reader.either("transport", "udp", "tcp", datagrams);

@@ -31,7 +31,32 @@ std::optional<double> number_in(const std::string& text) {
     return std::nullopt;
   return n;
 }
+
+bool is_name_of_host(std::string_view text) {
+  const auto is_part_of_name = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '.' || c == '_';
+  };
+  const std::string_view last = text.substr(text.rfind('.') + 1);
+  return !last.empty() && std::ranges::all_of(text, is_part_of_name) &&
+         last.find_first_not_of("0123456789") != last.npos;  // else it is a wrong address
+}
 }  // namespace
+
+bool is_ipv4(std::string_view text) {
+  unsigned parts = 0;
+  for (; parts < 4; ++parts) {
+    const std::size_t end = std::min(text.find('.'), text.size());
+    const std::string_view part = text.substr(0, end);
+    unsigned value = 0;
+    const auto [rest, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    const bool whole = error == std::errc{} && rest == part.data() + part.size();
+    if (!whole || value > 255 || part.size() != std::to_string(value).size()) return false;
+    if (end == text.size()) return parts == 3;
+    text.remove_prefix(end + 1);
+  }
+  return false;
+}
 
 Status known_keys(const json& object, std::string_view what,
                   std::span<const std::string_view> keys) {
@@ -56,8 +81,8 @@ void ConfigReader::number(const char* key, double least, double most,
   take(*n);
 }
 
-void ConfigReader::whole(const char* key, unsigned most, unsigned& to) {
-  number(key, 0, most, [&](double n) {
+void ConfigReader::whole(const char* key, unsigned most, unsigned& to, unsigned least) {
+  number(key, least, most, [&](double n) {
     if (n != std::floor(n))
       wrong(key, object_[key], "a whole number");
     else
@@ -89,6 +114,16 @@ void ConfigReader::text(const char* key, std::string& to) {
     to = value->get<std::string>();
   else
     wrong(key, *value, "a text");
+}
+
+void ConfigReader::host(const char* key, std::string& to) {
+  const json* value = find(key);
+  if (!value) return;
+  const std::string host = text_of(*value);
+  if (is_ipv4(host) || is_name_of_host(host))
+    to = host;
+  else
+    wrong(key, *value, "an IPv4 address such as \"192.0.2.1\", or the name of a host");
 }
 
 void ConfigReader::either(const char* key, std::string_view yes, std::string_view no, bool& to) {

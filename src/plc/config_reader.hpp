@@ -19,6 +19,9 @@ namespace fieldproof::plc {
 Status known_keys(const nlohmann::json& object, std::string_view what,
                   std::span<const std::string_view> keys);
 
+/// "192.0.2.1": four numbers up to 255, without zeros in front.
+bool is_ipv4(std::string_view text);
+
 /// A key that is absent leaves `to` as it is. The first that is wrong stays in `error`; later calls
 /// change nothing.
 class ConfigReader {
@@ -29,13 +32,15 @@ class ConfigReader {
 
   const std::optional<Error>& error() const { return error_; }
 
-  /// 0 to `most`.
-  void whole(const char* key, unsigned most, unsigned& to);
+  /// `least` to `most`.
+  void whole(const char* key, unsigned most, unsigned& to, unsigned least = 0);
   /// 0 to one minute, in milliseconds.
   void milliseconds(const char* key, Duration& to);
   /// true, false, 1, 0
   void boolean(const char* key, bool& to);
   void text(const char* key, std::string& to);
+  /// An IPv4 address, or what can be the name of a host.
+  void host(const char* key, std::string& to);
   /// One of two words; `to`: is it `yes`?
   void either(const char* key, std::string_view yes, std::string_view no, bool& to);
   void line(const char* key, line::LineSettings& to);

@@ -35,6 +35,9 @@ line::Device* Controller::line(unsigned channel) {
 Result<std::string> Controller::get_of_service(std::string_view name, std::size_t digits) const {
   if (services_.empty())
     return fail(fmt::format("cannot read {}: the device has no service; add one", name));
+  if (!ethernet_.empty())
+    if (std::optional<std::string> packets = ethernet_.packets(name, digits))
+      return std::move(*packets);
   return services_.front()->get(name, digits);
 }
 
@@ -45,6 +48,7 @@ void Controller::scan() {
 Status Controller::act(std::string_view action) {
   if (action == "power_cycle") {
     for (const auto& service : services_) service->power_cycle();
+    ethernet_.forget_packets();
     return ok();
   }
   if (action == "run" || action == "stop") {

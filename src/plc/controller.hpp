@@ -39,7 +39,7 @@ class Controller : public EmulatedDevice {
   Status act(std::string_view action) override;
 
  protected:
-  /// '@' names: of the main service.
+  /// '@' names: of the Ethernet module, else of the main service.
   Result<std::string> get_of_service(std::string_view name, std::size_t digits) const;
   /// Memory has changed.
   void scan();

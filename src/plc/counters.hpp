@@ -34,6 +34,9 @@ struct ServiceCounters {
   }
 };
 
+/// In hex with at least `digits` digits (0: `least`), and more where it needs more.
+std::string counter_text(std::uint32_t value, std::size_t digits, std::size_t least = 4);
+
 /// The back door (emulated_device.hpp): "@status", "@errors" or "@services" in hex with at least
 /// `digits` digits (0: two of the status, four of the counts), and more where they need more. The
 /// error lists the names.

@@ -31,6 +31,15 @@ Status read_dedicated_config(const nlohmann::json& config, std::string_view whos
   return ok();
 }
 
+Result<std::string> DedicatedServer::get(std::string_view name, std::size_t digits) const {
+  if (name == "@sent") return counter_text(counters_.services, digits);
+  if (name == "@received") return counter_text(counters_.services + counters_.errors, digits);
+  if (name == "@state")
+    return counter_text(static_cast<std::uint32_t>(connections_.size()), digits, 2);
+  if (name == "@driver") return counter_text(config_.tcp_port, digits);
+  return get_counter(counters_, name, digits);
+}
+
 std::vector<NetworkService::Port> DedicatedServer::ports() const {
   std::vector<Port> ports{{Transport::tcp, config_.tcp_port}};
   if (config_.udp_port != 0) ports.push_back({Transport::udp, config_.udp_port});

@@ -52,6 +52,9 @@ class DedicatedServer : public NetworkService, private FrameSink {
 
   /// Answered requests are services, a refusal is one, too. What draws no answer is an error.
   const ServiceCounters& counters() const override { return counters_; }
+  /// What XG5000 shows of it (table 2-8): frames "@sent" and "@received", "@state", its connections
+  /// that are taken, "@driver", the port of the one that is set; and the counters of all services.
+  Result<std::string> get(std::string_view name, std::size_t digits) const override;
   /// All connections and counters are lost. Who goes on with an old connection gets RST.
   void power_cycle() override;
 

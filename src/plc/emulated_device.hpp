@@ -32,7 +32,7 @@ class EmulatedDevice {
   /// The value at a device address as `digits` hex digits (0: the size of the type; more: following
   /// elements).
   /// "@status", "@errors" and "@services" are the counters of the status by service (Cnet
-  /// EN 11.1.4), in hex.
+  /// EN 11.1.4), in hex; further names: vectors/README.md.
   virtual Result<std::string> get(std::string_view address, std::size_t digits) const = 0;
 
   /// "run", "stop" or "power_cycle".

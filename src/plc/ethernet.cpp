@@ -53,7 +53,21 @@ void Ethernet::note(const Burst& burst, bool Owner::*closed) {
   if (both || burst.event == LinkEvent::reset) owners_.erase(known);
 }
 
+void Ethernet::count(const Burst& burst, std::uint32_t Packets::*way) {
+  if (burst.event == LinkEvent::datagram) ++(udp_.*way);
+  if (burst.event == LinkEvent::datagram || burst.event == LinkEvent::data) ++(total_.*way);
+}
+
+std::optional<std::string> Ethernet::packets(std::string_view name, std::size_t digits) const {
+  if (name == "@total_sent") return counter_text(total_.sent, digits);
+  if (name == "@total_received") return counter_text(total_.received, digits);
+  if (name == "@udp_sent") return counter_text(udp_.sent, digits);
+  if (name == "@udp_received") return counter_text(udp_.received, digits);
+  return std::nullopt;
+}
+
 void Ethernet::receive(const Burst& burst) {
+  count(burst, &Packets::received);
   if (is_refused(burst)) {
     if (burst.event == LinkEvent::opened)
       refusals_.push_back(
@@ -81,6 +95,7 @@ std::vector<Burst> Ethernet::advance(Time now) {
       const bool ends = burst.event == LinkEvent::closed || burst.event == LinkEvent::reset;
       if (burst.link >= first_own_link && !ends) owners_[burst.link].service = service;
       note(burst, &Owner::closed_by_us);
+      count(burst, &Packets::sent);
       all.push_back(std::move(burst));
     }
   }

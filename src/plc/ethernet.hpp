@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,11 @@ class Ethernet : public net::Host {
   void allow_only(std::vector<std::string> addresses) { allowed_ = std::move(addresses); }
   /// For services that open links.
   net::OwnLinks& own_links() { return own_links_; }
+  /// Packets of the medium since power-on, those that reach no service among them, with which the
+  /// lamps TX and RX flicker (tables 2-8, 2-9): "@total_sent", "@total_received", "@udp_sent",
+  /// "@udp_received". Nothing: it is none of these names.
+  std::optional<std::string> packets(std::string_view name, std::size_t digits) const;
+  void forget_packets() { total_ = udp_ = {}; }
 
   bool listens(Transport transport, std::uint16_t port) const override;
   void receive(const Burst& burst) override;
@@ -37,6 +43,11 @@ class Ethernet : public net::Host {
     NetworkService* service = nullptr;
     bool closed_by_client = false, closed_by_us = false;
   };
+  /// Datagrams, or what comes or goes at once over a connection.
+  struct Packets {
+    std::uint32_t sent = 0, received = 0;
+  };
+  void count(const Burst& burst, std::uint32_t Packets::*way);
   bool is_refused(const Burst& burst) const;
   NetworkService* owner(const Burst& burst);
   void note(const Burst& burst, bool Owner::*closed);
@@ -46,6 +57,7 @@ class Ethernet : public net::Host {
   std::optional<std::vector<std::string>> allowed_;
   std::vector<Burst> refusals_;
   net::OwnLinks own_links_;
+  Packets total_, udp_;
 };
 
 }  // namespace fieldproof::plc

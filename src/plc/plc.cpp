@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,22 +11,6 @@ namespace fieldproof::plc {
 
 namespace {
 constexpr std::size_t most_hosts = 16;
-
-/// "192.0.2.1": four numbers up to 255, without zeros in front.
-bool is_ipv4(std::string_view text) {
-  unsigned parts = 0;
-  for (; parts < 4; ++parts) {
-    const std::size_t end = std::min(text.find('.'), text.size());
-    const std::string_view part = text.substr(0, end);
-    unsigned value = 0;
-    const auto [rest, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    const bool whole = error == std::errc{} && rest == part.data() + part.size();
-    if (!whole || value > 255 || part.size() != std::to_string(value).size()) return false;
-    if (end == text.size()) return parts == 3;
-    text.remove_prefix(end + 1);
-  }
-  return false;
-}
 
 Result<std::vector<std::string>> read_host_table(const nlohmann::json& table) {
   const auto wrong = [](const std::string& what) {

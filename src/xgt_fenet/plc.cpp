@@ -40,7 +40,7 @@ Result<ServerConfig> read_server_config(const nlohmann::json& config) {
   reader.whole("station", 255, station);
   reader.either("mode", "run", "stop", run);
   reader.whole("base", 15, result.base);
-  reader.whole("slot", 15, result.slot);
+  reader.whole("slot", 15, result.slot, 1);  // 0 is the built-in Cnet (7.1.2)
   reader.boolean("error", result.cpu_error);
   reader.text("header_check", policy);
   if (reader.error()) return *reader.error();

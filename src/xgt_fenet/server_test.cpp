@@ -318,7 +318,8 @@ TEST(FenetConfig, ErrorsNameTheKey) {
   EXPECT_THAT(message({{"connections", 0}}), HasSubstr("give 1 to 4"));
   EXPECT_THAT(message({{"waiting_time", 1}}), HasSubstr("2 to 255"));
   EXPECT_THAT(message({{"waiting_time", 256}}), HasSubstr("waiting_time"));
-  EXPECT_THAT(message({{"slot", 16}}), HasSubstr("slot"));
+  EXPECT_THAT(message({{"slot", 16}}), HasSubstr("slot is 16, which is not a number from 1 to 15"));
+  EXPECT_THAT(message({{"slot", 0}}), HasSubstr("slot"));
   EXPECT_THAT(message({{"base", 16}}), HasSubstr("base"));
   EXPECT_THAT(message({{"conections", 4}}), HasSubstr("conections"));
   EXPECT_THAT(message({{"role", "client"}}), HasSubstr("role"));

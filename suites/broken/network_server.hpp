@@ -32,6 +32,8 @@ struct NetworkBehaviour {
   std::function<void(Bytes& reply, const Bytes& request)> edit{};
   /// What goes out at one moment.
   std::function<void(Bursts& does, Server& server)> act{};
+  /// The counter ("@sent") that the back door shows instead of the one that it is asked for.
+  std::function<std::string(std::string name)> show{};
 };
 
 /// Makers for the tables of faults: one function of a behaviour each.
@@ -52,6 +54,11 @@ struct Makes {
   static Make acts(std::function<void(Bursts& does, Server& server)> act) {
     return [=] { return Behaviour{.act = act}; };
   }
+  static Make shows(const std::string& instead_of, const std::string& other) {
+    return [=] {
+      return Behaviour{.show = [=](std::string name) { return name == instead_of ? other : name; }};
+    };
+  }
   static Make set_up(std::function<void(Settings&)> settings) {
     return [=] { return Behaviour{.settings = settings}; };
   }
@@ -68,7 +75,12 @@ class NetworkServer : public plc::EmulatedDevice, public net::Host {
   template <typename Settings>
   NetworkServer(const NetworkBehaviour<Settings>& behaviour,
                 std::unique_ptr<plc::EmulatedDevice> good, FirstFrame first_frame)
-      : behaviour_{{}, behaviour.hear, behaviour.misread, behaviour.edit, behaviour.act},
+      : behaviour_{{},
+                   behaviour.hear,
+                   behaviour.misread,
+                   behaviour.edit,
+                   behaviour.act,
+                   behaviour.show},
         good_(std::move(good)),
         server_{*good_},
         first_frame_(first_frame) {}
@@ -79,7 +91,8 @@ class NetworkServer : public plc::EmulatedDevice, public net::Host {
     return good_->set(address, hex);
   }
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
-    return good_->get(address, digits);
+    const bool other = behaviour_.show && address.starts_with('@');
+    return good_->get(other ? behaviour_.show(std::string(address)) : address, digits);
   }
   Status act(std::string_view action) override { return good_->act(action); }
 

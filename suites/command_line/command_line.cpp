@@ -430,15 +430,12 @@ int with_command(int argc, char** argv, const Start& start) {
       ->add_option("model", emulate.model,
                    "MODEL[?station=1&protocol=...]: xbc-h, xbm-s, xec-h, inverter, modem")
       ->required();
-  CLI::Option* tcp = emulate_app->add_option(
+  emulate_app->add_option(
       "--tcp", emulate.tcp, "Listen on [HOST:]PORT; without HOST for programs here alone");
-  CLI::Option* udp = emulate_app->add_option("--udp", emulate.udp, "The same for datagrams");
+  emulate_app->add_option("--udp", emulate.udp, "The same for datagrams");
   CLI::Option* pty = emulate_app->add_option(
       "--pty", emulate.pty, "A link to a new pty, or somebody's pty that is there");
-  pty->excludes(tcp)->excludes(udp);
   emulate_app->add_option("--tty", emulate.tty, "A real serial port, with MODEL?line=9600-8N1, ...")
-      ->excludes(tcp)
-      ->excludes(udp)
       ->excludes(pty);
   emulate_app->add_option("--config", emulate.config,
                           "What is set up in it, a JSON file: keys of given.config");

@@ -313,6 +313,18 @@ TEST(FrameCommand, SaysThatAFrameIsIncompleteOrFollowed) {
                 testing::AllOf(HasSubstr("the frame is incomplete"), HasSubstr(missing)))
         << frame;
   }
+  // A company id tells the protocol, however little follows it.
+  const std::string reply =
+      "4C 53 49 53 2D 58 47 54 00 00 00 00 A0 33 01 00 0E 00 00 00 54 00 02 00";
+  for (const std::size_t size : {24, 20, 12, 8}) {
+    const Finished finished = run_tool({"frame", reply.substr(0, 3 * size - 1)});
+    EXPECT_EQ(finished.code, 1) << size;
+    EXPECT_THAT(finished.out,
+                testing::AllOf(HasSubstr("xgt-fenet, "), HasSubstr("the frame is incomplete")))
+        << size;
+    const std::string hex = reply.substr(0, 3 * size - 1) + '\n';
+    EXPECT_EQ(finished.out.find(hex + hex), std::string::npos) << finished.out;
+  }
   const Finished more = run_tool(
       {"frame", "--protocol", "xgt-cnet", "05 30 31 52 53 53 30 31 30 36 25 4D 57 31 30 30 04 41"});
   EXPECT_EQ(more.code, 1);

@@ -68,6 +68,18 @@ TEST_F(FenetClient, TheEmulatedOneInAnotherProcessAsksByItself) {
   EXPECT_EQ(results.verdict("xgt_fenet/client/schedule/f90"), "BLOCKED");
 }
 
+TEST_F(FenetClient, OneWithoutAPartnerIsSaidToReachNobody) {
+  const ordered_json block{{"flag", "F92"}, {"read", "%MW100"}, {"save", "%MW120"}};
+  const ordered_json p2p{{"partner", "127.0.0.1"}, {"port", std::stoi(tcp)}, {"blocks", {block}}};
+  Process client({FIELDPROOF_TOOL, "emulate", "xbc-h?protocol=xgt-fenet", "-v", "--p2p",
+                  folder.write("p2p.json", ordered_json{{"p2p", p2p}}.dump())});
+  ASSERT_TRUE(client.wait_for("refused, or out of reach: nothing was sent"));
+  client.signal(SIGINT);
+  const Finished finished = client.wait();
+  EXPECT_THAT(finished.out, testing::AllOf(testing::HasSubstr("  waiting    36  4C 53"),
+                                           testing::Not(testing::HasSubstr("  sent  "))));
+}
+
 TEST_F(FenetClient, AProgramThatAsksWhatItIsToldPasses) {
   const Finished finished = stimulated(
       "xgt_fenet/client/read/single*:*/client/read/areas_*:*/client/read/continuous_word:"

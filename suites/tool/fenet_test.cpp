@@ -1,10 +1,13 @@
 // The built tool and XGT FEnet: the same device in process and in another process behind sockets,
 // the search for servers, and the client of the README.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <fstream>
 
+#include "harness/system/fd_link.hpp"
+#include "harness/system/test_link.hpp"
 #include "src/base/bytes.hpp"
 #include "suites/tool/network_runs.hpp"
 
@@ -81,6 +84,33 @@ TEST(XgtFenetProbe, finds_the_server_and_its_limits) {
   EXPECT_THAT(finished.out, HasSubstr("\"areas\""));
 }
 
+TEST(XgtFenetProbe, finds_a_server_at_any_port_and_names_a_module) {
+  Fenet device;
+  const Finished fenet = run_tool({"probe", "tcp:127.0.0.1:" + std::to_string(device.port())});
+  EXPECT_EQ(fenet.code, 0) << fenet.err;
+  EXPECT_THAT(fenet.out, AllOf(HasSubstr("found         xgt-fenet over TCP"),
+                               HasSubstr("--profile xbc-dxxxh\n"), Not(HasSubstr("bias"))));
+  EmulatedServer modbus("modbus-tcp");
+  const Finished other = run_tool({"probe", "tcp:127.0.0.1:" + std::to_string(modbus.port())});
+  EXPECT_EQ(other.code, 0) << other.err;
+  EXPECT_THAT(other.out, AllOf(HasSubstr("found         modbus-tcp over TCP"),
+                               HasSubstr("--profile xbc-dxxxh\n"), Not(HasSubstr("other server"))));
+}
+
+TEST(XgtFenetProbe, a_datagram_port_is_of_one_protocol_and_may_refuse) {
+  const std::uint16_t none = free_port(SOCK_DGRAM);
+  Fenet device;
+  const std::string at = "tcp:127.0.0.1:" + std::to_string(device.port());
+  const Finished refused =
+      run_tool({"probe", at + "?protocol=xgt-fenet&udp=" + std::to_string(none)});
+  EXPECT_EQ(refused.code, 0) << refused.err;
+  EXPECT_THAT(refused.out, AllOf(HasSubstr("refused       xgt-fenet over UDP"),
+                                 Not(HasSubstr("connection is taken"))));
+  const Finished fenet_only = run_tool({"probe", "tcp:127.0.0.1?udp=2005", "--wait", "100"});
+  EXPECT_THAT(fenet_only.out,
+              AllOf(HasSubstr("xgt-fenet over UDP"), Not(HasSubstr("modbus-tcp over UDP"))));
+}
+
 TEST(XgtFenetProbe, says_what_is_in_the_way) {
   const auto probe = [](const std::string& endpoint) {
     const Finished finished = run_tool({"probe", endpoint, "--wait", "200"});
@@ -101,17 +131,90 @@ TEST(XgtFenetProbe, says_what_is_in_the_way) {
                     HasSubstr("add protocol=modbus-tcp"), Not(HasSubstr("go on with"))));
 }
 
-TEST(XgtFenetProbe, a_place_taken_and_a_host_table_end_the_connection) {
-  const std::uint16_t port = free_port();
-  Process device(tool_arguments(
-      {"emulate", "xbc-h?protocol=xgt-fenet&connections=1", "--tcp", std::to_string(port)}));
-  ASSERT_TRUE(device.wait_for("tcp 127.0.0.1:"));
-  const os::UniqueFd first = os::test::connected(SOCK_STREAM, port);
-  const Finished finished =
-      run_tool({"probe", "tcp:127.0.0.1:" + std::to_string(port) + "?protocol=xgt-fenet"});
-  EXPECT_EQ(finished.code, 1) << finished.err;
-  EXPECT_THAT(finished.out, AllOf(HasSubstr("ended at once"), HasSubstr("all channels"),
-                                  HasSubstr("host table")));
+TEST(XgtFenetProbe, a_place_taken_and_a_host_table_are_told_apart_by_datagrams) {
+  const TestFolder folder;
+  const auto probe = [&](const std::string& config, bool take) {
+    const std::uint16_t tcp = free_port(), udp = free_port(SOCK_DGRAM);
+    Process process(tool_arguments({"emulate", plc, "--config", folder.write("plc.json", config),
+                                    "--tcp", std::to_string(tcp), "--udp", std::to_string(udp)}));
+    EXPECT_TRUE(process.wait_for("tcp 127.0.0.1:"));
+    const os::UniqueFd first = take ? os::test::connected(SOCK_STREAM, tcp) : os::UniqueFd();
+    const std::string endpoint =
+        "tcp:127.0.0.1:" + std::to_string(tcp) + "?protocol=xgt-fenet&udp=" + std::to_string(udp);
+    const Finished run = run_tool({"run", "--endpoint", endpoint, "--profile", "xbc-dxxxh",
+                                   "--filter", "xgt_fenet/examples/read_word"});
+    EXPECT_THAT(run.out + run.err,
+                AllOf(HasSubstr("takes a connection and ends it"), HasSubstr("table of hosts"),
+                      Not(HasSubstr("nothing listens"))));
+    return run_tool({"probe", endpoint, "--wait", "200"}).out;
+  };
+  EXPECT_THAT(probe(R"({"connections": 1})", true),
+              AllOf(HasSubstr("ended         xgt-fenet over TCP"),
+                    HasSubstr("all channels are taken"), Not(HasSubstr("lacks the address"))));
+  EXPECT_THAT(probe(R"({"host_table": ["203.0.113.7"]})", false),
+              AllOf(HasSubstr("ended         xgt-fenet over TCP"),
+                    HasSubstr("most likely the host table")));
+}
+
+/// The Python of README.md, as it stands there but for the port.
+std::string client_of_the_readme(std::uint16_t port) {
+  const std::string text = read_text(FIELDPROOF_SOURCE_DIR "/README.md");
+  constexpr std::string_view begin = "```python\nimport socket, struct\n";
+  const std::size_t at = text.find(begin);
+  EXPECT_NE(at, text.npos);
+  const std::size_t code = text.find('\n', at) + 1;
+  std::string client = text.substr(code, text.find("```", code) - code);
+  EXPECT_EQ(std::ranges::count(client, '\n'), 4);
+  const std::size_t number = client.find("2004");
+  EXPECT_NE(number, client.npos);
+  return client.replace(number, 4, std::to_string(port));
+}
+
+/// One word, written over Cnet: "WSS" of %MW100 at station 1, and its acknowledgement.
+const std::string write_over_cnet =
+    "\x05"
+    "01WSS0106%MW1001234\x04";
+const std::string written_over_cnet =
+    "\x06"
+    "01WSS\x03";
+
+TEST(XgtFenetEmulated, has_a_cnet_line_beside_its_network) {
+  const TestFolder folder;
+  const std::string link = folder / "plc",
+                    config =
+                        folder.write("plc.json", R"({"services": {"xgt-cnet": {"station": 1}}})");
+  Fenet device({"--pty", link, "--config", config});
+  os::FdLink line(os::UniqueFd(::open(link.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK)), "the line");
+  ASSERT_TRUE(line.send(to_bytes(write_over_cnet)));
+  EXPECT_EQ(os::test::receive_text(line, "\x03"), written_over_cnet);
+  const Finished client = run_program({"python3", "-c", client_of_the_readme(device.port())});
+  EXPECT_EQ(client.out, "4660\n") << client.err << "one memory";
+}
+
+TEST(XgtFenetEmulated, a_line_wants_a_service_and_a_service_its_line) {
+  const TestFolder folder;
+  const std::string
+      cnet = folder.write("cnet.json", R"({"services": {"xgt-cnet": {}}})"),
+      two = folder.write("two.json", R"({"protocol": ["xgt-fenet", "modbus-tcp"]})"),
+      partner = folder.write(
+          "partner.json",
+          R"({"p2p": {"partner": "127.0.0.300", "blocks": [{"flag": "F92", "read": "%MW1", "save": "%MW2"}]}})");
+  const auto emulate = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"emulate", "xbc-h?protocol=xgt-fenet"});
+    const Finished finished = run_tool(arguments);
+    EXPECT_EQ(finished.code, 2) << finished.out;
+    return finished.err;
+  };
+  EXPECT_THAT(emulate({"--tcp", ":0", "--config", cnet}), HasSubstr("give --pty or --tty as well"));
+  EXPECT_THAT(emulate({"--tcp", ":0", "--pty", folder / "plc"}),
+              HasSubstr("no serial line beside its network"));
+  EXPECT_THAT(
+      emulate({"--tcp", ":0", "--config", two}),
+      AllOf(HasSubstr("two.json"), HasSubstr("protocol is [\"xgt-fenet\",\"modbus-tcp\"]")));
+  EXPECT_THAT(emulate({"--p2p", partner}), HasSubstr("partner is \"127.0.0.300\""));
+  const Finished serial = run_tool({"emulate", "xbc-h", "--tcp", ":0", "--pty", folder / "plc"});
+  EXPECT_EQ(serial.code, 2);
+  EXPECT_THAT(serial.err, HasSubstr("is on one serial line"));
 }
 
 TEST(XgtFenetEmulated, prints_each_frame_and_says_which_port_is_wrong) {
@@ -139,20 +242,6 @@ TEST(XgtFenetEmulated, a_port_for_root_names_another) {
   EXPECT_THAT(finished.err,
               HasSubstr("ports below 1024 are for root; choose one from 1024 up, such "
                         "as 127.0.0.1:10502, or run it as root"));
-}
-
-/// The Python of README.md, as it stands there but for the port.
-std::string client_of_the_readme(std::uint16_t port) {
-  const std::string text = read_text(FIELDPROOF_SOURCE_DIR "/README.md");
-  constexpr std::string_view begin = "```python\nimport socket, struct\n";
-  const std::size_t at = text.find(begin);
-  EXPECT_NE(at, text.npos);
-  const std::size_t code = text.find('\n', at) + 1;
-  std::string client = text.substr(code, text.find("```", code) - code);
-  EXPECT_EQ(std::ranges::count(client, '\n'), 4);
-  const std::size_t number = client.find("2004");
-  EXPECT_NE(number, client.npos);
-  return client.replace(number, 4, std::to_string(port));
 }
 
 TEST(XgtFenetReadme, a_client_of_four_lines_reads_a_word) {

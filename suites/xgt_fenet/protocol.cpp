@@ -1,5 +1,6 @@
 #include "suites/xgt_fenet/protocol.hpp"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,7 @@
 #include "suites/xgt_cnet/protocol.hpp"
 #include "suites/xgt_fenet/frame_parts.hpp"
 #include "suites/xgt_fenet/memory_requests.hpp"
+#include "suites/xgt_fenet/remote_facts.hpp"
 
 namespace fieldproof::xgt_fenet_suite {
 
@@ -69,6 +71,14 @@ class XgtFenet : public harness::PlcProtocol,
   std::optional<std::size_t> frame_length(ByteView bytes) const override {
     return xgt_fenet_suite::frame_length(bytes);
   }
+  /// Eight letters of a company.
+  bool has_mark(ByteView frame) const override {
+    const auto begins = [&](const xgt_fenet::CompanyId& id) {
+      return std::ranges::equal(frame.first(std::min<std::size_t>(frame.size(), 8)),
+                                ByteView(id).first(8));
+    };
+    return begins(xgt_fenet::lsis_xgt) || begins(xgt_fenet::lgis_glofa);
+  }
   std::vector<harness::Field> explain(ByteView frame) const override {
     return xgt_fenet_suite::explain(frame);
   }
@@ -121,7 +131,8 @@ class XgtFenet : public harness::PlcProtocol,
 
   /// Areas, and flags and registers of P2P, are those of the same PLC on Cnet.
   Status check_table(const nlohmann::json& facts) const override {
-    return xgt_cnet_suite::protocol().check_fact(facts);
+    return is_remote_fact(facts) ? check_remote_fact(facts)
+                                 : xgt_cnet_suite::protocol().check_fact(facts);
   }
 
  private:

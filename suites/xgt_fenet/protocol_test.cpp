@@ -226,5 +226,29 @@ TEST(Memory, BlanksAreNoDigits) {
     EXPECT_FALSE(protocol().write_requests(1, "%MW99", hex)) << hex;
 }
 
+TEST(XgtFenet, FactsOfTheRemoteServiceAreChecked) {
+  const auto check = [](const char* facts) {
+    const Status checked = protocol().tables()->check_table(nlohmann::json::parse(facts));
+    return checked ? std::string("right") : checked.error().message;
+  };
+  EXPECT_EQ(
+      check(R"({"service": "remote server", "transport": "tcp", "port": 2002, "channels": 1})"),
+      "right");
+  EXPECT_EQ(
+      check(R"({"service": "remote client", "transport": "tcp", "port": 2004, "channels": 1})"),
+      "its port is 2002");
+  EXPECT_EQ(
+      check(R"({"service": "remote client", "transport": "udp", "port": 2002, "channels": 1})"),
+      "it is over tcp");
+  EXPECT_EQ(
+      check(R"({"service": "remote client", "transport": "tcp", "port": 2002, "channels": 2})"),
+      "it has 1 channel");
+  EXPECT_EQ(check(R"({"remote": [{"slot": 2}], "accepted": false, "says": "ip is ''"})"), "right");
+  EXPECT_THAT(check(R"({"remote": [{"slot": 2}], "accepted": false, "says": "base"})"),
+              testing::HasSubstr("it does not say 'base'"));
+  EXPECT_THAT(check(R"({"remote": [{"network": "cnet"}], "accepted": false})"),
+              testing::HasSubstr("it is accepted"));
+}
+
 }  // namespace
 }  // namespace fieldproof::xgt_fenet_suite

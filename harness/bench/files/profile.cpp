@@ -20,9 +20,9 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 11> profile_keys{
+constexpr std::array<std::string_view, 12> profile_keys{
     "name",   "title",  "extends", "model",           "protocols", "decisions",
-    "config", "timing", "exclude", "prepared_blocks", "notes"};
+    "config", "timing", "exclude", "prepared_blocks", "notes",     "peer"};
 constexpr std::array<std::string_view, 9> timing_keys{
     "response_max",    "turnaround_min",    "floor",    "max_gap",   "guard_band",
     "response_max_ms", "turnaround_min_ms", "floor_ms", "max_gap_ms"};
@@ -134,6 +134,9 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
   else if (key == "decisions") {
     check(value == "binding" || value == "advisory", key, "\"binding\" or \"advisory\"");
     profile.binding_decisions = value == "binding";
+  } else if (key == "peer") {
+    check(value.is_boolean(), key, "true or false");
+    profile.peer = value;
   } else if (key != "extends") {
     throw std::runtime_error(fmt::format("unknown key '{}'{}", key, suggestion(key, profile_keys)));
   }

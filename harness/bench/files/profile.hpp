@@ -19,6 +19,7 @@ struct Profile {
   std::string model;  // selects vectors by `models`; empty: the model of each case (emulators only)
   std::vector<std::string> protocols;  // "xgt-cnet"
   bool binding_decisions = true;       // "decisions": "binding" or "advisory"
+  bool peer = false;                   // "peer": a program that tests this bench, no module
   nlohmann::json config =
       nlohmann::json::object();  // the declared configuration, keys of given.config
   /// P2P blocks that are set up in the real module, as in given.config.p2p.blocks (with "parameter"

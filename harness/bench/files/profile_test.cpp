@@ -42,7 +42,7 @@ class Profiles : public testing::Test {
 TEST_F(Profiles, WhatIsExtendedHoldsKeyByKey) {
   write(
       "base",
-      R"({"name": "base", "title": "Base", "model": "xbc-h", "protocols": ["xgt-cnet"], "decisions": "binding", "notes": "n",
+      R"({"name": "base", "title": "Base", "model": "xbc-h", "protocols": ["xgt-cnet"], "decisions": "binding", "notes": "n", "peer": true,
                     "config": {"rs485": true, "delay_ms": 10}, "timing": {"response_max_ms": 300, "floor_ms": 2},
                     "exclude": [{"id": "a/*", "reason": "r"}]})");
   write(
@@ -55,6 +55,7 @@ TEST_F(Profiles, WhatIsExtendedHoldsKeyByKey) {
   EXPECT_EQ(mine.notes, "n");
   EXPECT_EQ(mine.model, "xbc-h");
   EXPECT_FALSE(mine.binding_decisions);
+  EXPECT_TRUE(mine.peer);
   EXPECT_EQ(mine.config, (nlohmann::json{{"rs485", true}, {"delay_ms", 50}}));
   EXPECT_EQ(mine.response_max, 300ms);
   EXPECT_EQ(mine.floor, 5ms);

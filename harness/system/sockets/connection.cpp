@@ -11,7 +11,7 @@ namespace fieldproof::os {
 
 namespace {
 
-constexpr std::size_t most_waiting = 1 << 20;
+constexpr std::size_t most_waiting = 8 << 20;
 
 bool is_connected(int fd) {
   sockaddr_storage peer{};
@@ -109,7 +109,7 @@ void Connection::end_if_both_closed() {
 }
 
 pollfd Connection::to_poll(bool hearing) const {
-  short events = hears_ && hearing ? POLLIN : 0;
+  short events = hears_ && hearing && !is_full() ? POLLIN : 0;
   if (connecting_ || has_waiting()) events |= POLLOUT;
   return {events == 0 ? -1 : fd_.get(), events, 0};
 }

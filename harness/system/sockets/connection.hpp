@@ -38,10 +38,15 @@ class Connection {
   bool has_broken() const { return hears_ && !fd_; }
 
   /// Sends what the socket takes; the rest waits for `flush`. What the other side no longer takes,
-  /// having ended the connection, is dropped; so is the connection where a megabyte waits.
+  /// having ended the connection, is dropped; so is the connection where eight megabytes wait.
   void write(ByteView bytes);
   void flush();
   bool has_waiting() const { return !out_.empty(); }
+  /// A megabyte waits: until the other side reads on, nothing is to be read here. So a client that
+  /// asks on and on without reading is stopped by its own connection, and no answer is lost.
+  bool is_full() const { return out_.size() > enough_waiting; }
+  /// The other side has taken it, and it has not ended.
+  bool stands() const { return fd_ && !connecting_; }
 
   /// FIN (behind what waits) or RST; after RST and `vanish` nothing is heard any more. The kernel
   /// goes on acknowledging for one that has vanished, as long as it has room for what comes.
@@ -55,6 +60,8 @@ class Connection {
   pollfd to_poll(bool hearing = true) const;
 
  private:
+  static constexpr std::size_t enough_waiting = 1 << 20;
+
   void send_fin();
   void end_at_once();
   void end_if_both_closed();

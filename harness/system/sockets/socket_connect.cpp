@@ -89,6 +89,7 @@ Result<UniqueFd> RemoteHost::connect(std::uint16_t port, int type) {
     if (interrupted()) return interrupted_error("connect to", where);
     if (error == 0) std::rotate(addresses_.begin(), one, one + 1);  // asked first from now on
   }
+  nobody_listens_ = error == ECONNREFUSED;
   if (is_refusal(error)) return UniqueFd();
   if (error != 0) return fail("cannot connect to " + where + ": " + connect_advice(error));
   return fd;

@@ -23,10 +23,14 @@ class RemoteHost {
   /// sent yet). One without a descriptor: the host has refused the connection. Errors: "cannot
   /// connect to plc:2004: no answer within 3 s; ...", or interrupted.
   Result<UniqueFd> connect(std::uint16_t port, int type);
+  /// Of the last connect that gave no descriptor: nobody listens on that port. Else the connection
+  /// stood, and was reset before it was known to.
+  bool nobody_listens() const { return nobody_listens_; }
 
  private:
   std::string host_;
   std::vector<SocketAddress> addresses_;
+  bool nobody_listens_ = false;
 };
 
 /// The same without waiting: a connection that is on its way, or refused. Of a host that cannot be

@@ -35,6 +35,12 @@ void SocketLinks::add(LinkId link, DatagramPort port) {
   ports_.insert_or_assign(link, Port{std::move(port)});
 }
 
+bool SocketLinks::stands(LinkId link) const {
+  const auto found = connections_.find(link);
+  return found == connections_.end() ? !over_.contains(link) && !lost_.contains(link)
+                                     : found->second.connection.stands();
+}
+
 void SocketLinks::listen(UniqueFd socket, Transport transport, std::uint16_t port) {
   if (transport == Transport::tcp)
     listeners_.push_back({std::move(socket), port});
@@ -64,7 +70,8 @@ std::optional<Burst> SocketLinks::take_of_links() {
   for (std::size_t i = 0; i < connections_.size(); ++i, ++next) {
     if (next == connections_.end()) next = connections_.begin();
     Link& link = next->second;
-    if (is_untold(next->first) || !(link.ready || link.connection.has_broken())) continue;
+    if (is_untold(next->first) || link.connection.is_full()) continue;
+    if (!link.ready && !link.connection.has_broken()) continue;
     std::optional<Arrival> arrival = link.connection.read();
     link.ready = arrival && !link.connection.has_read_all();
     if (!arrival) continue;

@@ -32,6 +32,9 @@ class SocketLinks {
     return connections_.contains(link) || over_.contains(link) || ports_.contains(link) ||
            lost_.contains(link);
   }
+  /// Is it a connection that neither waits for the other side's yes nor has ended, or a datagram
+  /// port?
+  bool stands(LinkId link) const;
   /// Takes over a socket of `listen_socket`; its connections and datagrams are said to be to
   /// `port`.
   void listen(UniqueFd socket, Transport transport, std::uint16_t port);

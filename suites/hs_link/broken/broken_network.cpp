@@ -20,6 +20,8 @@ class BrokenNetwork : public broken::WrappedDevice {
   Result<std::string> get(std::string_view address, std::size_t digits) const override {
     const plc::ParsedAddress parsed = plc::parse_address(model_, address);
     if (behaviour_.bit && parsed && address.starts_with("%L")) return of_l(parsed.address, digits);
+    if (behaviour_.show && address.starts_with('@'))
+      return WrappedDevice::get(behaviour_.show(address), digits);
     return WrappedDevice::get(address, digits);
   }
   Status act(std::string_view action) override {

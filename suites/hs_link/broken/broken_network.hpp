@@ -16,11 +16,14 @@ namespace fieldproof::hs_link_broken {
 /// What is seen of the right device: two digits of a bit of L.
 using Look = std::function<std::string(unsigned bit)>;
 
-/// What the broken device makes of its configuration, of a bit of L, of an action; empty: nothing.
+/// What the broken device makes of its configuration, of a bit of L, of an action, of a counter;
+/// empty: nothing.
 struct Behaviour {
   std::function<void(nlohmann::json& config)> config{};
   std::function<std::string(unsigned bit, const Look& look)> bit{};
   std::function<std::vector<std::string>(const std::string& action)> act{};
+  /// The counter that is shown instead of "@sent" or another.
+  std::function<std::string(std::string_view name)> show{};
 };
 
 using Fault = broken::FaultOf<std::function<Behaviour()>>;

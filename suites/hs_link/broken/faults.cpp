@@ -131,10 +131,24 @@ Make adds(const std::string& to, const std::string& other) {
   };
 }
 
+Make shows(const std::string& instead_of, const std::string& other) {
+  return [=] {
+    return Behaviour{.show = [=](std::string_view name) {
+      return name == instead_of ? other : std::string(name);
+    }};
+  };
+}
+
 }  // namespace
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> all{
+      {"counts_what_others_send", "packets of blocks that are not registered are counted, too",
+       shows("@received", "2:@sent"), "hs_link/diagnosis/packets", "@received"},
+      {"packets_of_both_ways", "what is sent is counted as received", shows("@received", "@sent"),
+       "hs_link/diagnosis/packets", "@received"},
+      {"packets_of_the_other", "what the partner has sent is counted as its own",
+       shows("@sent", "2:@sent"), "hs_link/diagnosis/link_off", "@sent"},
       {"period_doubled", "sends and waits at twice its period", other_parameter(period_doubled),
        "hs_link/faults/trx_goes_off/p1000", "%LW10"},
       {"flags_of_the_other_link", "shows the flags of link 1 where those of link 2 are",

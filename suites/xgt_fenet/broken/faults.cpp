@@ -7,7 +7,7 @@ namespace fieldproof::xgt_fenet_broken {
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> all =
       broken::gather<Fault>({header_faults, check_faults, code_faults, data_faults, limit_faults,
-                             stream_faults, connection_faults, datagram_faults});
+                             stream_faults, connection_faults, datagram_faults, counter_faults});
   return all;
 }
 

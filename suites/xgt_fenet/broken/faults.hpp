@@ -30,11 +30,13 @@ std::vector<Fault> limit_faults();
 std::vector<Fault> stream_faults();
 std::vector<Fault> connection_faults();
 std::vector<Fault> datagram_faults();
+std::vector<Fault> counter_faults();
 
 constexpr auto edits = Makes::edits;
 constexpr auto hears = Makes::hears;
 constexpr auto acts = Makes::acts;
 constexpr auto set_up = Makes::set_up;
+constexpr auto shows = Makes::shows;
 /// The same of a reply to a request for which `of` holds; the check of the header is made good.
 MakeBehaviour edits_if(bool (*of)(const Bytes& reply, const Bytes& request),
                        std::function<void(Bytes& reply)> edit);
