@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -55,7 +56,7 @@ Result<json> beside_channels(const json& main, json config) {
   const auto own = config.find(number);
   if (own == config.end())
     config[number] = left;
-  else if (own->is_number_unsigned() && own->get<unsigned>() > left)
+  else if (own->is_number_integer() && own->get<std::int64_t>() > left)
     return fail(fmt::format(
         "connections is {}, and the P2P channels leave {} of the module's 4 (FEnet EN 7.3.2)",
         own->dump(), left));
