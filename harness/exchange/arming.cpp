@@ -16,6 +16,14 @@ using nlohmann::json;
 
 bool is_on(const std::string& digits) { return digits.find_first_not_of('0') != std::string::npos; }
 
+/// That of a P2P channel which does not speak the protocol of the case; empty: there is none.
+std::string other_protocol(const json& config) {
+  const json none = json::object();
+  for (const json& channel : config.value("p2p", none).value("channels", json::array()))
+    if (channel.contains("protocol")) return channel["protocol"];
+  return {};
+}
+
 constexpr Duration answer_patience = 2s;
 constexpr int most_restarts = 3;  // of a program that gives up
 
@@ -157,6 +165,9 @@ std::string Arming::objection(const vectors::Case& source, const json& config) c
   if (source.config.contains("monitor"))
     return "looks at the frame monitor of the module, which no command reads; see XG5000, frame "
            "monitor";
+  if (const std::string other = other_protocol(source.config); !other.empty())
+    return fmt::format("needs a partner of {} besides, and the bench listens for one protocol",
+                       other);
   Arming trial(protocol_, ways_);
   if (ways_.stimulus) {
     if (!bad_answer_.empty()) return bad_answer_;

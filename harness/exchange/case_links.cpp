@@ -40,7 +40,9 @@ void CaseRun::await_opening(const PreparedStep& step) {
   Link* link = links_.unnamed_of_device();
   while (!link && links_.listen(*around_.device.endpoint, give_up))
     link = links_.unnamed_of_device();
-  if (link) links_.name(*link, step.link, index());
+  if (!link) return;
+  links_.name(*link, step.link, index());
+  link->to.protocol = step.protocol;
 }
 
 void CaseRun::close(const PreparedStep& step) {

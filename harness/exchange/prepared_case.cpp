@@ -177,7 +177,7 @@ Status add_frames(PreparedStep& step) {
 Result<PreparedStep> prepare_step(const Step& source, vectors::LinkNames& links, Spoken& spoken) {
   const Result<std::string> link = links.next(source);
   if (!link) return link.error();
-  if (source.kind == Step::Kind::open)
+  if (source.kind == Step::Kind::open || source.kind == Step::Kind::expect_open)
     if (const Status opened = spoken.open(source); !opened) return opened.error();
   const Channel& to = spoken.on(*link);
   PreparedStep step{&source, {}, *link, to.protocol, to.station};

@@ -149,7 +149,10 @@ Status DeviceHost::check_listens(const Party& party, const std::string& model) c
   };
   if (options_.port == 0) return ok();
   if (!options_.tcp.empty() && none(Transport::tcp))
-    return fail(fmt::format("cannot emulate {}: it takes no connections; leave --tcp out", model));
+    return fail(fmt::format(
+        "cannot emulate {}: it takes no connections as it is set up; leave --tcp out, or "
+        "give a client its server in \"services\" (vectors/README.md)",
+        model));
   if (!options_.udp.empty() && none(Transport::udp))
     return fail(fmt::format("cannot emulate {}: it takes no datagrams; leave --udp out", model));
   return ok();

@@ -48,9 +48,7 @@ class Judge {
     if (!transcript_.dead.empty())
       findings_.miss_in_any_case("link dead after this frame: " + transcript_.dead);
     findings_.settle(*prepared_.source, rules_.binding_decisions);
-    if (!unread_.empty())
-      findings_.result.notes.push_back(
-          fmt::format("judged on the wire alone: {} cannot be read", fmt::join(unread_, ", ")));
+    if (!unread_.empty()) judge_unread();
     return std::move(findings_.result);
   }
 
@@ -97,6 +95,25 @@ class Judge {
       case Step::Kind::expect_open: judge_opening(step, record, share.opened); return false;
       default: return false;
     }
+  }
+
+  /// What nobody has looked at is not judged; what the line has shown against the device stands,
+  /// and so does a case that is about the line.
+  void judge_unread() {
+    const bool counters_alone =
+        std::ranges::all_of(unread_, [](const std::string& one) { return one.starts_with('@'); });
+    const std::string not_read = fmt::format(
+        "{} could not be read{}", fmt::join(unread_, ", "),
+        counters_alone ? ": no request asks for counters" : "; give --aux, a second port of it");
+    if (findings_.missed() || findings_.result.verdict == Verdict::error ||
+        prepared_.source->line_alone)
+      return findings_.result.notes.push_back("judged on the wire alone: " + not_read);
+    if (!findings_.result.message.empty())
+      findings_.result.notes.push_back(findings_.result.message);
+    findings_.lower_to(Verdict::inconclusive,
+                       "the line shows nothing wrong, but what the case looks at in the device is "
+                       "not judged: " +
+                           not_read);
   }
 
   std::string without_end() const {
@@ -348,6 +365,10 @@ class Judge {
     if (!opened)
       return findings_.miss(fmt::format("the device did not open a connection within {:.0f} ms",
                                         to_ms(record.deadline - record.cause)));
+    const vectors::LinkSpec& due = step.step->link;
+    if ((due.port != 0 || !due.protocol.empty()) && opened->port != step.port)
+      return findings_.miss(fmt::format("the device opened a connection to TCP {}; {} is due",
+                                        opened->port, step.port));
     // What makes it ask may take its time on another port.
     constexpr Duration margin = 100ms;
     const Time reason = std::max(record.cause, waited_until_);

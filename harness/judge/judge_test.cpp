@@ -102,6 +102,43 @@ TEST_F(JudgeTest, ARequestBeforeTheAnswerIsCompleteIsPipelining) {
   EXPECT_EQ(judged(steps, "must", "printed rule", client).verdict, Verdict::pass);
 }
 
+/// Nobody has looked into a client that has no second channel: that is no verdict on it.
+TEST_F(JudgeTest, WhatNobodyReadsIsNotJudged) {
+  const std::string client = R"("given": {"config": {"role": "client"}}, )",
+                    look = R"({"wait": "10ms"}, {"check": {"%MW1": "00FF"}})",
+                    asks = R"({"send": "'<go>'"}, {"expect": "'<q1>'"}, )";
+  for (const char* level : {"must", "should", "info"}) {
+    const Judgement alone = judged(look, level, "printed rule", client);
+    EXPECT_EQ(alone.verdict, Verdict::inconclusive) << level;
+    EXPECT_EQ(alone.message,
+              "the line shows nothing wrong, but what the case looks at in the device is not "
+              "judged: %MW1 could not be read; give --aux, a second port of it");
+  }
+  endpoint.answers["<go>"] = Pieces{{1ms, "<q1>"}};
+  EXPECT_EQ(judged(asks + look, "must", "printed rule", client).verdict, Verdict::inconclusive);
+  EXPECT_THAT(judged(R"({"check": {"@status": "0005"}})", "must", "printed rule", client).message,
+              HasSubstr("@status could not be read: no request asks for counters"));
+}
+
+TEST_F(JudgeTest, ACaseAboutTheLineIsJudgedByIt) {
+  endpoint.answers["<go>"] = Pieces{{1ms, "<q1>"}};
+  const Judgement result =
+      judged(R"({"send": "'<go>'"}, {"expect": "'<q1>'"}, {"check": {"%MW1": "00FF"}})", "must",
+             "printed rule", R"("line_alone": true, "given": {"config": {"role": "client"}}, )");
+  EXPECT_EQ(result.verdict, Verdict::pass);
+  EXPECT_THAT(result.notes, testing::ElementsAre(HasSubstr("judged on the wire alone: %MW1")));
+}
+
+/// What the line shows against it stands.
+TEST_F(JudgeTest, AMissOnTheLineIsOneWhateverIsNotRead) {
+  endpoint.answers["<go>"] = Pieces{{1ms, "<q2>"}};
+  const Judgement wrong =
+      judged(R"({"send": "'<go>'"}, {"expect": "'<q1>'"}, {"check": {"%MW1": "00FF"}})", "must",
+             "printed rule", R"("given": {"config": {"role": "client"}}, )");
+  EXPECT_EQ(wrong.verdict, Verdict::fail);
+  EXPECT_THAT(wrong.notes, testing::ElementsAre(HasSubstr("judged on the wire alone: %MW1")));
+}
+
 /// Both ends of a turnaround, its guard band and the floor below which it cannot be judged.
 TEST_F(JudgeTest, TurnaroundHasALeastTime) {
   rules.turnaround_min = 4ms;

@@ -107,6 +107,7 @@ struct Case {
   std::vector<std::pair<std::string, std::string>> memory;
   bool fresh = false;
   bool transpose = true;
+  bool line_alone = false;  // its line is the whole case: what it looks at in memory is beside it
   std::vector<Step> steps;
   bool by_rule = false;  // made from another case (explore::derived_cases)
   nlohmann::json facts;  // kind table: not null

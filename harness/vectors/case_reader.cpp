@@ -216,7 +216,7 @@ class StepReader {
         step.ending = read_ending(value["expect_close"]);
         step.may_stay = value["expect_close"] == "may";
         return;
-      case Step::Kind::expect_open: step.on = text_of(value["expect_open"], row_); return;
+      case Step::Kind::expect_open: return read_open(value["expect_open"], row_, step);
       case Step::Kind::open:
       case Step::Kind::close:
       case Step::Kind::partner: return;
@@ -322,6 +322,7 @@ Case CaseReader::read(const Combination& combination) const {
   if (vector_.contains("models"))
     for (const json& model : vector_["models"]) result.models.push_back(text_of(model, row));
   result.transpose = vector_.value("transpose", true);
+  result.line_alone = vector_.value("line_alone", false);
   result.file = file_;
   if (vector_.contains("given")) read_given(vector_["given"], row, result);
   if (vector_.contains("facts")) result.facts = nlohmann::json(substitute(vector_["facts"], row));

@@ -29,6 +29,16 @@ bool pauses(const Step& step) {
   });
 }
 
+/// Has a P2P channel of the device this protocol for its own?
+bool speaks(const nlohmann::json& config, const std::string& protocol) {
+  const auto p2p = config.find("p2p");
+  if (p2p == config.end() || !p2p->is_object()) return false;
+  const nlohmann::json channels = p2p->value("channels", nlohmann::json::array());
+  return std::ranges::any_of(channels, [&](const nlohmann::json& one) {
+    return one.is_object() && one.value("protocol", "") == protocol;
+  });
+}
+
 bool sends(Step::Kind kind) { return kind == Step::Kind::send || kind == Step::Kind::partner; }
 
 }  // namespace
@@ -104,8 +114,13 @@ std::string LinkNames::line_of(const LinkSpec& link) const {
 }
 
 Result<std::string> LinkNames::opened(const Step& step) {
-  if (client_)
-    return fail("the device opens the connections of a case of role client; expect_open names one");
+  const std::string& protocol = step.link.protocol;
+  const auto services = source_.config.find("services");
+  const bool serves = services != source_.config.end() && services->contains(protocol);
+  if (client_ && !serves)
+    return fail(
+        "the device opens the connections of a case of role client; expect_open names one, or "
+        "\"protocol\" of \"open\" a server in given.config.services");
   if (!network_ && step.link.protocol.empty())
     return fail(fmt::format(
         "{} runs on a serial line, which is always open; take \"open\" out, or name the "
@@ -116,10 +131,7 @@ Result<std::string> LinkNames::opened(const Step& step) {
   const Entry* same = find(step.on);
   if (same && same->state == State::open)
     return fail(fmt::format("link '{}' is open already", step.on));
-  const std::string& protocol = step.link.protocol;
-  const auto services = source_.config.find("services");
-  if (!protocol.empty() && protocol != source_.protocol &&
-      (services == source_.config.end() || !services->contains(protocol)))
+  if (!protocol.empty() && protocol != source_.protocol && !serves)
     return fail(
         fmt::format("{} is no service of this case; list it in given.config.services", protocol));
   entries_.push_back(
@@ -136,6 +148,12 @@ Result<std::string> LinkNames::opened_by_device(const Step& step) {
   if (step.on.empty() || step.on == aux_link || (same && same->state == State::open))
     return fail(fmt::format("a connection cannot be called '{}': {}", step.on,
                             same ? "that name is taken" : "it needs a name"));
+  if (step.link.transport == Transport::udp)
+    return fail("expect_open waits for a connection, which no datagram opens; take transport out");
+  if (!step.link.protocol.empty() && step.link.protocol != source_.protocol &&
+      !speaks(source_.config, step.link.protocol))
+    return fail(fmt::format("no channel of the device speaks {}; list it in p2p.channels",
+                            step.link.protocol));
   entries_.push_back({step.on});
   return step.on;
 }

@@ -118,7 +118,7 @@ constexpr std::array step_keys{
     Key{"silence", &yes},         Key{"wait", &duration},    Key{"partner", &partner},
     Key{"set", &memory},          Key{"check", &memory},     Key{"do", &text},
     Key{"open", &open},           Key{"close", &close},      Key{"expect_close", &ending},
-    Key{"expect_open", &text},    Key{"on", &text},          Key{"within", &duration},
+    Key{"expect_open", &open},    Key{"on", &text},          Key{"within", &duration},
     Key{"every", &duration},      Key{"max_gap", &duration}, Key{"times", &times},
     Key{"clause", &text_or_texts}};
 constexpr Shape step{.kind = Kind::object, .keys = step_keys};
@@ -168,7 +168,7 @@ constexpr std::array vector_keys{Key{"id", &id, true},        Key{"rev", &rev},
                                  Key{"decision", &decisions}, Key{"models", &texts},
                                  Key{"each", &each},          Key{"given", &given},
                                  Key{"steps", &steps},        Key{"facts", &any_object},
-                                 Key{"transpose", &boolean}};
+                                 Key{"line_alone", &boolean}, Key{"transpose", &boolean}};
 constexpr std::array vector_demands{Demand{"basis", argued_words, "why", ""},
                                     Demand{"kind", table_word, "facts", "steps"}};
 constexpr Shape vector{.kind = Kind::object, .keys = vector_keys, .demands = vector_demands};

@@ -16,7 +16,7 @@ enum class Verdict {
   xpass,         // a waiver that no longer holds
   skip,          // outside the profile of the device
   blocked,       // needs a permission, fixture or mode not given
-  inconclusive,  // the bench cannot judge (noise, timing floor)
+  inconclusive,  // the bench cannot judge (not read, noise, timing floor)
   error          // port, emulator, vector or harness trouble: the state before judging
 };
 

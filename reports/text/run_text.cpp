@@ -19,7 +19,7 @@ std::string verdict_meaning(Verdict verdict) {
     case Verdict::xpass: return "a waiver that no longer holds";
     case Verdict::skip: return "outside the profile of the device";
     case Verdict::blocked: return "needs a permission, fixture or mode not given";
-    case Verdict::inconclusive: return "the bench cannot judge (noise, timing floor)";
+    case Verdict::inconclusive: return "the bench cannot judge (not read, noise, timing floor)";
     case Verdict::error: return "port, emulator, vector or harness trouble";
   }
   return "";

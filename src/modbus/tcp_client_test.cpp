@@ -21,7 +21,8 @@ class TcpClient : public testing::Test {
       {"flag": "%MX0", "read": "0x40000", "save": "%DW0", "station": 1}]}})");
     plc = std::move(*plc::make_plc("xbc-h", config));
     const Status added = p2p::add_network_clients(
-        *plc, config, {.tcp = 502}, [] { return make_modbus_p2p_driver(ModbusMode::tcp); });
+        *plc, config,
+        {{"modbus-tcp", {.tcp = 502}, [] { return make_modbus_p2p_driver(ModbusMode::tcp); }}});
     if (!added) throw std::runtime_error(added.error().message);
     network.attach(*plc->network());
   }

@@ -16,13 +16,16 @@ using ::testing::HasSubstr;
 
 constexpr std::uint16_t port = 502, udp_port = 2005;
 
+std::unique_ptr<P2pDriver> make_driver() { return std::make_unique<test::TestDriver>(); }
+
 Result<std::unique_ptr<plc::Plc>> make_plc(const json& p2p, const json& more = json::object()) {
   json config{{"role", "client"}, {"p2p", p2p}};
   config.update(more);
   Result<std::unique_ptr<plc::Plc>> plc = plc::make_plc("xbc-h", config);
   if (!plc) return plc;
-  const Status added = add_network_clients(**plc, config, {.tcp = port, .udp = udp_port},
-                                           [] { return std::make_unique<test::TestDriver>(); });
+  const Status added = add_network_clients(**plc, config,
+                                           {{"test", {.tcp = port, .udp = udp_port}, make_driver},
+                                            {"other", {.tcp = 2004}, make_driver}});
   if (!added) return added.error();
   return plc;
 }
@@ -277,12 +280,65 @@ TEST_F(DatagramClient, HasAnotherPortWhenThePowerWent) {
   EXPECT_EQ(heard(), "1:ask 0");
 }
 
+/// What the first doings of channels 1 and 2 are, whose blocks fire together.
+std::vector<Burst> first_doings(const json& channels) {
+  const auto plc =
+      make_plc({{"partner", "10.0.0.9"},
+                {"channels", channels},
+                {"blocks",
+                 {{{"flag", "%MX0"}, {"read", "%MW0"}, {"save", "%DW0"}},
+                  {{"flag", "%MX0"}, {"channel", 2}, {"read", "%MW0"}, {"save", "%DW1"}}}}});
+  EXPECT_TRUE(plc) << plc.error().message;
+  if (!plc || !(*plc)->set("%MX0", "01")) return {};
+  std::vector<Burst> doings = (*plc)->network()->advance(Time{});
+  std::erase_if(doings, [](const Burst& one) { return one.event == LinkEvent::data; });
+  return doings;
+}
+
+/// FEnet EN 7.1.1, table 7-3: protocol, partner, port and transport are those of a channel.
+TEST(NetworkClients, EachChannelHasSettingsOfItsOwn) {
+  const auto of_two = [](json settings) {
+    settings["channel"] = 2;
+    const std::vector<Burst> doings = first_doings(json::array({settings}));
+    EXPECT_EQ(doings.size(), 2u);
+    EXPECT_EQ(doings.at(0).port, port) << "that of channel 1 is as it was";
+    EXPECT_EQ(doings.at(0).peer, "10.0.0.9");
+    return doings.at(1);
+  };
+  const Burst other = of_two({{"protocol", "other"}, {"partner", "10.0.0.7"}});
+  EXPECT_EQ(other.port, 2004);
+  EXPECT_EQ(other.peer, "10.0.0.7");
+  EXPECT_EQ(of_two({{"port", 4000}}).port, 4000);
+  EXPECT_EQ(of_two({{"port", 4000}}).peer, "10.0.0.9") << "the partner of all channels";
+  const Burst datagram = of_two({{"transport", "udp"}});
+  EXPECT_EQ(datagram.event, LinkEvent::datagram);
+  EXPECT_EQ(datagram.port, udp_port);
+}
+
+TEST(NetworkClients, ChannelsThatCannotBeAreRefused) {
+  const auto error = [](const char* channels) {
+    const auto plc = make_plc(
+        {{"channels", json::parse(channels)},
+         {"blocks", {{{"flag", "%MX0"}, {"channel", 2}, {"read", "%MW0"}, {"save", "%DW0"}}}}});
+    return plc ? std::string("taken") : plc.error().message;
+  };
+  EXPECT_THAT(error(R"([{"channel": 2, "protocol": "othr"}])"),
+              HasSubstr("channel 2 cannot speak 'othr'; use one of test, other"));
+  EXPECT_THAT(error(R"([{"channel": 2, "protocol": "other", "transport": "udp"}])"),
+              HasSubstr("other is fixed to TCP"));
+  EXPECT_THAT(error(R"([{"channel": 2}, {"channel": 2}])"),
+              HasSubstr("p2p.channels[1]: channel 2 is there twice"));
+  EXPECT_THAT(error(R"([{"port": 4000}])"), HasSubstr("p2p.channels[0]: give its channel, 1 to 3"));
+  EXPECT_THAT(error(R"([{"channel": 4}])"), HasSubstr("channel"));
+  EXPECT_THAT(error(R"({"channel": 2})"), HasSubstr("p2p.channels: it is no list"));
+  EXPECT_THAT(error(R"([{"channel": 2, "prot": 3}])"), HasSubstr("prot"));
+}
+
 TEST(NetworkClients, WithoutADatagramPortAreFixedToTcp) {
   const json config = json::parse(R"({"role": "client", "p2p": {"transport": "udp", "blocks": [
       {"flag": "%MX0", "read": "%MW0", "save": "%DW0"}]}})");
   const auto plc = plc::make_plc("xbc-h", config);
-  const Status added = add_network_clients(**plc, config, {.tcp = port},
-                                           [] { return std::make_unique<test::TestDriver>(); });
+  const Status added = add_network_clients(**plc, config, {{"test", {.tcp = port}, make_driver}});
   ASSERT_FALSE(added);
   EXPECT_THAT(added.error().message, HasSubstr("fixed to TCP"));
 }

@@ -1,10 +1,13 @@
 #include "src/p2p/p2p_plc.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+
+#include "src/base/spelling.hpp"
 
 namespace fieldproof::p2p {
 
@@ -101,21 +104,48 @@ Status check_channels(const P2pParameters& parameters, unsigned dedicated) {
                   used, dedicated, most_connections));
 }
 
-Result<NetworkPartner> partner_of(const P2pParameters& parameters, const PartnerPorts& ports) {
-  const bool datagrams = parameters.transport == Transport::udp;
-  if (datagrams && ports.udp == 0)
-    return fail(
-        "cannot read p2p: transport is udp, and this driver is fixed to TCP (FEnet EN "
-        "table 7-3); leave transport out");
-  const std::uint16_t usual = datagrams ? ports.udp : ports.tcp;
-  return NetworkPartner{parameters.partner,
-                        parameters.port != 0 ? static_cast<std::uint16_t>(parameters.port) : usual,
-                        parameters.transport};
+Result<const NetworkDriver*> driver_of(const P2pChannel& channel,
+                                       const std::vector<NetworkDriver>& drivers) {
+  if (channel.protocol.empty()) return &drivers.front();
+  std::vector<std::string_view> names;
+  for (const NetworkDriver& one : drivers) {
+    if (one.protocol == channel.protocol) return &one;
+    names.push_back(one.protocol);
+  }
+  return fail(fmt::format("cannot read p2p.channels: channel {} cannot speak '{}'; use one of {}{}",
+                          channel.number, channel.protocol, fmt::join(names, ", "),
+                          suggestion(channel.protocol, names)));
+}
+
+Result<NetworkPartner> partner_of(const P2pChannel& channel, const NetworkDriver& driver) {
+  const bool datagrams = channel.transport == Transport::udp;
+  if (datagrams && driver.ports.udp == 0)
+    return fail(fmt::format(
+        "cannot read p2p: transport of channel {} is udp, and {} is fixed to TCP (FEnet EN table "
+        "7-3); leave transport out",
+        channel.number, driver.protocol));
+  const std::uint16_t usual = datagrams ? driver.ports.udp : driver.ports.tcp;
+  return NetworkPartner{channel.partner,
+                        channel.port != 0 ? static_cast<std::uint16_t>(channel.port) : usual,
+                        channel.transport};
+}
+
+Status add_network_client(plc::Plc& plc, const P2pParameters& parameters, unsigned channel,
+                          const std::vector<NetworkDriver>& drivers) {
+  const P2pChannel settings = parameters.settings_of(channel);
+  const Result<const NetworkDriver*> driver = driver_of(settings, drivers);
+  if (!driver) return driver.error();
+  const Result<NetworkPartner> partner = partner_of(settings, **driver);
+  if (!partner) return partner.error();
+  auto client =
+      make_client(plc.memory(), parameters, channel, (*driver)->make(), {network_time_out});
+  if (!client) return client.error();
+  return plc.add(std::make_unique<NetworkClient>(std::move(*client), *partner, plc.own_links()));
 }
 }  // namespace
 
-Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, const PartnerPorts& ports,
-                           const std::function<std::unique_ptr<P2pDriver>()>& driver) {
+Status add_network_clients(plc::Plc& plc, const nlohmann::json& config,
+                           const std::vector<NetworkDriver>& drivers) {
   const auto keys = plc::network_keys({"connections", "p2p"});
   if (const Status status = plc::known_keys(config, whose, keys); !status) return status;
   P2pRules rules = network_p2p_rules();
@@ -129,18 +159,23 @@ Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, const Pa
   const Result<P2pParameters> parameters = parse_p2p_parameters(config["p2p"], model, rules);
   if (!parameters) return parameters.error();
   if (const Status fit = check_channels(*parameters, dedicated); !fit) return fit;
-  const Result<NetworkPartner> partner = partner_of(*parameters, ports);
-  if (!partner) return partner.error();
 
   write_p2p_registers(plc.memory(), *parameters);
-  for (const unsigned channel : channels_in_use(*parameters)) {
-    auto client = make_client(plc.memory(), *parameters, channel, driver(), {network_time_out});
-    if (!client) return client.error();
-    const Status added =
-        plc.add(std::make_unique<NetworkClient>(std::move(*client), *partner, plc.own_links()));
-    if (!added) return added;
-  }
+  for (const unsigned channel : channels_in_use(*parameters))
+    if (const Status added = add_network_client(plc, *parameters, channel, drivers); !added)
+      return added;
   return ok();
+}
+
+unsigned connections_beside(const nlohmann::json& p2p) {
+  std::set<nlohmann::json> channels;
+  const nlohmann::json usual = p2p.value("channel", nlohmann::json(1));
+  for (const nlohmann::json& block : p2p.value("blocks", nlohmann::json::array())) {
+    const std::string function = block.value("function", "read");
+    if (function != "esend" && function != "ereceive")
+      channels.insert(block.value("channel", usual));
+  }
+  return most_connections - static_cast<unsigned>(std::min<std::size_t>(channels.size(), 3));
 }
 
 bool is_p2p_client(const nlohmann::json& config) {

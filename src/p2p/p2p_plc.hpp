@@ -15,6 +15,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>
+#include <vector>
 
 #include "src/p2p/client.hpp"
 #include "src/p2p/network_client.hpp"
@@ -48,12 +49,22 @@ struct PartnerPorts {
   std::uint16_t tcp = 0, udp = 0;
 };
 
+/// What a channel of an Ethernet module may speak (FEnet EN table 7-3).
+struct NetworkDriver {
+  std::string_view protocol;  // "modbus-tcp"
+  PartnerPorts ports;
+  std::function<std::unique_ptr<P2pDriver>()> make;
+};
+
 /// The P2P channels of an Ethernet module (FEnet EN 7.3.2), up to three. `config`: mode, role,
 /// station (the unit of a block that gives no station), connections (of the module's server, which
-/// leave 4 less as many channels), p2p (parameters.hpp). Errors name the key, or the block and its
-/// key.
-Status add_network_clients(plc::Plc& plc, const nlohmann::json& config, const PartnerPorts& ports,
-                           const std::function<std::unique_ptr<P2pDriver>()>& driver);
+/// leave 4 less as many channels), p2p (parameters.hpp). `drivers`: the first is that of a channel
+/// that names none. Errors name the key, or the block and its key.
+Status add_network_clients(plc::Plc& plc, const nlohmann::json& config,
+                           const std::vector<NetworkDriver>& drivers);
+
+/// How many connections the P2P channels in `p2p` leave to the module's server (FEnet EN 7.3.2).
+unsigned connections_beside(const nlohmann::json& p2p);
 
 /// Is role client asked for?
 bool is_p2p_client(const nlohmann::json& config);

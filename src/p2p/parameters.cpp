@@ -281,9 +281,10 @@ Status check_together(const P2pParameters& parameters) {
 
 Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel& model,
                                            const P2pRules& rules) {
-  constexpr std::array<std::string_view, 8> keys{"blocks", "channel", "link", "parameter",
-                                                 "email",  "partner", "port", "transport"};
-  const auto own_keys = std::span(keys).first(rules.network ? keys.size() : keys.size() - 4);
+  constexpr std::array<std::string_view, 9> keys{"blocks",    "channel",   "link",
+                                                 "parameter", "email",     "partner",
+                                                 "port",      "transport", "channels"};
+  const auto own_keys = std::span(keys).first(rules.network ? keys.size() : keys.size() - 5);
   if (const Status known = plc::known_keys(p2p, "p2p", own_keys); !known) return known.error();
   P2pParameters parameters;
   parameters.network = rules.network;
@@ -299,6 +300,11 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel&
   if (reader.error()) return *reader.error();
   if (parameters.parameter == 0 || parameters.channel == 0)
     return fail("cannot read p2p: parameter is 1 to 3, and channel " + channel_numbers(rules));
+  if (rules.network) {
+    Result<std::vector<P2pChannel>> channels = parse_p2p_channels(p2p, rules.channels);
+    if (!channels) return channels.error();
+    parameters.channels = std::move(*channels);
+  }
   parameters.email = p2p.contains("email");
   const auto list = p2p.find("blocks");
   // The events of the CPU are mailed without any block.
@@ -324,6 +330,12 @@ Result<P2pParameters> parse_p2p_parameters(const json& p2p, const plc::PlcModel&
   std::ranges::sort(parameters.blocks, {}, &P2pBlock::number);
   if (const Status status = check_together(parameters); !status) return status.error();
   return parameters;
+}
+
+P2pChannel P2pParameters::settings_of(unsigned channel_number) const {
+  const auto own = std::ranges::find(channels, channel_number, &P2pChannel::number);
+  if (own != channels.end()) return *own;
+  return {channel_number, {}, partner, port, transport};
 }
 
 Status check_p2p_driver(const P2pParameters& parameters, unsigned channel, const P2pDriver& driver,

@@ -19,6 +19,7 @@
 #include "src/base/burst.hpp"
 #include "src/base/result.hpp"
 #include "src/p2p/block.hpp"
+#include "src/p2p/channels.hpp"
 
 namespace fieldproof::p2p {
 
@@ -43,7 +44,11 @@ struct P2pParameters {
   std::string partner{};                 // its address; empty: whoever is there
   unsigned port = 0;                     // where it listens; 0: where the service has its port
   Transport transport = Transport::tcp;  // FEnet EN table 7-3
+  std::vector<P2pChannel> channels{};    // that have settings of their own
   bool email = false;                    // p2p has e-mail settings (src/email/settings.hpp)
+
+  /// Its own settings, else those of all channels.
+  P2pChannel settings_of(unsigned channel_number) const;
 };
 
 /// What holds whatever the driver is. Errors name the block and the key: "cannot set up P2P block

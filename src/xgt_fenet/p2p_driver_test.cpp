@@ -22,8 +22,10 @@ Result<std::unique_ptr<plc::Plc>> make(json block, const std::string& model = "x
                     {"p2p", {{"transport", transport}, {"blocks", json::array({block})}}}};
   Result<std::unique_ptr<plc::Plc>> plc = plc::make_plc(model, config);
   if (!plc) return plc;
-  const Status added = p2p::add_network_clients(**plc, config, {.tcp = tcp_port, .udp = udp_port},
-                                                [] { return std::make_unique<FenetP2pDriver>(); });
+  const Status added = p2p::add_network_clients(
+      **plc, config, {{"xgt-fenet", {.tcp = tcp_port, .udp = udp_port}, [] {
+                         return std::make_unique<FenetP2pDriver>();
+                       }}});
   if (!added) return added.error();
   return plc;
 }

@@ -191,8 +191,9 @@ Kit client(const std::string& name, const std::string& folder) {
   };
   const auto concerns = [](const Case& one) {
     if (one.config.value("monitor", false)) return false;
-    return one.protocol == "udata" ? one.config.contains("instructions")
-                                   : vectors::is_client_case(one);
+    return one.protocol == "udata"
+               ? one.config.contains("instructions")
+               : vectors::is_client_case(one) && !one.config.contains("services");
   };
   return {name, folder, names(p2p_broken::faults(), "", folder + "/"), concerns, run_one};
 }

@@ -21,6 +21,7 @@
 #include "suites/modbus/memory_requests.hpp"
 #include "suites/modbus/message.hpp"
 #include "suites/modbus/placing.hpp"
+#include "suites/services/clients.hpp"
 #include "suites/services/services.hpp"
 
 namespace fieldproof::modbus_suite {
@@ -199,9 +200,11 @@ class Modbus : public harness::PlcProtocol,
  private:
   Status add_clients(plc::Plc& plc, const nlohmann::json& config) const {
     if (mode_ == modbus::ModbusMode::tcp) {
-      const Status added = p2p::add_network_clients(plc, config, {.tcp = default_port()}, [] {
-        return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp);
-      });
+      const Status added = p2p::add_network_clients(
+          plc, config, services::client_drivers({"modbus-tcp", {.tcp = default_port()}, [] {
+                                                   return modbus::make_modbus_p2p_driver(
+                                                       modbus::ModbusMode::tcp);
+                                                 }}));
       return added ? email::add_email(plc, config) : added;
     }
     return p2p::add_p2p_clients(plc, config, [mode = mode_](const plc::PortConfig& port) {

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "src/base/spelling.hpp"
 #include "src/modbus/modbus_plc.hpp"
+#include "src/p2p/p2p_plc.hpp"
 #include "src/xgt_cnet/plc.hpp"
 #include "src/xgt_cnet/plc_config.hpp"
 #include "src/xgt_fenet/plc.hpp"
@@ -25,6 +27,7 @@ constexpr unsigned second_channel = 2;
 struct Kind {
   std::string_view name;
   Status (*add)(plc::Plc& plc, const json& config);
+  bool network = false;
 };
 
 Status add_xgt_cnet(plc::Plc& plc, const json& config) {
@@ -42,12 +45,31 @@ Status add_modbus(plc::Plc& plc, const json& config) {
 constexpr std::array kinds{Kind{"xgt-cnet", add_xgt_cnet},
                            Kind{"modbus-rtu", add_modbus<modbus::ModbusMode::rtu>},
                            Kind{"modbus-ascii", add_modbus<modbus::ModbusMode::ascii>},
-                           Kind{"modbus-tcp", add_modbus<modbus::ModbusMode::tcp>},
-                           Kind{"xgt-fenet", xgt_fenet::add_server}};
+                           Kind{"modbus-tcp", add_modbus<modbus::ModbusMode::tcp>, true},
+                           Kind{"xgt-fenet", xgt_fenet::add_server, true}};
 
-Status add_service(plc::Plc& plc, const std::string& name, const json& config) {
+/// A server beside P2P channels has the connections that they leave, or less.
+Result<json> beside_channels(const json& main, json config) {
+  constexpr const char* number = "connections";
+  if (!p2p::is_p2p_client(main) || !main.contains("p2p") || !config.is_object()) return config;
+  const unsigned left = p2p::connections_beside(main["p2p"]);
+  const auto own = config.find(number);
+  if (own == config.end())
+    config[number] = left;
+  else if (own->is_number_integer() && own->get<std::int64_t>() > left)
+    return fail(fmt::format(
+        "connections is {}, and the P2P channels leave {} of the module's 4 (FEnet EN 7.3.2)",
+        own->dump(), left));
+  return config;
+}
+
+Status add_service(plc::Plc& plc, const std::string& name, const json& main, const json& config) {
   const auto kind = std::ranges::find(kinds, name, &Kind::name);
-  if (kind != kinds.end()) return kind->add(plc, config);
+  if (kind != kinds.end() && !kind->network) return kind->add(plc, config);
+  if (kind != kinds.end()) {
+    const Result<json> beside = beside_channels(main, config);
+    return beside ? kind->add(plc, *beside) : Status(beside.error());
+  }
   std::vector<std::string_view> names;
   for (const Kind& one : kinds) names.push_back(one.name);
   return fail(fmt::format("there is no such service{}", suggestion(name, names)));
@@ -70,7 +92,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_plc(std::string_view model, co
       return fail(fmt::format("cannot read services: {} is no object of protocol and configuration",
                               further.dump()));
     for (const auto& [name, of_service] : further.items())
-      if (const Status added = add_service(**plc, name, of_service); !added)
+      if (const Status added = add_service(**plc, name, own, of_service); !added)
         return fail(fmt::format("cannot add service '{}': {}", name, added.error().message));
   }
   return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));

@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "src/modbus/modbus_plc.hpp"
+#include "src/modbus/p2p_driver.hpp"
+#include "src/modbus/tcp_server.hpp"
+#include "suites/services/clients.hpp"
 
 namespace fieldproof::services {
 namespace {
@@ -39,6 +42,41 @@ TEST(Services, WithoutAnyThereIsOneAlone) {
   ASSERT_TRUE(device) << device.error().message;
   EXPECT_FALSE((*device)->line(2));
   EXPECT_FALSE(wants_services({{"station", 1}}));
+}
+
+/// FEnet EN 7.3.2: the channels of a module are 4, those of P2P and those of its server.
+TEST(Services, AServerHasTheConnectionsThatChannelsLeave) {
+  const auto made = [](const json& server, int channels) {
+    json blocks = json::array();
+    for (int channel = 1; channel <= channels; ++channel)
+      blocks.push_back(
+          {{"flag", "%MX0"}, {"channel", channel}, {"read", "0x40000"}, {"save", "%MW0"}});
+    const json config{
+        {"role", "client"}, {"p2p", {{"blocks", blocks}}}, {"services", {{"xgt-fenet", server}}}};
+    return make_plc("xbc-h", config, [](plc::Plc& plc, const json& own) {
+      return p2p::add_network_clients(
+          plc, own,
+          client_drivers({"modbus-tcp", {.tcp = modbus::tcp_port}, [] {
+                            return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp);
+                          }}));
+    });
+  };
+  EXPECT_TRUE(made({{"connections", 1}}, 3));
+  EXPECT_TRUE(made({{"connections", 3}}, 1));
+  const auto most = made({{"connections", 2}}, 3);
+  ASSERT_FALSE(most);
+  EXPECT_THAT(most.error().message,
+              HasSubstr("connections is 2, and the P2P channels leave 1 of the module's 4"));
+  const auto two = made(json::object(), 2);
+  ASSERT_TRUE(two) << two.error().message;
+  net::Host& module = *(*two)->network();
+  for (const LinkId link : {1u, 2u, 3u})
+    module.receive(
+        {.bytes = {}, .start = 0ns, .link = link, .event = LinkEvent::opened, .port = 2004});
+  std::vector<LinkId> reset;
+  for (const Burst& one : module.advance(1s))
+    if (one.event == LinkEvent::reset) reset.push_back(one.link);
+  EXPECT_THAT(reset, testing::ElementsAre(3u)) << "two are left";
 }
 
 TEST(Services, WhatIsNoneIsNamed) {

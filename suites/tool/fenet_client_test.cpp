@@ -2,6 +2,8 @@
 // another language that asks what --stimulus names.
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "harness/system/sockets/test_sockets.hpp"
 #include "suites/tool/tool_files.hpp"
 
@@ -32,14 +34,14 @@ class FenetClient : public testing::Test {
     results = read_results(folder / "out/results.ndjson");
     return finished;
   }
-  Finished stimulated(const std::string& filter, const std::string& behaviour = "") {
+  Finished stimulated(const std::string& filter, const std::string& behaviour = "",
+                      std::vector<std::string> more = {}) {
     ProcessOptions options;
     if (!behaviour.empty()) options.environment = {{"FIELDPROOF_CLIENT", behaviour}};
-    return run(filter,
-               {"--profile", "xbc-h", "--stimulus",
-                std::string("exec python3 ") + FIELDPROOF_SOURCE_DIR +
-                    "/suites/tool/testdata/fenet_client.py " + tcp + ' ' + udp},
-               options);
+    more.insert(more.end(), {"--profile", "xbc-h", "--stimulus",
+                             std::string("exec python3 ") + FIELDPROOF_SOURCE_DIR +
+                                 "/suites/tool/testdata/fenet_client.py " + tcp + ' ' + udp});
+    return run(filter, std::move(more), options);
   }
 
   TestFolder folder;
@@ -95,6 +97,31 @@ TEST_F(FenetClient, OneThatErrsIsCaughtOnTheWire) {
   EXPECT_EQ(stimulated("xgt_fenet/client/write/single/word", "big_endian").code, 1);
   EXPECT_THAT(results.of("xgt_fenet/client/write/single/word").at("message").get<std::string>(),
               StartsWith("data: expected"));
+}
+
+/// Who takes what is no reply asks for the next block, and the wire shows that.
+TEST_F(FenetClient, AReplyThatWasTakenWronglyShowsInTheNextRequest) {
+  EXPECT_EQ(stimulated("xgt_fenet/client/seen/*").code, 0);
+  EXPECT_EQ(results.counts()["PASS"], 6u);
+  const std::string wrong = "xgt_fenet/client/seen/wrong_invoke",
+                    previous = "xgt_fenet/client/seen/previous_reply";
+  for (const auto& [behaviour, caught] :
+       {std::pair<std::string, std::set<std::string>>{"any_id", {wrong, previous}},
+        {"no_count", {previous}}}) {
+    EXPECT_EQ(stimulated(wrong + ':' + previous, behaviour).code, 1);
+    for (const std::string& id : {wrong, previous})
+      EXPECT_EQ(results.verdict(id), caught.contains(id) ? "FAIL" : "PASS") << behaviour << id;
+  }
+}
+
+/// Words that nobody has looked at: no check of them is a verdict.
+TEST_F(FenetClient, WhatIsInItsMemoryIsNotJudged) {
+  const Finished finished = stimulated(
+      "xgt_fenet/client/limits/registers/*:*/client/limits/flags/*:*/client/errors/wrong_invoke:"
+      "xgt_fenet/client/read/save_areas/*");
+  EXPECT_EQ(results.counts()["PASS"], 0u) << finished.out;
+  EXPECT_GE(results.counts()["INCONCLUSIVE"], 10u);
+  EXPECT_EQ(stimulated("xgt_fenet/client/limits/registers/*", "", {"--qualify"}).code, 1);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "suites/user_frames/protocol.hpp"
+#include "suites/services/clients.hpp"
 
 #include <fmt/format.h>
 
@@ -182,10 +183,13 @@ Result<std::unique_ptr<plc::EmulatedDevice>> UserFrames::make_client(
   if (!plc) return plc.error();
   constexpr p2p::PartnerPorts ports{user_frames::first_network_port,
                                     user_frames::first_network_port};
-  const Status added = p2p::add_network_clients(**plc, own, ports, [&] {
-    return user_frames::make_user_frame_network_driver(
-        definition, blocks_of(own, model, p2p::network_p2p_rules()), user_frames::network_gap);
-  });
+  const Status added = p2p::add_network_clients(
+      **plc, own, services::client_drivers({"user-frames-net", ports, [&] {
+                                              return user_frames::make_user_frame_network_driver(
+                                                  definition,
+                                                  blocks_of(own, model, p2p::network_p2p_rules()),
+                                                  user_frames::network_gap);
+                                            }}));
   if (!added) return added.error();
   if (const Status mails = email::add_email(**plc, own); !mails) return mails.error();
   return std::unique_ptr<plc::EmulatedDevice>(std::move(*plc));

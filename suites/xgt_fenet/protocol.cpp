@@ -11,6 +11,7 @@
 #include "src/xgt_fenet/p2p_driver.hpp"
 #include "src/xgt_fenet/plc.hpp"
 #include "suites/checks/checks.hpp"
+#include "suites/services/clients.hpp"
 #include "suites/services/services.hpp"
 #include "suites/xgt_cnet/protocol.hpp"
 #include "suites/xgt_fenet/frame_parts.hpp"
@@ -137,9 +138,11 @@ class XgtFenet : public harness::PlcProtocol,
 
  private:
   static Status add_clients(plc::Plc& plc, const nlohmann::json& config) {
-    constexpr p2p::PartnerPorts ports{xgt_fenet::tcp_port, xgt_fenet::udp_port};
     const Status added = p2p::add_network_clients(
-        plc, config, ports, [] { return std::make_unique<xgt_fenet::FenetP2pDriver>(); });
+        plc, config,
+        services::client_drivers({"xgt-fenet", {xgt_fenet::tcp_port, xgt_fenet::udp_port}, [] {
+                                    return std::make_unique<xgt_fenet::FenetP2pDriver>();
+                                  }}));
     return added ? email::add_email(plc, config) : added;
   }
 };

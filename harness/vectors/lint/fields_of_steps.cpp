@@ -8,7 +8,8 @@ Result<notation::Fields> FieldsOfSteps::next(const Step& step) {
   const Result<std::string> link = links_.next(step);
   if (!link) return link.error();
   const std::string& named = step.link.protocol;
-  if (step.kind == Step::Kind::open && !named.empty() && named != own_.name()) {
+  const bool opens = step.kind == Step::Kind::open || step.kind == Step::Kind::expect_open;
+  if (opens && !named.empty() && named != own_.name()) {
     const harness::Protocol* const other = known_.find(named);
     if (!other) return fail(fmt::format("there is no protocol '{}'", named));
     services_[*link] = other;

@@ -20,7 +20,7 @@ class BrokenLineClient : public plc::SerialDevice {
                    const P2pClient::Timing& timing, const Behaviour& behaviour,
                    const BrokenCore::MakeDriver& driver)
       : core_(model, parameters, run, behaviour) {
-    core_.make_engines(timing, driver, [this](std::unique_ptr<P2pClient> engine, const auto&) {
+    core_.make_engines(timing, driver, [this](std::unique_ptr<P2pClient> engine, unsigned) {
       engines_.push_back(std::move(engine));
       return [client = engines_.back().get()] { client->power_cycle(); };
     });

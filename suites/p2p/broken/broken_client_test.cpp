@@ -16,12 +16,13 @@ namespace {
 
 std::string folder_of(std::string_view id) { return std::string(id.substr(0, id.find('/'))); }
 
-/// A client, without the frame monitor, which stands outside of it; or a port with UDATA
-/// instructions, not a modem.
+/// A client, without the frame monitor, which stands outside of it, and without a server beside it;
+/// or a port with UDATA instructions, not a modem.
 bool concerns(const Case& one) {
   if (one.protocol == "udata")
     return one.config.contains("instructions") && !one.config.value("monitor", false);
-  return vectors::is_client_case(one) && !one.config.value("monitor", false);
+  return vectors::is_client_case(one) && !one.config.value("monitor", false) &&
+         !one.config.contains("services");
 }
 
 /// The cases of a folder that concern the faults here.

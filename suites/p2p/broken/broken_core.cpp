@@ -33,10 +33,10 @@ void BrokenCore::make_engines(P2pClient::Timing timing, const MakeDriver& driver
   if (behaviour_.timing) behaviour_.timing(timing);
   const auto make = [&](const P2pParameters& of, unsigned channel) {
     auto engine = std::make_unique<P2pClient>(
-        memory_, of, channel, driver([this](const p2p::P2pBlock& block) { asked(block); }), timing,
-        [this] { saved(); });
+        memory_, of, channel, driver([this](const p2p::P2pBlock& block) { asked(block); }, channel),
+        timing, [this] { saved(); });
     engines_.push_back(engine.get());
-    power_cycles_.push_back(place(std::move(engine), of));
+    power_cycles_.push_back(place(std::move(engine), channel));
   };
   std::set<unsigned> channels;
   P2pParameters one = parameters_;

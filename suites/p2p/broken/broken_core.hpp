@@ -13,10 +13,11 @@ namespace fieldproof::p2p_broken {
 
 class BrokenCore {
  public:
-  using MakeDriver = std::function<std::unique_ptr<p2p::P2pDriver>(BrokenDriver::Asked asked)>;
+  using MakeDriver =
+      std::function<std::unique_ptr<p2p::P2pDriver>(BrokenDriver::Asked asked, unsigned channel)>;
   /// Puts an engine where its frames come and go, and says how its power is cycled.
   using Place = std::function<std::function<void()>(std::unique_ptr<p2p::P2pClient> engine,
-                                                    const p2p::P2pParameters& of)>;
+                                                    unsigned channel)>;
 
   BrokenCore(const plc::PlcModel& model, const p2p::P2pParameters& parameters, bool run,
              const Behaviour& behaviour);
@@ -29,6 +30,8 @@ class BrokenCore {
   bool is_busy() const;
   plc::PlcMemory& memory() { return memory_; }
   const Behaviour& behaviour() const { return behaviour_; }
+  /// With which it works.
+  const p2p::P2pParameters& parameters() const { return parameters_; }
 
   Status set(std::string_view address, std::string_view hex);
   Result<std::string> get(std::string_view address, std::size_t digits) const;

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "src/modbus/p2p_driver.hpp"
+#include "src/modbus/tcp_server.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/ethernet.hpp"
 #include "src/user_frames/network_server.hpp"
@@ -40,30 +41,36 @@ Result<MakeGood> good_driver(std::string_view protocol, std::string_view model,
   });
 }
 
-NetworkPartner partner_of(std::string_view protocol, const P2pParameters& parameters) {
-  const bool datagrams = parameters.transport == Transport::udp;
+NetworkPartner partner_of(std::string_view protocol, const p2p::P2pChannel& channel) {
+  const bool datagrams = channel.transport == Transport::udp;
   const std::uint16_t fenet = datagrams ? xgt_fenet::udp_port : xgt_fenet::tcp_port;
-  return {parameters.partner,
-          protocol == "modbus-tcp" ? std::uint16_t{502}
-          : protocol == of_frames  ? user_frames::first_network_port
-                                   : fenet,
-          parameters.transport};
+  const std::uint16_t usual = protocol == "modbus-tcp" ? modbus::tcp_port
+                              : protocol == of_frames  ? user_frames::first_network_port
+                                                       : fenet;
+  return {channel.partner, channel.port != 0 ? static_cast<std::uint16_t>(channel.port) : usual,
+          channel.transport};
 }
 
 /// Behind connections, or datagrams.
 class BrokenNetworkClient : public plc::EmulatedDevice, public net::Host {
  public:
   BrokenNetworkClient(const plc::PlcModel& model, const P2pParameters& parameters, bool run,
-                      const Behaviour& behaviour, std::string_view protocol, const MakeGood& good)
+                      const Behaviour& behaviour, std::string_view protocol,
+                      const std::function<MakeGood(std::string_view)>& good)
       : core_(model, parameters, run, behaviour) {
-    NetworkPartner partner = partner_of(protocol, parameters);
-    if (behaviour.partner) behaviour.partner(partner);
-    const auto driver = [&](BrokenDriver::Asked asked) {
-      auto made = std::make_unique<BrokenDriver>(good(), behaviour, std::move(asked));
+    const auto spoken = [&](unsigned channel) {
+      const std::string own = core_.parameters().settings_of(channel).protocol;
+      return own.empty() ? std::string(protocol) : own;
+    };
+    const auto driver = [&](BrokenDriver::Asked asked, unsigned channel) {
+      auto made =
+          std::make_unique<BrokenDriver>(good(spoken(channel))(), behaviour, std::move(asked));
       drivers_.push_back(made.get());
       return made;
     };
-    const auto place = [&](std::unique_ptr<P2pClient> engine, const P2pParameters&) {
+    const auto place = [&](std::unique_ptr<P2pClient> engine, unsigned channel) {
+      NetworkPartner partner = partner_of(spoken(channel), core_.parameters().settings_of(channel));
+      if (behaviour.partner) behaviour.partner(partner);
       clients_.push_back(
           std::make_unique<NetworkClient>(std::move(engine), partner, ethernet_.own_links()));
       (void)ethernet_.add(*clients_.back());
@@ -135,8 +142,11 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_network_client(
   if (!parameters) return parameters.error();
   const Result<MakeGood> good = good_driver(protocol, model, *parameters);
   if (!good) return good.error();
-  return std::unique_ptr<plc::EmulatedDevice>(
-      std::make_unique<BrokenNetworkClient>(**plc, *parameters, run, behaviour, protocol, *good));
+  const auto of_channel = [&](std::string_view spoken) {
+    return spoken == protocol ? *good : *good_driver(spoken, model, *parameters);
+  };
+  return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<BrokenNetworkClient>(
+      **plc, *parameters, run, behaviour, protocol, of_channel));
 }
 
 }  // namespace fieldproof::p2p_broken

@@ -86,6 +86,16 @@ std::vector<Fault> network_faults() {
       {"net_one_connection", "all channels share a connection",
        each_block([](P2pBlock& block) { block.channel = 1; }),
        "xgt_fenet/client/connection/two_channels", ""},
+      {"net_channels_alike", "all channels have the settings of the module",
+       works_with([](p2p::P2pParameters& parameters) { parameters.channels.clear(); }),
+       "xgt_fenet/client/channels/ports",
+       "the device opened a connection to TCP 2004; 4000 is due"},
+      {"net_port_of_the_module", "every channel asks at port 2004, whatever it speaks",
+       [] {
+         return Behaviour{.partner = [](p2p::NetworkPartner& partner) { partner.port = 2004; }};
+       },
+       "xgt_fenet/client/channels/xgt_and_modbus",
+       "the device opened a connection to TCP 2004; 502 is due"},
       {"net_two_at_once", "a block does not wait for the reply to another",
        [] { return Behaviour{.all_at_once = true}; }, "xgt_fenet/client/connection/one_at_a_time",
        ""},

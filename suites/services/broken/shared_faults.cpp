@@ -63,6 +63,27 @@ Behaviour one_at_a_time() {
                        }}};
 }
 
+/// While a P2P channel has a connection the server takes none.
+Behaviour asks_or_serves() {
+  const auto asks = std::make_shared<bool>(false);
+  return {.edge = {.hears_link =
+                       [asks](Burst& burst) { return !*asks || burst.event != LinkEvent::opened; },
+                   .does =
+                       [asks](std::vector<Burst>& doings) {
+                         for (const Burst& one : doings)
+                           if (one.event == LinkEvent::opened) *asks = true;
+                       }}};
+}
+
+/// A connection that the device does not take stays without an answer.
+Behaviour refuses_nobody() {
+  return {.edge = {.does = [](std::vector<Burst>& doings) {
+            std::erase_if(doings, [](const Burst& one) {
+              return one.event == LinkEvent::reset && one.link < first_own_link;
+            });
+          }}};
+}
+
 }  // namespace
 
 std::vector<Fault> shared_faults() {
@@ -91,6 +112,15 @@ std::vector<Fault> shared_faults() {
       {"line_ends_with_connection", "a connection that ends takes the line with it",
        line_ends_with_connection, "modbus_tcp/cnet_and_tcp/close_is_not_the_line",
        "no answer within"},
+      {"asks_or_serves", "while a P2P channel has a connection the server takes none",
+       asks_or_serves, "xgt_fenet/client/and_server/three_channels", "no answer"},
+      {"refuses_nobody", "who is one too many beside P2P is not reset", refuses_nobody,
+       "xgt_fenet/client/and_server/one_channel", "the device did not close the connection"},
+      {"one_client_beside_channels", "P2P leaves the server one connection, whatever it has itself",
+       services([](json& config, json& own) {
+         if (config.value("role", "") == "client") own["connections"] = 1;
+       }),
+       "xgt_fenet/client/and_server/one_channel", ""},
       {"no_network_beside_line", "beside a channel of Cnet the Ethernet module hears no datagram",
        edge({.hears_link = [](Burst& burst) { return burst.event != LinkEvent::datagram; }}),
        "xgt_fenet/cnet_and_fenet/three_ways", "no answer within"},

@@ -3,6 +3,7 @@ words, over TCP or UDP, for the blocks that lines of --stimulus on its standard 
 
   fenet_client.py TCP_PORT UDP_PORT    of a partner on 127.0.0.1
   FIELDPROOF_CLIENT=no_count           each request has the invoke id 1
+  FIELDPROOF_CLIENT=any_id             a reply is taken whatever its invoke id is
   FIELDPROOF_CLIENT=big_endian         what is written goes out high byte first
 """
 import json
@@ -83,7 +84,8 @@ class Channel:
             if len(self.heard) < size:
                 break
             frame, self.heard = self.heard[:size], self.heard[size:]
-            if frame[:10] == b"LSIS-XGT\0\0" and frame[13] == 0x11 and frame[14:16] == word(self.invoke):
+            own = frame[14:16] == word(self.invoke) or BEHAVIOUR == "any_id"
+            if frame[:10] == b"LSIS-XGT\0\0" and frame[13] == 0x11 and own:
                 self.until = None
 
     def tick(self):
