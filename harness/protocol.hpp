@@ -164,6 +164,15 @@ class Protocol {
   /// nothing; empty: they do not.
   virtual std::string tied_to_default(const std::vector<Bytes>& requests) const;
 
+  /// What is wrong with addresses and actions (`do`) of a vector, for a device of `model` with
+  /// `config`, as their text tells; nothing where only a device can tell.
+  virtual Status check_texts(
+      [[maybe_unused]] std::string_view model, [[maybe_unused]] const nlohmann::json& config,
+      [[maybe_unused]] const std::vector<std::pair<std::string, std::string>>& memory,
+      [[maybe_unused]] const std::vector<std::string>& actions) const {
+    return ok();
+  }
+
   /// What is set on the declared device, in this order, so that an action of a case (`do`) happens;
   /// empty: it is no matter of memory. Errors say what the device lacks for it.
   using Setting = std::pair<std::string, std::string>;  // address and hex digits
@@ -178,9 +187,12 @@ class Protocol {
   /// What must be so on the device before such a case begins: addresses and values. `axis` is one
   /// that it moves.
   virtual std::vector<Setting> premises([[maybe_unused]] std::string_view axis) const { return {}; }
-  /// The axis that an action moves, or that writing to an address moves; empty: none.
+  /// The axis that an action moves ("1", of a partner "B:1"), or that writing to an address moves;
+  /// empty: none; "?": one that nobody can tell.
   virtual std::string moves([[maybe_unused]] std::string_view action) const { return {}; }
   virtual std::string moved_by([[maybe_unused]] std::string_view address) const { return {}; }
+  /// The last axis that any device of it has; 0: it moves none.
+  virtual unsigned last_axis() const { return 0; }
 
   /// Does a case that looks at these values, one list a look, want a moment to the millisecond? No
   /// request keeps one.
@@ -249,7 +261,7 @@ class Protocol {
   virtual std::uint32_t words_of(std::string_view area) const;
 
   /// Areas whose words may be physical outputs: written only when named.
-  virtual std::string_view output_areas() const = 0;
+  virtual std::vector<std::string_view> output_areas() const = 0;
 
   /// Areas of words ("%MW0" is the first of M) by which devices are told apart, with the last words
   /// that the known models have, in rising order. Empty: there are none.

@@ -41,6 +41,12 @@ std::optional<Protocol::WordName> Protocols::read_word(std::string_view text) co
   return std::nullopt;
 }
 
+unsigned Protocols::last_axis() const {
+  unsigned last = 0;
+  for (const Protocol* protocol : table_) last = std::max(last, protocol->last_axis());
+  return last;
+}
+
 Result<const Protocol*> Protocols::choose(std::string_view name, std::string_view model) const {
   for (const Protocol* protocol : table_)
     if (name.empty() ? model.empty() || protocol->has_model(model) : protocol->name() == name)

@@ -23,6 +23,8 @@ class Protocols {
   const Protocol* find(std::string_view name) const;
   /// Protocol::read_word of the first that can read it.
   std::optional<Protocol::WordName> read_word(std::string_view text) const;
+  /// The last axis that a device of any has.
+  unsigned last_axis() const;
   /// The protocol `name`, or where it is empty, the first one that has `model` (empty: the default
   /// protocol). Errors name what there is.
   Result<const Protocol*> choose(std::string_view name, std::string_view model) const;

@@ -70,7 +70,7 @@ struct TestProtocol : Protocol, public Probing, public MemoryRequests, public Ta
     return {{"M", 1, 1, "%MW1"}};
   }
 
-  std::string_view output_areas() const override { return "PQ"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q"}; }
   Status check_table(const nlohmann::json&) const override { return ok(); }
 };
 

@@ -290,7 +290,7 @@ TEST_F(BenchTest, TheResultCarriesWhatAReportNeeds) {
 // ---- fence, profile
 
 struct FenceProtocol : harness::TestProtocol {
-  std::string_view output_areas() const override { return "PQU"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 };
 
 std::string objection(const std::string& allowed, const harness::Protocol::Written& written) {
@@ -314,11 +314,43 @@ TEST(WriteFence, OutputsOnlyWhenNamed) {
   EXPECT_EQ(objection("all,P", {"P", 0, 0, "%PW0"}), "");
 }
 
+/// An area is an output by its whole name: QD is one, and D is none.
+TEST(WriteFence, AreasAreNamedWhole) {
+  safety::WriteFence fence;
+  ASSERT_TRUE(fence.allow("all", harness::read_word_name));
+  EXPECT_EQ(fence.allowed("QD", {"Y", "QD"}).size(), 0u);
+  EXPECT_EQ(fence.allowed("D", {"Y", "QD"}).size(), 1u);
+}
+
+TEST(WriteFence, AnAxisOfAnotherPlcIsAnotherAxis) {
+  safety::WriteFence fence;
+  ASSERT_TRUE(fence.allow_motion("1,B:3-4", 20));
+  EXPECT_EQ(fence.motion_objection("1", "x"), "");
+  EXPECT_EQ(fence.motion_objection("B:1", "sets B:SM2010"),
+            "moves axis B:1 (sets B:SM2010); allow it with --allow-motion B:1, when nobody stands "
+            "near");
+  EXPECT_EQ(fence.motion_objection("B:4", "x"), "");
+  EXPECT_NE(fence.motion_objection("4", "x"), "");
+  EXPECT_THAT(fence.motion_objection("B:?", "x"), HasSubstr("--allow-motion B:all"));
+  ASSERT_TRUE(fence.allow_motion("B:all", 20));
+  EXPECT_EQ(fence.motion_objection("B:?", "x"), "");
+  EXPECT_NE(fence.motion_objection("?", "x"), "");
+  ASSERT_TRUE(fence.allow_motion("all", 20));
+  EXPECT_EQ(fence.motion_objection("C:7", "x"), "");
+}
+
+TEST(WriteFence, AxesEndWithTheLastOne) {
+  safety::WriteFence fence;
+  EXPECT_TRUE(fence.allow_motion("20", 20));
+  EXPECT_THAT(fence.allow_motion("21", 20).error().message, HasSubstr("axes are 1 to 20"));
+  EXPECT_THAT(fence.allow_motion("B:0", 20).error().message, HasSubstr("write an axis (1)"));
+}
+
 TEST(WriteFence, RangesThatMeetAreOne) {
   EXPECT_EQ(objection("M100,M101-M102", {"M", 100, 102, "%MW100"}), "");
   safety::WriteFence fence;
   ASSERT_TRUE(fence.allow("M110-M119,M100-M105,M106,D3", harness::read_word_name));
-  const std::vector<safety::WriteFence::Words> words = fence.allowed("M", "P");
+  const std::vector<safety::WriteFence::Words> words = fence.allowed("M", {"P"});
   ASSERT_EQ(words.size(), 2u);
   EXPECT_EQ(words[0].last, 106u);
   EXPECT_EQ(words[1].first, 110u);

@@ -236,7 +236,9 @@ std::string Eligibility::fence_objection(const PreparedCase& prepared) const {
       return fmt::format("cannot set {}: {}", address, requests.error().message);
     if (std::string why = options_.fence.objection({*named}, protocol_); !why.empty()) return why;
   }
-  return options_.fence.objection(written_by(prepared), protocol_);
+  const std::vector<Protocol::Written> written = written_by(prepared);
+  if (std::string why = options_.fence.objection(written, protocol_); !why.empty()) return why;
+  return options_.fence.motion_objection(written, protocol_);
 }
 
 /// In the order of the case.

@@ -62,8 +62,9 @@ explore::Server server_of(const RunPlan& plan, const harness::Protocol& configur
       .over_the_wire = over_the_wire(plan),
       .room = {},
       .allowed = [&plan, &configured, emulated](ByteView request) {
-        return emulated ||
-               plan.bench.fence.objection(configured.written_by(request), configured).empty();
+        const std::vector<harness::Protocol::Written> written = configured.written_by(request);
+        return emulated || (plan.bench.fence.objection(written, configured).empty() &&
+                            plan.bench.fence.motion_objection(written, configured).empty());
       }};
   if (!emulated)
     server.room = [&plan, &configured](const std::string& area) {

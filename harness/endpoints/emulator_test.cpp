@@ -88,7 +88,7 @@ class TinyProtocol : public harness::Protocol {
   std::optional<std::size_t> frame_length(ByteView bytes) const override { return bytes.size(); }
   std::vector<harness::Field> explain(ByteView) const override { return {}; }
   std::vector<Written> written_by(ByteView) const override { return {}; }
-  std::string_view output_areas() const override { return {}; }
+  std::vector<std::string_view> output_areas() const override { return {}; }
 };
 
 const TinyProtocol tiny_protocol;

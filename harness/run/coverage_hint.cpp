@@ -49,8 +49,7 @@ std::vector<std::string> ranges_for(const bench::Benches& port,
       if (write.unknown()) continue;
       areas[write.area].protocol = protocol;
       areas[write.area].last_words.push_back(write.last_word);
-      if (protocol->output_areas().find(write.area) != std::string_view::npos)
-        outputs.insert(write.area);
+      if (std::ranges::count(protocol->output_areas(), write.area) > 0) outputs.insert(write.area);
     }
   }
   std::vector<std::string> ranges;

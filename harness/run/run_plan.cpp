@@ -170,7 +170,8 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
   if (ends_with_run(endpoint) && options.allow_write.empty() && !options.read_only)
     bench.fence.allow_everything();
   for (const std::string& axes : options.allow_motion)
-    if (Status allowed = bench.fence.allow_motion(axes); !allowed) return allowed.error();
+    if (Status allowed = bench.fence.allow_motion(axes, known.last_axis()); !allowed)
+      return allowed.error();
   const Result<int> station = station_of(endpoint, bench.profile);
   if (!station) return station.error();
   bench.station = *station;

@@ -27,12 +27,16 @@ class WriteFence {
   /// All there is, outputs too: of a device that is nobody's plant.
   void allow_everything() { ranges_.push_back({std::string(everything), 0, ~0u}); }
 
-  /// Axes that may move: "1", "3-5", "all"; several separated by commas. Errors name the part that
-  /// is wrong.
-  Status allow_motion(const std::string& axes);
+  /// Axes that may move: "1", "3-5", of a partner of the device "B:1", "B:all", and "all", of
+  /// whatever there is; several separated by commas. `last` is the last that there is. Errors name
+  /// the part that is wrong.
+  Status allow_motion(const std::string& axes, unsigned last);
   /// Empty when that axis may; else what must be allowed: "moves axis 3 (MOTO ...); allow it with
   /// --allow-motion 3". An axis that nobody can tell is allowed with all.
   std::string motion_objection(std::string_view axis, std::string_view by) const;
+  /// The same of all axes that writing there moves.
+  std::string motion_objection(const std::vector<harness::Protocol::Written>& written,
+                               const harness::Protocol& protocol) const;
 
   bool empty() const { return ranges_.empty(); }
 
@@ -45,7 +49,8 @@ class WriteFence {
     std::uint32_t first = 0, last = 0;
   };
   /// What is allowed of an area, in the order of its words, joined where ranges meet.
-  std::vector<Words> allowed(std::string_view area, std::string_view output_areas) const;
+  std::vector<Words> allowed(std::string_view area,
+                             const std::vector<std::string_view>& output_areas) const;
 
  private:
   static constexpr std::string_view everything = "*";
@@ -53,10 +58,15 @@ class WriteFence {
     std::string area;  // "all" for every area
     std::uint32_t first = 0, last = 0;
   };
-  bool allows(const harness::Protocol::Written& written, std::string_view output_areas) const;
+  struct Axes {
+    std::string of;  // "", "B:"; "all" of whatever there is
+    std::uint32_t first = 0, last = 0;
+  };
+  bool allows(const harness::Protocol::Written& written,
+              const std::vector<std::string_view>& output_areas) const;
 
   std::vector<Range> ranges_;
-  std::vector<Words> axes_;
+  std::vector<Axes> axes_;
 };
 
 }  // namespace fieldproof::safety

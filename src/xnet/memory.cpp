@@ -19,8 +19,8 @@ struct Run {
 
 /// What `digits` hex digits at a name cover; 0: one component.
 Result<Run> find_run(std::string_view verb, std::string_view name, std::size_t digits,
-                     Series series) {
-  const std::optional<Component> component = find_component(name, series);
+                     const Memory& memory) {
+  const std::optional<Component> component = memory.find(name);
   if (!component)
     return fail(fmt::format(
         "cannot {} {}: a XINJE PLC has no such component; write D100, HD0, M10 or, in octal, X17",
@@ -33,7 +33,7 @@ Result<Run> find_run(std::string_view verb, std::string_view name, std::size_t d
                     "digits for each",
                     verb, name, digits, each));
   const std::size_t count = digits / each;
-  const std::uint32_t room = room_from(*component, series);
+  const std::uint32_t room = memory.room_from(*component);
   if (count > room)
     return fail(fmt::format("cannot {} {} components from {} on: {} ends at {}", verb, count, name,
                             component->area->name,
@@ -42,7 +42,8 @@ Result<Run> find_run(std::string_view verb, std::string_view name, std::size_t d
 }
 }  // namespace
 
-Memory::Memory(Series series) : series_(series) {
+Memory::Memory(Series series, std::uint32_t registers_d)
+    : series_(series), registers_d_(registers_d ? registers_d : area_named("D").size) {
   std::size_t size = 0;
   for (const Area& area : areas()) {
     std::vector<Stored>& stored = stored_.emplace_back();
@@ -52,6 +53,17 @@ Memory::Memory(Series series) : series_(series) {
     }
   }
   values_.resize(size);
+}
+
+std::optional<Component> Memory::find(std::string_view name) const {
+  const std::optional<Component> found = find_component(name, series_);
+  return found && room_from(*found) > 0 ? found : std::nullopt;
+}
+
+std::uint32_t Memory::room_from(const Component& component) const {
+  const std::uint32_t room = xnet::room_from(component, series_);
+  if (component.area->name != "D") return room;
+  return component.number < registers_d_ ? std::min(room, registers_d_ - component.number) : 0;
 }
 
 std::size_t Memory::place(const Component& component) const {
@@ -73,7 +85,7 @@ void Memory::write(const Component& component, unsigned value) {
 Status Memory::set(std::string_view name, std::string_view hex) {
   if (hex.empty())
     return fail(fmt::format("cannot set {}: there is no value; give its hex digits", name));
-  const Result<Run> run = find_run("set", name, hex.size(), series_);
+  const Result<Run> run = find_run("set", name, hex.size(), *this);
   if (!run) return run.error();
   const std::size_t each = digits_of(*run->first.area);
   std::vector<unsigned> values;
@@ -95,7 +107,7 @@ Status Memory::set(std::string_view name, std::string_view hex) {
 }
 
 Result<std::string> Memory::get(std::string_view name, std::size_t digits) const {
-  const Result<Run> run = find_run("get", name, digits, series_);
+  const Result<Run> run = find_run("get", name, digits, *this);
   if (!run) return run.error();
   std::string hex;
   for (std::uint32_t i = 0; i < run->count; ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,10 +14,13 @@ namespace fieldproof::xnet {
 
 class Memory {
  public:
-  /// All zero.
-  explicit Memory(Series series = Series::xd5);
+  /// All zero. `registers_d`: of D, as many as the model has (1-3, note 3); 0: those of its series.
+  explicit Memory(Series series = Series::xd5, std::uint32_t registers_d = 0);
 
   Series series() const { return series_; }
+  /// As of areas.hpp, but for what the model has no D for.
+  std::optional<Component> find(std::string_view name) const;
+  std::uint32_t room_from(const Component& component) const;
 
   /// `component` is one of this series; a bit is 0 or 1.
   std::uint16_t read(const Component& component) const;
@@ -39,6 +43,7 @@ class Memory {
   std::size_t place(const Component& component) const;
 
   Series series_;
+  std::uint32_t registers_d_;
   std::uint64_t touched_ = 0;
   struct Stored {
     Range range;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string>
 
 #include "src/xnet/words.hpp"
@@ -35,17 +36,18 @@ const Form* find_form(std::string_view name) {
 }
 
 /// Operands of the motion bus are D and HD, and constants (the tables of 2-2).
-std::optional<Component> read_register(std::string_view word, Series series) {
-  const std::optional<Component> found = find_component(word, series);
+std::optional<Component> read_register(std::string_view word, const Memory& memory) {
+  const std::optional<Component> found = memory.find(word);
   const bool suits = found && (found->area->name == "D" || found->area->name == "HD");
-  return suits && room_from(*found, series) >= 2 ? found : std::nullopt;  // a double word
+  return suits && memory.room_from(*found) >= 2 ? found : std::nullopt;  // a double word
 }
 
 std::optional<double> read_float(std::string_view word) {
   double value = 0;
   const char* const end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
-  if (!word.empty() && error == std::errc() && stop == end) return value;
+  if (!word.empty() && error == std::errc() && stop == end)
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;  // "nan", "inf"
   const std::optional<std::int32_t> whole = constant<std::int32_t>(word);
   return whole ? std::optional<double>(*whole) : std::nullopt;
 }
@@ -135,7 +137,7 @@ bool MotionBus::knows(std::string_view action) {
   return name == "servo" || find_form(name) != nullptr;
 }
 
-Result<MotionBus::Order> MotionBus::read(std::string_view action) const {
+Result<MotionBus::Order> MotionBus::read(std::string_view action, const Memory& memory) {
   Words words(action);
   const Form* const form = find_form(words.next());
   if (!form) return wrong(action, "it is no instruction of the motion bus");
@@ -146,7 +148,7 @@ Result<MotionBus::Order> MotionBus::read(std::string_view action) const {
     const std::string_view word = order.operands[i] = words.next();
     const bool is_number = form->what == Name::mosyn ? read_float(word).has_value()
                                                      : constant<std::int32_t>(word).has_value();
-    if (read_register(word, memory_.series()) || (is_number && !form->registers_only)) continue;
+    if (read_register(word, memory) || (is_number && !form->registers_only)) continue;
     return wrong(action, fmt::format("'{}' is no {}", word,
                                      form->registers_only ? "register D or HD"
                                                           : "number, nor a register D or HD"));
@@ -174,14 +176,14 @@ Result<MotionBus::Order> MotionBus::read(std::string_view action) const {
 Status MotionBus::act(std::string_view action) {
   memory_.touch();
   if (action.starts_with("servo ")) return act_on_servo(action);
-  const Result<Order> order = read(action);
+  const Result<Order> order = read(action, memory_);
   if (!order) return order.error();
   if (!downloads_) execute(*order, next_);
   return ok();
 }
 
 double MotionBus::operand(std::string_view word, bool floating) const {
-  if (const std::optional<Component> found = read_register(word, memory_.series()))
+  if (const std::optional<Component> found = read_register(word, memory_))
     return read_number(memory_, *found, floating ? Kind::floating : Kind::dword);
   return *read_float(word);
 }
@@ -200,17 +202,17 @@ void MotionBus::execute(const Order& order, Time now) {
     case Name::mousyn: return axis.release();
     case Name::mowrite: return axis.write_position(number(0));
     case Name::moread:
-      return write_number(memory_, *read_register(order.operands[0], memory_.series()), Kind::dword,
+      return write_number(memory_, *read_register(order.operands[0], memory_), Kind::dword,
                           axis.position());
   }
 }
 
 /// The tables of 2-2-3: data from S0 on, ten registers a segment; parameters from S1 on.
 void MotionBus::move_segments(const Order& order, Axis& axis, Time now) {
-  const Component data = *read_register(order.operands[0], memory_.series());
-  const Component parameters = *read_register(order.operands[1], memory_.series());
+  const Component data = *read_register(order.operands[0], memory_);
+  const Component parameters = *read_register(order.operands[1], memory_);
   constexpr std::uint32_t of_a_segment = 10, last_of_a_segment = 4, parameter_registers = 8;
-  const auto room = [&](const Component& from) { return room_from(from, memory_.series()); };
+  const auto room = [&](const Component& from) { return memory_.room_from(from); };
   const auto at = [&](const Component& from, std::uint32_t offset) {
     return read_number(memory_, {from.area, from.number + offset}, Kind::dword);
   };
@@ -225,30 +227,72 @@ void MotionBus::move_segments(const Order& order, Axis& axis, Time now) {
                      at(parameters, 6), now);
 }
 
+/// Is it bound to that axis, directly or by others? A ring would have no master.
+bool MotionBus::follows(int axis, unsigned master) const {
+  const auto own = std::ranges::find_if(bindings_, [&](const Binding& one) {
+    return static_cast<int>(one.slave) == axis && find(one.slave)->is_bound();
+  });
+  if (own == bindings_.end()) return false;
+  return own->master == static_cast<int>(master) || follows(own->master, master);
+}
+
 void MotionBus::bind(const Order& order) {
   Axis& slave = *find(order.axis);
   const Axis* const master = order.master > 0 ? find(static_cast<unsigned>(order.master)) : nullptr;
   const bool there = master || (order.master < 0 && order.master >= -4);
   if (!there || master == &slave) return slave.fail(AxisError::bound_axis);
+  if (follows(order.master, order.axis)) return slave.fail(AxisError::bound_not_ready);
   const bool master_ready = !master || (master->is_enabled() && !master->is_moving());
   if (!master_ready || !slave.is_enabled() || slave.is_moving() || slave.is_bound())
     return slave.fail(AxisError::bound_not_ready);
-  slave.bind(operand(order.operands[0], true));
+  const double ratio = operand(order.operands[0], true);
+  if (!std::isfinite(ratio)) return slave.fail(AxisError::bound_not_ready);
+  slave.bind(ratio);
   bindings_.push_back({order.master, order.axis, place_of(order.master)});
 }
 
 // ---- servos ----
 
-Status MotionBus::act_on_servo(std::string_view action) {
+namespace {
+
+constexpr std::string_view push = "push ";
+
+/// "servo 1 alarm": 1, and "alarm".
+std::pair<std::optional<std::uint32_t>, std::string_view> read_servo_action(
+    std::string_view action) {
   Words words(action);
   words.next();
   const std::optional<std::uint32_t> number = plain_number(words.next());
-  Axis* const axis = number ? find(*number) : nullptr;
-  if (!axis) return wrong(action, "there is no such servo");
+  return {number, words.rest()};
+}
+
+Status check_servo_action(std::string_view action) {
+  constexpr std::array<std::string_view, 9> known{"off",   "on",   "alarm",  "stuck alarm", "well",
+                                                  "stall", "free", "enable", "disable"};
+  const auto [number, what] = read_servo_action(action);
+  if (!number || *number < 1 || *number > last_axis) return wrong(action, "there is no such servo");
+  const bool pushed =
+      what.starts_with(push) && constant<std::int32_t>(what.substr(push.size())).has_value();
+  if (pushed || std::ranges::count(known, what) > 0) return ok();
+  return wrong(action,
+               "a servo can off, on, alarm, stuck alarm, well, stall, free, enable, disable, "
+               "push 500");
+}
+
+}  // namespace
+
+Status MotionBus::check(std::string_view action, const Memory& memory) {
+  if (action.starts_with("servo ")) return check_servo_action(action);
+  const Result<Order> order = read(action, memory);
+  return order ? ok() : Status(order.error());
+}
+
+Status MotionBus::act_on_servo(std::string_view action) {
+  if (const Status right = check_servo_action(action); !right) return right;
+  const auto [number, what] = read_servo_action(action);
+  Axis* const axis = find(*number);
   Servo& servo = axis->servo();
-  const std::string_view what = words.rest();
   axis->note(next_, "servo " + std::string(what));
-  constexpr std::string_view push = "push ";
   if (what == "off" || what == "on")
     servo.connected = what == "on";
   else if (what == "alarm" || what == "stuck alarm") {
@@ -260,12 +304,8 @@ Status MotionBus::act_on_servo(std::string_view action) {
     servo.stalled = what == "stall";
   else if (what == "enable" || what == "disable")
     servo.enabled_by_hand = what == "enable";
-  else if (what.starts_with(push) && constant<std::int32_t>(what.substr(push.size())))
-    axis->push(*constant<std::int32_t>(what.substr(push.size())));
   else
-    return wrong(action,
-                 "a servo can off, on, alarm, stuck alarm, well, stall, free, enable, disable, "
-                 "push 500");
+    axis->push(*constant<std::int32_t>(what.substr(push.size())));
   return ok();
 }
 

@@ -33,6 +33,8 @@ class MotionBus {
   /// "stall", "free", "enable", "disable", "push 500". Errors name the word: the text is wrong.
   /// What is wrong with the motion stands in SD2002.
   Status act(std::string_view action);
+  /// What is wrong with such a text, before there is a bus; `memory`: of a PLC of its model.
+  static Status check(std::string_view action, const Memory& memory);
 
   /// Power is gone and back.
   void restart();
@@ -47,11 +49,12 @@ class MotionBus {
     double seen = 0;  // where the master was
   };
   struct Order;
-  Result<Order> read(std::string_view action) const;
+  static Result<Order> read(std::string_view action, const Memory& memory);
   Status act_on_servo(std::string_view action);
   void execute(const Order& order, Time now);
   void move_segments(const Order& order, Axis& axis, Time now);
   void bind(const Order& order);
+  bool follows(int axis, unsigned master) const;
   double place_of(int master) const;
   void follow(Time now, Duration period);
   double operand(std::string_view word, bool floating) const;

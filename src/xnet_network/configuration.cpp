@@ -129,6 +129,9 @@ Result<Route> read_route(const json& object, const StationConfig& station) {
         fmt::format("the route to net {} has no gateway, and port {} is on net {}; give "
                     "the station that forwards",
                     net, route.port, port->net));
+  if (port->type == NetType::tbn && gateway > last_station)
+    return wrong(fmt::format("the route to net {} has gateway {}; stations of TBN are 1 to {}", net,
+                             gateway, last_station));
   if (gateway == port->station)
     return wrong(fmt::format("the route to net {} has this PLC itself as gateway", net));
   route.net = static_cast<std::uint16_t>(net);
@@ -190,7 +193,9 @@ Status read_servos(const json& config, StationConfig& station) {
   json list = own;
   if (own.is_number_unsigned()) {
     list = json::array();
-    const auto count = own.get<unsigned>();
+    const auto count = own.get<std::uint64_t>();
+    if (count > last_axis)
+      return wrong(fmt::format("\"servos\": {}; a motion bus has up to {}", count, last_axis));
     if (count > servos_at_first) station.slaves = 20;
     for (unsigned axis = 1; axis <= count; ++axis)
       list.push_back({{"axis", axis},
@@ -224,10 +229,8 @@ Status read_program(const json& config, StationConfig& station) {
     if (!is_instruction(rung.instruction) && !MotionBus::knows(rung.instruction))
       return wrong(
           fmt::format("program: '{}' at {} is no instruction of X-NET", rung.instruction, name));
-    if (is_instruction(rung.instruction))
-      if (const auto read = read_instruction(rung.instruction, Memory(station.model->series));
-          !read)
-        return wrong(fmt::format("program: {}", read.error().message));
+    if (const Status right = check_instruction(rung.instruction, *station.model); !right)
+      return wrong(fmt::format("program: {}", right.error().message));
     station.program.push_back(std::move(rung));
   }
   return ok();
@@ -253,6 +256,27 @@ const std::vector<Model>& models() {
 const Model* find_model(std::string_view name) {
   const auto found = std::ranges::find(models(), name, &Model::name);
   return found == models().end() ? nullptr : &*found;
+}
+
+const Memory& blank_memory(const Model& model) {
+  static const std::vector<Memory> all = [] {
+    std::vector<Memory> blank;
+    for (const Model& one : models()) blank.emplace_back(one.series, one.d);
+    return blank;
+  }();
+  return all[static_cast<std::size_t>(&model - models().data())];
+}
+
+Status check_instruction(std::string_view text, const Model& model) {
+  const Memory& memory = blank_memory(model);
+  if (!MotionBus::knows(text)) {
+    const auto read = read_instruction(text, memory);
+    return read ? ok() : Status(read.error());
+  }
+  if (!model.motion)
+    return fail(fmt::format("cannot execute '{}': {} has no motion bus; XDC, XDE and XG1 have",
+                            text, model.name));
+  return MotionBus::check(text, memory);
 }
 
 unsigned motion_port(const Model& model) { return model.name == "xg1" ? 2 : 4; }
@@ -324,6 +348,9 @@ struct OnNet {
 };
 
 Status check_pair(const OnNet& a, const OnNet& b) {
+  if (a.plc == b.plc)
+    return wrong(fmt::format("{} has two ports on net {}, {} and {}; give each net its own NetID",
+                             a.plc->name, a.port->net, a.port->number, b.port->number));
   const auto differ = [&](const char* what) {
     return wrong(fmt::format("{} and {} are on net {}, and their {} differ", a.named(), b.named(),
                              a.port->net, what));

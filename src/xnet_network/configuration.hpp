@@ -12,6 +12,7 @@
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
 #include "src/xnet/areas.hpp"
+#include "src/xnet/memory.hpp"
 #include "src/xnet_motion/servo.hpp"
 
 namespace fieldproof::xnet {
@@ -26,6 +27,10 @@ struct Model {
 };
 const std::vector<Model>& models();
 const Model* find_model(std::string_view name);
+/// Of a PLC of it that nobody has written to.
+const Memory& blank_memory(const Model& model);
+/// What is wrong with the text of an instruction, or of an action of a servo, for a PLC of `model`.
+Status check_instruction(std::string_view text, const Model& model);
 /// Where its motion bus is: the BD board, or port 2 of XG1 (2-1-2).
 unsigned motion_port(const Model& model);
 

@@ -43,9 +43,8 @@ class Reader {
         wrong(fmt::format("{} {} has more than 16 bits", what, word));
       return *value;
     }
-    const std::optional<Component> found = find_component(word, memory_.series());
-    if (found && !found->area->bits &&
-        room_from(*found, memory_.series()) > (double_word ? 1 : 0)) {
+    const std::optional<Component> found = memory_.find(word);
+    if (found && !found->area->bits && memory_.room_from(*found) > (double_word ? 1 : 0)) {
       const unsigned high = double_word ? memory_.read({found->area, found->number + 1}) : 0;
       return high << 16 | memory_.read(*found);
     }
@@ -80,10 +79,10 @@ void read_target(Reader& reader, Instruction& read) {
   read.address = target->number;
 }
 
-void read_local(Reader& reader, Series series, Instruction& read) {
+void read_local(Reader& reader, const Memory& memory, Instruction& read) {
   reader.keyword(read.reads ? "to" : "from");
   const std::string_view word = reader.next();
-  const std::optional<Component> local = find_component(word, series);
+  const std::optional<Component> local = memory.find(word);
   if (!local) return reader.wrong(fmt::format("this PLC has no '{}'", word));
   if (local->area->bits != read.bits)
     return reader.wrong(fmt::format("the local object {} is a {}, and the instruction is of {}",
@@ -114,7 +113,7 @@ Result<Instruction> read_instruction(std::string_view text, const Memory& memory
   read_target(reader, read);
   reader.keyword("count");
   read.count = reader.number("the count");
-  read_local(reader, memory.series(), read);
+  read_local(reader, memory, read);
   if (const std::string_view rest = reader.next(); !rest.empty())
     reader.wrong(fmt::format("'{}' stands behind its end", rest));
   if (reader.error()) return *reader.error();

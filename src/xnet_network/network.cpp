@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/bytes.hpp"
+#include "src/xnet_network/check_text.hpp"
 
 namespace fieldproof::xnet {
 
@@ -31,12 +32,10 @@ void count_up(Memory& memory, unsigned number) {
 }
 
 /// Is it an object of that PLC, all of it in one range (1-3, note 2)?
-std::optional<Component> reach(const Model& model, unsigned type, std::uint32_t address,
+std::optional<Component> reach(const Memory& memory, unsigned type, std::uint32_t address,
                                std::uint32_t count) {
-  const std::optional<Component> first = component_of(type, address, model.series);
-  if (!first || count > room_from(*first, model.series)) return std::nullopt;
-  if (first->area->name == "D" && address + count > model.d) return std::nullopt;
-  return first;
+  const std::optional<Component> first = component_of(type, address, memory.series());
+  return first && count <= memory.room_from(*first) ? first : std::nullopt;
 }
 
 /// Its port is free for it (2-1-2, notes 2 and 3), or configured for servos.
@@ -50,8 +49,9 @@ bool has_motion_bus(const StationConfig& plc) {
 
 XnetNetwork::XnetNetwork(std::vector<StationConfig> stations) {
   for (StationConfig& one : stations) {
-    const Series series = one.model->series;
-    plcs_.push_back(std::make_unique<Plc>(Plc{.config = std::move(one), .memory = Memory(series)}));
+    const Model& model = *one.model;
+    plcs_.push_back(std::make_unique<Plc>(
+        Plc{.config = std::move(one), .memory = Memory(model.series, model.d)}));
     Plc& plc = *plcs_.back();
     plc.run = plc.config.run;
     const Ethernet& own = plc.config.ethernet;
@@ -219,10 +219,7 @@ Status XnetNetwork::act(std::string_view action) {
     power(*plc, false);
     power(*plc, true);
   } else
-    return fail(fmt::format(
-        "cannot do '{}': a PLC on X-NET can run, stop, power_cycle, on, off, noise on, noise off, "
-        "BIT_READ, BIT_WRITE, REG_READ, REG_WRITE, hold one of them, release; 'B: off' is of B",
-        action));
+    return unknown_action(action);
   return ok();
 }
 
@@ -260,7 +257,7 @@ void XnetNetwork::start(Plc& plc, const Instruction& instruction, bool held) {
     job.port = plc.config.ports.front().number;
   if (++plc.under_way > plc.config.model->instructions) return finish(job, Outcome::overtime, now_);
   const std::uint32_t most = instruction.bits ? bits_at_once : words_at_once;
-  const std::uint32_t room = room_from(instruction.local, plc.config.model->series);
+  const std::uint32_t room = plc.memory.room_from(instruction.local);
   if (instruction.count == 0 || instruction.count > most || instruction.count > room)
     return finish(job, Outcome::memory, now_);
   forward(plc, job, now_);
@@ -302,8 +299,7 @@ void XnetNetwork::fail_later(const Job& job, Time now) {
 /// Nothing is moved unless all of it can be.
 Outcome XnetNetwork::move(Plc& target, const Job& job) {
   const Instruction& one = job.instruction;
-  const std::optional<Component> there =
-      reach(*target.config.model, one.type, one.address, one.count);
+  const std::optional<Component> there = reach(target.memory, one.type, one.address, one.count);
   if (!there || there->area->bits != one.bits) return Outcome::memory;
   target.memory.touch();
   job.from->memory.touch();

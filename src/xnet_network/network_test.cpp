@@ -207,6 +207,48 @@ TEST_F(XnetTest, WrongProgramsAreNamed) {
   EXPECT_THAT(wrong({{"M0", "MOVE"}}), HasSubstr("'MOVE' at M0 is no instruction"));
   EXPECT_THAT(wrong({{"M0", "REG_READ net 1"}}), HasSubstr("program: cannot execute"));
   EXPECT_THAT(wrong("M0"), HasSubstr("no object"));
+  EXPECT_THAT(wrong({{"M0", "MOTO 1 2 3 axis 1"}}), HasSubstr("xd3 has no motion bus"));
+  const auto wrong_motion = [](const char* text) {
+    auto made = make_xnet("xdc", {{"program", {{"M0", text}}}});
+    return made ? "" : made.error().message;
+  };
+  EXPECT_THAT(wrong_motion("MOTO 1 2 3 axis 21"), HasSubstr("the axis '21'; axes are 1 to 20"));
+  EXPECT_THAT(wrong_motion("MOTO 1 2 axis 1"), HasSubstr("'axis' is no number"));
+  EXPECT_EQ(wrong_motion("MOTO 1 2 3 axis 20"), "");
+}
+
+TEST(XnetConfiguration, AMotionBusHasTwentyServos) {
+  for (const json& count : {json(21u), json(4'000'000'000u), json(4'294'967'297u)}) {
+    const auto made = make_xnet("xdc", {{"servos", count}});
+    ASSERT_FALSE(made) << count;
+    EXPECT_THAT(made.error().message, HasSubstr("a motion bus has up to 20"));
+  }
+  EXPECT_TRUE(make_xnet("xdc", {{"servos", 20u}}));
+}
+
+/// Of the same series, an XDM has 10000 more.
+TEST_F(XnetTest, AModelHasItsOwnRegisters) {
+  make("xd5", json::object());
+  EXPECT_TRUE(plc->set("D59999", "1234"));
+  EXPECT_FALSE(plc->set("D60000", "1234"));
+  EXPECT_FALSE(plc->set("D59999", "12345678"));
+  EXPECT_FALSE(plc->get("D60000", 4));
+  EXPECT_FALSE(plc->act("REG_READ net 1 station 2 D0 count 1 to D60000"));
+  make("xdm", json::object());
+  EXPECT_TRUE(plc->set("D60000", "1234"));
+}
+
+TEST_F(XnetTest, ARatioInARegisterIsANumber) {
+  make("xdc", json::object());
+  ASSERT_TRUE(plc->set("SM2010", "01"));
+  ASSERT_TRUE(plc->set("SM2030", "01"));
+  ASSERT_TRUE(plc->set("D0", "00007FC0"));  // NaN
+  wait(20ms);
+  act("MOSYN D0 master 1 slave 2");
+  wait(20ms);
+  EXPECT_EQ(get("SM2029"), "00");
+  EXPECT_EQ(get("SD2062"), "4E3F") << "20031";
+  EXPECT_FALSE(plc->act("MOSYN nan master 1 slave 2"));
 }
 
 /// Two models that are told each other's lines, as two processes are.

@@ -130,8 +130,8 @@ void add_run(CLI::App& app, run::RunOptions& run) {
                  "Real devices: what may be written: M, M100-M199, h1230-h12FF, all (outputs P, Q, "
                  "U only when named). Of exec: anything, where this is not given");
   app.add_option("--allow-motion", run.allow_motion,
-                 "Real devices: axes that may move: 1, 3-5, all; without it nothing that moves an "
-                 "axis is sent");
+                 "Real devices: axes that may move: 1, 3-5, of a second PLC B:1, all; without it "
+                 "nothing that moves an axis is sent");
   app.add_flag("--read-only", run.read_only, "Write nothing, to exec: neither");
   app.add_option(
       "--journal", run.journal,

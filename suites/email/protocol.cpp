@@ -57,7 +57,7 @@ class Email : public harness::PlcProtocol, public harness::Tables {
 
   const harness::Tables* tables() const override { return this; }
   std::vector<Written> written_by(ByteView) const override { return {}; }
-  std::string_view output_areas() const override { return "PQU"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 
   Result<std::unique_ptr<harness::Protocol>> configured(std::string_view model,
                                                         const json&) const override {

@@ -112,7 +112,7 @@ void feed_options(ByteView input) {
   safety::WriteFence fence;
   expect_reason(
       fence.allow(text, [](std::string_view word) { return suites::protocols().read_word(word); }));
-  expect_reason(fence.allow_motion(text));
+  expect_reason(fence.allow_motion(text, 20));
 }
 
 std::vector<Bytes> good_options() {

@@ -26,7 +26,7 @@ class HsLink : public harness::FramelessProtocol, public harness::Tables {
     return hs_link::make_hs_network(model, config);
   }
 
-  std::string_view output_areas() const override { return "PQU"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 
   const harness::Tables* tables() const override { return this; }
   Status check_table(const nlohmann::json& facts) const override {

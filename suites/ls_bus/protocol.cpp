@@ -171,7 +171,7 @@ class LsBus : public Protocol,
     return reply ? std::vector<AddressField>() : ls_bus_suite::address_fields(frame, count_first_);
   }
   /// A parameter may be the run command: a motor turns.
-  std::string_view output_areas() const override { return parameter_area; }
+  std::vector<std::string_view> output_areas() const override { return {parameter_area}; }
 
   Status check_table(const nlohmann::json& facts) const override {
     return ls_bus_suite::check_fact(facts);

@@ -72,7 +72,9 @@ TEST(LsBusProtocol, ARefusalIsNoReplyToTheProbe) {
   EXPECT_FALSE(protocol().is_reply_to_probe(probe, reply));
 }
 
-TEST(LsBusProtocol, AParameterIsWrittenOnlyWhenNamed) { EXPECT_EQ(protocol().output_areas(), "H"); }
+TEST(LsBusProtocol, AParameterIsWrittenOnlyWhenNamed) {
+  EXPECT_THAT(protocol().output_areas(), testing::ElementsAre("H"));
+}
 
 TEST(LsBusFacts, AreCheckedAgainstTheTables) {
   const auto error_of = [](const char* facts) {

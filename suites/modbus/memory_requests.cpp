@@ -280,9 +280,8 @@ bool answers(const Framing& framing, ByteView request, ByteView reply) {
   return answer[2] == (function->bits ? (count + 7) / 8 : count * 2);
 }
 
-std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases,
-                                          ByteView request) {
-  std::vector<Protocol::Written> result;
+std::vector<WriteMessage> writes_in(const Framing& framing, ByteView request) {
+  std::vector<WriteMessage> result;
   for (const Bytes& message : framing.messages(request)) {
     if (message.size() < 2) continue;
     const FunctionCode* known = find_function(message[1]);
@@ -290,7 +289,7 @@ std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& b
     if (!writes) continue;
     const bool placed = known && message.size() >= (known->many ? 6u : 4u);
     if (!placed) {
-      result.push_back({"?", 0, ~0u, "an unknown place"});
+      result.emplace_back();
       continue;
     }
     // A device may believe the count or the byte count.
@@ -299,8 +298,18 @@ std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& b
         known->many
             ? std::max<std::uint32_t>(word_at(message, 4), known->bits ? bytes * 8 : bytes / 2)
             : 1;
-    result.push_back(memory_at(bases, *known, word_at(message, 2), count));
+    const std::uint32_t asked = known->many ? word_at(message, 4) : 1;
+    result.push_back({known, word_at(message, 2), asked, count});
   }
+  return result;
+}
+
+std::vector<Protocol::Written> written_by(const Framing& framing, const Bases& bases,
+                                          ByteView request) {
+  std::vector<Protocol::Written> result;
+  for (const WriteMessage& one : writes_in(framing, request))
+    result.push_back(one.function ? memory_at(bases, *one.function, one.address, one.count)
+                                  : Protocol::Written{"?", 0, ~0u, "an unknown place"});
   return result;
 }
 

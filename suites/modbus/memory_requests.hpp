@@ -47,6 +47,13 @@ Result<std::string> read_reply(const Framing& framing, ByteView reply);
 /// harness::MemoryRequests::answers.
 bool answers(const Framing& framing, ByteView request, ByteView reply);
 
+/// A message that would write: `asked` data addresses from `address` on, or `count`, as many as a
+/// device may believe. Without a function nobody can tell where.
+struct WriteMessage {
+  const FunctionCode* function = nullptr;
+  std::uint32_t address = 0, asked = 0, count = 0;
+};
+std::vector<WriteMessage> writes_in(const Framing& framing, ByteView request);
 /// What the messages in a request would write.
 std::vector<harness::Protocol::Written> written_by(const Framing& framing, const Bases& bases,
                                                    ByteView request);

@@ -1,18 +1,23 @@
 #include "suites/modbus/protocol.hpp"
 #include "suites/checks/checks.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
 #include "harness/plc_protocol.hpp"
 #include "src/base/letters.hpp"
+#include "src/base/spelling.hpp"
 #include "src/email/email_plc.hpp"
 #include "src/modbus/modbus_plc.hpp"
 #include "src/modbus/p2p_driver.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
 #include "src/xnet/plc.hpp"
+#include "src/xnet_motion/axis_registers.hpp"
 #include "src/xnet_network/configuration.hpp"
 #include "src/xnet_network/served_plc.hpp"
 #include "suites/modbus/facts.hpp"
@@ -21,6 +26,7 @@
 #include "suites/modbus/memory_requests.hpp"
 #include "suites/modbus/message.hpp"
 #include "suites/modbus/placing.hpp"
+#include "suites/modbus/xinje_objects.hpp"
 #include "suites/services/clients.hpp"
 #include "suites/services/services.hpp"
 
@@ -29,6 +35,18 @@ namespace fieldproof::modbus_suite {
 using harness::Protocol;
 
 namespace {
+
+/// XINJE PLCs have no Modbus ASCII.
+Error unknown_model(std::string_view model, modbus::ModbusMode mode) {
+  std::vector<std::string_view> names;
+  for (const plc::PlcModel& one : plc::plc_models()) names.push_back(one.name);
+  if (mode != modbus::ModbusMode::ascii) {
+    if (mode == modbus::ModbusMode::tcp) names.push_back(xnet::xd);
+    for (const xnet::Model& one : xnet::models()) names.push_back(one.name);
+  }
+  return fail(fmt::format("there is no model '{}'; use one of {}{}", model, fmt::join(names, ", "),
+                          suggestion(model, names)));
+}
 
 class Modbus : public harness::PlcProtocol,
                public harness::Probing,
@@ -52,6 +70,7 @@ class Modbus : public harness::PlcProtocol,
     if (has_model(model) && model == xnet::xd) return xnet::make_xinje_plc(mode_, config);
     if (xnet::find_model(model) && mode_ != modbus::ModbusMode::ascii)
       return xnet::make_served_plc(mode_, model, config);
+    if (!model.empty() && !plc::find_plc_model(model)) return unknown_model(model, mode_);
     return services::make_plc(model, config, [this](plc::Plc& plc, const nlohmann::json& own) {
       return p2p::is_p2p_client(own) ? add_clients(plc, own)
                                      : modbus::add_modbus_server(plc, mode_, 1, own);
@@ -158,11 +177,7 @@ class Modbus : public harness::PlcProtocol,
   }
 
   Result<std::unique_ptr<Protocol>> configured(std::string_view model,
-                                               const nlohmann::json& config) const override {
-    Result<Bases> bases = declared_bases(model, config);
-    if (!bases) return bases.error();
-    return std::unique_ptr<Protocol>(std::make_unique<Modbus>(mode_, framing_, std::move(*bases)));
-  }
+                                               const nlohmann::json& config) const override;
   nlohmann::json defaults(std::string_view model) const override {
     return default_base_config(model);
   }
@@ -188,7 +203,7 @@ class Modbus : public harness::PlcProtocol,
     return modbus_suite::moved_field(framing_, bases_, frame, field, words);
   }
 
-  std::string_view output_areas() const override { return "PQU"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 
   /// What the default base of the holding registers reaches.
   std::vector<Area> areas() const override { return {{"M", plc::last_words_of('M')}}; }
@@ -216,6 +231,71 @@ class Modbus : public harness::PlcProtocol,
   const Framing& framing_;
   Bases bases_;
 };
+
+/// Of a XINJE PLC: no base moves its objects, and writing some of them moves axes.
+class XinjeModbus : public Modbus {
+ public:
+  XinjeModbus(modbus::ModbusMode mode, const Framing& framing, std::string_view model)
+      : Modbus(mode, framing), objects_(framing, model) {}
+
+  Result<std::vector<Bytes>> requests_to_write(int station, std::string_view address,
+                                               std::string_view hex) const override {
+    return objects_.write_requests(station, address, hex);
+  }
+  Result<std::vector<Bytes>> requests_to_read(int station, std::string_view address,
+                                              std::size_t digits) const override {
+    return objects_.read_requests(station, address, digits);
+  }
+  Result<std::string> digits_in(ByteView reply) const override { return objects_.digits_in(reply); }
+  std::vector<Written> written_by(ByteView request) const override {
+    return objects_.written_by(request);
+  }
+  std::optional<WordName> read_word(std::string_view text) const override {
+    return read_xinje_word(text);
+  }
+  std::string spell(std::string_view area, std::uint32_t word) const override {
+    return spell_xinje(area, word);
+  }
+  std::vector<Place> places(const Written& written) const override {
+    return objects_.places(written);
+  }
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
+    return objects_.named(address, digits);
+  }
+  /// No case of it is moved to other objects.
+  std::optional<std::string> moved(std::string_view, int) const override { return std::nullopt; }
+  std::vector<AddressField> address_fields(ByteView, bool) const override { return {}; }
+  std::optional<Bytes> moved_field(ByteView, const AddressField&, int) const override {
+    return std::nullopt;
+  }
+  Result<Placed> placed(std::string_view address, std::string_view hex,
+                        const std::vector<Bytes>&) const override {
+    return Placed{std::string(address), std::string(hex)};
+  }
+  std::string tied_to_default(const std::vector<Bytes>&) const override { return {}; }
+  std::vector<std::string_view> output_areas() const override { return xinje_outputs(); }
+  std::vector<Area> areas() const override { return {}; }
+  std::uint32_t words_of(std::string_view area) const override { return objects_.words_of(area); }
+
+  unsigned last_axis() const override { return xnet::last_axis; }
+  std::string moved_by(std::string_view address) const override {
+    const auto object = xnet::find_component(address, objects_.series());
+    return object ? xinje_axis(*object) : "";
+  }
+
+ private:
+  XinjeObjects objects_;
+};
+
+Result<std::unique_ptr<Protocol>> Modbus::configured(std::string_view model,
+                                                     const nlohmann::json& config) const {
+  if (is_xinje_model(model))
+    return std::unique_ptr<Protocol>(std::make_unique<XinjeModbus>(mode_, framing_, model));
+  if (!model.empty() && !plc::find_plc_model(model)) return unknown_model(model, mode_);
+  Result<Bases> bases = declared_bases(model, config);
+  if (!bases) return bases.error();
+  return std::unique_ptr<Protocol>(std::make_unique<Modbus>(mode_, framing_, std::move(*bases)));
+}
 
 }  // namespace
 

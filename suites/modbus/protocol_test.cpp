@@ -36,6 +36,47 @@ TEST(Protocol, TcpIsOfANetworkAndHasAModelMore) {
   EXPECT_FALSE(rtu().make_device("xd", json{{"station", 1}}));
 }
 
+/// What a profile declares of a XINJE PLC: its objects are where no base moves them.
+TEST(Protocol, KnowsTheObjectsOfAXinjePlc) {
+  for (const char* model : {"xd", "xd3", "xdc"}) {
+    const auto xinje = rtu().configured(model, json{{"station", 1}});
+    ASSERT_TRUE(xinje) << xinje.error().message;
+    const Bytes write = (*xinje)->write_requests(1, "Y10", "01")->front();
+    EXPECT_EQ(to_hex(ByteView(write).first(8)), "01 0F 60 08 00 01 01 01");
+    EXPECT_EQ((*xinje)->written_by(write).front().area, "Y");
+    EXPECT_THAT((*xinje)->output_areas(), testing::ElementsAre("Y", "QD"));
+  }
+  const auto unknown = tcp().configured("xd9", json::object());
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(unknown.error().message, HasSubstr("xec-h, xd, xd3, xd2, xl3, xd5"));
+}
+
+/// What a frame would move is told, where an area ends, too.
+TEST(Protocol, TellsWhatAFrameMovesInAXinjePlc) {
+  const auto xinje = rtu().configured("xdc", json{{"station", 1}});
+  ASSERT_TRUE(xinje);
+  const auto moved = [&](const char* message) {
+    std::string axes;
+    for (const auto& one : (*xinje)->written_by(rtu_framing().wrap(hex_bytes(message))))
+      for (auto word = one.first_word; !one.unknown() && word <= one.last_word; ++word)
+        axes += (*xinje)->moved_by((*xinje)->spell(one.area, word));
+    return axes;
+  };
+  EXPECT_EQ(moved("01 05 97 DA FF 00"), "1") << "SM2010";
+  EXPECT_EQ(moved("01 10 78 29 00 02 04 00 00 00 00"), "22") << "SD2089, SD2090";
+  EXPECT_EQ(moved("01 06 00 00 00 01"), "");
+  const auto written = [&](const char* message) {
+    std::string areas;
+    for (const auto& one : (*xinje)->written_by(rtu_framing().wrap(hex_bytes(message))))
+      areas += one.area + " ";
+    return areas;
+  };
+  EXPECT_EQ(written("01 10 4F FF 00 02 04 00 00 00 00"), "D ? ") << "behind D20479";
+  EXPECT_EQ(written("01 16 78 29 00 00 00 00"), "? ");
+  EXPECT_EQ(written("01 1F 00 00 00 00 00 00"), "? ");
+  EXPECT_EQ(written("01 03 00 00 00 02"), "");
+}
+
 TEST(Probe, OverTcpHasATransactionOfItsOwn) {
   const Bytes probe = tcp().probe(1, {});
   EXPECT_EQ(to_hex(ByteView(probe).subspan(2)), "00 00 00 06 01 03 00 00 00 01");

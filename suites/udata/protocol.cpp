@@ -49,7 +49,7 @@ class Udata : public harness::Protocol {
     if (request.empty()) return {};
     return {{"?", 0, 0, "what the program behind the port makes of it"}};
   }
-  std::string_view output_areas() const override { return "PQU"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 };
 
 }  // namespace

@@ -99,7 +99,7 @@ class UserFrames : public Protocol, public harness::Probing, public harness::Tab
     if (!own()) return {{"?", 0, 0, "what its definition says"}};
     return user_frames_suite::written_by(definitions_.front(), request);
   }
-  std::string_view output_areas() const override { return "PQU"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
   std::optional<WordName> read_word(std::string_view text) const override {
     return harness::read_word_name(text);
   }

@@ -134,7 +134,7 @@ class XgtCnet : public harness::PlcProtocol,
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return reply ? std::vector<AddressField>() : xgt_cnet_suite::address_fields(frame, model());
   }
-  std::string_view output_areas() const override { return "PQU"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 
   Status check_table(const nlohmann::json& facts) const override {
     if (facts.contains("p2p")) return check_p2p_fact(facts);

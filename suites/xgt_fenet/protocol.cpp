@@ -128,7 +128,7 @@ class XgtFenet : public harness::PlcProtocol,
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return reply ? std::vector<AddressField>() : xgt_fenet_suite::address_fields(frame, model());
   }
-  std::string_view output_areas() const override { return "PQU"; }
+  std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 
   /// Areas, and flags and registers of P2P, are those of the same PLC on Cnet.
   Status check_table(const nlohmann::json& facts) const override {

@@ -12,6 +12,7 @@
 #include "src/xnet/areas.hpp"
 #include "src/xnet/words.hpp"
 #include "src/xnet_motion/motion_bus.hpp"
+#include "src/xnet_network/configuration.hpp"
 #include "src/xnet_network/instruction.hpp"
 #include "suites/xnet/axes.hpp"
 #include "suites/xnet/instruction_text.hpp"
@@ -114,6 +115,9 @@ Status Ladder::add(const json& plc, const std::string& of) {
   };
   for (const json& port : plc.value("ports", json::array()))
     if (port.is_object()) stations_.push_back({of, number(port, "net"), number(port, "station")});
+  if (const json ip = plc.value("ip", json()); ip.is_string())
+    if (const auto own = xnet::from_ip(ip.get<std::string>()))
+      stations_.push_back({of, own->net, own->station});
   if (!program.is_object())
     return fail(R"(config.program is no object; write {"M100": "REG_READ ..."})");
   for (const auto& [relay, text] : program.items()) {
@@ -134,7 +138,7 @@ Result<Ladder> Ladder::read(const json& config) {
   const json stations = config.value("stations", json::array());
   for (std::size_t i = 0; stations.is_array() && i < stations.size(); ++i) {
     if (!stations[i].is_object()) continue;
-    const std::string of = std::string(1, static_cast<char>('B' + i % 25)) + ":";
+    const std::string of = i < 25 ? fmt::format("{:c}:", 'B' + i) : fmt::format("{}:", i);
     if (const Status added = ladder.add(stations[i], of); !added) return added.error();
   }
   return ladder;
@@ -144,7 +148,7 @@ Result<std::vector<Setting>> Ladder::set_off(std::string_view action) const {
   if (action == "run" || action == "stop" || action == "power_cycle") return std::vector<Setting>{};
   std::string_view text = action;
   const std::string of = take_plc(text);
-  if (text == "release") {
+  if (text == "release" || text.starts_with("release ")) {
     std::vector<Setting> settings;
     for (const Rung& one : rungs_)
       if (one.of == of && one.instruction.starts_with(hold))
@@ -158,6 +162,7 @@ Result<std::vector<Setting>> Ladder::set_off(std::string_view action) const {
     return fail(fmt::format(
         "'{}' has operands in registers: nobody can tell what it would write, and put it back",
         text));
+  if (const Status fenced = names_target(text); !fenced) return fenced.error();
   for (const Rung& one : rungs_) {
     if (one.of != of) continue;
     std::optional<std::vector<Setting>> settings = operands(one.instruction, text);
@@ -173,6 +178,22 @@ Result<std::vector<Setting>> Ladder::set_off(std::string_view action) const {
       text, of.empty() ? "the PLC" : "PLC " + of.substr(0, 1), of.empty() ? "" : "its station's "));
 }
 
+const Ladder::Station* Ladder::station(std::uint32_t net, std::uint32_t number) const {
+  const auto found = std::ranges::find_if(
+      stations_, [&](const Station& one) { return one.net == net && one.station == number; });
+  return found == stations_.end() ? nullptr : &*found;
+}
+
+/// What goes to a PLC that nobody declared cannot be fenced, nor put back.
+Status Ladder::names_target(std::string_view instruction) const {
+  const auto read = xnet::read_instruction(without_hold(instruction), xnet::Memory());
+  if (!read || read->reads || station(read->net, read->station)) return ok();
+  return fail(
+      fmt::format("writes to station {} of net {}, which the profile does not name; declare that "
+                  "PLC in config.stations, with its ports, or its ip",
+                  read->station, read->net));
+}
+
 std::vector<Setting> Ladder::written_by(std::string_view action, xnet::Series series) const {
   std::string_view text = action;
   const std::string of = take_plc(text);
@@ -185,10 +206,8 @@ std::vector<Setting> Ladder::written_by(std::string_view action, xnet::Series se
   };
   if (read->reads) return {place(of, read->local)};
   const auto first = xnet::component_of(read->type, read->address, series);
-  const auto there = std::ranges::find_if(stations_, [&](const Station& one) {
-    return one.net == read->net && one.station == read->station;
-  });
-  if (!first || there == stations_.end()) return {};
+  const Station* const there = station(read->net, read->station);
+  if (!first || !there) return {};
   return {place(there->of, *first)};
 }
 

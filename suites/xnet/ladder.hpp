@@ -38,6 +38,8 @@ class Ladder {
     std::uint32_t net = 0, station = 0;
   };
   Status add(const nlohmann::json& plc, const std::string& of);
+  const Station* station(std::uint32_t net, std::uint32_t number) const;
+  Status names_target(std::string_view instruction) const;
 
   std::vector<Rung> rungs_;
   std::vector<Station> stations_;

@@ -13,6 +13,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Pair;
 
+const json stations = json::parse(
+    R"([{"ports": [{"net": 1, "station": 2}, {"port": 3, "net": 49320, "station": 2}]}])");
 const json program{
     {"M100", "REG_READ net 1 station 2 D0 count 10 to D10"},
     {"M101", "REG_WRITE net D6900 station D6901 type D6902 address D6904 count D6906 from D0"},
@@ -20,7 +22,7 @@ const json program{
     {"M103", "MOTO D20 D22 D24 axis 1"},
     {"M104", "MOSYN D30 master 1 slave 2"}};
 
-Ladder ladder(const json& config = {{"program", program}}) {
+Ladder ladder(const json& config = {{"program", program}, {"stations", stations}}) {
   const Result<Ladder> read = Ladder::read(config);
   EXPECT_TRUE(read) << read.error().message;
   return read ? *read : Ladder();
@@ -93,6 +95,31 @@ TEST(Ladder, WhatAnInstructionWritesIsKnownBefore) {
   EXPECT_THAT(written("MOTO 1 2 3 axis 1"), IsEmpty());
   EXPECT_THAT(both.set_off("REG_READ net 1 station 2 D0 count D9 to D10").error().message,
               HasSubstr("nobody can tell what it would write"));
+}
+
+/// The net and the station of a PLC on Ethernet are those of its address.
+TEST(Ladder, APlcOnEthernetIsAStation) {
+  const Ladder both = ladder({{"ip", "192.168.6.6"}, {"stations", {{{"ip", "192.168.6.11"}}}}});
+  const auto written = [&](std::string_view action) {
+    return both.written_by(action, xnet::Series::xd5);
+  };
+  EXPECT_THAT(written("BIT_WRITE net 49320 station 1547 SM2010 count 1 from M0"),
+              ElementsAre(Pair("B:SM2010", "00")));
+  EXPECT_THAT(written("B: BIT_WRITE net 49320 station 1542 Y0 count 2 from M0"),
+              ElementsAre(Pair("Y0", "0000")));
+}
+
+/// Nobody could fence it, nor put it back.
+TEST(Ladder, NothingIsWrittenToAPlcThatIsNotDeclared) {
+  const Ladder alone = ladder({{"ports", {{{"net", 1}, {"station", 1}}}},
+                               {"program",
+                                {{"M1", "BIT_WRITE net 1 station 3 Y0 count 8 from M0"},
+                                 {"M2", "BIT_READ net 1 station 3 Y0 count 8 to M0"}}}});
+  const auto refused = alone.set_off("BIT_WRITE net 1 station 3 Y0 count 8 from M0");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("writes to station 3 of net 1, which the profile does not name"));
+  EXPECT_TRUE(alone.set_off("BIT_READ net 1 station 3 Y0 count 8 to M0"));
 }
 
 TEST(Ladder, ARelayMovesWhatItsInstructionMoves) {

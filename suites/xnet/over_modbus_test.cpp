@@ -73,7 +73,8 @@ TEST(XnetOverModbus, WhatMovesAnAxisIsTold) {
   EXPECT_EQ(axis_of_action("MOTO 1 2 3 axis 4"), "4");
   EXPECT_EQ(axis_of_action("hold MOSYN 0.5 master 1 slave 2"), "2");
   EXPECT_EQ(axis_of_action("REG_READ net 1 station 2 D0 count 1 to D1"), "");
-  EXPECT_EQ(axis_of_action("B: MOTO 1 2 3 axis 4"), "4");
+  EXPECT_EQ(axis_of_action("B: MOTO 1 2 3 axis 4"), "B:4");
+  EXPECT_EQ(at_rest("B:2").front().first, "B:SD2068");
   const Protocol& protocol = over_modbus_rtu();
   EXPECT_EQ(protocol.moved_by("SM2010"), "1");
   EXPECT_EQ(protocol.moved_by("SM2031"), "2") << "jogging";

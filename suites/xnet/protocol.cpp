@@ -3,7 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/frameless_protocol.hpp"
+#include "src/xnet_motion/axis_registers.hpp"
+#include "src/xnet_network/check_text.hpp"
 #include "src/xnet_network/network.hpp"
+#include "suites/modbus/xinje_objects.hpp"
 #include "suites/xnet/facts.hpp"
 #include "suites/xnet/over_modbus.hpp"
 
@@ -30,13 +33,23 @@ class Xnet : public harness::FramelessProtocol, public harness::Tables {
     return network ? &over_modbus_tcp() : &over_modbus_rtu();
   }
 
-  std::string_view output_areas() const override { return "Y"; }
+  std::vector<std::string_view> output_areas() const override {
+    return modbus_suite::xinje_outputs();
+  }
+  unsigned last_axis() const override { return xnet::last_axis; }
   std::optional<WordName> read_word(std::string_view text) const override {
-    const bool whole = text.find_first_of("0123456789") == text.npos;
-    const auto found = xnet::find_component(whole ? std::string(text) + "0" : std::string(text));
-    if (!found) return std::nullopt;
-    return WordName{std::string(found->area->name),
-                    whole ? std::nullopt : std::optional(found->number)};
+    return modbus_suite::read_xinje_word(text);
+  }
+
+  Status check_texts(std::string_view model, const nlohmann::json& config,
+                     const std::vector<Setting>& memory,
+                     const std::vector<std::string>& actions) const override {
+    const xnet::TextCheck check(model, config);
+    for (const auto& [address, hex] : memory)
+      if (const Status right = check.address(address, hex.size()); !right) return right;
+    for (const std::string& action : actions)
+      if (const Status right = check.action(action); !right) return right;
+    return ok();
   }
 
   const harness::Tables* tables() const override { return this; }

@@ -55,6 +55,10 @@ void fixed_doubled(Words& words, std::size_t head) {
 void ratio_turned(Words& words, std::size_t head) {
   if (words[head + 1] == "0.5") words[head + 1] = "2";
 }
+/// The rings of its case end at axis 1.
+void to_axis_1_untold(Words& words, std::size_t) {
+  if (words.size() > 1 && words[words.size() - 2] == "slave" && words.back() == "1") words.clear();
+}
 void ratio_without_sign(Words& words, std::size_t head) {
   if (words[head + 1].starts_with('-')) words[head + 1].erase(0, 1);
 }
@@ -153,6 +157,8 @@ std::vector<Fault> motion_faults() {
        "xnet/instruction_sync/application_1", "SD2192"},
       {"ratio_without_sign", "a negative ratio runs the same way",
        tells("MOSYN", ratio_without_sign), "xnet/instruction_sync/ratio/minus_half", "SD2192"},
+      {"ring_untold", "an axis that would follow itself has no error",
+       tells("MOSYN", to_axis_1_untold), "xnet/instruction_sync/ring/three", "SD2002"},
       {"ends_swapped", "master and slave are swapped", tells("MOSYN", ends_swapped),
        "xnet/instruction_sync/application_1", "SM2069"},
       {"first_counter_alone", "every counter is HSC0", tells("MOSYN", first_counter),
