@@ -239,6 +239,29 @@ void MotionBus::bind(const Order& order) {
 
 // ---- servos ----
 
+namespace {
+
+/// "have 3 sync errors"
+bool expect_errors(Servo& servo, std::string_view what) {
+  Words words(what);
+  if (words.next() != "have") return false;
+  const std::optional<std::uint32_t> periods = plain_number(words.next());
+  const std::string_view kind = words.next();
+  return periods && words.rest() == "errors" && servo.counters.expect(kind, *periods);
+}
+
+}  // namespace
+
+/// "U0-62 of servo 1"
+std::optional<unsigned> MotionBus::count(std::string_view what) const {
+  Words words(what);
+  const std::string_view counter = words.next();
+  if (words.next() != "of" || words.next() != "servo") return std::nullopt;
+  const std::optional<std::uint32_t> number = plain_number(words.rest());
+  Axis* const axis = number ? find(*number) : nullptr;
+  return axis ? axis->servo().counters.get(counter) : std::nullopt;
+}
+
 Status MotionBus::act_on_servo(std::string_view action) {
   Words words(action);
   words.next();
@@ -262,10 +285,10 @@ Status MotionBus::act_on_servo(std::string_view action) {
     servo.enabled_by_hand = what == "enable";
   else if (what.starts_with(push) && constant<std::int32_t>(what.substr(push.size())))
     axis->push(*constant<std::int32_t>(what.substr(push.size())));
-  else
+  else if (!expect_errors(servo, what))
     return wrong(action,
                  "a servo can off, on, alarm, stuck alarm, well, stall, free, enable, disable, "
-                 "push 500");
+                 "push 500, have 3 sync errors (data, crc, uart)");
   return ok();
 }
 
