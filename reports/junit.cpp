@@ -76,6 +76,12 @@ std::string headline(const CaseResult& result) {
   return fmt::format("{}: {}\n", results::to_string(result.verdict), text::case_message(result));
 }
 
+/// Of what is not on a wire.
+std::string kind_line(const CaseResult& result) {
+  if (result.on_model.empty()) return "";
+  return fmt::format("kind {}: of a model, not on a wire\n", result.on_model);
+}
+
 /// What a case that does not fail has to say.
 std::string remarks(const CaseResult& result) {
   switch (result.verdict) {
@@ -83,11 +89,12 @@ std::string remarks(const CaseResult& result) {
     case Verdict::non_strict:
     case Verdict::info:
     case Verdict::xfail:
-    case Verdict::inconclusive: return headline(result) + text::case_block(result);
+    case Verdict::inconclusive:
+      return headline(result) + kind_line(result) + text::case_block(result);
     default: break;
   }
-  std::string text =
-      result.dut.empty() ? "" : fmt::format("device {}\n", text::xml_line(result.dut));
+  std::string text = kind_line(result);
+  if (!result.dut.empty()) text += fmt::format("device {}\n", text::xml_line(result.dut));
   for (const std::string& note : result.notes) text += text::xml_line(note) + '\n';
   return text;
 }
@@ -109,8 +116,9 @@ void write_outcome(XmlWriter& xml, const CaseResult& result, const char* element
                    const Finding& finding) {
   // GitLab shows the body and not the message.
   xml.leaf(element, {{"type", to_string(result.verdict)}, {"message", case_message(result)}},
-           headline(result) + (finding.is_again() ? reference(result, finding)
-                                                  : case_block(result, {.exchange = true})));
+           headline(result) + kind_line(result) +
+               (finding.is_again() ? reference(result, finding)
+                                   : case_block(result, {.exchange = true})));
 }
 
 void write_case(XmlWriter& xml, const CaseResult& result, const Gate& gate, Failures& failures) {

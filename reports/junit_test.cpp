@@ -150,6 +150,17 @@ TEST_F(Junit, EachVerdictHasItsElement) {
   EXPECT_STREQ("BLOCKED: because", testcase("v8").child("skipped").attribute("message").value());
 }
 
+TEST_F(Junit, ACaseOfAModelSaysItsKind) {
+  CaseResult passed = samples::with(Verdict::pass, "xnet/a/passed");
+  CaseResult failed = samples::with(Verdict::fail, "xnet/a/failed", "because");
+  passed.on_model = failed.on_model = "timing";
+  report({passed, failed, samples::with(Verdict::pass, "xnet/a/wire")});
+  const std::string kind = "kind timing: of a model, not on a wire\n";
+  EXPECT_EQ(testcase("passed").child("system-out").text().get(), kind);
+  EXPECT_THAT(testcase("failed").child("failure").text().get(), HasSubstr(kind));
+  EXPECT_FALSE(testcase("wire").first_child());
+}
+
 TEST_F(Junit, FailuresFollowTheGate) {
   report(one_of_each(), {.strict = true, .fail_on_marginal = true, .qualify = true});
   EXPECT_STREQ("NON-STRICT", testcase("v2").child("failure").attribute("type").value());

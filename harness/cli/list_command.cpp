@@ -33,6 +33,19 @@ ordered_json checked_json(const Step& step) {
   return result;
 }
 
+/// All that a check may find, by name.
+ordered_json alternatives_json(const Step& step) {
+  ordered_json result = ordered_json::array();
+  for (const vectors::CheckedValues& one : step.alternatives) {
+    Step other = step;
+    for (std::size_t i = 0; i < other.memory.size(); ++i) other.memory[i].second = one.digits[i];
+    other.numbers = one.numbers;
+    result.push_back(
+        {{"reading", step.reading}, {"name", one.alternative}, {"check", checked_json(other)}});
+  }
+  return result;
+}
+
 ordered_json partner_json(const vectors::PartnerSpec& partner) {
   ordered_json result = partner.config;
   if (!partner.model.empty()) result["model"] = partner.model;
@@ -77,7 +90,11 @@ ordered_json kind_json(const exchange::PreparedStep& step) {
     case Step::Kind::silence: return {{"silence", true}};
     case Step::Kind::wait: return {{"wait", fmt::format("{}ms", to_ms(source.duration))}};
     case Step::Kind::set: return {{"set", memory_json(source.memory)}};
-    case Step::Kind::check: return {{"check", checked_json(source)}};
+    case Step::Kind::check: {
+      ordered_json result{{"check", checked_json(source)}};
+      if (!source.alternatives.empty()) result["alternatives"] = alternatives_json(source);
+      return result;
+    }
     case Step::Kind::act: return {{"do", source.action}};
     case Step::Kind::open: return open_json(step);
     case Step::Kind::close: return {{"close", name_of(source.closing)}};

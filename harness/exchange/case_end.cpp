@@ -23,12 +23,9 @@ void CaseRun::finish() {
   if ((!alive || transcript_.flooded) && !transcript_.trouble) look_for_life();
 }
 
-/// Before what still belongs to the case is waited for. Who has the token matters to its timing.
+/// Before what still belongs to the case is waited for.
 void CaseRun::take_trace() {
-  const std::string& kind = prepared_.source->on_model;
-  if (kind.empty()) return;
-  transcript_.trace = around_.device.endpoint->trace();
-  if (kind != "timing") transcript_.trace.nets.clear();
+  if (!prepared_.source->on_model.empty()) transcript_.trace = around_.device.endpoint->trace();
 }
 
 /// False: the device has not shown that it lives, although it was asked.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/judge/judge.hpp"
+#include "harness/judge/token_rules.hpp"
 #include "reports/results/extract.hpp"
 
 namespace fieldproof::judging {
@@ -101,6 +102,10 @@ void take_exchange(const exchange::Transcript& transcript, std::size_t longest_f
     result.exchange.push_back(std::move(event));
   }
   result.trace = transcript.trace;
+  // Who had the token matters to timing, and where it broke a rule.
+  if (result.on_model != "timing")
+    std::erase_if(result.trace.nets,
+                  [](const NetTrace& net) { return broken_token_rule(net).empty(); });
 }
 
 }  // namespace fieldproof::judging

@@ -10,6 +10,7 @@
 #include "harness/judge/endings.hpp"
 #include "harness/judge/findings.hpp"
 #include "harness/judge/timing.hpp"
+#include "harness/judge/token_rules.hpp"
 #include "harness/notation/beginning.hpp"
 #include "harness/notation/notation.hpp"
 
@@ -45,6 +46,9 @@ class Judge {
     if (findings_.result.verdict == Verdict::pass && record_ == 0)
       return error("no step was executed");
     judge_surplus();
+    for (const NetTrace& net : transcript_.trace.nets)
+      if (const std::string rule = broken_token_rule(net); !rule.empty())
+        findings_.miss(fmt::format("token bus of net {}: {}", net.net, rule));
     if (!transcript_.dead.empty())
       findings_.miss_in_any_case("link dead after this frame: " + transcript_.dead);
     findings_.settle(*prepared_.source, rules_.binding_decisions);
@@ -329,13 +333,17 @@ class Judge {
     return bytes;
   }
 
+  void take(const std::string& name, const std::string& choice, bool preferred) {
+    const auto [taken, is_new] = findings_.result.readings.try_emplace(name, choice);
+    if (!is_new && taken->second != choice)
+      findings_.lower_to(Verdict::non_strict, fmt::format("mixes readings: {} = {}, and {} before",
+                                                          name, choice, taken->second));
+    else if (!preferred)
+      findings_.lower_to(Verdict::non_strict,
+                         fmt::format("allowed alternative: {} = {}", name, choice));
+  }
+
   void take_reading(const PreparedStep& step, const PreparedFrame& match) {
-    const auto take = [&](const std::string& name, const std::string& choice, bool preferred) {
-      findings_.result.readings[name] = choice;
-      if (!preferred)
-        findings_.lower_to(Verdict::non_strict,
-                           fmt::format("allowed alternative: {} = {}", name, choice));
-    };
     if (!step.step->reading.empty())
       take(step.step->reading, match.alternative,
            match.alternative == step.frames.front().alternative);
@@ -387,34 +395,68 @@ class Judge {
                                on_link(received.link), notation::print_beginning(received.bytes)));
   }
 
+  using Numbers = std::vector<std::optional<vectors::Number>>;
+
+  static bool holds(const std::string& value, const std::string& due, const Numbers& numbers,
+                    std::size_t i) {
+    if (i < numbers.size() && numbers[i]) return numbers[i]->holds(value);
+    return std::ranges::equal(value, due,
+                              [](char a, char b) { return hex_digit(a) == hex_digit(b); });
+  }
+
+  /// What was read at the address of the i-th value; nothing: nobody could read it.
+  static const std::string* held_at(const Step& step, const StepRecord& record, std::size_t i) {
+    const auto held = std::ranges::find(record.memory, step.memory[i].first,
+                                        &std::pair<std::string, std::string>::first);
+    return held == record.memory.end() ? nullptr : &held->second;
+  }
+
+  bool fits(const Step& step, const StepRecord& record, const vectors::CheckedValues& one) const {
+    for (std::size_t i = 0; i < step.memory.size(); ++i)
+      if (const std::string* const value = held_at(step, record, i);
+          value && !holds(*value, one.digits[i], one.numbers, i))
+        return false;
+    return true;
+  }
+
+  /// Of named alternatives the one that holds; nothing: none does.
+  const vectors::CheckedValues* matching(const Step& step, const StepRecord& record) {
+    std::vector<const vectors::CheckedValues*> fitting;
+    for (const vectors::CheckedValues& one : step.alternatives)
+      if (fits(step, record, one)) fitting.push_back(&one);
+    if (fitting.empty()) return nullptr;
+    const vectors::CheckedValues* const preferred = step.alternatives.data();
+    // Where the preferred one is not told from another, nothing is known of the reading.
+    if (fitting.front() != preferred || fitting.size() == 1)
+      take(step.reading, fitting.front()->alternative, fitting.front() == preferred);
+    return fitting.front();
+  }
+
   void judge_memory(const Step& step, const StepRecord& record) {
+    const vectors::CheckedValues* const match = matching(step, record);
+    const Numbers& numbers = match ? match->numbers : step.numbers;
     for (std::size_t i = 0; i < step.memory.size(); ++i) {
-      const auto& [address, due] = step.memory[i];
-      const auto held =
-          std::ranges::find(record.memory, address, &std::pair<std::string, std::string>::first);
-      if (held == record.memory.end()) {
+      const auto& [address, preferred] = step.memory[i];
+      const std::string& due = match ? match->digits[i] : preferred;
+      const std::string* const value = held_at(step, record, i);
+      if (!value)
         unread_.insert(address);
-        continue;
-      }
-      const std::string& value = held->second;
-      if (i < step.numbers.size() && step.numbers[i]) {
-        judge_number(address, *step.numbers[i], value);
-        continue;
-      }
-      if (std::ranges::equal(value, due,
-                             [](char a, char b) { return hex_digit(a) == hex_digit(b); }))
-        continue;
-      if (!findings_.missed()) findings_.result.differences.push_back({address, due, value, ""});
-      findings_.miss(fmt::format("{} holds {}, {} is due", address, value, due));
+      else if (!holds(*value, due, numbers, i))
+        missed_value(step, address, due, i < numbers.size() ? numbers[i] : std::nullopt, *value);
     }
   }
 
-  void judge_number(const std::string& address, const vectors::Number& due,
-                    const std::string& value) {
-    if (due.holds(value)) return;
+  void missed_value(const Step& step, const std::string& address, const std::string& due,
+                    const std::optional<vectors::Number>& number, const std::string& value) {
+    const std::string held_text = number ? number->text_of(value) : value;
+    const std::string due_text = number ? number->text() : due;
     if (!findings_.missed())
-      findings_.result.differences.push_back({address, due.text(), due.text_of(value), ""});
-    findings_.miss(fmt::format("{} holds {}, {} is due", address, due.text_of(value), due.text()));
+      findings_.result.differences.push_back({address, due_text, held_text, ""});
+    const std::string others =
+        step.alternatives.empty()
+            ? ""
+            : fmt::format("; it is no alternative of {} either", step.reading);
+    findings_.miss(fmt::format("{} holds {}, {} is due{}", address, held_text, due_text, others));
   }
 
   /// What no step was waiting for.

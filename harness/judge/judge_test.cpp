@@ -407,6 +407,35 @@ TEST_F(JudgeTest, AnAllowedAlternativeIsNonStrictAndItsReadingIsNoted) {
   EXPECT_EQ(judged(steps).verdict, Verdict::fail);
 }
 
+/// Where the manual says two things of what is in memory, either is allowed, and no third.
+TEST_F(JudgeTest, MemoryMayHaveNamedAlternatives) {
+  const std::string check =
+      R"j({"check": {"reading": "stop", "back": {"%MW1": "0001", "%MW2": "0002"}, "past": {"%MW1": "dec(9)", "%MW2": "dec(7..8)"}}})j";
+  const auto holding = [&](const std::string& one, const std::string& two) {
+    endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<" + one + ">"}};
+    endpoint.answers["<r%MW2>"] = Pieces{{1ms, "<" + two + ">"}};
+    return judged(check + "," + check);
+  };
+  EXPECT_EQ(holding("0001", "0002").verdict, Verdict::pass);
+  const Judgement other = holding("0009", "0008");
+  EXPECT_EQ(other.verdict, Verdict::non_strict);
+  EXPECT_EQ(other.message, "allowed alternative: stop = past");
+  EXPECT_EQ(other.readings.at("stop"), "past");
+  const Judgement neither = holding("0001", "0008");
+  EXPECT_EQ(neither.verdict, Verdict::fail);
+  EXPECT_EQ(neither.message, "%MW2 holds 0008, 0002 is due; it is no alternative of stop either");
+}
+
+TEST_F(JudgeTest, ACaseThatMixesItsReadingsIsNonStrict) {
+  endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<0001>"}};
+  endpoint.answers["<r%MW2>"] = Pieces{{1ms, "<0002>"}};
+  const Judgement result = judged(
+      R"({"check": {"reading": "stop", "back": {"%MW1": "0001"}, "past": {"%MW1": "0002"}}},
+         {"check": {"reading": "stop", "back": {"%MW2": "0001"}, "past": {"%MW2": "0002"}}})");
+  EXPECT_EQ(result.verdict, Verdict::non_strict);
+  EXPECT_EQ(result.message, "mixes readings: stop = past, and back before");
+}
+
 TEST_F(JudgeTest, CapturesTieStepsTogether) {
   endpoint.answers["<ask>"] = Pieces{{1ms, "<1234>"}};
   endpoint.answers["<1234!>"] = Pieces{{1ms, "<1234>"}};

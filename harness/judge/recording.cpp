@@ -73,6 +73,7 @@ Result<Transcript> replay(const results::CaseResult& recorded, const PreparedCas
     record.refused_by_device = outcome.refused_by_device;
   }
   transcript.events = {recorded.exchange.begin(), recorded.exchange.end()};
+  transcript.trace = recorded.trace;
   transcript.flooded = recording.flooded;
   transcript.dead = recording.dead;
   return transcript;

@@ -102,6 +102,10 @@ results::RunInfo run_info(const RunOptions& options, const RunPlan& plan,
   if (!plan.bench.profile.notes.empty())
     info.properties["profile_notes"] = plan.bench.profile.notes;
   if (!plan.bench.profile.title.empty()) info.properties["device"] = plan.bench.profile.title;
+  if (const std::size_t tables = plan.vectors.tables.size())
+    info.properties["tables"] =
+        fmt::format("{} facts of printed tables beside the cases, which `fieldproof lint` checks",
+                    text::grouped(tables));
   if (options.seed >= 0) info.properties["seed"] = std::to_string(options.seed);
   if (options.repeat > 1) info.properties["repeat"] = std::to_string(options.repeat);
   if (!plan.line.empty()) info.properties["line"] = plan.line;

@@ -23,6 +23,13 @@ std::optional<int> config_station(const nlohmann::json& config, int fallback) {
   return station;
 }
 
+std::vector<std::string> alternatives_of(const Step& step) {
+  std::vector<std::string> names;
+  for (const Frame& frame : step.frames) names.push_back(frame.alternative);
+  for (const CheckedValues& values : step.alternatives) names.push_back(values.alternative);
+  return names;
+}
+
 bool is_client_case(const Case& one) { return one.config.value("role", "server") == "client"; }
 
 bool has_role(const Case& one, const std::string& role) {

@@ -58,6 +58,14 @@ struct LinkSpec {
   std::uint16_t port = 0;  // 0: the protocol's
 };
 
+/// What a check may find where a manual leaves several readings: the values at the addresses of the
+/// step's memory, in its order.
+struct CheckedValues {
+  std::string alternative;                     // its name
+  std::vector<std::string> digits;             // hex
+  std::vector<std::optional<Number>> numbers;  // beside digits, where it names a number
+};
+
 struct Step {
   enum class Kind {
     send,
@@ -76,9 +84,10 @@ struct Step {
   Kind kind = Kind::send;
   Source source{};            // where the step rests on another sentence than its case, else empty
   std::vector<Frame> frames;  // send: one; expect: the preferred first
-  std::string reading;        // what the alternatives of `expect` are about: type_echo
+  std::string reading;        // what the alternatives of `expect`, `check` are about: type_echo
   std::vector<std::pair<std::string, std::string>> memory;  // set, check: address and hex digits
   std::vector<std::optional<Number>> numbers;  // check: beside memory, where it names a number
+  std::vector<CheckedValues> alternatives;     // check: all that it may find, memory as the first
   std::string action;                          // do
   Duration duration{};                         // wait
   std::optional<Duration> within;              // expect: instead of the profile's response_max
@@ -116,6 +125,9 @@ struct Case {
 
 /// given.config.station as a number; `fallback` when absent, nothing when it is not 0-255.
 std::optional<int> config_station(const nlohmann::json& config, int fallback);
+
+/// The names of its alternatives, the preferred one first.
+std::vector<std::string> alternatives_of(const Step& step);
 
 bool is_client_case(const Case& one);
 /// `role`: "client", "server", or empty for both.

@@ -57,9 +57,11 @@ std::vector<std::pair<std::string, std::string>> read_memory(const json& value, 
   return memory;
 }
 
-/// What must be there: numbers may lie between two.
-void read_checked(const json& value, const Row& row, Step& step) {
+/// Values at addresses: numbers may lie between two.
+void read_values(const json& value, const Row& row, Step& step) {
   for (const auto& [key, text] : value.items()) {
+    if (!text.is_string())
+      throw Broken(fmt::format("'{}': named alternatives need a \"reading\"", key));
     const std::optional<Number> number = read_number(text_of(text, row));
     step.numbers.push_back(number);
     if (number)
@@ -67,6 +69,40 @@ void read_checked(const json& value, const Row& row, Step& step) {
     else
       step.memory.push_back(read_memory(json{{key, text}}, row).front());
   }
+}
+
+/// All look at the same memory, so that one look at it tells which is true.
+void require_same_places(const Step& first, const Step& other, const std::string& name) {
+  const auto same = [](const auto& one, const auto& two) {
+    return one.first == two.first && one.second.size() == two.second.size();
+  };
+  if (!std::ranges::equal(first.memory, other.memory, same))
+    throw Broken(
+        fmt::format("alternative '{}' has other addresses than the first, or values of "
+                    "another length; all have the same, in the same order",
+                    name));
+}
+
+/// What must be there, or named alternatives of it.
+void read_checked(const json& value, const Row& row, Step& step) {
+  if (!value.contains("reading")) return read_values(value, row, step);
+  step.reading = text_of(value["reading"], row);
+  for (const auto& [name, values] : value.items()) {
+    if (name == "reading") continue;
+    if (!values.is_object())
+      throw Broken(fmt::format("alternative '{}' is no object of addresses and values", name));
+    Step one;
+    read_values(values, row, one);
+    if (step.alternatives.empty()) {
+      step.memory = one.memory;
+      step.numbers = one.numbers;
+    }
+    require_same_places(step, one, name);
+    CheckedValues& found = step.alternatives.emplace_back(CheckedValues{name, {}, one.numbers});
+    for (const auto& [address, digits] : one.memory) found.digits.push_back(digits);
+  }
+  if (step.alternatives.size() < 2)
+    throw Broken(fmt::format("reading '{}' has one alternative; name two or more", step.reading));
 }
 
 PartnerSpec read_partner(const json& value, const Row& row) {

@@ -85,6 +85,29 @@ TEST(Loader, NamedAlternativesKeepTheirOrder) {
   EXPECT_EQ(step.frames[1].alternative, "aa_second");
 }
 
+TEST(Loader, ACheckMayHaveNamedAlternatives) {
+  const auto with = [](const std::string& check) {
+    return replaced(two_words, R"j("steps": [)j", R"j("steps": [{"check": )j" + check + "}, ");
+  };
+  const VectorSet set = load(with(
+      R"j({"reading": "stop", "past": {"SD2": "dec32(5)"}, "back": {"SD2": "dec32(1..2)"}})j"));
+  ASSERT_THAT(set.problems, IsEmpty());
+  const Step& step = set.cases[0].steps[0];
+  EXPECT_EQ(step.reading, "stop");
+  EXPECT_THAT(alternatives_of(step), testing::ElementsAre("past", "back"));
+  EXPECT_EQ(step.memory[0].second, "00050000") << "the preferred one";
+  EXPECT_EQ(step.alternatives[1].digits[0], "00010000");
+  EXPECT_THAT(only_problem(with(R"j({"past": {"SD2": "01"}})j")),
+              HasSubstr("'past': named alternatives need a \"reading\""));
+  EXPECT_THAT(only_problem(with(R"j({"reading": "stop", "past": {"SD2": "01"}})j")),
+              HasSubstr("reading 'stop' has one alternative"));
+  EXPECT_THAT(
+      only_problem(with(R"j({"reading": "stop", "past": {"SD2": "01"}, "back": {"SD4": "01"}})j")),
+      HasSubstr("alternative 'back' has other addresses than the first"));
+  EXPECT_THAT(only_problem(with(R"j({"reading": "stop", "past": "01", "back": {"SD4": "01"}})j")),
+              HasSubstr("alternative 'past' is no object of addresses and values"));
+}
+
 // A client's transaction is captured in one step and answered in another.
 TEST(Loader, WhatOneFrameCapturesIsAsLongInTheNext) {
   std::string text = two_words;

@@ -74,6 +74,11 @@ constexpr Shape any_object{.kind = Kind::object, .open = true};
 constexpr Shape memory{.kind = Kind::object, .least = 1, .open = true, .others = &text};
 constexpr Shape duration{.form = &duration_form};
 
+/// Addresses and values; with a `reading`, alternatives of them by name.
+constexpr Shape value_or_alternative{.least = 1, .instead = &memory};
+constexpr Shape checked{
+    .kind = Kind::object, .least = 1, .open = true, .others = &value_or_alternative};
+
 constexpr Shape quote{.least = 5};
 constexpr std::array source_keys{Key{"manual", &text, true}, Key{"section", &text, true},
                                  Key{"quote", &quote, true}, Key{"statement", &text_or_texts}};
@@ -116,7 +121,7 @@ constexpr Shape times{.kind = Kind::number, .least = 1, .most = 10'000};
 constexpr std::array step_keys{
     Key{"send", &text},           Key{"expect", &frame},     Key{"wire", &wires},
     Key{"silence", &yes},         Key{"wait", &duration},    Key{"partner", &partner},
-    Key{"set", &memory},          Key{"check", &memory},     Key{"do", &text},
+    Key{"set", &memory},          Key{"check", &checked},    Key{"do", &text},
     Key{"open", &open},           Key{"close", &close},      Key{"expect_close", &ending},
     Key{"expect_open", &open},    Key{"on", &text},          Key{"within", &duration},
     Key{"every", &duration},      Key{"max_gap", &duration}, Key{"times", &times},

@@ -73,6 +73,12 @@ void write_remarks(HtmlWriter& out, const CaseResult& result) {
     out.element("pre", {{"class", "replay"}}, text::shorten(result.replay, limits));
 }
 
+/// Of what is not on a wire.
+void write_kind(HtmlWriter& out, const CaseResult& result) {
+  if (!result.on_model.empty())
+    out.element("small", {{"class", "kind"}}, result.on_model + ", on a model");
+}
+
 }  // namespace
 
 void write_pass_line(HtmlWriter& out, const CaseResult& result, bool pictures) {
@@ -94,6 +100,7 @@ void write_pass_line(HtmlWriter& out, const CaseResult& result, bool pictures) {
       }
       out.text(line);
       if (hidden > 0) out.element("em", {}, " " + more_bytes(hidden));
+      write_kind(out, result);
       if (!result.dut.empty()) out.element("small", {{"class", "dut"}}, result.dut);
       for (const std::string& note : result.notes)
         out.element("small", {}, text::shorten(note, {.limit = line_bytes_limit}));
@@ -119,7 +126,10 @@ void write_case_line(HtmlWriter& out, const CaseResult& result, const std::strin
       else
         out.element("a", {{"href", "#" + link}}, text::case_label(result));
     });
-    out.element("td", {}, text::shorten(result.message, {.limit = line_bytes_limit}));
+    out.element("td", {}, [&] {
+      write_kind(out, result);
+      out.text(text::shorten(result.message, {.limit = line_bytes_limit}));
+    });
   });
 }
 

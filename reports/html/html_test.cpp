@@ -262,6 +262,13 @@ TEST_F(Html, APassIsOneLineWithItsBytes) {
   EXPECT_EQ("4.208", page.text("//table[@class='passes']//td[2]"));
 }
 
+TEST_F(Html, ACaseOfAModelSaysItsKindInItsLine) {
+  CaseResult one = passed(1);
+  one.on_model = "timing";
+  const ParsedHtml page(report({one}));
+  EXPECT_EQ("timing, on a model", page.text("//table[@class='passes']//small[@class='kind']"));
+}
+
 TEST_F(Html, SectionsCountByVerdict) {
   auto other = samples::with(Verdict::pass, "a/two");
   other.manual = "xgb-cnet-en-1.6";

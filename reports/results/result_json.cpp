@@ -44,13 +44,16 @@ void fields(auto& json, Of<AxisTrace> auto& axis) {
 }
 
 void fields(auto& json, Of<TokenTurn> auto& turn) {
+  json.may("begins", turn.begins);
   json.may("busy_ms", turn.busy);
   json.must("from_ms", turn.from);
+  json.may("of", turn.of);
   json.must("station", turn.station);
   json.must("to_ms", turn.to);
 }
 
 void fields(auto& json, Of<NetTrace> auto& net) {
+  json.may("cycle_ms", net.cycle);
   json.must("net", net.net);
   json.must("turns", net.turns);
 }

@@ -48,7 +48,7 @@ CaseResult full_result() {
                         {{1ms, 0, 0}, {4ms, 12.5, -5000}},
                         {{1ms, "MOTO 10000 5000 50"}},
                         {{"min limit switch", -400, -300}}}};
-  result.trace.nets = {{1, {{2, 0ns, 10ms, 6ms}, {3, 10ms, 20ms, 0ns}}}};
+  result.trace.nets = {{1, {{2, 0ns, 10ms, 6ms, 2, true}, {3, 10ms, 20ms, 0ns, 2}}, 20ms}};
   result.readings = {{"type_echo", "upper"}};
   result.response_ms = {0.765434, 12};
   result.seconds = 0.125;
@@ -82,6 +82,9 @@ TEST(CaseResultJson, EveryFieldComesBack) {
   EXPECT_EQ(-5000, again.trace.axes[0].samples.at(1).speed);
   EXPECT_EQ(4ms, again.trace.axes[0].samples[1].time);
   EXPECT_EQ(6ms, again.trace.nets.at(0).turns.at(0).busy);
+  EXPECT_EQ(2u, again.trace.nets[0].turns[0].of);
+  EXPECT_TRUE(again.trace.nets[0].turns[0].begins);
+  EXPECT_EQ(20ms, again.trace.nets[0].cycle);
   EXPECT_EQ(result.readings, again.readings);
   EXPECT_EQ(result.response_ms, again.response_ms);
   EXPECT_EQ(0.125, again.seconds);

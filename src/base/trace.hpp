@@ -34,12 +34,15 @@ struct AxisTrace {
 struct TokenTurn {
   unsigned station = 0;
   Time from{}, to{};
-  Duration busy{};  // of it, carrying
+  Duration busy{};      // of it, carrying
+  unsigned of = 0;      // so many stations shared the cycle when it began
+  bool begins = false;  // nobody was there before it
 };
 
 struct NetTrace {
   unsigned net = 0;
-  std::vector<TokenTurn> turns;  // in the order of time, without gaps
+  std::vector<TokenTurn> turns;  // in the order of time; gaps where nobody was there
+  Duration cycle{};              // in which each station has the token once
 };
 
 struct Trace {

@@ -35,7 +35,7 @@ void Axis::refresh(Time now, Duration period, bool run, unsigned slaves) {
   const bool wants_more = registers_.on(reg::full_loop) != in_loop_ ||
                           (registers_.on(reg::enable) && !enabled_ && right_ && !refused_);
   quiet_ = doing_ == Doing::nothing && !bound_ && !in_loop_ && !loop_turns_ && changes_.empty() &&
-           !wants_more;
+           !wants_more && !servo_.counters.expects() && !servo_.counters.is_lost();
 }
 
 void Axis::expect(const Register& setting, double value) {
@@ -52,7 +52,9 @@ void Axis::look_at_servo(bool run, unsigned slaves, Duration period) {
     checked_ = {slaves, refresh_us, bool(check_servo(servo_, slaves, refresh_us))};
   // "Cannot switch when running", and not with a servo on the bus (2-3-6).
   if (!is_moving()) simulates_ = registers_.on(reg::simulation);
-  right_ = servo_.connected ? checked_.right : simulates_;
+  if (servo_.connected)
+    servo_.counters.refresh(static_cast<unsigned>(std::max(servo_.parameter("P7-06"), 1)));
+  right_ = servo_.connected ? checked_.right && !servo_.counters.is_lost() : simulates_;
   if (!run) {
     if (is_moving()) {
       recorder_.note("PLC in STOP");

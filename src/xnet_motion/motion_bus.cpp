@@ -257,29 +257,67 @@ namespace {
 
 constexpr std::string_view push = "push ";
 
+struct OfServo {
+  std::optional<std::uint32_t> number;  // nothing: there can be none such
+  std::string_view what;
+};
+
+std::optional<std::uint32_t> servo_number(std::string_view word) {
+  const std::optional<std::uint32_t> number = plain_number(word);
+  return number && *number >= 1 && *number <= last_axis ? number : std::nullopt;
+}
+
 /// "servo 1 alarm": 1, and "alarm".
-std::pair<std::optional<std::uint32_t>, std::string_view> read_servo_action(
-    std::string_view action) {
+OfServo read_servo_action(std::string_view action) {
   Words words(action);
   words.next();
-  const std::optional<std::uint32_t> number = plain_number(words.next());
+  const std::optional<std::uint32_t> number = servo_number(words.next());
   return {number, words.rest()};
+}
+
+/// "U0-62 of servo 1": 1, and "U0-62".
+OfServo read_counter(std::string_view text) {
+  Words words(text);
+  const std::string_view counter = words.next();
+  if (words.next() != "of" || words.next() != "servo") return {};
+  return {servo_number(words.rest()), counter};
+}
+
+/// "have 3 sync errors"
+bool expect_errors(BusCounters& counters, std::string_view what) {
+  Words words(what);
+  if (words.next() != "have") return false;
+  const std::optional<std::uint32_t> periods = plain_number(words.next());
+  const std::string_view kind = words.next();
+  return periods && words.rest() == "errors" && counters.expect(kind, *periods);
 }
 
 Status check_servo_action(std::string_view action) {
   constexpr std::array<std::string_view, 9> known{"off",   "on",   "alarm",  "stuck alarm", "well",
                                                   "stall", "free", "enable", "disable"};
   const auto [number, what] = read_servo_action(action);
-  if (!number || *number < 1 || *number > last_axis) return wrong(action, "there is no such servo");
+  if (!number) return wrong(action, "there is no such servo");
   const bool pushed =
       what.starts_with(push) && constant<std::int32_t>(what.substr(push.size())).has_value();
-  if (pushed || std::ranges::count(known, what) > 0) return ok();
+  BusCounters untouched;
+  if (pushed || expect_errors(untouched, what) || std::ranges::count(known, what) > 0) return ok();
   return wrong(action,
                "a servo can off, on, alarm, stuck alarm, well, stall, free, enable, disable, "
-               "push 500");
+               "push 500, have 3 sync errors (data, crc, uart)");
 }
 
 }  // namespace
+
+bool MotionBus::is_counter(std::string_view text) {
+  const auto [number, counter] = read_counter(text);
+  return number && BusCounters().get(counter);
+}
+
+std::optional<unsigned> MotionBus::count(std::string_view text) const {
+  const auto [number, counter] = read_counter(text);
+  Axis* const axis = number ? find(*number) : nullptr;
+  return axis ? axis->servo().counters.get(counter) : std::nullopt;
+}
 
 Status MotionBus::check(std::string_view action, const Memory& memory) {
   if (action.starts_with("servo ")) return check_servo_action(action);
@@ -304,7 +342,7 @@ Status MotionBus::act_on_servo(std::string_view action) {
     servo.stalled = what == "stall";
   else if (what == "enable" || what == "disable")
     servo.enabled_by_hand = what == "enable";
-  else
+  else if (!expect_errors(servo.counters, what))
     axis->push(*constant<std::int32_t>(what.substr(push.size())));
   return ok();
 }

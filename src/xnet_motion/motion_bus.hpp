@@ -30,11 +30,17 @@ class MotionBus {
   /// "MOTO 10000 5000 50 axis 1" (operands also registers: D0), "MOTOS D0 D1000 axis 1",
   /// "MOSTOP -1 axis 1", "MOGOON axis 1", "MOSYN 0.5 master 1 slave 4", "MOUSYN axis 4",
   /// "MOWRITE D0 axis 1", "MOREAD D0 axis 1"; "servo 1 alarm", "stuck alarm", "well", "off", "on",
-  /// "stall", "free", "enable", "disable", "push 500". Errors name the word: the text is wrong.
+  /// "stall", "free", "enable", "disable", "push 500", "have 3 sync errors" (data, crc, uart), one
+  /// in each refresh period. Errors name the word: the text is wrong.
   /// What is wrong with the motion stands in SD2002.
   Status act(std::string_view action);
   /// What is wrong with such a text, before there is a bus; `memory`: of a PLC of its model.
   static Status check(std::string_view action, const Memory& memory);
+
+  /// What a servo shows: "U0-62 of servo 1" (2-6-2). Nothing: there is no such thing.
+  std::optional<unsigned> count(std::string_view text) const;
+  /// Is it such a thing, of any servo that there can be?
+  static bool is_counter(std::string_view text);
 
   /// Power is gone and back.
   void restart();

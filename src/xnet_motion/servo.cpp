@@ -89,6 +89,46 @@ Status read_key(const std::string& key, const json& value, Servo& servo) {
 
 }  // namespace
 
+namespace {
+
+struct Counter {
+  std::string_view kind, name;
+};
+constexpr std::array counters{Counter{"sync", "U0-62"}, Counter{"data", "U0-64"},
+                              Counter{"crc", "U0-66"}, Counter{"uart", "U0-67"}};
+
+}  // namespace
+
+bool BusCounters::expect(std::string_view kind, unsigned periods) {
+  const auto found = std::ranges::find(counters, kind, &Counter::kind);
+  if (found == counters.end()) return false;
+  kind_ = static_cast<std::size_t>(found - counters.begin());
+  periods_ = periods;
+  return true;
+}
+
+void BusCounters::refresh(unsigned retries) {
+  if (periods_ == 0) {
+    in_a_row_ = 0;
+    lost_ = false;
+    return;
+  }
+  --periods_;
+  ++all_;
+  ++of_kind_[kind_];
+  if (++in_a_row_ < retries || lost_) return;
+  lost_ = true;
+  ++overtimes_;
+}
+
+std::optional<unsigned> BusCounters::get(std::string_view name) const {
+  if (name == "U0-61") return all_;
+  if (name == "U0-68") return overtimes_;
+  const auto found = std::ranges::find(counters, name, &Counter::name);
+  if (found == counters.end()) return std::nullopt;
+  return of_kind_[static_cast<std::size_t>(found - counters.begin())];
+}
+
 int Servo::parameter(const std::string& name) const {
   const auto found = parameters.find(name);
   return found == parameters.end() ? 0 : found->second;

@@ -2,10 +2,12 @@
 // them up. Positions are in pulses of the axis as it stood at power-on.
 #pragma once
 
+#include <array>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/base/result.hpp"
@@ -18,6 +20,29 @@ struct Switch {
   double from = 0, to = 0;
 };
 
+/// What a servo counts of the bus (2-6-2, U0-61 to U0-68). What the manual is silent about:
+/// DECISIONS.md xnet/servo-counters.
+class BusCounters {
+ public:
+  /// Each of the next so many refresh periods has an error of this kind: "sync", "data", "crc",
+  /// "uart". False: there is no such kind.
+  bool expect(std::string_view kind, unsigned periods);
+  /// One refresh period. `retries`: P7-06.
+  void refresh(unsigned retries);
+  bool expects() const { return periods_ > 0; }
+  /// "Initial status": it waits for the synchronizing frame.
+  bool is_lost() const { return lost_; }
+  /// "U0-62". Nothing: it counts no such thing.
+  std::optional<unsigned> get(std::string_view name) const;
+
+ private:
+  unsigned all_ = 0, overtimes_ = 0;
+  std::array<unsigned, 4> of_kind_{};
+  std::size_t kind_ = 0;
+  unsigned periods_ = 0, in_a_row_ = 0;
+  bool lost_ = false;
+};
+
 struct Servo {
   unsigned axis = 1;
   std::map<std::string, int> parameters;  // "P0-01": as 2-6-2 sets them for this axis
@@ -25,6 +50,7 @@ struct Servo {
   double z_phase = 0;       // where the first Z of the encoder is; one in each turn
   double start = 0;         // where it stands
   double rated_torque = 1;  // N.m
+  BusCounters counters;
   bool connected = true, alarm = false, clearable = true, stalled = false, enabled_by_hand = false;
 
   int parameter(const std::string& name) const;

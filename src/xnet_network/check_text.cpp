@@ -6,8 +6,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "src/base/duration.hpp"
 #include "src/xnet_motion/motion_bus.hpp"
 #include "src/xnet_network/instruction.hpp"
+#include "src/xnet_network/port_results.hpp"
 
 namespace fieldproof::xnet {
 
@@ -16,12 +18,18 @@ namespace {
 constexpr std::array<std::string_view, 8> plain_actions{
     "run", "stop", "power_cycle", "on", "off", "noise on", "noise off", "release"};
 
+Status check_counter(std::string_view address, std::string_view counter) {
+  if (MotionBus::is_counter(counter)) return ok();
+  return fail(fmt::format("cannot read {}: write @U0-62 of servo 1", address));
+}
+
 }  // namespace
 
 Error unknown_action(std::string_view action) {
   return fail(fmt::format(
       "cannot do '{}': a PLC on X-NET can run, stop, power_cycle, on, off, noise on, noise off, "
-      "BIT_READ, BIT_WRITE, REG_READ, REG_WRITE, hold one of them, release; 'B: off' is of B",
+      "slow 20ms, modbus port 2 address error, free format port 2 send correct, BIT_READ, "
+      "BIT_WRITE, REG_READ, REG_WRITE, hold one of them, release; 'B: off' is of B",
       action));
 }
 
@@ -57,6 +65,7 @@ Status TextCheck::address(std::string_view address, std::size_t digits) const {
   const Model* const model = addressed(own);
   if (!model) return fail(fmt::format("cannot reach {}: there is no such PLC", address));
   if (own == "@turns") return ok();
+  if (own.starts_with("@U0-")) return check_counter(address, own.substr(1));
   const Result<std::string> read = blank_memory(*model).get(own, digits);
   return read ? ok() : Status(read.error());
 }
@@ -67,7 +76,15 @@ Status TextCheck::action(std::string_view action) const {
   const Model* const model = addressed(what);
   if (!model) return fail(fmt::format("cannot do '{}': there is no such PLC", action));
   if (std::ranges::count(plain_actions, what) > 0 || what.starts_with("release ")) return ok();
-  constexpr std::string_view hold = "hold ";
+  constexpr std::string_view hold = "hold ", slow_by = "slow ";
+  if (what.starts_with(slow_by)) {
+    const Result<Duration> late = parse_duration(what.substr(slow_by.size()));
+    return late ? ok() : Status(late.error());
+  }
+  if (is_port_result(what)) {
+    Memory unused = blank_memory(*model);
+    return tell_port_result(what, *model, unused);
+  }
   if (what.starts_with(hold)) what.remove_prefix(hold.size());
   if (!is_instruction(what) && !MotionBus::knows(what)) return unknown_action(action);
   return check_instruction(what, *model);

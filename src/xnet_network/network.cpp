@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/bytes.hpp"
+#include "src/base/duration.hpp"
 #include "src/xnet_network/check_text.hpp"
+#include "src/xnet_network/port_results.hpp"
 
 namespace fieldproof::xnet {
 
@@ -21,7 +23,7 @@ constexpr Duration ethernet_word = 2us;  // 5000 words in 10 ms (3-3-1)
 constexpr unsigned most_hops = 8;
 constexpr Duration look_period = 1ms;  // how old its time may be when it is told something
 
-constexpr unsigned result_register = 141, presence_relay = 1200;
+constexpr unsigned result_register = 141, presence_relay = 1200, initial_on = 2;
 constexpr unsigned times_of_ethernet = 194, failures_of_ethernet = 196, overtimes_of_ethernet = 198;
 
 void count_up(Memory& memory, unsigned number) {
@@ -124,7 +126,10 @@ std::optional<Time> XnetNetwork::wake_at() const {
     if (const std::optional<Time> at = bus.wake_at()) consider(std::min(*at, now_ + look_period));
   for (const auto& plc : plcs_)
     if (plc->motion && plc->powered) consider(plc->motion->wake_at());
-  if (std::ranges::any_of(plcs_, [](const auto& plc) { return has_to_look(*plc); })) consider(now_);
+  if (std::ranges::any_of(plcs_, [](const auto& plc) {
+        return has_to_look(*plc) || (plc->in_first_scan && plc->powered);
+      }))
+    consider(now_);
   return first;
 }
 
@@ -139,8 +144,10 @@ Bytes XnetNetwork::advance(Time now) {
   for (auto& [net, bus] : buses_) bus.advance(now);
   for (const auto& plc : plcs_)
     if (plc->motion && plc->powered) plc->motion->advance(now, plc->run);
-  for (const auto& plc : plcs_)
+  for (const auto& plc : plcs_) {
     if (has_to_look(*plc)) run_program(*plc);
+    if (plc->in_first_scan && plc->powered) end_first_scan(*plc);
+  }
   return {};
 }
 
@@ -181,6 +188,11 @@ Result<std::string> XnetNetwork::get(std::string_view address, std::size_t digit
   std::string_view own = address;
   const Plc* const plc = addressed(own);
   if (!plc) return fail(fmt::format("cannot read {}: there is no such PLC", address));
+  if (own.starts_with("@U0-") && plc->motion) {
+    const std::optional<unsigned> count = plc->motion->count(own.substr(1));
+    if (!count) return fail(fmt::format("cannot read {}: write @U0-62 of servo 1", address));
+    return hex_number(*count, static_cast<int>(digits));
+  }
   if (own != "@turns") return plc->memory.get(own, digits);
   std::string turns;
   for (const Port& port : plc->config.ports)
@@ -193,7 +205,7 @@ Status XnetNetwork::act(std::string_view action) {
   std::string_view what = action;
   Plc* const plc = addressed(what);
   if (!plc) return fail(fmt::format("cannot do '{}': there is no such PLC", action));
-  constexpr std::string_view hold = "hold ";
+  constexpr std::string_view hold = "hold ", slow_by = "slow ";
   const bool held = what.starts_with(hold);
   if (held && MotionBus::knows(what.substr(hold.size())))
     what.remove_prefix(hold.size());  // it acts at the edge
@@ -207,12 +219,15 @@ Status XnetNetwork::act(std::string_view action) {
   }
   if (is_instruction(what)) return execute(*plc, what, false);
   if (held) return execute(*plc, what.substr(hold.size()), true);
+  if (is_port_result(what)) return tell_port_result(what, *plc->config.model, plc->memory);
   if (what == "release" || what.starts_with("release "))
     plc->held.clear();
   else if (what == "run" || what == "stop")
-    plc->run = what == "run";
+    switch_to(*plc, what == "run");
   else if (what == "noise on" || what == "noise off")
     plc->noisy = what == "noise on";
+  else if (what.starts_with(slow_by))
+    return slow_down(*plc, what.substr(slow_by.size()));
   else if (what == "on" || what == "off")
     power(*plc, what == "on");
   else if (what == "power_cycle") {
@@ -221,6 +236,31 @@ Status XnetNetwork::act(std::string_view action) {
   } else
     return unknown_action(action);
   return ok();
+}
+
+Status XnetNetwork::slow_down(Plc& plc, std::string_view by) {
+  const Result<Duration> late = parse_duration(by);
+  if (!late) return fail(fmt::format("cannot do 'slow {}': {}", by, late.error().message));
+  plc.late = *late;
+  return ok();
+}
+
+void XnetNetwork::switch_to(Plc& plc, bool run) {
+  if (run && !plc.run) begin_scans(plc);
+  plc.run = run;
+}
+
+/// SM2 is on in the first scan of RUN (2-2-2).
+void XnetNetwork::begin_scans(Plc& plc) {
+  plc.in_first_scan = true;
+  plc.memory.write(component_in("SM", initial_on), 1);
+  plc.memory.touch();
+}
+
+void XnetNetwork::end_first_scan(Plc& plc) {
+  plc.in_first_scan = false;
+  plc.memory.write(component_in("SM", initial_on), 0);
+  plc.memory.touch();
 }
 
 Trace XnetNetwork::trace() const {
@@ -234,7 +274,7 @@ Trace XnetNetwork::trace() const {
   }
   for (const auto& [net, bus] : buses_)
     if (std::vector<TokenTurn> turns = bus.shown_turns(now_); !turns.empty())
-      trace.nets.push_back({net, std::move(turns)});
+      trace.nets.push_back({net, std::move(turns), bus.cycle()});
   return trace;
 }
 
@@ -281,12 +321,14 @@ void XnetNetwork::carry(Plc& via, const Route& route, const Port& port, Job job,
     if (next == partner_) return ask_partner(job, at);
     last ? finish(job, move(*next, job), at) : forward(*next, job, at);
   };
+  const Plc* const other = station_on(net, station);
+  const Duration late = via.late + (other ? other->late : 0ms);
   // A gateway that loses its power answers nobody.
   const auto lost = [=, this, own = job.from == &via] {
     if (!own) fail_later(job, now_);
   };
   if (port.type != NetType::ethernet)
-    return bus(port).queue(port.station, {job.instruction.words(), there, lost}, now);
+    return bus(port).queue(port.station, {job.instruction.words(), there, lost, late}, now);
   // One after the other through the port; each instruction takes its 2 ms.
   via.ethernet_free = std::max(via.ethernet_free, now) + ethernet_word * job.instruction.words();
   later(std::max(via.ethernet_free, now + least_on_ethernet), there);
@@ -336,6 +378,7 @@ void XnetNetwork::power(Plc& plc, bool on) {
   plc.under_way = 0;
   plc.held.clear();
   plc.relays_on.clear();
+  if (on && plc.run) begin_scans(plc);
   if (plc.motion && !on) plc.motion->restart();
   for (const Port& port : plc.config.ports) {
     if (port.type == NetType::ethernet) continue;

@@ -35,10 +35,12 @@ class XnetNetwork : public plc::SerialDevice, public plc::BusEnd {
 
   /// "D0" is of the first PLC, "B:D0" of the one called B. Errors name the address.
   Status set(std::string_view address, std::string_view hex) override;
-  /// Also "@turns": stations that had the token, the last 16 turns, two digits each.
+  /// Also "@turns": stations that had the token, the last 16 turns, two digits each; "@U0-62 of
+  /// servo 1" (2-6-2).
   Result<std::string> get(std::string_view address, std::size_t digits) const override;
   /// Instructions (instruction.hpp), at a rising edge; "hold INSTRUCTION", whose condition stays
-  /// on, and "release"; "run", "stop", "power_cycle", "on", "off", "noise on", "noise off". "B:
+  /// on, and "release"; "run", "stop", "power_cycle", "on", "off", "noise on", "noise off", "slow
+  /// 20ms" (DECISIONS.md xnet/slow-station); results of other communication (port_results.hpp). "B:
   /// off" is done to B.
   Status act(std::string_view action) override;
   Trace trace() const override;
@@ -59,7 +61,8 @@ class XnetNetwork : public plc::SerialDevice, public plc::BusEnd {
   struct Plc {
     StationConfig config;
     Memory memory;
-    bool run = true, powered = true, noisy = false;
+    bool run = true, powered = true, noisy = false, in_first_scan = false;
+    Duration late{};  // of what it carries and answers on a token bus
     Time ethernet_free{};
     unsigned under_way = 0;           // instructions
     std::vector<Instruction> held{};  // conditions that stay on
@@ -89,6 +92,10 @@ class XnetNetwork : public plc::SerialDevice, public plc::BusEnd {
   void run_program(Plc& plc);
   static bool has_to_look(const Plc& plc);
   void power(Plc& plc, bool on);
+  static void switch_to(Plc& plc, bool run);
+  static void begin_scans(Plc& plc);
+  static void end_first_scan(Plc& plc);
+  static Status slow_down(Plc& plc, std::string_view by);
   Status join(const nlohmann::json& hello);
   void ask_partner(const Job& job, Time now);
   void answer_partner(const nlohmann::json& asked);

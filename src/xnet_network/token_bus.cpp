@@ -26,7 +26,7 @@ std::vector<TokenBus::Transfer> TokenBus::leave(unsigned station) {
 }
 
 void TokenBus::queue(unsigned station, Transfer transfer, Time now) {
-  const Duration time = time_of(transfer.words);
+  const Duration time = time_of(transfer.words) + transfer.late;
   queues_[station].push_back({std::move(transfer), time});
   if (begun_ && station == holder_ && !carried_until_ && now < turn_ends_)
     carried_until_ = now + time;
@@ -79,7 +79,8 @@ void TokenBus::begin_turn(Time now) {
   if (next == queues_.end()) next = queues_.begin();
   holder_ = next->first;
   turn_ends_ = now + cycle_ / static_cast<Duration::rep>(queues_.size());
-  turns_.push_back({holder_, now, turn_ends_});
+  const bool begins = turns_.empty() || turns_.back().to < now;
+  turns_.push_back({holder_, now, turn_ends_, 0ms, static_cast<unsigned>(queues_.size()), begins});
   if (turns_.size() > kept_turns) turns_.pop_front();
   if (!next->second.empty()) carried_until_ = now + next->second.front().left;
 }

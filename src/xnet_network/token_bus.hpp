@@ -25,6 +25,7 @@ class TokenBus {
     std::uint32_t words = 1;
     std::function<void(Time)> done;
     std::function<void()> lost{};
+    Duration late{};  // it takes so much longer: one end of it is slow
   };
 
   /// From now on the station takes part, or does not. A holder that leaves takes the token with it
@@ -48,6 +49,7 @@ class TokenBus {
   /// Of them, as far as `now`, so many as a picture can show: from about the first that carried on,
   /// else the last. None where one station has the token all the time.
   std::vector<TokenTurn> shown_turns(Time now) const;
+  Duration cycle() const { return cycle_; }
 
  private:
   void begin_turn(Time now);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/xnet_motion/axis_registers.hpp"
+#include "src/xnet_motion/omms.hpp"
 #include "src/xnet_network/network.hpp"
 
 namespace fieldproof::xnet_suite {
@@ -119,7 +120,9 @@ Status check_register(const json& facts) {
 }
 
 Status accepted_or_not(const json& facts, const Status& done) {
-  const bool wanted = facts.value("accepted", true);
+  // Rows of `each` are text.
+  const auto given = facts.find("accepted");
+  const bool wanted = given == facts.end() || *given == true || *given == "true";
   if (bool(done) == wanted) {
     const std::string says = facts.value("says", "");
     if (done || done.error().message.find(says) != std::string::npos) return ok();
@@ -174,12 +177,41 @@ Status check_servo_fact(const json& facts) {
   return accepted_or_not(facts, check_servo(*servo, axes, axes > 10 ? 6000 : 3000));
 }
 
-Status check_characters(const json& facts) {
-  const double us = number_in(facts, "characters", 0) * number_in(facts, "bits", 11) * 1e6 /
-                    number_in(facts, "baud", 3e6);
-  const double printed = number_in(facts, "us", 0);
+/// Does the moment, in us, agree with what the fact has under `key`?
+Status check_moment(const json& facts, const char* key, Duration held) {
+  const double us = to_ms(held) * 1000, printed = number_in(facts, key, 0);
   if (std::abs(us - printed) < 0.5) return ok();
-  return fail(fmt::format("us: the manual gives {}, it is {:.1f}", printed, us));
+  return fail(fmt::format("{}: the manual gives {}, it is {:.1f}", key, printed, us));
+}
+
+Status check_characters(const json& facts) {
+  const SerialFormat format{count_in(facts, "baud", 0), count_in(facts, "bits", 0)};
+  if (format.baud == 0) return fail("'characters' without a baud");
+  return check_moment(facts, "us", format.time_of(count_in(facts, "characters", 0)));
+}
+
+Status check_sampling(const json& facts) {
+  const Result<Servo> servo = read_servo(facts["sampling"]);
+  if (!servo) return servo.error();
+  const Result<Duration> time = sampling_time(*servo);
+  return time ? check_moment(facts, "us", *time) : Status(time.error());
+}
+
+/// The slot of one axis, or whether they all fit.
+Status check_slots(const json& facts) {
+  const Result<Servo> servo = read_servo(facts["slots"]);
+  if (!servo) return servo.error();
+  const Result<std::vector<Slot>> slots = slots_of(*servo, count_in(facts, "frame", 0));
+  if (facts.contains("accepted"))
+    return accepted_or_not(facts, slots ? ok() : Status(slots.error()));
+  if (!slots) return slots.error();
+  const auto own = std::ranges::find(*slots, count_in(facts, "axis", 1), &Slot::axis);
+  if (own == slots->end()) return fail("that axis has no slot");
+  for (const auto& [key, held] :
+       {std::pair{"from_us", own->from}, std::pair{"to_us", own->to},
+        std::pair{"sends_from_us", own->sends_from}, std::pair{"sends_to_us", own->sends_to}})
+    if (const Status right = check_moment(facts, key, held); !right) return right;
+  return ok();
 }
 
 }  // namespace
@@ -200,12 +232,14 @@ Status check_fact(const json& facts) {
       Form{"cable", check_cable},
       Form{"servo", check_servo_fact},
       Form{"characters", check_characters},
+      Form{"sampling", check_sampling},
+      Form{"slots", check_slots},
       Form{"model", check_model}};
   for (const Form& form : forms)
     if (facts.contains(form.key)) return form.check(facts);
   return fail(
       "a fact of X-NET has one of first, object, register, configuration, instruction, ip, cable, "
-      "servo, characters, model");
+      "servo, characters, sampling, slots, model");
 }
 
 }  // namespace fieldproof::xnet_suite

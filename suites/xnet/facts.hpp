@@ -20,6 +20,9 @@ namespace fieldproof::xnet_suite {
 ///   {"cable": {"baud": 500000, "metres": 400}, "accepted": true}
 ///   {"servo": {"axis": 1, ...}, "axes": 10, "accepted": false}
 ///   {"characters": 15, "baud": 3000000, "bits": 11, "us": 55}
+///   {"sampling": {"P7-03": 9}, "us": 33}
+///   {"slots": {"P7-05": 20, "P7-07": 6000}, "frame": 30, "axis": 2, "from_us": 165, "to_us": 330,
+///    "sends_from_us": 192.5, "sends_to_us": 302.5}, or whether they fit: "accepted": false
 /// The error says what the table holds instead.
 Status check_fact(const nlohmann::json& facts);
 

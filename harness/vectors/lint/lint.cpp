@@ -203,28 +203,25 @@ std::vector<std::string> lint_readings(const VectorSet& set) {
   std::map<std::string, std::pair<const Case*, std::vector<std::string>>>
       first;  // the vector that names most alternatives
   std::vector<std::string> problems;
-  const auto names = [](const Step& step) {
-    std::vector<std::string> result;
-    for (const Frame& frame : step.frames) result.push_back(frame.alternative);
-    return result;
-  };
   for (const Case& one : set.cases)
     for (const Step& step : one.steps)
-      if (!step.reading.empty() && first[step.reading].second.size() < step.frames.size())
-        first[step.reading] = {&one, names(step)};
+      if (const std::vector<std::string> names = alternatives_of(step);
+          !step.reading.empty() && first[step.reading].second.size() < names.size())
+        first[step.reading] = {&one, names};
   for (const Case& one : set.cases)
     for (const Step& step : one.steps) {
       if (step.reading.empty()) continue;
       const auto& [model, known] = first[step.reading];
-      for (const std::string& name : names(step))
+      const std::vector<std::string> names = alternatives_of(step);
+      for (const std::string& name : names)
         if (std::ranges::find(known, name) == known.end())
           problems.push_back(fmt::format("{}: {}: reading {} has no alternative '{}' in {} ({})",
                                          one.file, one.id, step.reading, name, model->id,
                                          fmt::join(known, ", ")));
-      if (step.frames.front().alternative != known.front())
+      if (names.front() != known.front())
         problems.push_back(fmt::format("{}: {}: reading {} prefers '{}', but '{}' in {}", one.file,
-                                       one.id, step.reading, step.frames.front().alternative,
-                                       known.front(), model->id));
+                                       one.id, step.reading, names.front(), known.front(),
+                                       model->id));
     }
   return problems;
 }

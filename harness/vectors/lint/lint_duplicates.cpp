@@ -53,8 +53,15 @@ std::string text_of(const Step& step, const notation::Fields& fields) {
       ns(step.every), ns(step.max_gap), step.times, step.on, step.link.protocol,
       static_cast<int>(step.link.transport), step.link.port, static_cast<int>(step.closing),
       step.ending ? static_cast<int>(*step.ending) : -1, step.may_stay);
-  for (const std::optional<Number>& number : step.numbers)
-    if (number) text += " " + number->text();
+  const auto add = [&](const std::vector<std::optional<Number>>& numbers) {
+    for (const std::optional<Number>& number : numbers)
+      if (number) text += " " + number->text();
+  };
+  add(step.numbers);
+  for (const CheckedValues& one : step.alternatives) {
+    text += fmt::format("\n {} {}", one.alternative, fmt::join(one.digits, " "));
+    add(one.numbers);
+  }
   if (step.partner) text += " partner " + text_of(*step.partner);
   for (const Frame& frame : step.frames) {
     const auto templates = notation::make_templates(frame.notation, fields);

@@ -28,6 +28,7 @@ class BrokenXnet : public broken::WrappedDevice {
       (void)WrappedDevice::act(waiting_.front().second);
       waiting_.pop_front();
     }
+    follow_up();
     return sent;
   }
 
@@ -47,12 +48,24 @@ class BrokenXnet : public broken::WrappedDevice {
   Status act(std::string_view action) override {
     std::vector<std::string> actions{std::string(action)};
     if (behaviour_.act) actions = behaviour_.act(actions.front(), looking(), putting());
-    if (behaviour_.late == 0ms) return act_all(actions);
+    if (behaviour_.late == 0ms) {
+      const Status done = act_all(actions);
+      follow_up();
+      return done;
+    }
     for (std::string& one : actions) waiting_.emplace_back(now_ + behaviour_.late, std::move(one));
     return ok();
   }
+  Trace trace() const override {
+    Trace trace = WrappedDevice::trace();
+    if (behaviour_.trace) behaviour_.trace(trace);
+    return trace;
+  }
 
  private:
+  void follow_up() {
+    if (behaviour_.after) behaviour_.after(looking(), putting());
+  }
   Look looking() {
     return [this](const std::string& name, std::size_t digits) {
       const auto held = right().get(name, digits);

@@ -30,6 +30,9 @@ struct Behaviour {
   std::function<std::string(const std::string& name, const std::string& hex)> value{};
   /// What is set instead.
   std::function<std::string(const std::string& name, const std::string& hex)> set_value{};
+  /// Whenever time has passed, or something was done to it.
+  std::function<void(const Look& look, const Put& put)> after{};
+  std::function<void(Trace& trace)> trace{};
   Duration late{};  // actions act so much later
 };
 
@@ -37,6 +40,8 @@ using Fault = broken::FaultOf<std::function<Behaviour()>>;
 std::vector<Fault> data_faults();
 std::vector<Fault> motion_faults();
 std::vector<Fault> default_faults();
+std::vector<Fault> axis_faults();
+std::vector<Fault> bus_faults();
 const std::vector<Fault>& faults();
 
 Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_xnet(const Behaviour& behaviour,

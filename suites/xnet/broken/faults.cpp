@@ -4,7 +4,7 @@ namespace fieldproof::xnet_broken {
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> all =
-      broken::gather<Fault>({data_faults, motion_faults, default_faults});
+      broken::gather<Fault>({data_faults, motion_faults, default_faults, axis_faults, bus_faults});
   return all;
 }
 
