@@ -16,12 +16,9 @@ using nlohmann::json;
 
 bool is_on(const std::string& digits) { return digits.find_first_not_of('0') != std::string::npos; }
 
-/// That of a P2P channel which does not speak the protocol of the case; empty: there is none.
-std::string other_protocol(const json& config) {
-  const json none = json::object();
-  for (const json& channel : config.value("p2p", none).value("channels", json::array()))
-    if (channel.contains("protocol")) return channel["protocol"];
-  return {};
+/// Have P2P channels partners of their own, at other ports or of other protocols?
+bool has_several_partners(const json& config) {
+  return config.value("p2p", json::object()).contains("channels");
 }
 
 constexpr Duration answer_patience = 2s;
@@ -165,9 +162,8 @@ std::string Arming::objection(const vectors::Case& source, const json& config) c
   if (source.config.contains("monitor"))
     return "looks at the frame monitor of the module, which no command reads; see XG5000, frame "
            "monitor";
-  if (const std::string other = other_protocol(source.config); !other.empty())
-    return fmt::format("needs a partner of {} besides, and the bench listens for one protocol",
-                       other);
+  if (has_several_partners(source.config))
+    return "needs a partner for each channel, and the bench listens for one protocol at one port";
   Arming trial(protocol_, ways_);
   if (ways_.stimulus) {
     if (!bad_answer_.empty()) return bad_answer_;

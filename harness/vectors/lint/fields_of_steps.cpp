@@ -16,7 +16,7 @@ Result<notation::Fields> FieldsOfSteps::next(const Step& step) {
   }
   const auto service = services_.find(*link);
   if (service == services_.end()) return own_.fields_at(config_station(one_.config, 1).value_or(1));
-  const nlohmann::json& services = one_.config["services"];
+  const nlohmann::json services = one_.config.value("services", nlohmann::json::object());
   return service->second->fields_at(
       config_station(services.value(std::string(service->second->name()), nlohmann::json::object()),
                      1)

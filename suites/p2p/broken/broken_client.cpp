@@ -99,7 +99,7 @@ Result<std::unique_ptr<plc::EmulatedDevice>> make_broken_client(const Behaviour&
   const P2pClient::Timing timing{100ms * (time_out + 1), port.reply_delay(),
                                  port.line.character_time()};
   return std::unique_ptr<plc::EmulatedDevice>(std::make_unique<BrokenLineClient>(
-      **plc, *parameters, port.run, timing, behaviour, [&](BrokenDriver::Asked asked) {
+      **plc, *parameters, port.run, timing, behaviour, [&](BrokenDriver::Asked asked, unsigned) {
         return std::make_unique<BrokenDriver>(std::move(*good()), behaviour, std::move(asked));
       }));
 }

@@ -113,7 +113,7 @@ std::vector<Fault> shared_faults() {
        line_ends_with_connection, "modbus_tcp/cnet_and_tcp/close_is_not_the_line",
        "no answer within"},
       {"asks_or_serves", "while a P2P channel has a connection the server takes none",
-       asks_or_serves, "xgt_fenet/client/and_server/three_channels", "no answer"},
+       asks_or_serves, "xgt_fenet/client/and_server/three_channels", "within 500 ms on x"},
       {"refuses_nobody", "who is one too many beside P2P is not reset", refuses_nobody,
        "xgt_fenet/client/and_server/one_channel", "the device did not close the connection"},
       {"one_client_beside_channels", "P2P leaves the server one connection, whatever it has itself",
