@@ -35,7 +35,7 @@ void Axis::refresh(Time now, Duration period, bool run, unsigned slaves) {
   const bool wants_more = registers_.on(reg::full_loop) != in_loop_ ||
                           (registers_.on(reg::enable) && !enabled_ && right_ && !refused_);
   quiet_ = doing_ == Doing::nothing && !bound_ && !in_loop_ && !loop_turns_ && changes_.empty() &&
-           !wants_more && !servo_.counters.expects() && !servo_.counters.is_lost();
+           !wants_more && !servo_.counters.is_disturbed();
 }
 
 void Axis::expect(const Register& setting, double value) {

@@ -29,7 +29,8 @@ class BusCounters {
   bool expect(std::string_view kind, unsigned periods);
   /// One refresh period. `retries`: P7-06.
   void refresh(unsigned retries);
-  bool expects() const { return periods_ > 0; }
+  /// An error was in the last period, or will be in the next one.
+  bool is_disturbed() const { return periods_ > 0 || in_a_row_ > 0; }
   /// "Initial status": it waits for the synchronizing frame.
   bool is_lost() const { return lost_; }
   /// "U0-62". Nothing: it counts no such thing.

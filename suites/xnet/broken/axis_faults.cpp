@@ -103,7 +103,11 @@ Behaviour error_20021_without_reaction() {
 Behaviour error_20001_without_reaction() {
   const auto told = std::make_shared<Told>();
   told->limit = 1'000'000'000;
-  return {.value = shows_error(told, 20001),
+  const auto shown = shows_error(told, 20001);
+  return {.value =
+              [=](const std::string& text, const std::string& hex) {
+                return text == "SM2006" && told->error ? std::string("01") : shown(text, hex);
+              },
           .set_value =
               [=](const std::string& text, const std::string& hex) {
                 if (text != "SFD3016") return hex;
@@ -123,7 +127,7 @@ std::vector<Fault> axis_faults() {
       {"words_swapped", "double words of the axes have the high word first", words_swapped,
        "xnet/instruction_moto/application", "SD2008"},
       {"octal_off_by_eight", "inputs and outputs are eight further on", octal_off_by_eight,
-       "xnet/instruction_octal/coils", "Y"},
+       "xnet/instruction_data/bit_read_to/y7", "Y6"},
       {"max_limit_one_late", "one pulse past the max limit is inside", limit_one_late("SFD3016", 1),
        "xnet/instruction_errors/target/max", "SD2002"},
       {"min_limit_one_late", "one pulse past the min limit is inside",

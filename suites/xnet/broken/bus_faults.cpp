@@ -55,7 +55,7 @@ std::vector<Fault> bus_faults() {
       {"token_twice", "a station has the token before its turn", token_twice,
        "xnet/timing_token/each_has_it", "has the token twice"},
       {"sends_without_token", "a station sends when its turn is over", sends_without_token,
-       "xnet/timing_token/in_its_turn", "sends longer than it has the token"},
+       "xnet/timing_token/sends_in_its_turn", "sends longer than it has the token"},
       {"slow_station_unseen", "a slow station is as fast as any", ignores("slow"),
        "xnet/timing_token/slow_station/target", "SD161"},
       {"no_first_scan", "SM2 is never on", no_first_scan, "xnet/register_motion_flags/initial_on",
