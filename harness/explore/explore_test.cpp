@@ -425,7 +425,7 @@ TEST(Explorer, TheSameFaultIsOneFinding) {
   const Protocol& cnet = protocol("xgt-cnet");
   InProcess device(cnet, wrapped_in<OneCodeForAnother>(cnet));
   Explorer one = explorer(cnet, device, cases("xgt_cnet"));
-  while (one.requests_sent() < 3000) one.step();
+  while (one.requests_sent() < 1500) one.step();
   ASSERT_EQ(one.findings().size(), 1u);
   EXPECT_GT(one.findings().begin()->second.shown_by.size(), 1u);
 }
@@ -448,7 +448,7 @@ TEST(Explorer, TwoFaultsAreTwoFindings) {
   const Protocol& cnet = protocol("xgt-cnet");
   InProcess device(cnet, wrapped_in<TwoFaults>(cnet));
   Explorer one = explorer(cnet, device, cases("xgt_cnet"));
-  while (one.requests_sent() < 3000) one.step();
+  while (one.requests_sent() < 1500) one.step();
   EXPECT_EQ(one.findings().size(), 2u);
 }
 

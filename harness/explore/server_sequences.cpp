@@ -76,12 +76,12 @@ class ServerSequence : public Sequence {
     return one;
   }
 
-  /// The request that the failing step answers.
+  /// The request that the failing step answers. One with a pause in it is sent in two pieces.
   std::size_t failing_part(const CaseResult& result) const override {
-    std::size_t sent = 0;
+    std::set<int> sent;
     for (const results::Event& event : result.exchange)
-      if (event.kind == results::Event::Kind::sent && event.step >= 0) ++sent;
-    return std::min(sent == 0 ? 0 : sent - 1, requests_.size() - 1);
+      if (event.kind == results::Event::Kind::sent && event.step >= 0) sent.insert(event.step);
+    return std::min(sent.empty() ? 0 : sent.size() - 1, requests_.size() - 1);
   }
 
   /// By what should have come, what came, and where a request was wrong: which service shows it
