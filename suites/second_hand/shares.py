@@ -3,8 +3,9 @@
 
   shares.py FIELDPROOF [--mode run|derived|explore] [--protocol P] [--only FAULT]... [--jobs N]
 
-A fault is found where the run is red (exit 1). Cases of decisions that the device reads otherwise
-are left out, so that the healthy device is green; that is checked first."""
+A fault is found where the run is red (exit 1). Cases of decisions that the device reads otherwise are left
+out, and `explore` judges by an advisory profile, where what nobody prints is learnt, so that the healthy
+device is green; that is checked first."""
 import argparse
 import concurrent.futures
 import pathlib

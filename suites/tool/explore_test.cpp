@@ -126,7 +126,7 @@ TEST_F(ExploreCommand, AHealthyDeviceShowsNothingTwice) {
 /// What binds any device is not excused by a profile that is advisory.
 TEST_F(ExploreCommand, WrongDataIsRedOnAnAdvisoryProfile) {
   const Finished finished = explore({"--profile", "xbc-dxxxh", "--requests", "600", "--fail-fast",
-                                     "--endpoint", broken("lword_quarters_reversed")});
+                                     "--endpoint", broken("word_bytes_swapped_in_reads")});
   EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
 }
 
