@@ -193,7 +193,6 @@ std::string case_report(const results::CaseResult& result, const ConsoleOptions&
 
 std::string Progress::line(const text::Tally& tally, std::size_t total, const std::string& next_id,
                            Duration elapsed) {
-  if (!options_.terminal || (shown_ && elapsed - drawn_ < shortest_display)) return "";
   const std::size_t done = tally.total();
   const std::size_t left = total - std::min(done, total);
   const std::string of = std::to_string(total);
@@ -204,7 +203,11 @@ std::string Progress::line(const text::Tally& tally, std::size_t total, const st
   if (done > 0 && elapsed >= 1s)
     text += ", ~" + rough_time(std::chrono::duration<double>(elapsed).count() /
                                static_cast<double>(done) * static_cast<double>(left));
-  text += "  " + text::xml_line(next_id);
+  return line(text + "  " + text::xml_line(next_id), elapsed);
+}
+
+std::string Progress::line(std::string text, Duration elapsed) {
+  if (!options_.terminal || (shown_ && elapsed - drawn_ < shortest_display)) return "";
   // A line that wraps cannot be erased.
   const auto room = static_cast<std::size_t>(std::max(options_.width - 1, 0));
   if (text.size() > room) text.resize(room);

@@ -46,6 +46,9 @@ class Progress {
   std::string line(const text::Tally& tally, std::size_t total, const std::string& next_id,
                    Duration elapsed);
 
+  /// The same with this text.
+  std::string line(std::string text, Duration elapsed);
+
   /// Removes the line before anything else is printed; empty where none stands.
   std::string erase();
 
@@ -80,6 +83,9 @@ class ConsoleReport final : public results::Sink {
 
   void show_progress(std::size_t total, const std::string& next_id, Duration elapsed) {
     print_(progress_.line(summary_.tally, total, next_id, elapsed));
+  }
+  void show_progress(const std::string& text, Duration elapsed) {
+    print_(progress_.line(text, elapsed));
   }
   /// A line for the engineer between the cases.
   void say(const std::string& line) { print_(progress_.erase() + folded(line + '\n')); }

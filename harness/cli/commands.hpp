@@ -16,7 +16,7 @@ int run_command(const run::RunOptions& options, const harness::Protocols& protoc
 
 struct ExploreOptions {
   run::RunOptions run;         // device, fence, gate and reports; `seed` -1: by the clock
-  std::uint64_t requests = 0;  // then it ends; 0: by `run.duration`, or 100,000
+  std::uint64_t requests = 0;  // then it ends; 0: by `run.duration`, 100,000, or 10 minutes
 };
 /// Requests that no vector has, against the device and our own model of it.
 int explore_command(const ExploreOptions& options, const harness::Protocols& protocols);

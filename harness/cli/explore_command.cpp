@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "harness/bench/benches.hpp"
+#include "harness/bench/files/waivers.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/endpoints/kinds.hpp"
 #include "harness/explore/client_sequences.hpp"
@@ -17,7 +18,9 @@
 #include "harness/run/run_info.hpp"
 #include "harness/run/run_plan.hpp"
 #include "harness/run/run_report.hpp"
+#include "harness/run/timestamp.hpp"
 #include "harness/system/interrupt.hpp"
+#include "harness/vectors/filter.hpp"
 #include "harness/vectors/loader.hpp"
 #include "reports/text/report_file.hpp"
 #include "src/base/duration.hpp"
@@ -34,6 +37,7 @@ using run::RunReport;
 namespace {
 
 constexpr std::uint64_t usual_requests = 100'000;
+constexpr Duration usual_time = std::chrono::minutes(10);  // where time is real
 using Clock = std::chrono::steady_clock;
 
 /// The model that the device is held against.
@@ -46,11 +50,56 @@ std::string model_of(const RunPlan& plan) {
 explore::Device device_of(const RunPlan& plan, Benches& bench) {
   return {.protocol = plan.protocols.front(),
           .run = [&bench](const vectors::Case& one) { return bench.run(one); },
-          .alive = [&bench] { return bench.stopped().empty() && !bench.interrupted(); }};
+          .alive =
+              [&bench] {
+                return bench.stopped().empty() && !bench.interrupted() && !os::interrupted();
+              }};
 }
 
 bool over_the_wire(const RunPlan& plan) {
   return !endpoints::capabilities_of(plan.endpoint).back_door;
+}
+
+/// What a real device declares, as far as its model knows it; the line is the port's.
+nlohmann::json config_of(const RunPlan& plan) {
+  nlohmann::json config = nlohmann::json::object();
+  if (endpoints::kind_of(plan.endpoint).emulated) return config;
+  for (const auto& [key, value] : plan.bench.profile.config.items())
+    if (key != "line" && key != "bench_line" && key != "station" &&
+        plan.protocols.front()->make_device(model_of(plan), {{key, value}}))
+      config[key] = value;
+  return config;
+}
+
+/// A waiver of a finding, else of a case of `run`.
+bool is_of_a_finding(const bench::Waiver& waiver) {
+  return waiver.id.find("/explore/") != std::string::npos;
+}
+
+/// Without those that the profile excludes, or a waiver is about: they are not what this device is
+/// held to.
+void leave_out(RunPlan& plan) {
+  const auto erase = [&](const std::string& pattern) {
+    std::erase_if(plan.vectors.cases, [&](const vectors::Case& one) {
+      return vectors::matches_filter(one.id, pattern);
+    });
+  };
+  for (const auto& [pattern, reason] : plan.bench.profile.exclude) erase(pattern);
+  for (const bench::Waiver& waiver : plan.waivers)
+    if (!is_of_a_finding(waiver)) erase(waiver.id);
+  std::erase_if(plan.waivers, [](const auto& waiver) { return !is_of_a_finding(waiver); });
+}
+
+/// The waivers of `run` know no findings.
+Result<RunPlan> plan_of(run::RunOptions options, const harness::Protocols& protocols) {
+  Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
+  if (!waivers) return waivers.error();
+  options.waivers.clear();
+  Result<RunPlan> plan = run::make_run_plan(options, protocols);
+  if (!plan) return plan;
+  plan->waivers = std::move(*waivers);
+  leave_out(*plan);
+  return plan;
 }
 
 /// Where requests may go to.
@@ -59,7 +108,9 @@ explore::Server server_of(const RunPlan& plan, const harness::Protocol& configur
   explore::Server server{
       .protocol = &configured,
       .station = plan.bench.station,
+      .config = config_of(plan),
       .over_the_wire = over_the_wire(plan),
+      .learns = !plan.bench.profile.binding_decisions,
       .room = {},
       .allowed = [&plan, &configured, emulated](ByteView request) {
         const std::vector<harness::Protocol::Written> written = configured.written_by(request);
@@ -94,7 +145,8 @@ Result<std::unique_ptr<explore::Inventor>> server_sequences(const RunPlan& plan,
   std::vector<explore::Request> requests =
       explore::requests_of(plan.vectors.cases, protocol, model);
   if (requests.empty() || !protocol.memory()) return nothing_to_explore(protocol, "server");
-  Result<explore::Oracle> oracle = explore::Oracle::open(protocol, model, plan.bench.station);
+  Result<explore::Oracle> oracle =
+      explore::Oracle::open(protocol, model, plan.bench.station, config_of(plan));
   if (!oracle) return oracle.error();
   std::unique_ptr<explore::Inventor> inventor = std::make_unique<explore::ServerSequences>(
       server_of(plan, configured), std::move(*oracle), std::move(requests), seed);
@@ -146,12 +198,35 @@ CaseResult seen_result(const harness::Protocol& protocol, const std::string& top
   return result;
 }
 
+/// What is known beside: lines for the engineer, in a result that is none of a case.
+CaseResult known_result(const harness::Protocol& protocol, const std::string& name,
+                        const std::string& title, const std::vector<std::string>& lines) {
+  CaseResult result;
+  result.id = fmt::format("{}/explore/{}", vectors::folder_of(protocol), name);
+  result.protocol = protocol.name();
+  result.title = title;
+  result.level = "info";
+  result.basis = "decision";
+  result.verdict = Verdict::info;
+  result.message = fmt::format("{} lines", lines.size());
+  result.notes = lines;
+  return result;
+}
+
 /// One exploration: sequences to results.
 class Exploration {
  public:
   Exploration(const ExploreOptions& options, RunPlan& plan, std::vector<Benches>& ports,
               RunReport& report, Explorer& explorer)
-      : options_(options), plan_(plan), ports_(ports), report_(report), explorer_(explorer) {}
+      : options_(options), plan_(plan), ports_(ports), report_(report), explorer_(explorer) {
+    if (options_.requests > 0) most_ = options_.requests;
+    if (plan_.soak > 0ns) longest_ = plan_.soak;
+    if (most_ > 0 || longest_ > 0ns) return;
+    if (ports_.front().simulated())
+      most_ = usual_requests;
+    else
+      longest_ = usual_time;
+  }
 
   RunReport::End execute(const Status& started) {
     if (!started) {
@@ -166,26 +241,76 @@ class Exploration {
   }
 
  private:
+  Duration elapsed() const { return Clock::now() - started_; }
+
   bool goes_on() const {
     if (os::interrupted() || explorer_.exhausted()) return false;
-    if (plan_.soak > 0ns && Clock::now() - started_ >= plan_.soak) return false;
-    const std::uint64_t most = options_.requests > 0 ? options_.requests
-                               : plan_.soak > 0ns    ? 0
-                                                     : usual_requests;
-    return most == 0 || explorer_.requests_sent() < most;
+    if (longest_ > 0ns && elapsed() >= longest_) return false;
+    return most_ == 0 || explorer_.requests_sent() < most_;
+  }
+
+  bool fails(const explore::Finding& finding) {
+    CaseResult result = finding.result;
+    waivers_.apply(result);
+    return results::gates(result.verdict, report_.gate());
+  }
+  bool failed() {
+    return std::ranges::any_of(explorer_.findings(),
+                               [&](const auto& one) { return fails(one.second); });
   }
 
   void explore_it() {
+    started_ = Clock::now();
+    if (longest_ > 0ns && plan_.soak == 0ns)
+      report_.say(
+          fmt::format("explores for {}, since time is real here; else give --requests or "
+                      "--duration",
+                      in_minutes(longest_)));
     while (goes_on() && ports_.front().stopped().empty()) {
-      report_.show_progress(0, fmt::format("{} requests, {} findings", explorer_.requests_sent(),
-                                           explorer_.findings().size()));
+      tell_pace();
+      report_.show_progress(progress());
       explorer_.step();
-      if (options_.run.fail_fast && !explorer_.findings().empty()) break;
+      if (options_.run.fail_fast && failed()) break;
     }
     end_.interrupted = os::interrupted();
     if (!end_.interrupted) end_.trouble = ports_.front().stopped();
     if (explorer_.exhausted())
       report_.say("no more requests fit into what may be written; give --allow-write more words");
+  }
+
+  static std::string in_minutes(Duration time) {
+    const double seconds = std::chrono::duration<double>(time).count();
+    return seconds < 100 ? fmt::format("{:.0f} s", seconds)
+                         : fmt::format("{:.0f} min", seconds / 60);
+  }
+  /// Of one request; the bench keeps the pauses of the protocol between them, as in a run.
+  double pace() const {
+    return std::chrono::duration<double>(elapsed()).count() /
+           static_cast<double>(std::max<std::uint64_t>(1, explorer_.requests_sent()));
+  }
+  /// Until both limits that are given.
+  Duration to_go() const {
+    Duration left = longest_ > 0ns ? longest_ - elapsed() : Duration::max();
+    if (most_ > 0)
+      left = std::min(
+          left,
+          std::chrono::duration_cast<Duration>(std::chrono::duration<double>(
+              pace() * static_cast<double>(most_ - std::min(most_, explorer_.requests_sent())))));
+    return std::max(left, Duration{});
+  }
+
+  std::string progress() const {
+    const std::string of = most_ > 0 ? fmt::format(" of {}", most_) : "";
+    return fmt::format("{}{} requests, {} findings, ~{} to go", explorer_.requests_sent(), of,
+                       explorer_.findings().size(), in_minutes(to_go()));
+  }
+
+  /// Once, when enough has been seen of it: nobody waits for hours unawares.
+  void tell_pace() {
+    if (told_pace_ || elapsed() < 3s || explorer_.requests_sent() == 0) return;
+    told_pace_ = true;
+    report_.say(fmt::format("{:.1f} requests a second here: about {} to go", 1 / pace(),
+                            in_minutes(to_go())));
   }
 
   void report_what_was_found() {
@@ -197,6 +322,7 @@ class Exploration {
                     explorer_.judged(), options_.run.seed, explorer_.findings().size()));
     for (const auto& [what, answers] : explorer_.seen())
       report_.add(seen_result(protocol, what.first, what.second, answers));
+    report_what_is_known(protocol);
     int number = 0;
     for (const auto& [why, times] : explorer_.unjudged()) {
       CaseResult result;
@@ -209,6 +335,20 @@ class Exploration {
     for (const auto& [mark, finding] : explorer_.findings()) report_.add(result_of(finding));
   }
 
+  void report_what_is_known(const harness::Protocol& protocol) {
+    const explore::Inventor::Known known = explorer_.known();
+    for (const std::string& line : known.limits) report_.say("  " + line);
+    std::vector<std::string> map = known.services;
+    map.insert(map.end(), known.limits.begin(), known.limits.end());
+    if (!map.empty())
+      report_.add(known_result(protocol, "map", "Services by answer, counts, ends of areas", map));
+    for (const std::string& line : known.readings) report_.say("  reads " + line);
+    if (!known.readings.empty())
+      report_.add(known_result(protocol, "readings",
+                               "What nobody says is right, as this device reads it",
+                               known.readings));
+  }
+
   CaseResult result_of(const explore::Finding& finding) {
     CaseResult result = finding.result;
     const std::filesystem::path file =
@@ -217,10 +357,18 @@ class Exploration {
     result.notes.push_back(finding.confirmed
                                ? "shown again three times in a row"
                                : "seen once, not again: it depends on what was before");
-    result.notes.push_back(fmt::format("shown by {} sequences", finding.times));
+    std::uint64_t times = 0;
+    std::string by;
+    for (const auto& [topic, count] : finding.shown_by) {
+      times += count;
+      by += fmt::format("{}{} {}", by.empty() ? ": " : ", ", topic, count);
+    }
+    result.notes.push_back(run::bounded(fmt::format("shown by {} sequences{}", times, by)));
+    result.notes.push_back(finding.shortest.why);
     if (const Status written = write(file, explore::vector_text(finding.shortest)); !written)
       end_.trouble = written.error().message;
     result.replay = fmt::format("{} --vectors {}", base_command(), run::shell_word(file.string()));
+    waivers_.apply(result);
     long_texts_.shorten(result);
     return result;
   }
@@ -254,6 +402,10 @@ class Exploration {
   Explorer& explorer_;
   run::LongTexts long_texts_;
   RunReport::End end_;
+  bench::Waivers waivers_{plan_.waivers, run::timestamp().substr(0, 10), plan_.identity.firmware};
+  std::uint64_t most_ = 0;  // 0: as many as go
+  Duration longest_{};      // 0: as long as it takes
+  bool told_pace_ = false;
   Clock::time_point started_ = Clock::now();
 };
 
@@ -286,12 +438,12 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
   if (options.run.seed < 0)
     options.run.seed =
         static_cast<int>(std::chrono::system_clock::now().time_since_epoch().count() % 100'000);
-  Result<RunPlan> plan = run::make_run_plan(options.run, protocols);
+  Result<RunPlan> plan = plan_of(options.run, protocols);
   if (!plan) return run::complain(plan.error().message, run::exit_code::usage);
   const harness::Protocol& protocol = *plan->protocols.front();
   const std::string model = model_of(*plan);
   const Result<std::unique_ptr<harness::Protocol>> configured =
-      protocol.configured(model, nlohmann::json::object());
+      protocol.configured(model, config_of(*plan));
   if (!configured) return run::complain(configured.error().message, run::exit_code::usage);
   const std::uint64_t seed = static_cast<std::uint64_t>(options.run.seed);
   Result<std::unique_ptr<explore::Inventor>> inventor =
@@ -303,7 +455,6 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
   Result<run::ReportPaths> paths = run::make_report_paths(options.run.out, options.run.json,
                                                           options.run.junit, options.run.html);
   if (!paths) return run::complain(paths.error().message, run::exit_code::trouble);
-  if (!options.run.capture.empty()) paths->emplace_back("capture", options.run.capture);
   if (const Status opened = run::open_journals(options.run, *plan); !opened)
     return run::complain(opened.error().message, run::exit_code::usage);
   Result<run::Devices> devices = run::open_devices(*plan);

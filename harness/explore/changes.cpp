@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
+#include <cctype>
 
 #include "harness/explore/damage.hpp"
 
@@ -18,6 +20,13 @@ constexpr std::string_view digits = "0123456789ABCDEF";
 bool is_digit(Byte byte) { return digits.find(static_cast<char>(byte)) != std::string_view::npos; }
 
 Byte any_digit(Random& random) { return static_cast<Byte>(digits[random.below(digits.size())]); }
+
+/// "data", "data 2"; not its type, size or number, which make another request of it.
+bool is_data(const Field& field) {
+  const bool numbered = field.name.starts_with("data ") && field.name.size() > 5 &&
+                        std::isdigit(static_cast<unsigned char>(field.name[5])) != 0;
+  return field.size > 0 && (field.name == "data" || numbered);
+}
 
 /// Digits stay digits.
 Bytes any_data(ByteView old, bool text, Random& random) {
@@ -79,6 +88,11 @@ bool Changes::make(std::string_view kind, Request& request, HotWords& hot, Rando
   if (kind == "field") done = field(request, random);
   if (kind == "damage") done = damage(request, random);
   if (kind == "pause") done = pause(request, random);
+  if (kind == "resized") done = resized(request, std::nullopt, random);
+  if (kind == "letters") done = letters(request, random);
+  if (kind == "order") done = order(request, random);
+  if (kind == "station") done = station(request, random);
+  if (kind == "twice") done = twice(request);
   if (done) request.kind = kind;
   return done;
 }
@@ -105,8 +119,7 @@ bool Changes::elsewhere(Request& request, HotWords& hot, Random& random) const {
   for (const Bracket& bracket : safety::brackets_of(request.notation, false, fields_, protocol_)) {
     changed |= move(request, bracket, hot, random);
     for (const Field& field : protocol_.explain_as(bracket.bytes, true))
-      if (field.name.find("data") != std::string::npos &&
-          field.name.find("count") == std::string::npos && field.size > 0) {
+      if (is_data(field)) {
         const ByteView old = ByteView(bracket.bytes).subspan(field.offset, field.size);
         changed |= safety::patch(request.notation, bracket, field.offset,
                                  any_data(old, protocol_.is_text(), random), fields_);
@@ -176,14 +189,116 @@ bool Changes::damage(Request& request, Random& random) const {
 bool Changes::pause(Request& request, Random& random) const {
   // On real time none that is as long as what a protocol waits for.
   static constexpr std::array<double, 7> pauses{200, 1500, 1, 3, 5, 10, 1000};
+  const bool network = protocol_.default_port() != 0;
   const Result<Bytes> bytes = safety::bytes_of(request.notation, fields_);
   if (!bytes || bytes->size() < 2) return false;
   const std::size_t at = 1 + random.below(bytes->size() - 1);
-  const double long_one = pauses[random.below(line_ ? pauses.size() : 2)];
-  Damaged damaged = paused(*bytes, at, {long_one, false});
+  // None at all: there are two segments.
+  const double pause =
+      network && random.chance(33) ? 0 : pauses[random.below(line_ ? pauses.size() : 2)];
+  Damaged damaged = paused(*bytes, at, {pause, false});
   request.notation = std::move(damaged.notation);
   request.change = std::move(damaged.change);
   return true;
+}
+
+bool Changes::resized(Request& request, std::optional<std::uint32_t> wish, Random& random) const {
+  static constexpr std::array<std::uint32_t, 16> sizes{1,  2,  3,  8,   15,  16,  17,  32,
+                                                       60, 61, 64, 120, 125, 126, 255, 513};
+  const std::vector<Bracket> brackets =
+      safety::brackets_of(request.notation, false, fields_, protocol_);
+  if (brackets.size() != 1) return false;
+  const std::optional<Count> had = counts_.count_in(brackets.front().bytes);
+  if (!had) return false;
+  std::uint32_t count =
+      random.chance(50) ? 1 + static_cast<std::uint32_t>(random.below(20)) : random.of(sizes);
+  if (wish) count = *wish;
+  constexpr std::uint32_t most_blocks = 40;  // each has a name
+  if (had->field.name == "block count") count = std::min(count, most_blocks);
+  const std::optional<Bytes> made = counts_.resized(brackets.front().bytes, count, random);
+  if (!made || made->size() > 2 * protocol_.longest_frame()) return false;
+  request.notation = notation_of(*made, true, protocol_, station_);
+  request.change = fmt::format("{} {} becomes {}", had->field.name, had->value, count);
+  return true;
+}
+
+bool Changes::letters(Request& request, Random& random) const {
+  const std::vector<Bracket> brackets =
+      safety::brackets_of(request.notation, false, fields_, protocol_);
+  if (!protocol_.is_text() || brackets.empty()) return false;
+  const Bracket& bracket = random.of(brackets);
+  std::vector<Field> fields = protocol_.explain_as(bracket.bytes, true);
+  std::erase_if(fields, [&](const Field& one) {
+    const ByteView bytes = ByteView(bracket.bytes).subspan(one.offset, one.size);
+    return notation::find_check(protocol_.checks(), one.name) ||
+           std::ranges::none_of(bytes, [](Byte byte) { return std::isalpha(byte) != 0; });
+  });
+  if (fields.empty()) return false;
+  const Field& field = random.of(fields);
+  Bytes bytes(bracket.bytes.begin() + static_cast<std::ptrdiff_t>(field.offset),
+              bracket.bytes.begin() + static_cast<std::ptrdiff_t>(field.offset + field.size));
+  for (Byte& byte : bytes)
+    if (std::isalpha(byte) != 0) byte = static_cast<Byte>(byte ^ 0x20);
+  return put(request, bracket, field, bytes);
+}
+
+bool Changes::order(Request& request, Random& random) const {
+  const Result<Bytes> whole = safety::bytes_of(request.notation, fields_);
+  if (!whole) return false;
+  std::vector<Field> fields = protocol_.explain_as(*whole, true);
+  std::erase_if(fields, [&](const Field& one) {
+    return one.size == 0 || one.offset + one.size > whole->size() ||
+           notation::find_check(protocol_.checks(), one.name);
+  });
+  if (fields.size() < 2) return false;
+  const std::size_t at = random.below(fields.size() - 1);
+  const Field &first = fields[at], &second = fields[at + 1];
+  if (first.offset + first.size != second.offset) return false;
+  Bytes bytes = *whole;
+  const auto place = [&](std::size_t offset) {
+    return bytes.begin() + static_cast<std::ptrdiff_t>(offset);
+  };
+  std::rotate(place(first.offset), place(second.offset), place(second.offset + second.size));
+  if (bytes == *whole) return false;
+  request.notation = notation_of(counts_.with_checks(bytes), true, protocol_, station_);
+  request.change = fmt::format("{} before {}", second.name, first.name);
+  return true;
+}
+
+bool Changes::station(Request& request, Random& random) const {
+  bool changed = false;
+  const int by = 1 + static_cast<int>(random.below(30));
+  for (notation::Item& item : request.notation) {
+    if (item.kind != notation::Item::Kind::station || !line_) continue;
+    item.number += by;
+    changed = true;
+  }
+  request.change = fmt::format("to the station {} further", by);
+  return changed && safety::bytes_of(request.notation, fields_);
+}
+
+bool Changes::twice(Request& request) const {
+  const Result<Bytes> bytes = safety::bytes_of(request.notation, fields_);
+  if (!bytes || bytes->empty() || bytes->size() > protocol_.longest_frame()) return false;
+  Bytes both = *bytes;
+  both.insert(both.end(), bytes->begin(), bytes->end());
+  request.notation = raw_notation(both);
+  request.change = "sent twice without a pause";
+  return true;
+}
+
+std::optional<Request> Changes::with_registration(const Request& request, unsigned number) const {
+  for (const Bracket& bracket : safety::brackets_of(request.notation, false, fields_, protocol_)) {
+    const std::vector<Field> fields = protocol_.explain_as(bracket.bytes, true);
+    const auto field = std::ranges::find(fields, "registration number", &Field::name);
+    if (field == fields.end() || field->size != 2) continue;
+    Request registers = request;
+    const std::string digits = fmt::format("{:02X}", number);
+    if (!safety::patch(registers.notation, bracket, field->offset, to_bytes(digits), fields_))
+      continue;
+    return registers;
+  }
+  return std::nullopt;
 }
 
 std::vector<Protocol::Written> Changes::named_by(const Request& request) const {
@@ -222,9 +337,22 @@ std::optional<Request> Changes::look_anywhere(Request like, HotWords& hot, Rando
   return read(std::move(like), {area, *word, *word, ""});
 }
 
-std::optional<Request> Changes::read(Request like, const Protocol::Written& names) const {
+std::optional<Request> Changes::look_past(Request like, Random& random) const {
+  std::vector<Protocol::Area> areas = protocol_.areas();
+  std::erase_if(areas, [&](const auto& one) { return protocol_.words_of(one.name) == 0; });
+  if (areas.empty()) return std::nullopt;
+  const std::string& area = random.of(areas).name;
+  const std::uint32_t word = protocol_.words_of(area) +
+                             static_cast<std::uint32_t>(random.chance(70) ? 0 : random.below(64));
+  std::optional<Request> look = read(std::move(like), {area, word, word, ""}, false);
+  if (look) look->kind = "past";
+  return look;
+}
+
+std::optional<Request> Changes::read(Request like, const Protocol::Written& names,
+                                     bool declared) const {
   const std::optional<Protocol::Place> place = place_of(names, protocol_);
-  if (!place || !place->declared) return std::nullopt;
+  if (!place || place->declared != declared) return std::nullopt;
   const Result<std::vector<Bytes>> reads =
       protocol_.read_requests(station_, place->address, place->digits);
   if (!reads || reads->empty()) return std::nullopt;

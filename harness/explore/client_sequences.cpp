@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <set>
 
@@ -38,7 +39,8 @@ class ClientSequence : public Sequence {
         set_up_(std::move(set_up)),
         stimuli_(std::move(stimuli)),
         case_(std::move(one)),
-        ends_(std::move(ends)) {}
+        ends_(std::move(ends)),
+        config_(set_up_.config.dump()) {}
 
   std::size_t parts() const override { return stimuli_.size(); }
   std::uint64_t requests() const override {
@@ -67,7 +69,7 @@ class ClientSequence : public Sequence {
                         return kind_of(each) == "well";
                       });
     one.basis = well ? "derived" : "decision";
-    if (!well) one.decisions = {{own_model_decision, one.source.quote}};
+    if (!well) one.decisions = {{own_model_decision, own_model_sentence}};
     const Topic last = topic(parts() - 1);
     one.title = fmt::format("Client: {} ({}){}", last.name, last.kind,
                             parts() == 1 ? "" : fmt::format(" behind {} others", parts() - 1));
@@ -88,20 +90,33 @@ class ClientSequence : public Sequence {
     return parts() - 1;
   }
 
+  /// By what was asked, and what was wrong, without numbers and addresses.
+  std::string mark(std::size_t part, const CaseResult& result) const override {
+    std::string words;
+    for (const char c : result.message)
+      if (!std::isdigit(static_cast<unsigned char>(c)) &&
+          !std::isupper(static_cast<unsigned char>(c)))
+        words += c;
+    return fmt::format("{}/{}: {}", topic(part).name, topic(part).kind, words);
+  }
+
+  const std::string& config() const { return config_; }
+
   Own without(std::size_t from, std::size_t count) const override {
     return inventor_.played(set_up_, left_out(stimuli_, from, count));
   }
 
   /// Blocks.
   std::size_t settings() const override { return set_up_.blocks.size(); }
-  Own without_setting(std::size_t at) const override {
+  Own without_settings(std::size_t from, std::size_t count) const override {
     ClientSetUp fewer = set_up_;
-    fewer.blocks = left_out(std::move(fewer.blocks), at, 1);
+    fewer.blocks = left_out(std::move(fewer.blocks), from, count);
     std::vector<Stimulus> stimuli = stimuli_;
-    for (Stimulus& stimulus : stimuli) {
-      if (std::ranges::find(stimulus.fired, at) != stimulus.fired.end()) return nullptr;
-      for (std::size_t& fired : stimulus.fired) fired -= fired > at;
-    }
+    for (Stimulus& stimulus : stimuli)
+      for (std::size_t& fired : stimulus.fired) {
+        if (fired >= from && fired - from < count) return nullptr;
+        fired -= fired > from ? count : 0;
+      }
     return inventor_.played(std::move(fewer), std::move(stimuli));
   }
 
@@ -111,6 +126,7 @@ class ClientSequence : public Sequence {
   std::vector<Stimulus> stimuli_;
   Case case_;
   std::vector<std::size_t> ends_;
+  std::string config_;
 };
 
 }  // namespace
@@ -200,6 +216,21 @@ Sequence::Own ClientSequences::invent() {
   for (std::size_t i = 0; i < length; ++i)
     stimuli.push_back(invent_stimulus(set_up.blocks.size(), well));
   return played(std::move(set_up), std::move(stimuli));
+}
+
+const std::string& ClientSequences::config_of(const Sequence& sequence) {
+  return static_cast<const ClientSequence&>(sequence).config();
+}
+
+void ClientSequences::done(const Sequence& sequence) { followed_.insert(config_of(sequence)); }
+
+/// The program of this device takes no such configuration (a time-out that it cannot keep).
+bool ClientSequences::give_up(const Sequence& sequence) {
+  constexpr int enough = 3;  // a fault of the partner alone may be what it cannot have
+  const std::string& config = config_of(sequence);
+  if (!followed_.contains(config) && ++refused_[config] == enough)
+    std::erase_if(pool_.groups, [&](const auto& group) { return group.config.dump() == config; });
+  return !pool_.groups.empty();
 }
 
 /// Twice where something was not asked for: without the wait for it, the rest may be another.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,12 +32,15 @@ class ClientSequences : public Inventor {
   bool can_invent() const override { return !pool_.groups.empty(); }
   Sequence::Own invent() override;
   void note(const Topic& topic, std::uint64_t times) override { weights_.note(topic.kind, times); }
+  void done(const Sequence& sequence) override;
+  bool give_up(const Sequence& sequence) override;
 
   /// Nothing: what our own device does cannot be told in order.
   Sequence::Own played(ClientSetUp set_up, std::vector<Stimulus> stimuli);
 
  private:
   ClientSequences(Client client, ClientPool pool, std::uint64_t seed);
+  static const std::string& config_of(const Sequence& sequence);
   void try_out(const std::string& fault);
   ClientSetUp invent_set_up();
   Stimulus invent_stimulus(std::size_t blocks, bool well);
@@ -44,6 +49,8 @@ class ClientSequences : public Inventor {
   ClientPool pool_;
   Weights weights_;  // of faults and actions
   Random random_;
+  std::set<std::string> followed_;      // configurations that the device could have
+  std::map<std::string, int> refused_;  // and how often others were refused
   std::unique_ptr<endpoints::Endpoint> model_;
 };
 

@@ -98,7 +98,7 @@ Result<std::vector<Request>> tellable(std::vector<Request> rest, const Request& 
   while (!rest.empty()) {
     std::vector<Request> asked = rest;
     asked.push_back(right);
-    const Result<std::vector<Answer>> answers = oracle.ask(asked, memory, true);
+    const Result<std::vector<Answer>> answers = oracle.ask(asked, memory, Past::none);
     if (!answers) return answers.error();
     const auto end =
         rest.begin() + static_cast<std::ptrdiff_t>(std::min(answers->size(), rest.size()));
@@ -113,7 +113,7 @@ Result<std::optional<Case>> case_of(const Case& source, std::vector<Request> wro
                                     const Request& right, const Protocol& protocol, int station,
                                     Oracle& oracle, std::string id) {
   wrong.push_back(right);
-  const Result<std::vector<Answer>> answers = oracle.ask(wrong, source.memory, true);
+  const Result<std::vector<Answer>> answers = oracle.ask(wrong, source.memory, Past::none);
   if (!answers) return answers.error();
   if (answers->size() < wrong.size()) return std::optional<Case>();
   Case one = explore::case_of(wrong, *answers, source.memory, protocol, station, std::move(id));

@@ -1,4 +1,5 @@
 // Requests, what becomes of them, and sequences that are held against our own device.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -51,22 +52,23 @@ Bytes bytes_of(const Request& one, const Protocol& own) {
 /// A device of the protocol, in process; `make` may make a broken one.
 class InProcess {
  public:
-  explicit InProcess(const Protocol& own, endpoints::DeviceFactory make = {})
+  explicit InProcess(const Protocol& own, endpoints::DeviceFactory make = {}, bool binding = true)
       : endpoint_(
             {"emulator", own.models().front(), {}},
             make ? std::move(make)
                  : [&own](std::string_view model,
                           const nlohmann::json& config) { return own.make_device(model, config); },
             {}, own.default_port()),
-        bench_(endpoint_, own, options(own)) {}
+        bench_(endpoint_, own, options(own, binding)) {}
 
   CaseResult run(const Case& one) { return bench_.run(one); }
 
  private:
-  static bench::BenchOptions options(const Protocol& own) {
+  static bench::BenchOptions options(const Protocol& own, bool binding) {
     bench::BenchOptions options;
     options.profile.name = "emulator";
     options.profile.protocols = {std::string(own.name())};
+    options.profile.binding_decisions = binding;
     options.known = suites::protocols();
     return options;
   }
@@ -75,13 +77,16 @@ class InProcess {
 };
 
 Explorer explorer(const Protocol& own, InProcess& device, const std::vector<Case>& from,
-                  std::uint64_t seed = 1) {
+                  std::uint64_t seed = 1, Server server = {}) {
+  server.protocol = &own;
   const std::string model = own.models().front();
-  return Explorer({&own, [&device](const Case& one) { return device.run(one); }},
-                  std::make_unique<ServerSequences>(Server{.protocol = &own},
-                                                    std::move(*Oracle::open(own, model, 1)),
-                                                    requests_of(from, own, model), seed));
+  return Explorer(
+      {&own, [&device](const Case& one) { return device.run(one); }},
+      std::make_unique<ServerSequences>(std::move(server), std::move(*Oracle::open(own, model, 1)),
+                                        requests_of(from, own, model), seed));
 }
+
+Counts counts_of(const Protocol& own) { return Counts(own, 1, {}); }
 
 TEST(RequestsOf, AreThoseThatSayAllOfTheirBytes) {
   const std::vector<Request> all = requests_of(cases("xgt_cnet"), protocol("xgt-cnet"), "xbc-h");
@@ -109,7 +114,7 @@ TEST(NotationOf, LeavesWhatIsWrong) {
 
 TEST(Changes, ElsewhereIsARightRequest) {
   const Protocol& cnet = protocol("xgt-cnet");
-  const Changes changes(cnet, 1, true);
+  const Changes changes(cnet, 1, true, counts_of(cnet));
   Random random(1);
   HotWords hot(all_of_it);
   std::set<Bytes> seen;
@@ -125,7 +130,7 @@ TEST(Changes, ElsewhereIsARightRequest) {
 
 TEST(Changes, AFieldChangesAndItsCheckFollows) {
   const Protocol& rtu = protocol("modbus-rtu");
-  const Changes changes(rtu, 1, true);
+  const Changes changes(rtu, 1, true, counts_of(rtu));
   Random random(2);
   HotWords hot(all_of_it);
   int right = 0;
@@ -140,9 +145,54 @@ TEST(Changes, AFieldChangesAndItsCheckFollows) {
   EXPECT_GT(right, 30);
 }
 
+struct Resizing {
+  const char *protocol, *request;
+};
+
+/// Right requests for more or less, with all that belongs to it.
+TEST(Changes, ResizedIsARightRequest) {
+  for (const auto& [name, text] :
+       {Resizing{"xgt-cnet", "[ENQ st 'RSS' '02' name(%MW100) name(%MW101) EOT BCC]"},
+        Resizing{"xgt-cnet", "[ENQ st 'WSB' name(%MW100) '02' '00010002' EOT BCC]"},
+        Resizing{"xgt-cnet", "[ENQ st 'wSS' '02' name(%MW100) '0001' name(%MW101) '0002' EOT BCC]"},
+        Resizing{"modbus-rtu", "[st 10 00 63 00 02 04 00 01 00 02 CRC]"},
+        Resizing{"modbus-rtu", "[st 0F 00 63 00 0A 02 FF 01 CRC]"},
+        Resizing{"ls-bus", "[ENQ st 'R' '3000' '2' SUM EOT]"}}) {
+    const Protocol& own = protocol(name);
+    const Changes changes(own, 1, true, counts_of(own));
+    Random random(5);
+    for (const std::uint32_t count : {1u, 3u, 5u}) {
+      Request one = request(text);
+      ASSERT_TRUE(changes.resized(one, count, random)) << text;
+      const Bytes bytes = bytes_of(one, own);
+      EXPECT_TRUE(harness::faultless(own.explain_as(bytes, true)))
+          << text << " " << count << ": " << notation::print_bytes(bytes);
+      EXPECT_EQ(changes.counts().count_in(bytes)->value, count);
+    }
+  }
+}
+
+/// Letters, order and station leave the check right, and two requests are twice the bytes.
+TEST(Changes, AreOfOneKindEach) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  const Changes changes(cnet, 1, true, counts_of(cnet));
+  Random random(6);
+  const Bytes whole = bytes_of(request(read_word), cnet);
+  Request letters = request(read_word), order = letters, station = letters, twice = letters;
+  ASSERT_TRUE(changes.letters(letters, random) && changes.order(order, random) &&
+              changes.station(station, random) && changes.twice(twice));
+  EXPECT_EQ(bytes_of(order, cnet).size(), whole.size()) << order.change;
+  for (const Request& one : {letters, order, station}) {
+    EXPECT_NE(bytes_of(one, cnet), whole) << one.change;
+  }
+  EXPECT_EQ(bytes_of(twice, cnet).size(), 2 * whole.size());
+  EXPECT_FALSE(Changes(cnet, 1, false, counts_of(cnet)).station(station, random))
+      << "somebody may answer there";
+}
+
 TEST(Changes, DamageChangesTheBytesAlone) {
   const Protocol& cnet = protocol("xgt-cnet");
-  const Changes changes(cnet, 1, true);
+  const Changes changes(cnet, 1, true, counts_of(cnet));
   Random random(3);
   HotWords hot(all_of_it);
   const Bytes whole = bytes_of(request(read_word), cnet);
@@ -156,7 +206,7 @@ TEST(Changes, DamageChangesTheBytesAlone) {
 
 /// What a line without a wire cannot keep is not asked of it.
 TEST(Changes, PausesBehindASocketAreLong) {
-  const Changes changes(protocol("xgt-cnet"), 1, false);
+  const Changes changes(protocol("xgt-cnet"), 1, false, counts_of(protocol("xgt-cnet")));
   Random random(4);
   HotWords hot(all_of_it);
   for (int i = 0; i < 30; ++i) {
@@ -172,7 +222,7 @@ TEST(Sequence, ExpectsWhatOurOwnDeviceAnswers) {
   const std::vector<Request> asked{request(read_word), request("'noise'"),
                                    request("[ENQ st 'rSS' '17' EOT BCC]")};
   const Memory memory{{"%MW100", "12AB"}};
-  const auto answers = oracle.ask(asked, memory, true);
+  const auto answers = oracle.ask(asked, memory, Past::none);
   ASSERT_TRUE(answers && answers->size() == 3);
   EXPECT_EQ(sort_of(answers->at(0), cnet), "answered");
   EXPECT_EQ(sort_of(answers->at(1), cnet), "silence");
@@ -189,7 +239,7 @@ TEST(Sequence, ExpectsWhatOurOwnDeviceAnswers) {
 TEST(Sequence, OfWhatIsGrantedIsDerived) {
   const Protocol& cnet = protocol("xgt-cnet");
   Oracle oracle = std::move(*Oracle::open(cnet, "xbc-h", 1));
-  const auto answers = oracle.ask({request(read_word)}, {}, true);
+  const auto answers = oracle.ask({request(read_word)}, {}, Past::none);
   ASSERT_TRUE(answers);
   EXPECT_EQ(case_of({request(read_word)}, *answers, {}, cnet, 1, "x").basis, "derived");
 }
@@ -200,7 +250,7 @@ TEST(Sequence, AsAFileIsTheSameCase) {
   Oracle oracle = std::move(*Oracle::open(cnet, "xbc-h", 1));
   const Request asked = request(read_word);
   const Memory memory{{"%MW100", "12AB"}};
-  const auto answers = oracle.ask({asked}, memory, true);
+  const auto answers = oracle.ask({asked}, memory, Past::none);
   ASSERT_TRUE(answers);
   const Case one = case_of({asked}, *answers, memory, cnet, 1, "xgt_cnet/explore/test");
   vectors::VectorSet set;
@@ -295,6 +345,254 @@ TEST(Explorer, AFindingIsAsShortAsItShows) {
   EXPECT_LE(sends, 6);
   InProcess good(cnet);
   EXPECT_EQ(good.run(finding.shortest).verdict, Verdict::pass);
+}
+
+/// All that comes of a device, one reply a burst.
+class Answering : public broken::WrappedDevice {
+ public:
+  using WrappedDevice::WrappedDevice;
+  Bytes advance(Time now) override {
+    Bytes reply = WrappedDevice::advance(now);
+    return reply.empty() ? reply : changed(std::move(reply));
+  }
+
+ protected:
+  virtual Bytes changed(Bytes reply) = 0;
+
+  static bool is_nak(const Bytes& reply) { return reply.front() == 0x15; }
+  /// Another error code in a NAK of Cnet, whose digits stand behind station and command.
+  static Bytes with_code(Bytes nak, const std::string& code) {
+    if (nak.size() >= 10) std::ranges::copy(code, nak.begin() + 6);
+    return summed(std::move(nak));
+  }
+  /// A block check where there was one.
+  static Bytes summed(Bytes reply) {
+    const auto end = std::ranges::find(reply, Byte{0x03});
+    if (reply.end() - end != 3) return reply;
+    const std::size_t size = static_cast<std::size_t>(end - reply.begin()) + 1;
+    unsigned sum = 0;
+    for (std::size_t i = 0; i < size; ++i) sum += reply[i];
+    std::ranges::copy(fmt::format("{:02X}", sum & 0xFF), reply.begin() + static_cast<long>(size));
+    return reply;
+  }
+};
+
+/// Each word of a granted answer comes with its digits turned round.
+class TurnsData : public Answering {
+ public:
+  using Answering::Answering;
+
+ private:
+  Bytes changed(Bytes reply) override {
+    if (is_nak(reply) || reply.size() < 17 || reply[3] != 'r') return reply;
+    const auto end = std::ranges::find(reply, Byte{0x03});
+    if (end - reply.begin() < 14) return reply;
+    std::reverse(end - 4, end);
+    return summed(std::move(reply));
+  }
+};
+
+const Finding* first_that_fails(const Explorer& one) {
+  for (const auto& [mark, finding] : one.findings())
+    if (finding.result.verdict == Verdict::fail) return &finding;
+  return nullptr;
+}
+
+/// A refusal before it, on which nothing binds, may not make wrong data a matter of decisions.
+TEST(Explorer, ANeedlessRefusalHidesNoFailure) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  for (const std::uint64_t seed : {1u, 3u}) {
+    InProcess device(cnet, wrapped_in<TurnsData>(cnet), false);
+    Explorer one = explorer(cnet, device, cases("xgt_cnet"), seed, Server{.learns = true});
+    while (one.findings().empty() && one.requests_sent() < 3000) one.step();
+    EXPECT_NE(first_that_fails(one), nullptr) << "seed " << seed;
+  }
+}
+
+/// The code of one refusal is another: one fault, whatever service and change show it.
+class OneCodeForAnother : public Answering {
+ public:
+  using Answering::Answering;
+
+ private:
+  Bytes changed(Bytes reply) override {
+    const std::string text = to_text(reply);
+    return is_nak(reply) && text.find("1132") == 6 ? with_code(std::move(reply), "0011") : reply;
+  }
+};
+
+TEST(Explorer, TheSameFaultIsOneFinding) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, wrapped_in<OneCodeForAnother>(cnet));
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"));
+  while (one.requests_sent() < 1500) one.step();
+  ASSERT_EQ(one.findings().size(), 1u);
+  EXPECT_GT(one.findings().begin()->second.shown_by.size(), 1u);
+}
+
+/// Two faults of one topic are two.
+class TwoFaults : public Answering {
+ public:
+  using Answering::Answering;
+
+ private:
+  Bytes changed(Bytes reply) override {
+    const std::string text = to_text(reply);
+    if (is_nak(reply) && text.find("1132") == 6) return with_code(std::move(reply), "0011");
+    if (is_nak(reply) && text.find("0003") == 6) return with_code(std::move(reply), "0004");
+    return reply;
+  }
+};
+
+TEST(Explorer, TwoFaultsAreTwoFindings) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, wrapped_in<TwoFaults>(cnet));
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"));
+  while (one.requests_sent() < 1500) one.step();
+  EXPECT_EQ(one.findings().size(), 2u);
+}
+
+/// Reads what the manuals leave open in its own way, and always so.
+class Stranger : public Answering {
+ public:
+  using Answering::Answering;
+
+ private:
+  Bytes changed(Bytes reply) override {
+    return is_nak(reply) && to_text(reply).find("0011") == 6 && !printed(reply)
+               ? with_code(std::move(reply), "7777")
+               : reply;
+  }
+  /// Vectors have 0011 for their own requests; one here has a command of small letters.
+  static bool printed(const Bytes& reply) { return std::isupper(reply[3]) != 0; }
+};
+
+TEST(Explorer, WhatNobodySaysIsLearnt) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, wrapped_in<Stranger>(cnet), false);
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"), 1, Server{.learns = true});
+  while (one.requests_sent() < 3000) one.step();
+  EXPECT_THAT(one.known().readings, Contains(HasSubstr("7777 on the device")));
+  for (const auto& [mark, finding] : one.findings())
+    EXPECT_THAT(mark, Not(HasSubstr("before, then")))
+        << finding.result.message << vector_text(finding.shortest);
+}
+
+/// What it answers to the same depends on how often it was asked anything.
+class Fickle : public Answering {
+ public:
+  using Answering::Answering;
+
+ private:
+  Bytes changed(Bytes reply) override {
+    return ++count_ % 3 == 0 && is_nak(reply) ? with_code(std::move(reply), "7777") : reply;
+  }
+  int count_ = 0;
+};
+
+TEST(Explorer, ADeviceThatContradictsItselfFails) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, wrapped_in<Fickle>(cnet), false);
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"), 1, Server{.learns = true});
+  const auto contradiction = [&] {
+    return std::ranges::find_if(one.findings(), [](const auto& each) {
+      return each.first.find("before, then") != std::string::npos;
+    });
+  };
+  while (contradiction() == one.findings().end() && one.requests_sent() < 20000) one.step();
+  ASSERT_NE(contradiction(), one.findings().end());
+  const Finding& finding = contradiction()->second;
+  EXPECT_EQ(finding.result.verdict, Verdict::fail);
+  EXPECT_EQ(finding.result.section, as_before_decision);
+}
+
+/// Somebody has registered each monitor before.
+class Registered : public broken::WrappedDevice {
+ public:
+  using WrappedDevice::WrappedDevice;
+  void receive(const Burst& burst) override {
+    if (!std::exchange(registered_, true)) register_all(burst);
+    WrappedDevice::receive(burst);
+  }
+
+ private:
+  void register_all(const Burst& burst) {
+    Time now = burst.start - 100s;
+    for (int number = 0; number < 16; ++number, now += 1s) {
+      const std::string text = fmt::format(
+          "\x05"
+          "01X{:02X}RSS0106%MW000\x04",
+          number);
+      WrappedDevice::receive({to_bytes(text), now, burst.character_time});
+      while (const auto wake = wake_at()) (void)WrappedDevice::advance(*wake);
+    }
+  }
+  bool registered_ = false;
+};
+
+TEST(Explorer, WhatOthersRegisteredIsNoFinding) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, wrapped_in<Registered>(cnet));
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"), 1, Server{.over_the_wire = true});
+  while (one.requests_sent() < 1500) one.step();
+  EXPECT_THAT(one.findings(), IsEmpty()) << one.findings().begin()->second.result.message;
+}
+
+/// A device over the wire is given no more than the answers depend on.
+TEST(Explorer, AFindingGivesNoMoreThanItTakes) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, wrapped_in<OneCodeForAnother>(cnet));
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"), 1, Server{.over_the_wire = true});
+  while (one.findings().empty() && one.requests_sent() < 3000) one.step();
+  ASSERT_THAT(one.findings(), Not(IsEmpty()));
+  EXPECT_THAT(one.findings().begin()->second.shortest.memory, IsEmpty());
+}
+
+/// A refusal that a vector has is what that rests on.
+TEST(Explorer, AFindingCitesItsClause) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, wrapped_in<OneCodeForAnother>(cnet));
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"));
+  while (one.findings().empty() && one.requests_sent() < 3000) one.step();
+  ASSERT_THAT(one.findings(), Not(IsEmpty()));
+  EXPECT_THAT(one.findings().begin()->second.result.section, Not(HasSubstr("own-model")));
+}
+
+/// Refuses once what it should grant.
+class Flighty : public Answering {
+ public:
+  using Answering::Answering;
+  Bytes changed(Bytes reply) override {
+    if (++count_ >= 40 && !is_nak(reply) && !std::exchange(done_, true)) reply.front() = 0x15;
+    return reply;
+  }
+
+ private:
+  inline static int count_ = 0;  // of all devices
+  inline static bool done_ = false;
+};
+
+TEST(Explorer, WhatIsSeenOnceIsInconclusive) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet, wrapped_in<Flighty>(cnet));
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"));
+  while (one.findings().empty() && one.requests_sent() < 3000) one.step();
+  ASSERT_THAT(one.findings(), Not(IsEmpty()));
+  const Finding& finding = one.findings().begin()->second;
+  EXPECT_FALSE(finding.confirmed);
+  EXPECT_EQ(finding.result.verdict, Verdict::inconclusive);
+  EXPECT_THAT(finding.result.message, HasSubstr("seen once"));
+}
+
+TEST(Explorer, MapsWhatTheDeviceDoes) {
+  const Protocol& cnet = protocol("xgt-cnet");
+  InProcess device(cnet);
+  Explorer one = explorer(cnet, device, cases("xgt_cnet"));
+  while (one.requests_sent() < 6000) one.step();
+  EXPECT_THAT(one.known().limits,
+              AllOf(Contains(HasSubstr("SS, block count: 1 to 16 accepted, 17 refused with 0003")),
+                    Contains(HasSubstr("area M: "))))
+      << testing::PrintToString(one.known().limits);
 }
 
 Explorer client_explorer(const Protocol& own, const std::string& model, InProcess& device,

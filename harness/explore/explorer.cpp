@@ -16,22 +16,10 @@ using results::Verdict;
 namespace {
 
 constexpr std::size_t most_findings = 50;  // more are counted
-constexpr int most_trials = 200;           // of shortening one finding
 constexpr int confirmations = 3;
-
-bool differs(Verdict verdict) { return verdict == Verdict::fail || verdict == Verdict::non_strict; }
+constexpr int most_looks = 4;  // at sequences that may show a finding to be graver
 
 Byte upper(Byte byte) { return static_cast<Byte>(std::toupper(byte)); }
-
-/// The same fault shows in many sequences: by what was asked, and what was wrong, without numbers.
-std::string mark_of(const Topic& topic, const CaseResult& result) {
-  std::string words;
-  for (const char c : result.message)
-    if (!std::isdigit(static_cast<unsigned char>(c)) &&
-        !std::isupper(static_cast<unsigned char>(c)))
-      words += c;
-  return fmt::format("{}/{}: {}", topic.name, topic.kind, words);
-}
 
 /// The same answer in other letters: which ones a device writes is open in many places, and vectors
 /// ask where it is not.
@@ -40,18 +28,29 @@ bool differs_in_letters_alone(const CaseResult& result) {
          std::ranges::equal(result.expected_bytes, result.received_bytes, {}, upper, upper);
 }
 
+std::string in_words(const Topic& topic) { return topic.name + "/" + topic.kind; }
+
+std::string id_of(const harness::Protocol& protocol, const std::string& mark) {
+  return fmt::format(
+      "{}/explore/f{:08x}", vectors::folder_of(protocol),
+      static_cast<std::uint32_t>(vectors::extend_fingerprint(vectors::empty_fingerprint, mark)));
+}
+
 }  // namespace
 
 CaseResult Explorer::run(const Sequence& sequence, const std::string& id) {
   vectors::Case& one = running_[turn_ ^= 1];
   one = sequence.as_case(id);
-  sent_ += sequence.requests();
-  return device_.run(one);
+  CaseResult result = device_.run(one);
+  if (result.verdict != Verdict::blocked && result.verdict != Verdict::skip)
+    sent_ += sequence.requests();
+  if (result.verdict != Verdict::blocked) barren_ = 0;
+  return result;
 }
 
 void Explorer::step() {
   Sequence::Own sequence = inventor_->invent();
-  barren_ = sequence ? 0 : barren_ + 1;
+  if (!sequence) ++barren_;
   if (!sequence) return;
   ++sequences_;
   const CaseResult result = run(*sequence, fmt::format("explore/{}", sequences_));
@@ -59,82 +58,112 @@ void Explorer::step() {
 }
 
 void Explorer::note(Sequence::Own sequence, const CaseResult& result) {
-  if (differs(result.verdict) && differs_in_letters_alone(result)) {
+  if (result.verdict == Verdict::pass || result.verdict == Verdict::marginal)
+    return note_as_expected(*sequence);
+  if (!differs(result.verdict)) return note_unjudged(*sequence, result);
+  if (differs_in_letters_alone(result)) {
     ++unjudged_[{Verdict::blocked, "the same answers, in other letters"}];
     return;
   }
-  const bool as_the_model = result.verdict == Verdict::pass || result.verdict == Verdict::marginal;
-  if (!differs(result.verdict) && !as_the_model) {
-    ++unjudged_[{result.verdict, result.message}];
+  const std::size_t failing = sequence->failing_part(result);
+  if (inventor_->may_learn(*sequence, failing)) {
+    if (!learnt(*sequence, failing, result))
+      ++unjudged_[{Verdict::inconclusive, "answered once so, and then otherwise"}];
     return;
   }
   ++judged_;
-  if (!as_the_model) return note_finding(std::move(sequence), result);
-  for (std::size_t i = 0; i < sequence->parts(); ++i) {
-    const Topic topic = sequence->topic(i);
-    inventor_->note(topic, ++seen_[{topic.name, topic.kind}][sequence->outcome(i)]);
+  const std::string mark = sequence->mark(failing, result);
+  if (!known_already(*sequence, failing, result, mark))
+    look_into(std::move(sequence), failing, result, mark);
+}
+
+void Explorer::note_as_expected(const Sequence& sequence) {
+  ++judged_;
+  inventor_->done(sequence);
+  for (std::size_t i = 0; i < sequence.parts(); ++i) {
+    const Topic topic = sequence.topic(i);
+    inventor_->note(topic, ++seen_[{topic.name, topic.kind}][sequence.outcome(i)]);
   }
 }
 
-bool Explorer::shows(const Sequence& sequence, Verdict verdict) {
-  return run(sequence, "explore/shorter").verdict == verdict;
+/// What an interrupt or a device that is gone did to a sequence is told once, and not by it.
+void Explorer::note_unjudged(const Sequence& sequence, const CaseResult& result) {
+  if (!device_.alive()) return;
+  ++unjudged_[{result.verdict, result.message}];
+  if (result.verdict != Verdict::blocked || inventor_->give_up(sequence)) return;
+  barren_ += inventor_->can_invent() ? 1 : enough_barren;
 }
 
-/// Up to what failed; then leaves out what it still shows without: halves, quarters, single parts.
-Sequence::Own Explorer::shortest(Sequence::Own sequence, std::size_t failing, Verdict verdict) {
-  if (failing + 1 < sequence->parts())
-    if (Sequence::Own begun = sequence->without(failing + 1, sequence->parts() - failing - 1);
-        begun && shows(*begun, verdict))
-      sequence = std::move(begun);
-  int trials = 0;
-  for (std::size_t size = std::max<std::size_t>(1, sequence->parts() / 2); size > 0; size /= 2)
-    for (std::size_t at = 0; at < sequence->parts() && trials < most_trials && device_.alive();) {
-      if (sequence->parts() <= size) break;
-      Sequence::Own shorter = sequence->without(at, size);
-      ++trials;
-      if (shorter && shows(*shorter, verdict))
-        sequence = std::move(shorter);
-      else
-        at += size;
-    }
-  return without_needless_settings(std::move(sequence), verdict);
+/// What came once may have been the line: a device reads it so where it does so again.
+bool Explorer::learnt(const Sequence& sequence, std::size_t failing, const CaseResult& result) {
+  const CaseResult again = run(sequence, fmt::format("explore/{}/again", sequences_));
+  return differs(again.verdict) && again.received_bytes == result.received_bytes &&
+         sequence.failing_part(again) == failing && inventor_->learn(sequence, failing, result);
 }
 
-Sequence::Own Explorer::without_needless_settings(Sequence::Own sequence, Verdict verdict) {
-  for (std::size_t at = 0; at < sequence->settings() && device_.alive();) {
-    Sequence::Own lean = sequence->without_setting(at);
-    if (lean && shows(*lean, verdict))
-      sequence = std::move(lean);
-    else
-      ++at;
-  }
-  return sequence;
-}
-
-void Explorer::note_finding(Sequence::Own sequence, const CaseResult& result) {
-  const std::size_t failing = sequence->failing_part(result);
-  const std::string mark = mark_of(sequence->topic(failing), result);
-  if (const auto known = findings_.find(mark); known != findings_.end()) {
-    ++known->second.times;
-    return;
-  }
-  if (findings_.size() >= most_findings) {
+/// It is one more of a finding; false where it may show that to be graver.
+bool Explorer::known_already(const Sequence& sequence, std::size_t failing,
+                             const CaseResult& result, const std::string& mark) {
+  const auto same = same_.find(mark);
+  if (same == same_.end()) {
+    if (findings_.size() < most_findings) return false;
     ++unjudged_[{result.verdict, "differs, not looked into: there are 50 findings"}];
-    return;
+    return true;
   }
-  const std::string id = fmt::format(
-      "{}/explore/f{:08x}", vectors::folder_of(*device_.protocol),
-      static_cast<std::uint32_t>(vectors::extend_fingerprint(vectors::empty_fingerprint, mark)));
+  Finding& finding = findings_.at(same->second);
+  ++finding.shown_by[in_words(sequence.topic(failing))];
+  const bool may_be_graver = finding.result.verdict != Verdict::fail &&
+                             (result.verdict == Verdict::fail || finding.looks < most_looks);
+  return !may_be_graver;
+}
+
+void Explorer::look_into(Sequence::Own sequence, std::size_t failing, const CaseResult& result,
+                         const std::string& mark) {
+  const std::string topic = in_words(sequence->topic(failing));
+  const std::string long_id = id_of(*device_.protocol, mark);
+  Shortener shortener([&](const Sequence& one) { return run(one, long_id + "/shorter"); },
+                      device_.alive, result.verdict);
+  const vectors::Case whole = sequence->as_case(long_id);
+  const Sequence::Own found = shortener.shortest(std::move(sequence), failing);
+  Finding finding = finding_of(*found, shortener, result, long_id);
+  // What is left may tell more of what it is than what it was seen in.
+  const std::string own_mark =
+      finding.confirmed ? found->mark(found->failing_part(finding.result), finding.result) : mark;
+  if (finding.confirmed)
+    finding.shortest.id = finding.result.id = id_of(*device_.protocol, own_mark);
+  else
+    finding.shortest = whole;
+  same_[mark] = same_[own_mark] = own_mark;
+  finding.shown_by[topic] = 1;
+  const auto [known, is_new] = findings_.try_emplace(own_mark, finding);
+  if (is_new) return;
+  const bool graver = finding.confirmed && known->second.result.verdict != Verdict::fail;
+  finding.shown_by = known->second.shown_by;
+  ++finding.shown_by[topic];
+  finding.looks = known->second.looks + 1;
+  if (graver)
+    known->second = std::move(finding);
+  else {
+    known->second.shown_by = std::move(finding.shown_by);
+    known->second.looks = finding.looks;
+  }
+}
+
+Finding Explorer::finding_of(const Sequence& found, Shortener& shortener, CaseResult seen,
+                             const std::string& id) {
   Finding finding;
-  finding.shortest = sequence->as_case(id);
-  const Sequence::Own found = shortest(std::move(sequence), failing, result.verdict);
   int shown = 0;
-  while (shown < confirmations && device_.alive() && shows(*found, result.verdict)) ++shown;
+  while (shown < confirmations && device_.alive() && shortener.shows(found)) ++shown;
   finding.confirmed = shown == confirmations;
-  if (finding.confirmed) finding.shortest = found->as_case(id);
-  finding.result = finding.confirmed ? device_.run(finding.shortest) : result;
+  finding.shortest = found.as_case(id);
+  if (finding.confirmed) finding.result = device_.run(finding.shortest);
+  finding.confirmed &= differs(finding.result.verdict);
+  if (finding.confirmed) return finding;
+  finding.result = std::move(seen);
+  finding.result.verdict = Verdict::inconclusive;
+  finding.result.message = "seen once, and not again: " + finding.result.message;
   finding.result.id = id;
-  findings_.emplace(mark, std::move(finding));
+  return finding;
 }
 
 }  // namespace fieldproof::explore

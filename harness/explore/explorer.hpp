@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "harness/explore/sequence.hpp"
+#include "harness/explore/shortener.hpp"
 #include "harness/protocol.hpp"
 #include "reports/results/case_result.hpp"
 
@@ -25,10 +26,11 @@ struct Device {
 
 /// What a sequence showed that the model does not do.
 struct Finding {
-  vectors::Case shortest;      // that still shows it
-  results::CaseResult result;  // of it
-  std::uint64_t times = 1;     // sequences that showed the same
-  bool confirmed = false;      // three times in a row; else it was seen, and not again
+  vectors::Case shortest;                         // that still shows it
+  results::CaseResult result;                     // of it; INCONCLUSIVE where it is not confirmed
+  std::map<std::string, std::uint64_t> shown_by;  // topic and kind: so many sequences
+  bool confirmed = false;                         // three times in a row; else it was seen once
+  int looks = 1;                                  // sequences that were shortened for it
 };
 
 class Explorer {
@@ -41,9 +43,10 @@ class Explorer {
   void step();
 
   /// Nothing that may be sent has come to mind for long: there is too little room.
-  bool exhausted() const { return barren_ >= 1000; }
+  bool exhausted() const { return barren_ >= enough_barren; }
   std::uint64_t requests_sent() const { return sent_; }
   std::uint64_t sequences() const { return sequences_; }
+  /// By mark.
   const std::map<std::string, Finding>& findings() const { return findings_; }
 
   /// How many of the sequences could be judged.
@@ -51,17 +54,25 @@ class Explorer {
   /// What the device was seen to do: by topic and kind of change, how often which outcome.
   using Seen = std::map<std::pair<std::string, std::string>, std::map<std::string, std::uint64_t>>;
   const Seen& seen() const { return seen_; }
+  Inventor::Known known() const { return inventor_->known(); }
   /// Sequences that were not judged, by verdict and reason.
   using Unjudged = std::map<std::pair<results::Verdict, std::string>, std::uint64_t>;
   const Unjudged& unjudged() const { return unjudged_; }
 
  private:
+  static constexpr std::uint64_t enough_barren = 1000;
+
   results::CaseResult run(const Sequence& sequence, const std::string& id);
   void note(Sequence::Own sequence, const results::CaseResult& result);
-  void note_finding(Sequence::Own sequence, const results::CaseResult& result);
-  Sequence::Own shortest(Sequence::Own sequence, std::size_t failing, results::Verdict verdict);
-  Sequence::Own without_needless_settings(Sequence::Own sequence, results::Verdict verdict);
-  bool shows(const Sequence& sequence, results::Verdict verdict);
+  void note_as_expected(const Sequence& sequence);
+  void note_unjudged(const Sequence& sequence, const results::CaseResult& result);
+  bool learnt(const Sequence& sequence, std::size_t failing, const results::CaseResult& result);
+  bool known_already(const Sequence& sequence, std::size_t failing,
+                     const results::CaseResult& result, const std::string& mark);
+  void look_into(Sequence::Own sequence, std::size_t failing, const results::CaseResult& result,
+                 const std::string& mark);
+  Finding finding_of(const Sequence& found, Shortener& shortener, results::CaseResult seen,
+                     const std::string& id);
 
   Device device_;
   std::unique_ptr<Inventor> inventor_;
@@ -69,6 +80,7 @@ class Explorer {
   Seen seen_;
   Unjudged unjudged_;
   std::map<std::string, Finding> findings_;
+  std::map<std::string, std::string> same_;  // the mark of a long sequence: that of its finding
   std::array<vectors::Case, 2>
       running_;  // a bench knows a case by where it is: never the same place twice
   std::size_t turn_ = 0;

@@ -33,15 +33,6 @@ Step expect_of(const Answer& answer, const Protocol& protocol, int station) {
   return step;
 }
 
-/// Not as a bad line makes it, for which no manual prints an answer.
-bool is_a_right_frame(const Request& request) {
-  return request.kind != "damage" && request.kind != "pause";
-}
-
-bool granted(const Answer& answer, const Protocol& protocol) {
-  return sort_of(answer, protocol) == "answered";
-}
-
 /// One frame, or several without a pause, after the whole request: what a case can wait for in one
 /// step.
 bool in_one_piece(const exchange::Received& received, Time asked) {
@@ -60,15 +51,23 @@ struct Sending {
   bool ended = false;  // by the device: the connection, behind it
 };
 
+/// The requests as steps, each with a silence in which the answer comes.
+struct Asked {
+  Case one;
+  std::vector<std::size_t> sends;  // the step of each request
+};
+
 /// Up to the first after which something came that belongs to none; and no further than a minute,
 /// since servers end connections that rest.
-std::vector<Sending> sendings_in(const exchange::Transcript& transcript) {
+std::vector<Sending> sendings_in(const exchange::Transcript& transcript,
+                                 const std::vector<std::size_t>& sends) {
   using Kind = results::Event::Kind;
   std::vector<Sending> sendings;
   for (const results::Event& event : transcript.events) {
+    const auto step = static_cast<std::size_t>(event.step);
     if (event.kind == Kind::sent && event.step >= 0) {
       if (event.start - transcript.events.front().start > 60s) break;
-      const std::size_t number = static_cast<std::size_t>(event.step) / 2;
+      const auto number = static_cast<std::size_t>(std::ranges::find(sends, step) - sends.begin());
       const bool ended = !sendings.empty() && sendings.back().ended;
       if (ended && number < sendings.size()) sendings.pop_back();  // in the middle of it
       if (ended) break;
@@ -77,7 +76,8 @@ std::vector<Sending> sendings_in(const exchange::Transcript& transcript) {
     } else if (event.kind == Kind::closed || event.kind == Kind::reset) {
       if (event.by_device && sendings.empty()) break;
       if (event.by_device) sendings.back().ended = true;
-    } else if (event.kind == Kind::received && (event.surplus || event.step % 2 == 0)) {
+    } else if (event.kind == Kind::received &&
+               (event.surplus || std::ranges::find(sends, step) != sends.end())) {
       break;
     }
   }
@@ -85,16 +85,35 @@ std::vector<Sending> sendings_in(const exchange::Transcript& transcript) {
 }
 
 /// Up to the first that no case can tell in order.
-std::vector<Answer> answers_in(const exchange::Transcript& transcript) {
+std::vector<Answer> answers_in(const exchange::Transcript& transcript,
+                               const std::vector<std::size_t>& sends) {
   const exchange::Shares shares = exchange::shares_of(transcript);
-  const std::vector<Sending> sendings = sendings_in(transcript);
+  const std::vector<Sending> sendings = sendings_in(transcript, sends);
   std::vector<Answer> answers;
-  for (std::size_t i = 0; i < sendings.size() && 2 * i + 1 < shares.steps.size(); ++i) {
-    const exchange::Received& heard = shares.steps[2 * i + 1].received;
+  for (std::size_t i = 0; i < sendings.size() && sends[i] + 1 < shares.steps.size(); ++i) {
+    const exchange::Received& heard = shares.steps[sends[i] + 1].received;
     if (!in_one_piece(heard, sendings[i].end)) break;
     answers.push_back({heard.bytes, sendings[i].ended});
   }
   return answers;
+}
+
+Step power_cycle() {
+  Step step = step_of(Step::Kind::act);
+  step.action = "power_cycle";
+  return step;
+}
+
+Asked asked_of(const std::vector<Request>& requests, const Protocol& protocol) {
+  Asked asked;
+  asked.one.protocol = protocol.name();
+  for (const Request& request : requests) {
+    if (request.off_before) asked.one.steps.push_back(power_cycle());
+    asked.sends.push_back(asked.one.steps.size());
+    asked.one.steps.push_back(send_of(request));
+    asked.one.steps.push_back(step_of(Step::Kind::silence));
+  }
+  return asked;
 }
 
 }  // namespace
@@ -123,61 +142,94 @@ Memory memory_of(const std::vector<Request>& requests, const Protocol& protocol,
 }
 
 std::string sort_of(const Answer& answer, const Protocol& protocol) {
-  if (answer.bytes.empty()) return answer.ended ? "closed" : "silence";
-  for (const Field& field : protocol.explain_as(answer.bytes, false))
-    if (field.name == "error code" || field.name == "exception code") return field.text;
-  return "answered";
+  return answer.bytes.empty() && answer.ended ? "closed" : sort_of(answer.bytes, protocol);
 }
 
-Result<Oracle> Oracle::open(const Protocol& protocol, const std::string& model, int station) {
-  Oracle oracle(protocol, model, station);
+/// A refusal that a vector has binds as that does, elsewhere too; of one that none has nobody says
+/// anything.
+Binding binding_of(const Request& request, const Answer& answer, const Protocol& protocol) {
+  const std::string sort = sort_of(answer, protocol);
+  if (is_a_right_frame(request) && sort == "answered") return Binding::derived;
+  const bool of_its_vector = request.kind == "printed" || request.kind == "elsewhere";
+  if (!of_its_vector || request.clause.answer != sort) return Binding::open;
+  return request.clause.basis != "decision" && request.clause.decisions.empty() ? Binding::derived
+                                                                                : Binding::decision;
+}
+
+Result<Oracle> Oracle::open(const Protocol& protocol, const std::string& model, int station,
+                            const nlohmann::json& config) {
+  nlohmann::json whole = config;
+  whole["station"] = station;
+  whole["model"] = model;
+  Oracle oracle(protocol, station, std::move(whole));
   const endpoints::EndpointName name{
       "emulator",
       model,
       {{"protocol", std::string(protocol.name())}, {"station", std::to_string(station)}}};
-  for (auto* one : {&oracle.fresh_, &oracle.used_}) {
+  for (const Past past : {Past::none, Past::this_run, Past::any}) {
     Result<std::unique_ptr<endpoints::Endpoint>> endpoint =
         endpoints::open_endpoint(name, protocol);
     if (!endpoint) return endpoint.error();
-    *one = std::move(*endpoint);
+    const Status begun = (*endpoint)->begin(oracle.config_);
+    if (!begun) return begun.error();
+    oracle.devices_[past] = std::move(*endpoint);
   }
-  const Status begun = oracle.used_->begin(nlohmann::json{{"station", station}, {"model", model}});
-  if (!begun) return begun.error();
   return oracle;
 }
 
 Result<std::vector<Answer>> Oracle::ask(const std::vector<Request>& requests, const Memory& memory,
-                                        bool fresh) {
-  endpoints::Endpoint& device = fresh ? *fresh_ : *used_;
-  if (fresh)
-    if (const Status begun = device.begin(nlohmann::json{{"station", station_}, {"model", model_}});
-        !begun)
-      return begun.error();
+                                        Past past) {
+  endpoints::Endpoint& device = *devices_[past];
+  if (past == Past::none)
+    if (const Status begun = device.begin(config_); !begun) return begun.error();
   for (const auto& [address, hex] : memory)
     if (const Status set = device.set(address, hex); !set) return set.error();
-  Case asked;
-  asked.protocol = protocol_->name();
-  for (const Request& request : requests) {
-    asked.steps.push_back(send_of(request));
-    asked.steps.push_back(step_of(Step::Kind::silence));
-  }
-  const Result<PreparedCase> prepared = exchange::prepare(asked, station_, *protocol_);
+  const Asked asked = asked_of(requests, *protocol_);
+  const Result<PreparedCase> prepared = exchange::prepare(asked.one, station_, *protocol_);
   if (!prepared) return prepared.error();
   const exchange::Transcript transcript =
       exchange::Exchange(device, *protocol_, {}).run_steps(*prepared);
   if (transcript.trouble) return *transcript.trouble;
-  return answers_in(transcript);
+  return answers_in(transcript, asked.sends);
 }
+
+namespace {
+
+/// What the answers to these rest on, and the sentence that says so.
+void found(Case& one, const std::vector<Request>& requests, const std::vector<Answer>& answers,
+           const Protocol& protocol) {
+  Binding weakest = Binding::derived;
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    if (!answers[i].learnt)
+      weakest = std::max(weakest, binding_of(requests[i], answers[i], protocol));
+  one.basis = weakest == Binding::derived ? "derived" : "decision";
+  const Request& last = requests[answers.size() - 1];
+  const bool of_its_vector = !answers.back().learnt && last.kind != "look" &&
+                             binding_of(last, answers.back(), protocol) != Binding::open &&
+                             last.clause.answer == sort_of(answers.back(), protocol);
+  if (answers.back().learnt) one.source.section = as_before_decision;
+  if (answers.back().learnt) one.source.quote = as_before_sentence;
+  if (of_its_vector) one.source = last.clause.source;
+  if (of_its_vector && weakest != Binding::derived) one.decisions = last.clause.decisions;
+  if (weakest != Binding::derived && one.decisions.empty())
+    one.decisions = {{own_model_decision, own_model_sentence}};
+}
+
+std::string title_of(const Request& last, std::size_t others) {
+  const std::string title = fmt::format("A request of {} ({})", last.topic, last.kind);
+  return others == 0 ? title : fmt::format("{} behind {} others", title, others);
+}
+
+}  // namespace
 
 Case case_of(const std::vector<Request>& requests, const std::vector<Answer>& answers,
              const Memory& memory, const Protocol& protocol, int station, std::string id) {
   Case one = case_of_own_model(protocol);
   one.id = one.vector_id = std::move(id);
   one.memory = memory;
-  bool all_granted = true;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const Answer& answer = answers[i];
-    all_granted &= granted(answer, protocol) && is_a_right_frame(requests[i]);
+    if (requests[i].off_before) one.steps.push_back(power_cycle());
     one.steps.push_back(send_of(requests[i]));
     if (!answer.bytes.empty()) one.steps.push_back(expect_of(answer, protocol, station));
     if (answer.ended)
@@ -185,13 +237,12 @@ Case case_of(const std::vector<Request>& requests, const std::vector<Answer>& an
     else if (answer.bytes.empty())
       one.steps.push_back(step_of(Step::Kind::silence));
   }
-  one.basis = all_granted ? "derived" : "decision";
-  if (!all_granted) one.decisions = {{own_model_decision, one.source.quote}};
+  found(one, requests, answers, protocol);
   const Request& last = requests[answers.size() - 1];
-  one.title = answers.size() == 1 ? fmt::format("A request of {} ({})", last.topic, last.kind)
-                                  : fmt::format("A request of {} ({}) behind {} others", last.topic,
-                                                last.kind, answers.size() - 1);
-  one.why = "what fieldproof's own device answers; the last request comes from " + last.vector;
+  one.title = title_of(last, answers.size() - 1);
+  one.why = answers.back().learnt ? "what the device answered to this before"
+                                  : "what fieldproof's own device answers";
+  one.why += "; the last request comes from " + last.vector;
   if (!last.change.empty()) one.why += ": " + last.change;
   return one;
 }

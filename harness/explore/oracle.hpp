@@ -2,8 +2,11 @@
 // the case that they make with its answers.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/endpoints/endpoint.hpp"
@@ -23,38 +26,53 @@ Memory memory_of(const std::vector<Request>& requests, const harness::Protocol& 
 
 /// What came back to one request.
 struct Answer {
-  Bytes bytes;         // empty: silence
-  bool ended = false;  // and then the device closed the connection
+  Bytes bytes;          // empty: silence
+  bool ended = false;   // and then the device closed the connection
+  bool learnt = false;  // the device under test has answered so before
 };
 
 /// How an answer reads where only its sort counts: "answered", "silence", "0003", "closed".
 std::string sort_of(const Answer& answer, const harness::Protocol& protocol);
 
-/// Our own device, which answers a sequence on simulated time. Two of them differ in what they did
-/// before.
-class Oracle {
- public:
-  /// Errors: the model cannot be made.
-  static Result<Oracle> open(const harness::Protocol& protocol, const std::string& model,
-                             int station);
-
-  /// One answer a request; fewer where the device ended the connection. `fresh`: a device that has
-  /// done nothing yet, else the one that has answered all sequences before.
-  Result<std::vector<Answer>> ask(const std::vector<Request>& requests, const Memory& memory,
-                                  bool fresh);
-
- private:
-  Oracle(const harness::Protocol& protocol, std::string model, int station)
-      : protocol_(&protocol), model_(std::move(model)), station_(station) {}
-  const harness::Protocol* protocol_;
-  std::string model_;
-  int station_;
-  std::unique_ptr<endpoints::Endpoint> fresh_, used_;
+/// What a device did before a sequence.
+enum class Past {
+  none,
+  this_run,  // all sequences before
+  any        // whatever others may have asked it: nobody knows it of a real device
 };
 
-/// The case that expects these answers of a device: `derived` where each is granted, else
-/// `decision`, since no manual prints an answer to most of what is wrong. Requests past the last
-/// answer are left out.
+/// How far what our own device answers binds another one.
+enum class Binding {
+  derived,   // it follows from what is printed: it binds any
+  decision,  // from what this project decided, and a vector holds
+  open       // no vector says anything of it
+};
+Binding binding_of(const Request& request, const Answer& answer, const harness::Protocol& protocol);
+
+/// Our own device, which answers a sequence on simulated time.
+class Oracle {
+ public:
+  /// `config`: what the device under test declares, keys of given.config. Errors: the model cannot
+  /// be made.
+  static Result<Oracle> open(const harness::Protocol& protocol, const std::string& model,
+                             int station, const nlohmann::json& config = nlohmann::json::object());
+
+  /// One answer a request; fewer where the device ended the connection.
+  Result<std::vector<Answer>> ask(const std::vector<Request>& requests, const Memory& memory,
+                                  Past past);
+
+ private:
+  Oracle(const harness::Protocol& protocol, int station, nlohmann::json config)
+      : protocol_(&protocol), station_(station), config_(std::move(config)) {}
+  const harness::Protocol* protocol_;
+  int station_;
+  nlohmann::json config_;
+  std::map<Past, std::unique_ptr<endpoints::Endpoint>> devices_;
+};
+
+/// The case that expects these answers of a device. It binds as the weakest of them does, where a
+/// learnt one does not count; it cites the clause of the last. Requests past the last answer are
+/// left out.
 vectors::Case case_of(const std::vector<Request>& requests, const std::vector<Answer>& answers,
                       const Memory& memory, const harness::Protocol& protocol, int station,
                       std::string id);

@@ -39,6 +39,26 @@ bool allows_several(const Case& one, const Step& send) {
          one.steps[static_cast<std::size_t>(next)].frames.size() > 1;
 }
 
+/// The sort of answer that stands behind a request in its vector.
+std::string answer_in(const Case& one, const Step& send, const Protocol& protocol) {
+  const auto next = static_cast<std::size_t>(&send - one.steps.data() + 1);
+  if (next >= one.steps.size() || one.steps[next].kind == Step::Kind::silence) return "silence";
+  if (one.steps[next].kind == Step::Kind::expect_close) return "closed";
+  if (one.steps[next].kind != Step::Kind::expect) return {};
+  const Result<Bytes> bytes =
+      safety::bytes_of(one.steps[next].frames.front().notation, protocol.fields_at(1));
+  return bytes ? sort_of(*bytes, protocol) : std::string();
+}
+
+/// What the step rests on is said by itself, or by its case.
+Clause clause_of(const Case& one, const Step& send, const Protocol& protocol) {
+  const auto next = static_cast<std::size_t>(&send - one.steps.data() + 1);
+  if (one.level != "must") return {};  // it binds nobody
+  const bool own = next < one.steps.size() && !one.steps[next].source.quote.empty();
+  return {answer_in(one, send, protocol), one.basis, own ? one.steps[next].source : one.source,
+          one.decisions};
+}
+
 bool says_all(const Notation& notation) {
   return std::ranges::none_of(notation, [](const Item& item) {
     return item.kind == Item::Kind::reuse || item.kind == Item::Kind::alternatives;
@@ -94,6 +114,17 @@ Notation bracketed(ByteView frame, bool request, const Protocol& protocol, int s
 
 }  // namespace
 
+bool is_a_right_frame(const Request& request) {
+  return request.kind != "damage" && request.kind != "pause" && request.kind != "twice";
+}
+
+std::string sort_of(ByteView answer, const Protocol& protocol) {
+  if (answer.empty()) return "silence";
+  for (const Field& field : protocol.explain_as(answer, false))
+    if (field.name == "error code" || field.name == "exception code") return field.text;
+  return "answered";
+}
+
 bool is_of_any_set_up(const Case& one) {
   return std::ranges::all_of(one.config.items(),
                              [](const auto& item) { return item.key() == "station"; });
@@ -136,6 +167,7 @@ std::vector<Request> requests_of(const std::vector<Case>& cases, const Protocol&
       if (!says_all(frame.notation) || !seen.insert(notation::print(frame.notation)).second)
         continue;
       requests.push_back({topic_of(one.id), one.id, frame.notation});
+      requests.back().clause = clause_of(one, step, protocol);
     }
   }
   return requests;

@@ -11,14 +11,31 @@
 
 namespace fieldproof::explore {
 
+/// What a vector says of the answer to a request of it.
+struct Clause {
+  std::string answer;  // its sort (sort_of); empty: it says nothing that can be told in one
+  std::string basis;
+  vectors::Source source;
+  std::vector<vectors::Decision> decisions;
+};
+
 struct Request {
   std::string topic;   // of its vector: "rss"
   std::string vector;  // its id
   notation::Notation notation;
-  std::string kind = "printed";  // of the change: one of Changes::kinds; "printed": there is none
-  std::string change{};          // in words: "block count 01 becomes 02"
+  std::string kind =
+      "printed";         // of the change: one of Changes::kinds, "look", "past"; "printed": none
+  std::string change{};  // in words: "block count 01 becomes 02"
   std::vector<harness::Protocol::Written> names{};  // memory that it named before it was damaged
+  Clause clause{};                                  // of its vector
+  bool off_before = false;  // the power of the device goes off and on before it is sent
 };
+
+/// As a client may send it: not as a bad line makes it, of which hardly a manual says anything.
+bool is_a_right_frame(const Request& request);
+
+/// How an answer reads where only its sort counts: "answered", "silence", "0003".
+std::string sort_of(ByteView answer, const harness::Protocol& protocol);
 
 /// The requests of these cases that go to a server of `protocol` on a device of `model`, each once:
 /// those that say all of their bytes.

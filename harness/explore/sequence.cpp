@@ -36,11 +36,7 @@ vectors::Case case_of_own_model(const harness::Protocol& protocol) {
   vectors::Case one;
   one.protocol = protocol.name();
   one.level = "must";
-  one.source = {"fieldproof, DECISIONS.md",
-                own_model_decision,
-                "`explore` holds a device to what fieldproof's own device answers, also where no "
-                "manual prints it.",
-                {}};
+  one.source = {"fieldproof, DECISIONS.md", own_model_decision, own_model_sentence, {}};
   return one;
 }
 

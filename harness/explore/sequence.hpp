@@ -38,13 +38,15 @@ class Sequence {
   virtual vectors::Case as_case(std::string id) const = 0;
   /// The part in which a device did otherwise; the last where nobody says.
   virtual std::size_t failing_part(const results::CaseResult& result) const = 0;
+  /// What was wrong there, without what is different each time: the same fault has the same mark.
+  virtual std::string mark(std::size_t part, const results::CaseResult& result) const = 0;
 
   /// The same without so many parts, of which one is left at least: our own device is asked anew.
   /// Nothing: what it then does cannot be told in order.
   virtual Own without(std::size_t from, std::size_t count) const = 0;
   /// Things that are set up for it, and could be left out, too.
   virtual std::size_t settings() const = 0;
-  virtual Own without_setting(std::size_t at) const = 0;
+  virtual Own without_settings(std::size_t from, std::size_t count) const = 0;
 };
 
 /// Makes sequences by seed.
@@ -59,6 +61,21 @@ class Inventor {
   /// A part of this topic had this outcome for the first, second, .. time: what showed something
   /// new comes more often.
   virtual void note(const Topic& topic, std::uint64_t times) = 0;
+
+  /// The device did all of it as the sequence has it.
+  virtual void done(const Sequence&) {}
+  /// It did otherwise in this part, of which nobody says what is right, and showed the same twice:
+  /// that is how it reads the manuals. False: somebody says, or it has answered this before.
+  virtual bool learn(const Sequence&, std::size_t, const results::CaseResult&) { return false; }
+  virtual bool may_learn(const Sequence&, std::size_t) const { return false; }
+  /// It could not be run as this device is: no more of the kind. False: it is the only kind.
+  virtual bool give_up(const Sequence&) { return false; }
+  /// What is known of the device beside its answers by topic, in lines: services by answer, their
+  /// limits and those of areas, and its own readings.
+  struct Known {
+    std::vector<std::string> services, limits, readings;
+  };
+  virtual Known known() const { return {}; }
 };
 
 /// How often topics come.
@@ -87,6 +104,12 @@ vectors::Step step_of(vectors::Step::Kind kind);
 
 /// What a case of `explore` rests on.
 inline constexpr const char* own_model_decision = "explore/own-model";
+inline constexpr const char* own_model_sentence =
+    "`explore` holds a device to what fieldproof's own device answers, also where no manual prints "
+    "it.";
+inline constexpr const char* as_before_decision = "explore/as-before";
+inline constexpr const char* as_before_sentence =
+    "Where nobody says what is right, `explore` holds a device to what it answered itself before.";
 /// A case that is held to our own model, without id, steps and basis.
 vectors::Case case_of_own_model(const harness::Protocol& protocol);
 

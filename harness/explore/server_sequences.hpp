@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "harness/explore/changes.hpp"
+#include "harness/explore/learnt.hpp"
+#include "harness/explore/limits.hpp"
 #include "harness/explore/oracle.hpp"
 #include "harness/explore/sequence.hpp"
 
@@ -16,7 +18,9 @@ namespace fieldproof::explore {
 struct Server {
   const harness::Protocol* protocol = nullptr;  // that knows where the model has its memory
   int station = 1;
+  nlohmann::json config = nlohmann::json::object();  // that it declares: keys of given.config
   bool over_the_wire = false;  // memory is set by requests; what it did before, it remembers
+  bool learns = false;         // what nobody says is the device's own reading
   Room room{};                 // where requests may go to; none: to all of the memory
   std::function<bool(ByteView request)> allowed = [](ByteView) { return true; };
 };
@@ -29,6 +33,11 @@ class ServerSequences : public Inventor {
   bool can_invent() const override { return !requests_.empty(); }
   Sequence::Own invent() override;
   void note(const Topic& topic, std::uint64_t times) override { weights_.note(topic.name, times); }
+  void done(const Sequence& sequence) override;
+  bool may_learn(const Sequence& sequence, std::size_t part) const override;
+  bool learn(const Sequence& sequence, std::size_t part,
+             const results::CaseResult& result) override;
+  Known known() const override;
 
   /// Nothing: the model refuses to be asked so, or what it answers depends on what was before,
   /// which nobody knows of a real device. Without `memory` what they name is filled by chance.
@@ -36,7 +45,14 @@ class ServerSequences : public Inventor {
   const Server& server() const { return server_; }
 
  private:
+  void have_any_past();
+  bool depends_on_the_past(const std::vector<Request>& requests, const Memory& memory,
+                           const std::vector<Answer>& answers);
+  std::vector<std::string> put_learnt(const std::vector<Request>& requests,
+                                      std::vector<Answer>& answers) const;
   std::vector<Request> requests_of_one();
+  std::optional<Request> look(const std::vector<Request>& requests, HotWords& hot);
+  void change(Request& request, HotWords& hot);
   std::optional<Request> invent_one(bool faultless, HotWords& hot);
   bool has_room(const Request& request) const;
   bool can_be_sent(const Request& request) const;
@@ -47,6 +63,8 @@ class ServerSequences : public Inventor {
   std::map<std::string, std::vector<std::size_t>> by_topic_;
   Weights weights_;
   Changes changes_;
+  Learnt learnt_;
+  Limits limits_;
   Random random_;
 };
 

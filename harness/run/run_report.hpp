@@ -43,6 +43,9 @@ class RunReport {
   void show_progress(std::size_t total, const std::string& next_id) {
     console_.show_progress(total, next_id, std::chrono::steady_clock::now() - started_);
   }
+  void show_progress(const std::string& text) {
+    console_.show_progress(text, std::chrono::steady_clock::now() - started_);
+  }
   /// False: it could not be written, stop here. A soak counts most of its results and writes few.
   bool add(const results::CaseResult& result, bool written = true);
   bool add(const results::SoakSample& sample) {

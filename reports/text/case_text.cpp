@@ -115,10 +115,12 @@ struct Judged {
   const Event* answer = nullptr;
 };
 
-Judged judged_in(const CaseResult& result) {
+/// `probes`: also of what belongs to no step, as a probe does.
+Judged judged_in(const CaseResult& result, bool probes) {
   Judged judged;
   const Event* request = nullptr;
   for (const Event& event : result.exchange) {
+    if (event.step < 0 && !event.surplus && !probes) continue;
     if (event.kind == Event::Kind::sent) request = &event;
     const bool came = event.kind == Event::Kind::received && !event.bytes.empty();
     if (came && event.bytes == result.received_bytes && event.extract == result.received_extract &&
@@ -127,6 +129,14 @@ Judged judged_in(const CaseResult& result) {
   }
   if (!judged.request) judged.request = request;
   return judged;
+}
+
+/// A probe may be answered by the very frame that is wrong.
+Judged judged_in(const CaseResult& result) {
+  const Judged judged = judged_in(result, false);
+  return judged.request && (judged.answer || result.received_bytes.empty())
+             ? judged
+             : judged_in(result, true);
 }
 
 std::string clause(const CaseResult& result) {

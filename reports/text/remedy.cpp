@@ -11,7 +11,9 @@ namespace {
 
 /// What a reason says, and what would end it; the first that fits. Options stand first: a reason
 /// that names one says what to do.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 25> remedies = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> remedies = {{
+    {"does not declare to follow",
+     "a program of --stimulus that follows more of what a case asks of it"},
     {"--stimulus",
      "something that makes the device ask: --stimulus COMMAND, or \"prepared_blocks\""},
     {"--power-cycle", "a device fresh from power-on: --power-cycle COMMAND"},

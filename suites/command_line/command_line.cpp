@@ -191,7 +191,8 @@ void add_explore(CLI::App& app, cli::ExploreOptions& explore) {
   app.add_option("--wait-port", run.wait_port, "How long for a port that is absent, as `run`");
   app.add_option("--seed", run.seed, "The same seed sends the same requests")
       ->check(CLI::Range(0, 99'999));
-  app.add_option("--requests", explore.requests, "How many (100000)")
+  app.add_option("--requests", explore.requests,
+                 "How many (100000; where time is real, 10 minutes of them)")
       ->check(CLI::Range(1, 1'000'000'000));
   app.add_option("--duration", run.duration, "Instead, or at most so long: 90s, 10m, 8h");
   app.add_option("--vectors", run.vectors,
@@ -201,6 +202,8 @@ void add_explore(CLI::App& app, cli::ExploreOptions& explore) {
   app.add_option("--junit", run.junit, "JUnit file, instead of OUT/junit.xml");
   app.add_option("--json", run.json, "JSON file, instead of OUT/results.json");
   app.add_option("--html", run.html, "HTML file, instead of OUT/report.html");
+  app.add_option("--waivers", run.waivers,
+                 "JSON file of accepted findings; of waived cases it takes no requests");
   app.add_option("--allow-write", run.allow_write, "Real devices: what may be written, as `run`");
   app.add_flag("--read-only", run.read_only, "Write nothing, to exec: neither");
   app.add_option("--journal", run.journal, "Real devices: what they held before, as `run`");

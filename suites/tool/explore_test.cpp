@@ -79,13 +79,66 @@ TEST_F(ExploreCommand, AHealthyProcessShowsNothing) {
   EXPECT_THAT(finished.out, HasSubstr("0 findings"));
 }
 
-/// Nothing is written outside the fence, and what was there is there again.
+/// `emulate` at a pty, which remembers what it was asked, as a PLC does.
+class Plc {
+ public:
+  explicit Plc(const TestFolder& folder)
+      : path_(folder / "plc"), process_(tool_arguments({"emulate", "xbc-h", "--pty", path_})) {
+    EXPECT_TRUE(process_.wait_for(path_));
+  }
+  std::string endpoint() const { return "serial:" + path_; }
+
+ private:
+  std::string path_;
+  Process process_;
+};
+
+/// What was there is there again, and nothing outside the fence was ever another.
 TEST_F(ExploreCommand, StaysInsideTheFence) {
-  const Finished finished = explore(
-      {"--requests", "60", "--allow-write", "M100-M119", "--endpoint", broken("none"), "-v"});
+  const Plc plc(folder);
+  const std::vector<std::string> real{"--endpoint", plc.endpoint(), "--profile",
+                                      "xbc-h",      "--protocol",   "xgt-cnet"};
+  std::vector<std::string> arguments{"--requests", "150", "--allow-write", "M100-M119", "-v"};
+  arguments.insert(arguments.end(), real.begin(), real.end());
+  const Finished finished = explore(arguments);
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   EXPECT_THAT(finished.out, HasSubstr("0 findings"));
-  for (const auto& one : results.cases) EXPECT_NE(one["verdict"], "FAIL");
+  EXPECT_GT(results.counts()["PASS"], 5u);
+  for (const auto& one : results.cases) {
+    EXPECT_NE(one["verdict"], "FAIL");
+    EXPECT_NE(one["verdict"], "ERROR");
+  }
+}
+
+/// Whatever somebody asked it before: registered monitors are still there in the next run.
+TEST_F(ExploreCommand, AHealthyDeviceShowsNothingTwice) {
+  const Plc plc(folder);
+  for (const char* seed : {"3", "4", "5"}) {
+    const Finished finished =
+        run_tool({"explore", "--seed", seed, "--out", folder / "out", "--requests", "150",
+                  "--allow-write", "M100-M119", "--endpoint", plc.endpoint(), "--profile", "xbc-h",
+                  "--protocol", "xgt-cnet"});
+    EXPECT_EQ(finished.code, 0) << seed << finished.out << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr("0 findings"));
+  }
+}
+
+/// What binds any device is not excused by a profile that is advisory.
+TEST_F(ExploreCommand, WrongDataIsRedOnAnAdvisoryProfile) {
+  const Finished finished = explore({"--profile", "xbc-dxxxh", "--requests", "600", "--fail-fast",
+                                     "--endpoint", broken("word_bytes_swapped_in_reads")});
+  EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
+}
+
+/// An interrupt is told once, and not as a trouble of the bench.
+TEST_F(ExploreCommand, AnInterruptOnAWireReports) {
+  Process process(tool_arguments({"explore", "--seed", "1", "--duration", "1h", "--endpoint",
+                                  broken("none"), "--out", folder / "out"}));
+  EXPECT_TRUE(process.wait_for("requests a second here"));
+  process.signal(SIGINT);
+  const Finished finished = process.wait();
+  EXPECT_EQ(finished.code, 130) << finished.out << finished.err;
+  EXPECT_THAT(finished.out, testing::Not(HasSubstr("ERROR")));
 }
 
 TEST_F(ExploreCommand, SaysWhatCannotBeExplored) {

@@ -128,6 +128,19 @@ TEST_P(ServerOfOthers, DeviatesAsItsWaiversSayAndNowhereElse) {
     expect_same(started.at(peer.name), run);
 }
 
+/// What is found there is the peer's own: its waivers name each finding.
+TEST(ServersOfOthers, ShowNoMoreToAnExploration) {
+  for (const Peer& peer : peers()) {
+    if (peer.running) continue;  // it is the same server
+    const tool_tests::TestFolder out;
+    const tool_tests::Finished finished = tool_tests::run_tool(
+        {"explore", "--seed", "1", "--requests", "150", "--profile", peer.name, "--endpoint",
+         fmt::format("exec:{}?station=1&protocol=modbus-{}", peer.command, peer.mode), "--waivers",
+         folder + peer.waived_as + ".waivers.json", "--out", out.path()});
+    EXPECT_EQ(finished.code, 0) << peer.name << finished.out << finished.err;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Peers, ServerOfOthers, testing::ValuesIn(peers()),
                          [](const auto& test) { return test_name(test.param); });
 

@@ -101,6 +101,17 @@ TEST_P(FenetServerOfAnotherHand, HasItsOwnDecisionsAndNoFault) {
                             run.seconds));
 }
 
+/// What it answers in its own way is learnt, and kept to.
+TEST(FenetServer, ShowsNothingToAnExploration) {
+  const Peer& peer = peers.front();
+  const tool_tests::TestFolder out;
+  const tool_tests::Finished finished = tool_tests::run_tool(
+      {"explore", "--seed", "1", "--requests", "150", "--profile", peer.profile, "--endpoint",
+       "exec:" + command(peer, "{port}", "{udp_port}") + "?protocol=xgt-fenet", "--out",
+       out.path()});
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+}
+
 INSTANTIATE_TEST_SUITE_P(Peers, FenetServerOfAnotherHand, testing::ValuesIn(peers),
                          [](const auto& test) { return test_name(test.param); });
 
