@@ -13,7 +13,7 @@ using harness::Protocol;
 
 namespace {
 
-constexpr std::array<std::string_view, 3> counted{"block count", "count", "number of data"};
+constexpr std::array<std::string_view, 3> count_names{"block count", "count", "number of data"};
 constexpr std::array<std::string_view, 4> says_what{"command", "command type", "function code",
                                                     "data type"};
 
@@ -24,10 +24,10 @@ bool is_one_of(const auto& names, const Field& field) {
 /// 2 of "name 2"; 0: it has no number.
 int number_of(const Field& field) {
   const std::size_t blank = field.name.rfind(' ');
-  const bool digits = blank != std::string::npos && blank + 1 < field.name.size() &&
-                      std::ranges::all_of(field.name.substr(blank + 1),
-                                          [](unsigned char c) { return std::isdigit(c) != 0; });
-  return digits ? std::atoi(field.name.c_str() + blank + 1) : 0;
+  const bool numbered = blank != std::string::npos && blank + 1 < field.name.size() &&
+                        std::ranges::all_of(field.name.substr(blank + 1),
+                                            [](unsigned char c) { return std::isdigit(c) != 0; });
+  return numbered ? std::atoi(field.name.c_str() + blank + 1) : 0;
 }
 
 struct Piece {
@@ -97,7 +97,7 @@ Bytes Counts::digits(std::uint32_t value, std::size_t size) const {
 
 std::optional<Count> Counts::count_in(ByteView request) const {
   for (const Field& field : fields_of(request))
-    if (is_one_of(counted, field))
+    if (is_one_of(count_names, field))
       return Count{field, number(request.subspan(field.offset, field.size), low_first_)};
   return std::nullopt;
 }
