@@ -113,12 +113,12 @@ TEST_F(ExploreCommand, StaysInsideTheFence) {
 /// Whatever somebody asked it before: registered monitors are still there in the next run.
 TEST_F(ExploreCommand, AHealthyDeviceShowsNothingTwice) {
   const Plc plc(folder);
-  for (const char* seed : {"3", "4", "5"}) {
+  for (const char* run : {"3", "4", "5"}) {
     const Finished finished =
-        run_tool({"explore", "--seed", seed, "--out", folder / "out", "--requests", "150",
+        run_tool({"explore", "--seed", run, "--out", folder / "out", "--requests", "150",
                   "--allow-write", "M100-M119", "--endpoint", plc.endpoint(), "--profile", "xbc-h",
                   "--protocol", "xgt-cnet"});
-    EXPECT_EQ(finished.code, 0) << seed << finished.out << finished.err;
+    EXPECT_EQ(finished.code, 0) << run << finished.out << finished.err;
     EXPECT_THAT(finished.out, HasSubstr("0 findings"));
   }
 }
