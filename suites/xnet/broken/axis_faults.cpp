@@ -70,9 +70,13 @@ Behaviour acceleration_of_the_next_segment() {
 
 /// What a fault remembers of its axis.
 struct Told {
-  long limit = 0;
+  long limit = 1'000'000'000;
   bool error = false;
 };
+/// A new device has a new axis.
+auto forgets(const std::shared_ptr<Told>& told) {
+  return [=](json&) { *told = {}; };
+}
 
 /// The code stands in SD2002 of axis 1, and SM2004 is on.
 auto shows_error(const std::shared_ptr<Told>& told, long code) {
@@ -86,7 +90,8 @@ auto shows_error(const std::shared_ptr<Told>& told, long code) {
 /// 20021 is told, and the instruction is executed with the highest speed.
 Behaviour error_20021_without_reaction() {
   const auto told = std::make_shared<Told>();
-  return {.act =
+  return {.config = forgets(told),
+          .act =
               [=](const std::string& action, const Look& look, const Put&) {
                 Words words = words_of(action);
                 if (!is(words, "MOTO") || is(words, "MOTOS")) return Words{action};
@@ -102,9 +107,9 @@ Behaviour error_20021_without_reaction() {
 /// 20001 is told, and the axis goes on past the limit.
 Behaviour error_20001_without_reaction() {
   const auto told = std::make_shared<Told>();
-  told->limit = 1'000'000'000;
   const auto shown = shows_error(told, 20001);
-  return {.value =
+  return {.config = forgets(told),
+          .value =
               [=](const std::string& text, const std::string& hex) {
                 return text == "SM2006" && told->error ? std::string("01") : shown(text, hex);
               },
