@@ -106,7 +106,7 @@ Status DeviceHost::begin(const json& config) {
     return fail(
         fmt::format("cannot emulate {}: it has no serial line beside its network; leave --pty and "
                     "--tty out, or give it one: --config with "
-                    "{{\"services\": {{\"xgt-cnet\": {{}}}}}}",
+                    "{{\"services\": {{\"PROTOCOL\": {{}}}}}} of a serial protocol",
                     model));
   if (network && !has_both(options_) && merged.contains("services") && line_of(**device))
     return fail(

@@ -24,7 +24,7 @@ Result<P2pChannel> read_channel(const json& object, const std::string& what, uns
   plc::ConfigReader reader(object, what);
   reader.whole("channel", highest, channel.number);
   reader.text("protocol", channel.protocol);
-  reader.text("partner", channel.partner);
+  reader.host("partner", channel.partner);
   reader.whole("port", 65'535u, channel.port);
   reader.either("transport", "udp", "tcp", datagrams);
   if (reader.error()) return *reader.error();

@@ -332,6 +332,7 @@ TEST(NetworkClients, ChannelsThatCannotBeAreRefused) {
   EXPECT_THAT(error(R"([{"channel": 4}])"), HasSubstr("channel"));
   EXPECT_THAT(error(R"({"channel": 2})"), HasSubstr("p2p.channels: it is no list"));
   EXPECT_THAT(error(R"([{"channel": 2, "prot": 3}])"), HasSubstr("prot"));
+  EXPECT_THAT(error(R"([{"channel": 2, "partner": "127.0.0.300"}])"), HasSubstr("127.0.0.300"));
 }
 
 TEST(NetworkClients, WithoutADatagramPortAreFixedToTcp) {
