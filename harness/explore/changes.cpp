@@ -210,8 +210,10 @@ bool Changes::resized(Request& request, std::optional<std::uint32_t> wish, Rando
   if (brackets.size() != 1) return false;
   const std::optional<Count> had = counts_.count_in(brackets.front().bytes);
   if (!had) return false;
-  std::uint32_t count =
-      random.chance(50) ? 1 + static_cast<std::uint32_t>(random.below(20)) : random.of(sizes);
+  constexpr std::uint32_t large = 64;  // takes its time to be made, and shows hardly more
+  std::uint32_t count = random.of(sizes);
+  if (random.chance(50) || (count > large && random.chance(80)))
+    count = 1 + static_cast<std::uint32_t>(random.below(20));
   if (wish) count = *wish;
   constexpr std::uint32_t most_blocks = 40;  // each has a name
   if (had->field.name == "block count") count = std::min(count, most_blocks);

@@ -35,7 +35,7 @@ struct Piece {
   ByteView in(ByteView frame) const { return frame.subspan(begin, end - begin); }
 };
 
-/// The same part of all blocks: of FEnet writes first names, and then data.
+/// The same part of all blocks: a request may have first all names, and then all data.
 using Section = std::map<int, Piece>;
 
 std::vector<Section> sections_of(const std::vector<Field>& fields, std::size_t behind) {

@@ -94,11 +94,21 @@ void Explorer::note_unjudged(const Sequence& sequence, const CaseResult& result)
   barren_ += inventor_->can_invent() ? 1 : enough_barren;
 }
 
-/// What came once may have been the line: a device reads it so where it does so again.
+/// What came once may have been the line: a device reads it so where it does so again, at the end
+/// of the same requests, and all before it were answered as they had to be.
 bool Explorer::learnt(const Sequence& sequence, std::size_t failing, const CaseResult& result) {
-  const CaseResult again = run(sequence, fmt::format("explore/{}/again", sequences_));
-  return differs(again.verdict) && again.received_bytes == result.received_bytes &&
-         sequence.failing_part(again) == failing && inventor_->learn(sequence, failing, result);
+  const std::string id = fmt::format("explore/{}/again", sequences_);
+  const std::size_t behind = sequence.parts() - failing - 1;
+  const Sequence::Own begun = behind == 0 ? nullptr : sequence.without(failing + 1, behind);
+  if (behind > 0 && (!begun || begun->parts() != failing + 1)) return false;
+  const CaseResult again = run(begun ? *begun : sequence, id);
+  if (!differs(again.verdict) || again.received_bytes != result.received_bytes) return false;
+  if (failing > 0) {
+    const Sequence::Own before = sequence.without(failing, behind + 1);
+    if (!before || before->parts() != failing || run(*before, id).verdict != Verdict::pass)
+      return false;
+  }
+  return inventor_->learn(sequence, failing, result);
 }
 
 /// It is one more of a finding; false where it may show that to be graver.
