@@ -20,9 +20,16 @@ namespace {
 
 constexpr std::size_t type_at = 2, reserved_at = 4, status_at = 6, blocks_at = 8, data_at = 12;
 
+/// Spoils requests of FEnet alone: another channel may speak another protocol.
+MakeBehaviour spoils_own(std::function<void(Bytes& frame)> edit) {
+  return spoils([=](Bytes& frame) {
+    if (xgt_fenet::read_header(frame)) edit(frame);
+  });
+}
+
 /// Sends another header.
 MakeBehaviour header(std::function<void(Header& header)> edit) {
-  return spoils([=](Bytes& frame) {
+  return spoils_own([=](Bytes& frame) {
     Header own = *xgt_fenet::read_header(frame);
     edit(own);
     frame = xgt_fenet::encode_frame(own, ByteView(frame).subspan(header_size));
@@ -31,7 +38,7 @@ MakeBehaviour header(std::function<void(Header& header)> edit) {
 
 /// Sends another body.
 MakeBehaviour body(std::function<void(Bytes& body)> edit) {
-  return spoils([=](Bytes& frame) {
+  return spoils_own([=](Bytes& frame) {
     Bytes own(frame.begin() + header_size, frame.end());
     edit(own);
     frame = xgt_fenet::encode_frame(*xgt_fenet::read_header(frame), own);
@@ -85,7 +92,7 @@ Behaviour taken_by(std::function<bool(std::uint16_t came, const Sent& sent)> pas
   return {.asks =
               [=](P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
                 Result<Bytes> frame = good.request(block, memory);
-                if (frame)
+                if (frame && xgt_fenet::read_header(*frame))
                   sent->before = std::exchange(sent->invoke, xgt_fenet::word_at(*frame, 14));
                 return frame;
               },
@@ -104,7 +111,7 @@ Behaviour does_not_count() {
   return {.asks =
               [=](P2pDriver& good, const P2pBlock& block, const PlcMemory& memory) {
                 Result<Bytes> frame = good.request(block, memory);
-                if (frame) {
+                if (frame && xgt_fenet::read_header(*frame)) {
                   *sent = xgt_fenet::word_at(*frame, 14);
                   set_low_first(*frame, 14, 1);
                   frame->at(19) = xgt_fenet::header_check(*frame);
@@ -183,18 +190,20 @@ std::vector<Fault> fenet_request_faults() {
        header([](Header& own) { own.source = xgt_fenet::from_server; }),
        "xgt_fenet/client/read/header", "source: expected"},
       {"fenet_length_with_header", "the length counts the header, too",
-       spoils([](Bytes& frame) { set_low_first(frame, 16, static_cast<unsigned>(frame.size())); }),
+       spoils_own(
+           [](Bytes& frame) { set_low_first(frame, 16, static_cast<unsigned>(frame.size())); }),
        "xgt_fenet/client/read/single/word", "length: expected"},
       {"fenet_length_high_byte_first", "the length stands high byte first",
-       spoils([](Bytes& frame) { std::swap(frame.at(16), frame.at(17)); }),
+       spoils_own([](Bytes& frame) { std::swap(frame.at(16), frame.at(17)); }),
        "xgt_fenet/client/read/single/word", "length: expected"},
-      {"fenet_sum_of_all", "the check sum is that of header and body", spoils([](Bytes& frame) {
+      {"fenet_sum_of_all", "the check sum is that of header and body", spoils_own([](Bytes& frame) {
          for (std::size_t i = header_size; i < frame.size(); ++i)
            frame.at(19) = static_cast<Byte>(frame.at(19) + frame[i]);
        }),
        "xgt_fenet/client/read/check_sum", "check sum: expected"},
-      {"fenet_no_sum", "the check sum is left 0", spoils([](Bytes& frame) { frame.at(19) = 0; }),
-       "xgt_fenet/client/read/check_sum", "check sum: expected"},
+      {"fenet_no_sum", "the check sum is left 0",
+       spoils_own([](Bytes& frame) { frame.at(19) = 0; }), "xgt_fenet/client/read/check_sum",
+       "check sum: expected"},
       {"fenet_invoke_not_counted", "each request has the same invoke id", does_not_count,
        "xgt_fenet/client/errors/previous_reply", "%MW120 holds 6BCD"},
       {"fenet_command_high_byte_first", "the command stands high byte first",
