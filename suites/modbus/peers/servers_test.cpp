@@ -128,20 +128,6 @@ TEST_P(ServerOfOthers, DeviatesAsItsWaiversSayAndNowhereElse) {
     expect_same(started.at(peer.name), run);
 }
 
-/// What is found there is the peer's own: its waivers name each finding. Peers on a network deviate
-/// in more than their waivers name (connections that they keep), and are explored by hand.
-TEST(ServersOfOthers, ShowNoMoreToAnExploration) {
-  for (const Peer& peer : peers()) {
-    if (peer.running || peer.mode != std::string_view("rtu")) continue;
-    const tool_tests::TestFolder out;
-    const tool_tests::Finished finished = tool_tests::run_tool(
-        {"explore", "--seed", "1", "--requests", "150", "--profile", peer.name, "--endpoint",
-         fmt::format("exec:{}?station=1&protocol=modbus-{}", peer.command, peer.mode), "--waivers",
-         folder + peer.waived_as + ".waivers.json", "--out", out.path()});
-    EXPECT_EQ(finished.code, 0) << peer.name << finished.out << finished.err;
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Peers, ServerOfOthers, testing::ValuesIn(peers()),
                          [](const auto& test) { return test_name(test.param); });
 
