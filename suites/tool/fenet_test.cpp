@@ -59,6 +59,7 @@ const std::vector<NotThere> without_back_door{
     {"xgt_fenet/read/in_stop", "needs mode = stop"},
     {"xgt_fenet/read/mixed_areas_xbc_h", "is read only over the protocol"},
     {"xgt_fenet/status/", "looks at the status counters"},
+    {"xgt_fenet/status/medium_host_table", "needs host_table = "},
     {"xgt_fenet/status/slot", "needs slot = "},
 };
 
