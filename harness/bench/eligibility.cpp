@@ -176,15 +176,15 @@ std::vector<std::string> Eligibility::moved_axes(const PreparedCase& prepared) c
   return axes;
 }
 
-/// Of all that a setting covers; of the device, or of its partner.
+/// Of all that a setting covers: "1" of the device, "B:1" of its partner.
 std::string Eligibility::axis_moved_by(const Protocol::Setting& setting) const {
   const exchange::PlaceName name = exchange::place_name(setting.first);
   const Protocol* const owner = name.partner.empty() ? &protocol_ : options_.aux.protocol;
   const auto covers = owner ? owner->named(name.address, setting.second.size()) : std::nullopt;
   if (!covers || covers->unknown()) return {};
   for (std::uint32_t word = covers->first_word; word <= covers->last_word; ++word)
-    if (std::string axis = owner->moved_by(owner->spell(covers->area, word)); !axis.empty())
-      return axis;
+    if (const std::string axis = owner->moved_by(owner->spell(covers->area, word)); !axis.empty())
+      return name.partner.empty() ? axis : fmt::format("{}:{}", name.partner, axis);
   return {};
 }
 
