@@ -122,6 +122,7 @@ class Protocol {
   virtual const Probing* probing() const { return nullptr; }
   virtual const MemoryRequests* memory() const { return nullptr; }
   virtual const Tables* tables() const { return nullptr; }
+  virtual const Texts* texts() const { return nullptr; }
 
   /// As those parts have it. Without probing: no probe. Without memory or tables: an error.
   Bytes probe(int station, ByteView tested) const;
@@ -163,15 +164,6 @@ class Protocol {
   /// Why such requests mean something else on the declared device than on one that declares
   /// nothing; empty: they do not.
   virtual std::string tied_to_default(const std::vector<Bytes>& requests) const;
-
-  /// What is wrong with addresses and actions (`do`) of a vector, for a device of `model` with
-  /// `config`, as their text tells; nothing where only a device can tell.
-  virtual Status check_texts(
-      [[maybe_unused]] std::string_view model, [[maybe_unused]] const nlohmann::json& config,
-      [[maybe_unused]] const std::vector<std::pair<std::string, std::string>>& memory,
-      [[maybe_unused]] const std::vector<std::string>& actions) const {
-    return ok();
-  }
 
   /// What is set on the declared device, in this order, so that an action of a case (`do`) happens;
   /// empty: it is no matter of memory. Errors say what the device lacks for it.

@@ -76,4 +76,17 @@ class Tables {
   virtual Status check_table(const nlohmann::json& facts) const = 0;
 };
 
+/// Addresses and actions of vectors that tell as text whether a device can have them; elsewhere
+/// only a device can tell.
+class Texts {
+ public:
+  virtual ~Texts() = default;
+
+  /// What is wrong with those of a vector (address and hex digits; `do`), for a device of `model`
+  /// with `config`.
+  virtual Status check_texts(std::string_view model, const nlohmann::json& config,
+                             const std::vector<std::pair<std::string, std::string>>& memory,
+                             const std::vector<std::string>& actions) const = 0;
+};
+
 }  // namespace fieldproof::harness

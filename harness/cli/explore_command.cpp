@@ -103,12 +103,13 @@ Result<RunPlan> plan_of(run::RunOptions options, const harness::Protocols& proto
 }
 
 /// Where requests may go to.
-explore::Server server_of(const RunPlan& plan, const harness::Protocol& configured) {
+explore::Server server_of(const RunPlan& plan, const harness::Protocol& configured,
+                          const nlohmann::json& config) {
   const bool emulated = endpoints::kind_of(plan.endpoint).emulated;
   explore::Server server{
       .protocol = &configured,
       .station = plan.bench.station,
-      .config = config_of(plan),
+      .config = config,
       .over_the_wire = over_the_wire(plan),
       .learns = !plan.bench.profile.binding_decisions,
       .room = {},
@@ -139,17 +140,18 @@ Error nothing_to_explore(const harness::Protocol& protocol, std::string_view rol
 /// Requests to a server. `configured` outlives it.
 Result<std::unique_ptr<explore::Inventor>> server_sequences(const RunPlan& plan,
                                                             const harness::Protocol& configured,
+                                                            const nlohmann::json& config,
                                                             std::uint64_t seed) {
   const harness::Protocol& protocol = *plan.protocols.front();
   const std::string model = model_of(plan);
   std::vector<explore::Request> requests =
       explore::requests_of(plan.vectors.cases, protocol, model);
   if (requests.empty() || !protocol.memory()) return nothing_to_explore(protocol, "server");
-  Result<explore::Oracle> oracle =
-      explore::Oracle::open(protocol, model, plan.bench.station, config_of(plan));
+  explore::Server server = server_of(plan, configured, config);
+  Result<explore::Oracle> oracle = explore::Oracle::open(protocol, model, server.station, config);
   if (!oracle) return oracle.error();
   std::unique_ptr<explore::Inventor> inventor = std::make_unique<explore::ServerSequences>(
-      server_of(plan, configured), std::move(*oracle), std::move(requests), seed);
+      std::move(server), std::move(*oracle), std::move(requests), seed);
   if (!inventor->can_invent())
     return fail(
         "nothing can be explored: each request names memory that it may not set up; give "
@@ -442,14 +444,14 @@ int explore_command(const ExploreOptions& given, const harness::Protocols& proto
   if (!plan) return run::complain(plan.error().message, run::exit_code::usage);
   const harness::Protocol& protocol = *plan->protocols.front();
   const std::string model = model_of(*plan);
-  const Result<std::unique_ptr<harness::Protocol>> configured =
-      protocol.configured(model, config_of(*plan));
+  const nlohmann::json config = config_of(*plan);
+  const Result<std::unique_ptr<harness::Protocol>> configured = protocol.configured(model, config);
   if (!configured) return run::complain(configured.error().message, run::exit_code::usage);
   const std::uint64_t seed = static_cast<std::uint64_t>(options.run.seed);
   Result<std::unique_ptr<explore::Inventor>> inventor =
       options.run.role == "client"
           ? client_sequences(*plan, seed)
-          : server_sequences(*plan, *configured ? **configured : protocol, seed);
+          : server_sequences(*plan, *configured ? **configured : protocol, config, seed);
   if (!inventor) return run::complain(inventor.error().message, run::exit_code::nothing);
   os::catch_interrupts();
   Result<run::ReportPaths> paths = run::make_report_paths(options.run.out, options.run.json,

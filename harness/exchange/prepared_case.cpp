@@ -42,7 +42,7 @@ bool PreparedCase::answers_probes() const {
 bool PreparedCase::is_shut_out() const {
   return source->config.contains("host_table") && !is_client() &&
          std::ranges::none_of(steps, [](const PreparedStep& step) {
-           return step.step->kind == Step::Kind::send || step.step->kind == Step::Kind::expect;
+           return step.step->kind == Step::Kind::expect;
          });
 }
 

@@ -42,7 +42,7 @@ struct PreparedCase {
   /// A device that asks, whose line settings differ from the bench's, or that lets nobody in,
   /// answers no probe.
   bool answers_probes() const;
-  /// Its host table leaves the bench out.
+  /// Its host table leaves the bench out: nothing it says is answered.
   bool is_shut_out() const;
   /// What the client under test waits for an answer (client_program.hpp).
   Duration client_time_out() const;

@@ -21,13 +21,6 @@ bool is_digit(Byte byte) { return digits.find(static_cast<char>(byte)) != std::s
 
 Byte any_digit(Random& random) { return static_cast<Byte>(digits[random.below(digits.size())]); }
 
-/// "data", "data 2"; not its type, size or number, which make another request of it.
-bool is_data(const Field& field) {
-  const bool numbered = field.name.starts_with("data ") && field.name.size() > 5 &&
-                        std::isdigit(static_cast<unsigned char>(field.name[5])) != 0;
-  return field.size > 0 && (field.name == "data" || numbered);
-}
-
 /// Digits stay digits.
 Bytes any_data(ByteView old, bool text, Random& random) {
   Bytes bytes(old.begin(), old.end());
@@ -119,7 +112,7 @@ bool Changes::elsewhere(Request& request, HotWords& hot, Random& random) const {
   for (const Bracket& bracket : safety::brackets_of(request.notation, false, fields_, protocol_)) {
     changed |= move(request, bracket, hot, random);
     for (const Field& field : protocol_.explain_as(bracket.bytes, true))
-      if (is_data(field)) {
+      if (field.size > 0 && is_data(field)) {
         const ByteView old = ByteView(bracket.bytes).subspan(field.offset, field.size);
         changed |= safety::patch(request.notation, bracket, field.offset,
                                  any_data(old, protocol_.is_text(), random), fields_);

@@ -54,6 +54,10 @@ void append(Bytes& bytes, ByteView more) { bytes.insert(bytes.end(), more.begin(
 
 }  // namespace
 
+bool is_data(const Field& field) {
+  return field.name == "data" || (field.name.starts_with("data ") && number_of(field) > 0);
+}
+
 Counts::Counts(const Protocol& protocol, int station, const std::vector<Bytes>& requests)
     : protocol_(protocol), station_(station) {
   std::uint64_t low = 0, high = 0;  // counts are small numbers
@@ -148,8 +152,7 @@ std::optional<Bytes> Counts::with_data(ByteView request, const Count& had, std::
   std::optional<Field> bytes;
   for (const Field& field : fields) {
     if (field.name == "byte count") bytes = field;
-    if (field.name != "data" && !field.name.starts_with("data ")) continue;
-    if (field.name == "data type" || field.name == "data size") continue;
+    if (!is_data(field)) continue;
     if (!data) data = Piece{field.offset, 0};
     data->end = field.offset + field.size;
   }

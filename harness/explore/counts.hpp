@@ -18,6 +18,9 @@ struct Count {
   std::uint32_t value = 0;
 };
 
+/// "data", "data 2"; not its type, size or number, which make another request of it.
+bool is_data(const harness::Field& field);
+
 /// Refers to the protocol.
 class Counts {
  public:

@@ -105,6 +105,16 @@ TEST(NotationOf, HasStationAndCheckAsWords) {
   EXPECT_EQ(*safety::bytes_of(*notation::parse_notation(text), cnet.fields_at(1)), nak);
 }
 
+/// The type of a CPU and the place of a module are the device's own.
+TEST(NotationOf, LeavesOpenWhatVectorsDo) {
+  const Bytes reply = *from_hex(
+      "4C 53 49 53 2D 58 47 54 00 00 07 01 B0 11 01 00 0A 00 02 31 59 00 02 00 00 00 00 00 01 00");
+  const Protocol& fenet = protocol("xgt-fenet");
+  EXPECT_THAT(notation::print(notation_of(reply, false, fenet, 1)),
+              AllOf(HasSubstr("00 00 ?? ?? ?? 11 01 00 LEN ?? ?? 59 00 02")));
+  EXPECT_THAT(notation::print(notation_of(reply, true, fenet, 1)), Not(HasSubstr("??")));
+}
+
 /// The check stays wrong, and nothing moves.
 TEST(NotationOf, LeavesWhatIsWrong) {
   const Bytes nak = *from_hex("15 30 31 72 53 53 30 30 31 31 03 30 30");

@@ -147,16 +147,13 @@ void Explorer::look_into(Sequence::Own sequence, std::size_t failing, const Case
   finding.shown_by[topic] = 1;
   const auto [known, is_new] = findings_.try_emplace(own_mark, finding);
   if (is_new) return;
-  const bool graver = finding.confirmed && known->second.result.verdict != Verdict::fail;
-  finding.shown_by = known->second.shown_by;
-  ++finding.shown_by[topic];
-  finding.looks = known->second.looks + 1;
-  if (graver)
-    known->second = std::move(finding);
-  else {
-    known->second.shown_by = std::move(finding.shown_by);
-    known->second.looks = finding.looks;
-  }
+  Finding& same = known->second;
+  ++same.shown_by[topic];
+  ++same.looks;
+  if (!finding.confirmed || same.result.verdict == Verdict::fail) return;
+  same.shortest = std::move(finding.shortest);
+  same.result = std::move(finding.result);
+  same.confirmed = true;
 }
 
 Finding Explorer::finding_of(const Sequence& found, Shortener& shortener, CaseResult seen,

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "harness/notation/check.hpp"
+#include "harness/notation/pdu.hpp"
 #include "harness/safety/brackets.hpp"
 
 namespace fieldproof::explore {
@@ -95,17 +96,62 @@ Notation word_for(const Field& field, ByteView frame, const Protocol& protocol, 
   return {};
 }
 
-/// One bracket, with what moves in it as words.
-Notation bracketed(ByteView frame, bool request, const Protocol& protocol, int station) {
-  Notation notation{item_of(Item::Kind::open, "[")};
+/// A word for some bytes of a frame.
+struct Word {
+  std::size_t offset = 0, size = 0;
+  Item item;
+};
+
+/// What moves in it.
+std::vector<Word> words_of(ByteView frame, bool request, const Protocol& protocol, int station) {
+  std::vector<Word> words;
   std::size_t at = 0;
   for (const Field& field : protocol.explain_as(frame, request)) {
     if (field.offset < at || field.size == 0 || field.offset + field.size > frame.size()) continue;
     const Notation word = word_for(field, frame, protocol, station);
     if (word.empty()) continue;
-    append(notation, frame.subspan(at, field.offset - at));
-    notation.push_back(word.front());
+    words.push_back({field.offset, field.size, word.front()});
     at = field.offset + field.size;
+  }
+  return words;
+}
+
+std::size_t size_of(const Item& item, const Protocol& protocol) {
+  const notation::Checks checks = protocol.checks();
+  const notation::Check* check = nullptr;
+  if (item.kind == Item::Kind::check) check = notation::find_check(checks, item.text);
+  if (item.kind == Item::Kind::station) return protocol.station_bytes(0).size();
+  return check ? check->size : item.bytes.size() * static_cast<std::size_t>(item.repeat);
+}
+
+/// What the header of a reply leaves open in all vectors, since it is the device's own (pdu(...)).
+std::vector<Word> left_open(const Protocol& protocol) {
+  if (!protocol.dressing()) return {};
+  const Result<std::string> reply = notation::dress("pdu(00)", protocol.dressing()->of(true, false),
+                                                    [] { return Result<std::string>("00 00"); });
+  if (!reply) return {};
+  const Result<Notation> items = notation::parse_notation(*reply);
+  std::vector<Word> words;
+  std::size_t at = 0;
+  for (const Item& item : *items) {
+    if (item.kind != Item::Kind::any) {
+      at += size_of(item, protocol);
+      continue;
+    }
+    words.push_back({at, static_cast<std::size_t>(item.repeat), item});
+    at += words.back().size;
+  }
+  return words;
+}
+
+/// One bracket with these words in it, each of which stands behind the one before.
+Notation bracketed(ByteView frame, const std::vector<Word>& words) {
+  Notation notation{item_of(Item::Kind::open, "[")};
+  std::size_t at = 0;
+  for (const Word& word : words) {
+    append(notation, frame.subspan(at, word.offset - at));
+    notation.push_back(word.item);
+    at = word.offset + word.size;
   }
   append(notation, frame.subspan(at));
   notation.push_back(item_of(Item::Kind::close, "]"));
@@ -149,9 +195,18 @@ Notation raw_notation(ByteView bytes) {
 Notation notation_of(ByteView frame, bool request, const Protocol& protocol, int station) {
   const std::optional<std::size_t> length = protocol.frame_length(frame);
   if (!length || *length != frame.size()) return raw_notation(frame);
-  Notation notation = bracketed(frame, request, protocol, station);
-  const Result<Bytes> made = safety::bytes_of(notation, protocol.fields_at(station));
-  return made && std::ranges::equal(*made, frame) ? notation : raw_notation(frame);
+  std::vector<Word> words = words_of(frame, request, protocol, station);
+  const Result<Bytes> made = safety::bytes_of(bracketed(frame, words), protocol.fields_at(station));
+  if (!made || !std::ranges::equal(*made, frame)) return raw_notation(frame);
+  if (!request)
+    for (Word& open : left_open(protocol)) {
+      std::erase_if(words, [&](const Word& word) {
+        return word.offset < open.offset + open.size && open.offset < word.offset + word.size;
+      });
+      words.push_back(std::move(open));
+    }
+  std::ranges::sort(words, {}, &Word::offset);
+  return bracketed(frame, words);
 }
 
 std::vector<Request> requests_of(const std::vector<Case>& cases, const Protocol& protocol,

@@ -53,8 +53,9 @@ std::optional<harness::Protocol::Place> place_of(const harness::Protocol::Writte
 /// Bytes as they are: no check follows them.
 notation::Notation raw_notation(ByteView bytes);
 
-/// A frame as a bracket in which station and checks are words, so that it can be moved; where that
-/// would not be the same bytes, those.
+/// A frame as a bracket in which station and checks are words, so that it can be moved, and what
+/// vectors leave open in the header of every reply is open; where that would not be the same bytes,
+/// those.
 notation::Notation notation_of(ByteView frame, bool request, const harness::Protocol& protocol,
                                int station);
 

@@ -24,9 +24,6 @@ class Shortener {
   /// a needless refusal may have been all that made a failure a matter of decisions.
   bool shows(const Sequence& sequence);
 
-  /// The gravest that was shown.
-  results::Verdict verdict() const { return verdict_; }
-
  private:
   bool goes_on() const;
   template <typename Count, typename Without>
@@ -34,7 +31,7 @@ class Shortener {
 
   Run run_;
   std::function<bool()> alive_;
-  results::Verdict verdict_;
+  results::Verdict verdict_;  // the gravest that was shown
   int trials_ = 0;
   int losses_ = 0;  // of the device, which had to be started again
 };

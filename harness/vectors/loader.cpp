@@ -99,21 +99,23 @@ class FileLoader {
          combinations(vector.contains("each") ? vector["each"] : json::object())) {
       if (!matches_filter(id + one.suffix, options_.filter)) continue;
       cases.push_back(reader.read(one));
-      if (protocol) check_texts(*protocol, cases.back());
+      if (const harness::Texts* const texts = protocol ? protocol->texts() : nullptr)
+        check_texts(*texts, protocol->models().front(), cases.back());
     }
   }
 
   /// A case that no device could run is an invalid file.
-  static void check_texts(const harness::Protocol& protocol, const Case& read) {
+  static void check_texts(const harness::Texts& texts, const std::string& first_model,
+                          const Case& read) {
     std::vector<harness::Protocol::Setting> memory = read.memory;
     std::vector<std::string> actions;
     for (const Step& step : read.steps) {
       memory.insert(memory.end(), step.memory.begin(), step.memory.end());
       if (step.kind == Step::Kind::act) actions.push_back(step.action);
     }
-    const std::vector<std::string> first{protocol.models().front()};
+    const std::vector<std::string> first{first_model};
     for (const std::string& model : read.models.empty() ? first : read.models)
-      if (const Status right = protocol.check_texts(model, read.config, memory, actions); !right)
+      if (const Status right = texts.check_texts(model, read.config, memory, actions); !right)
         throw Broken(right.error().message);
   }
 

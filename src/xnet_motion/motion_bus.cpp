@@ -292,15 +292,33 @@ bool expect_errors(BusCounters& counters, std::string_view what) {
   return periods && words.rest() == "errors" && counters.expect(kind, *periods);
 }
 
+std::optional<std::int32_t> pushed_by(std::string_view what) {
+  return what.starts_with(push) ? constant<std::int32_t>(what.substr(push.size())) : std::nullopt;
+}
+
+/// What happens to the drive itself. False: there is no such thing.
+bool happens_to(Servo& servo, std::string_view what) {
+  if (what == "off" || what == "on")
+    servo.connected = what == "on";
+  else if (what == "alarm" || what == "stuck alarm") {
+    servo.alarm = true;
+    servo.clearable = what == "alarm";
+  } else if (what == "well")
+    servo.alarm = false;
+  else if (what == "stall" || what == "free")
+    servo.stalled = what == "stall";
+  else if (what == "enable" || what == "disable")
+    servo.enabled_by_hand = what == "enable";
+  else
+    return expect_errors(servo.counters, what);
+  return true;
+}
+
 Status check_servo_action(std::string_view action) {
-  constexpr std::array<std::string_view, 9> known{"off",   "on",   "alarm",  "stuck alarm", "well",
-                                                  "stall", "free", "enable", "disable"};
   const auto [number, what] = read_servo_action(action);
   if (!number) return wrong(action, "there is no such servo");
-  const bool pushed =
-      what.starts_with(push) && constant<std::int32_t>(what.substr(push.size())).has_value();
-  BusCounters untouched;
-  if (pushed || expect_errors(untouched, what) || std::ranges::count(known, what) > 0) return ok();
+  Servo untouched;
+  if (pushed_by(what) || happens_to(untouched, what)) return ok();
   return wrong(action,
                "a servo can off, on, alarm, stuck alarm, well, stall, free, enable, disable, "
                "push 500, have 3 sync errors (data, crc, uart)");
@@ -329,21 +347,11 @@ Status MotionBus::act_on_servo(std::string_view action) {
   if (const Status right = check_servo_action(action); !right) return right;
   const auto [number, what] = read_servo_action(action);
   Axis* const axis = find(*number);
-  Servo& servo = axis->servo();
   axis->note(next_, "servo " + std::string(what));
-  if (what == "off" || what == "on")
-    servo.connected = what == "on";
-  else if (what == "alarm" || what == "stuck alarm") {
-    servo.alarm = true;
-    servo.clearable = what == "alarm";
-  } else if (what == "well")
-    servo.alarm = false;
-  else if (what == "stall" || what == "free")
-    servo.stalled = what == "stall";
-  else if (what == "enable" || what == "disable")
-    servo.enabled_by_hand = what == "enable";
-  else if (!expect_errors(servo.counters, what))
-    axis->push(*constant<std::int32_t>(what.substr(push.size())));
+  if (const std::optional<std::int32_t> pulses = pushed_by(what))
+    axis->push(*pulses);
+  else
+    happens_to(axis->servo(), what);
   return ok();
 }
 

@@ -87,10 +87,6 @@ Status read_key(const std::string& key, const json& value, Servo& servo) {
                            key));
 }
 
-}  // namespace
-
-namespace {
-
 struct Counter {
   std::string_view kind, name;
 };

@@ -18,11 +18,6 @@ namespace {
 constexpr std::array<std::string_view, 8> plain_actions{
     "run", "stop", "power_cycle", "on", "off", "noise on", "noise off", "release"};
 
-Status check_counter(std::string_view address, std::string_view counter) {
-  if (MotionBus::is_counter(counter)) return ok();
-  return fail(fmt::format("cannot read {}: write @U0-62 of servo 1", address));
-}
-
 }  // namespace
 
 Error unknown_action(std::string_view action) {
@@ -31,6 +26,10 @@ Error unknown_action(std::string_view action) {
       "slow 20ms, modbus port 2 address error, free format port 2 send correct, BIT_READ, "
       "BIT_WRITE, REG_READ, REG_WRITE, hold one of them, release; 'B: off' is of B",
       action));
+}
+
+Error unknown_counter(std::string_view address) {
+  return fail(fmt::format("cannot read {}: write @U0-62 of servo 1", address));
 }
 
 TextCheck::TextCheck(std::string_view model, const nlohmann::json& config) {
@@ -65,7 +64,8 @@ Status TextCheck::address(std::string_view address, std::size_t digits) const {
   const Model* const model = addressed(own);
   if (!model) return fail(fmt::format("cannot reach {}: there is no such PLC", address));
   if (own == "@turns") return ok();
-  if (own.starts_with("@U0-")) return check_counter(address, own.substr(1));
+  if (own.starts_with("@U0-"))
+    return MotionBus::is_counter(own.substr(1)) ? ok() : Status(unknown_counter(address));
   const Result<std::string> read = blank_memory(*model).get(own, digits);
   return read ? ok() : Status(read.error());
 }
@@ -81,10 +81,7 @@ Status TextCheck::action(std::string_view action) const {
     const Result<Duration> late = parse_duration(what.substr(slow_by.size()));
     return late ? ok() : Status(late.error());
   }
-  if (is_port_result(what)) {
-    Memory unused = blank_memory(*model);
-    return tell_port_result(what, *model, unused);
-  }
+  if (is_port_result(what)) return check_port_result(what, *model);
   if (what.starts_with(hold)) what.remove_prefix(hold.size());
   if (!is_instruction(what) && !MotionBus::knows(what)) return unknown_action(action);
   return check_instruction(what, *model);

@@ -15,6 +15,8 @@ namespace fieldproof::xnet {
 
 /// No PLC can do `action`.
 Error unknown_action(std::string_view action);
+/// No servo counts what `address` asks for.
+Error unknown_counter(std::string_view address);
 
 class TextCheck {
  public:

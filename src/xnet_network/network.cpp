@@ -190,7 +190,7 @@ Result<std::string> XnetNetwork::get(std::string_view address, std::size_t digit
   if (!plc) return fail(fmt::format("cannot read {}: there is no such PLC", address));
   if (own.starts_with("@U0-") && plc->motion) {
     const std::optional<unsigned> count = plc->motion->count(own.substr(1));
-    if (!count) return fail(fmt::format("cannot read {}: write @U0-62 of servo 1", address));
+    if (!count) return unknown_counter(address);
     return hex_number(*count, static_cast<int>(digits));
   }
   if (own != "@turns") return plc->memory.get(own, digits);

@@ -71,13 +71,8 @@ std::optional<Shown> result_of_free_format(std::string_view what) {
   return Shown{quantity_register, *bytes};
 }
 
-}  // namespace
-
-bool is_port_result(std::string_view action) {
-  return action.starts_with(modbus) || action.starts_with(free_format);
-}
-
-Status tell_port_result(std::string_view action, const Model& model, Memory& memory) {
+/// The register of the port that is named, and its value.
+Result<Shown> read_port_result(std::string_view action, const Model& model) {
   const bool asks_modbus = action.starts_with(modbus);
   Words words(action.substr((asks_modbus ? modbus : free_format).size()));
   const std::string_view word = words.next();
@@ -89,8 +84,25 @@ Status tell_port_result(std::string_view action, const Model& model, Memory& mem
                                          ? find_code(of_modbus, modbus_register, words.rest())
                                          : result_of_free_format(words.rest());
   if (!shown) return wrong(action, "1-5-1 has no such result");
+  return Shown{shown->number + 10 * *port, shown->value};
+}
+
+}  // namespace
+
+bool is_port_result(std::string_view action) {
+  return action.starts_with(modbus) || action.starts_with(free_format);
+}
+
+Status check_port_result(std::string_view action, const Model& model) {
+  const Result<Shown> shown = read_port_result(action, model);
+  return shown ? ok() : Status(shown.error());
+}
+
+Status tell_port_result(std::string_view action, const Model& model, Memory& memory) {
+  const Result<Shown> shown = read_port_result(action, model);
+  if (!shown) return shown.error();
   memory.touch();
-  memory.write(component_in("SD", shown->number + 10 * *port), shown->value);
+  memory.write(component_in("SD", shown->number), shown->value);
   return ok();
 }
 

@@ -16,6 +16,8 @@ bool is_port_result(std::string_view action);
 
 /// "modbus port 2 address error", "free format port 2 send correct", "free format port 2 receive
 /// no start symbol", "free format port 2 received 12 bytes". Errors name the word.
+Status check_port_result(std::string_view action, const Model& model);
+/// The same, and memory shows it.
 Status tell_port_result(std::string_view action, const Model& model, Memory& memory);
 
 }  // namespace fieldproof::xnet

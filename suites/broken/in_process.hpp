@@ -47,16 +47,15 @@ inline std::string report(const results::CaseResult& result) {
   return text;
 }
 
-/// The case of the table must fail, and its report must name the fault; else all cases that `run`
-/// sees fail are told. `run`: a case against the device with this fault.
+/// The case of the table must turn red, and its report must name the fault; else all cases that
+/// `run` sees fail are told. `run`: a case against the device with this fault.
 template <typename Make, typename Run>
 void expect_caught(const FaultOf<Make>& fault, const Cases& cases, Run run) {
   const auto one = std::ranges::find(cases, fault.caught_by, &vectors::Case::id);
   const bool known = one != cases.end();
   const results::CaseResult result = known ? run(*one) : results::CaseResult{};
   const std::string told = report(result);
-  if (known && result.verdict == results::Verdict::fail &&
-      told.find(fault.message) != std::string::npos)
+  if (known && turns_red(*one, result.verdict) && told.find(fault.message) != std::string::npos)
     return fmt::print("{:<34} {}\n", fault.name, told);
   std::string red;
   for (const vectors::Case& other : cases)

@@ -30,4 +30,11 @@ inline results::CaseResult run_in_process(const vectors::Case& source, const std
   return bench::Bench(endpoint, protocol, options).run(source);
 }
 
+/// Does the case say that something is wrong, as far as it can? What is missed of a `should` turns
+/// red with --strict alone; what is only measured never does.
+inline bool turns_red(const vectors::Case& one, results::Verdict verdict) {
+  return verdict == results::Verdict::fail ||
+         (one.level == "should" && verdict == results::Verdict::non_strict);
+}
+
 }  // namespace fieldproof::broken

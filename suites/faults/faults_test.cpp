@@ -8,6 +8,7 @@
 
 #include "harness/vectors/fault_matrix.hpp"
 #include "harness/vectors/loader.hpp"
+#include "suites/broken/run_in_process.hpp"
 #include "suites/faults/kits.hpp"
 #include "suites/protocols.hpp"
 
@@ -53,7 +54,8 @@ class Faults : public testing::TestWithParam<Kit> {
 /// The case that turns red by this fault: the one of the fault's table, or where that takes a port
 /// (memory that was written before, a device that was started anew) the first of the file.
 std::string catcher(const Kit& kit, std::size_t fault, const vectors::Case* of_table) {
-  if (of_table && turns_red(*of_table, kit.run(fault, *of_table).verdict)) return of_table->id;
+  if (of_table && broken::turns_red(*of_table, kit.run(fault, *of_table).verdict))
+    return of_table->id;
   const auto at = std::ranges::find(written(kit.name).faults, kit.faults[fault].name);
   const auto position = static_cast<std::size_t>(at - written(kit.name).faults.begin());
   for (const auto& [id, by] : written(kit.name).killed)
@@ -68,7 +70,7 @@ TEST_P(Faults, AreAllCaughtByNamedCases) {
     const std::string& name = kit.faults[i].name;
     const std::string id = catcher(kit, i, find(kit.faults[i].caught_by));
     const vectors::Case* const one = find(id);
-    const bool red = one && turns_red(*one, kit.run(i, *one).verdict);
+    const bool red = one && broken::turns_red(*one, kit.run(i, *one).verdict);
     EXPECT_TRUE(red) << name << " is not caught by " << kit.faults[i].caught_by;
     EXPECT_TRUE(says_red(written(kit.name), name, id))
         << "faults.json does not know that " << id << " catches " << name << "; " << again;
@@ -92,7 +94,7 @@ TEST_P(Faults, AreAsTheFileSays) {
     const vectors::Case& one = *cases[random() % cases.size()];
     const std::string& name = kit.faults[fault].name;
     if (std::ranges::find(device.faults, name) == device.faults.end()) continue;  // said above
-    EXPECT_EQ(turns_red(one, kit.run(fault, one).verdict), says_red(device, name, one.id))
+    EXPECT_EQ(broken::turns_red(one, kit.run(fault, one).verdict), says_red(device, name, one.id))
         << one.id << " against " << name << ": faults.json says otherwise; " << again;
   }
 }

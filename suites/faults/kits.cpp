@@ -200,11 +200,6 @@ Kit client(const std::string& name, const std::string& folder) {
 
 }  // namespace
 
-bool turns_red(const Case& one, results::Verdict verdict) {
-  return verdict == results::Verdict::fail ||
-         (one.level == "should" && verdict == results::Verdict::non_strict);
-}
-
 std::vector<Kit> kits() {
   return {xgt_server(),
           modbus_server("rtu"),

@@ -29,10 +29,6 @@ struct Kit {
 
 std::vector<Kit> kits();
 
-/// Does the case say that something is wrong, as far as it can? What is missed of a `should` turns
-/// red with --strict alone; what is only measured never does.
-bool turns_red(const vectors::Case& one, results::Verdict verdict);
-
 /// Which of its faults `explore` finds with so many requests each, on a device of that fault.
 std::vector<bool> found_by_exploring(const Kit& kit, const std::vector<vectors::Case>& cases,
                                      std::uint64_t requests);

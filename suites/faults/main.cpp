@@ -10,6 +10,7 @@
 
 #include "harness/vectors/fault_matrix.hpp"
 #include "harness/vectors/loader.hpp"
+#include "suites/broken/run_in_process.hpp"
 #include "suites/faults/kits.hpp"
 #include "suites/protocols.hpp"
 
@@ -25,7 +26,7 @@ vectors::BrokenDevice run_all(const faults::Kit& kit, const std::vector<vectors:
     if (kit.run(std::nullopt, one).verdict != results::Verdict::pass) continue;
     std::set<std::size_t>& by = device.killed[one.id];
     for (std::size_t i = 0; i < kit.faults.size(); ++i)
-      if (faults::turns_red(one, kit.run(i, one).verdict)) by.insert(i);
+      if (broken::turns_red(one, kit.run(i, one).verdict)) by.insert(i);
   }
   return device;
 }

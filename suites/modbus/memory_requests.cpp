@@ -24,8 +24,9 @@ constexpr std::size_t bytes_at_once = 2 * words_at_once;
 /// Where a device address lies in the tables.
 struct Place {
   bool bits = false;
-  bool writable = false;
-  std::uint32_t size = 0;  // of the table
+  bool writable = false;       // by its table
+  bool area_writable = false;  // DECISIONS.md modbus/read-only-areas
+  std::uint32_t size = 0;      // of the table
   char type = 0;
   std::uint32_t address = 0;  // data address of the first element
   std::uint32_t width = 0;    // data addresses an element: bits or words
@@ -57,7 +58,12 @@ Result<Place> place_of(const Bases& bases, std::string_view name) {
   if (!base) return fail(fmt::format("{} lies outside the Modbus bases of the device", name));
   const modbus::ModbusTable& table = bases.tables[*base];
   const bool writable = *base == ModbusBase::bit_write || *base == ModbusBase::word_write;
-  return Place{bits, writable, table.size, parsed.address.type, first.index - table.first.index,
+  return Place{bits,
+               writable,
+               bases.model->areas[first.area].write,
+               table.size,
+               parsed.address.type,
+               first.index - table.first.index,
                width};
 }
 
@@ -208,6 +214,7 @@ Result<std::vector<Bytes>> write_requests(const Framing& framing, const Bases& b
                                           std::string_view address, std::string_view hex) {
   const Result<Place> place = place_of(bases, address);
   if (!place) return place.error();
+  if (!place->area_writable) return fail(fmt::format("{} is read only over the protocol", address));
   if (!place->writable)
     return fail(fmt::format(
         "{} is read only with the bases of the device (function codes 02 and 04)", address));

@@ -127,6 +127,10 @@ TEST(DeclaredBases, RequestsAndFenceFollowThem) {
               HasSubstr("read only"));
   EXPECT_THAT(messages(write_requests(rtu_framing(), moved_bases(), 1, "%DW999", "1234")),
               HasSubstr("outside the Modbus bases"));
+  const Bases flags = *declared_bases("xbc-h", {{"word_write_base", "F100"}});
+  EXPECT_THAT(messages(write_requests(rtu_framing(), flags, 1, "%FW100", "1234")),
+              HasSubstr("%FW100 is read only over the protocol"));
+  EXPECT_EQ(messages(read_requests(rtu_framing(), flags, 1, "%FW100", 4)), "01 03 00 00 00 01");
   const auto word =
       written_by(rtu_framing(), moved_bases(), rtu_framing().wrap(*from_hex("01 06 00 64 12 34")))
           .at(0);

@@ -215,11 +215,7 @@ class Modbus : public harness::PlcProtocol,
  private:
   Status add_clients(plc::Plc& plc, const nlohmann::json& config) const {
     if (mode_ == modbus::ModbusMode::tcp) {
-      const Status added = p2p::add_network_clients(
-          plc, config, services::client_drivers({"modbus-tcp", {.tcp = default_port()}, [] {
-                                                   return modbus::make_modbus_p2p_driver(
-                                                       modbus::ModbusMode::tcp);
-                                                 }}));
+      const Status added = p2p::add_network_clients(plc, config, services::client_drivers(name()));
       return added ? email::add_email(plc, config) : added;
     }
     return p2p::add_p2p_clients(plc, config, [mode = mode_](const plc::PortConfig& port) {

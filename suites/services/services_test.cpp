@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "src/modbus/modbus_plc.hpp"
-#include "src/modbus/p2p_driver.hpp"
-#include "src/modbus/tcp_server.hpp"
 #include "suites/services/clients.hpp"
 
 namespace fieldproof::services {
@@ -54,11 +52,7 @@ TEST(Services, AServerHasTheConnectionsThatChannelsLeave) {
     const json config{
         {"role", "client"}, {"p2p", {{"blocks", blocks}}}, {"services", {{"xgt-fenet", server}}}};
     return make_plc("xbc-h", config, [](plc::Plc& plc, const json& own) {
-      return p2p::add_network_clients(
-          plc, own,
-          client_drivers({"modbus-tcp", {.tcp = modbus::tcp_port}, [] {
-                            return modbus::make_modbus_p2p_driver(modbus::ModbusMode::tcp);
-                          }}));
+      return p2p::add_network_clients(plc, own, client_drivers("modbus-tcp"));
     });
   };
   EXPECT_TRUE(made({{"connections", 1}}, 3));

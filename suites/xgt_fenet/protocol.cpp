@@ -8,7 +8,6 @@
 #include "src/email/email_plc.hpp"
 #include "src/p2p/p2p_plc.hpp"
 #include "src/plc/model.hpp"
-#include "src/xgt_fenet/p2p_driver.hpp"
 #include "src/xgt_fenet/plc.hpp"
 #include "suites/checks/checks.hpp"
 #include "suites/services/clients.hpp"
@@ -138,11 +137,8 @@ class XgtFenet : public harness::PlcProtocol,
 
  private:
   static Status add_clients(plc::Plc& plc, const nlohmann::json& config) {
-    const Status added = p2p::add_network_clients(
-        plc, config,
-        services::client_drivers({"xgt-fenet", {xgt_fenet::tcp_port, xgt_fenet::udp_port}, [] {
-                                    return std::make_unique<xgt_fenet::FenetP2pDriver>();
-                                  }}));
+    const Status added =
+        p2p::add_network_clients(plc, config, services::client_drivers("xgt-fenet"));
     return added ? email::add_email(plc, config) : added;
   }
 };

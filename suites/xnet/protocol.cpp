@@ -15,7 +15,7 @@ namespace fieldproof::xnet_suite {
 namespace {
 
 /// DECISIONS.md xnet/no-frames
-class Xnet : public harness::FramelessProtocol, public harness::Tables {
+class Xnet : public harness::FramelessProtocol, public harness::Tables, public harness::Texts {
  public:
   std::string_view name() const override { return "xnet"; }
   std::vector<std::string> models() const override {
@@ -41,6 +41,7 @@ class Xnet : public harness::FramelessProtocol, public harness::Tables {
     return modbus_suite::read_xinje_word(text);
   }
 
+  const harness::Texts* texts() const override { return this; }
   Status check_texts(std::string_view model, const nlohmann::json& config,
                      const std::vector<Setting>& memory,
                      const std::vector<std::string>& actions) const override {
