@@ -337,6 +337,20 @@ Status check_declared(const DutPlan& plan) {
   return ok();
 }
 
+/// A second device may hold more: with one, nothing is said.
+Status check_fence(const DutPlan& plan) {
+  if (plan.aux) return ok();
+  const bench::Profile& profile = plan.bench.profile;
+  std::vector<std::unique_ptr<Protocol>> devices;
+  std::vector<const Protocol*> declared;
+  for (const Protocol* protocol : plan.protocols)
+    if (auto device = protocol->configured(profile.model, profile.config); device) {
+      declared.push_back(*device ? device->get() : protocol);
+      devices.push_back(std::move(*device));
+    }
+  return plan.bench.fence.check_ends(declared);
+}
+
 /// Devices that share a run have a journal each.
 std::string journal_path(const RunOptions& options, const std::string& dut) {
   fs::path path = options.journal.empty() ? fs::path(options.out) / "journal.ndjson"
@@ -441,6 +455,7 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   if (!options->aux.empty())
     if (const Status right = plan_aux(*options, plan); !right)
       return fail("--aux: " + right.error().message);
+  if (const Status right = check_fence(plan); !right) return right.error();
   if (const Status checked =
           bench::check_fingerprint(plan.identity.fingerprint, *plan.protocols.front());
       !checked)

@@ -3,6 +3,8 @@
 // no vector, are caught.
 #include <gmock/gmock.h>
 
+#include <list>
+
 #include "suites/tool/tool_files.hpp"
 
 namespace fieldproof::second_hand {
@@ -45,19 +47,19 @@ TEST_P(SecondHand, AHealthyDeviceHasNoFalseAlarm) {
   EXPECT_GT(results.counts()["PASS"], 10u) << finished.out;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Protocols, SecondHand,
-    testing::Values(
-        Device{"xgt-cnet", "xgt_cnet/rs*:xgt_cnet/monitor*"},
-        Device{"modbus-rtu", "modbus_rtu/examples/*"}, Device{"modbus-ascii", "modbus_ascii/*"},
-        Device{"modbus-tcp", "modbus_tcp/examples/*:modbus_tcp/data/*:modbus_tcp/limits/*",
-               " --listen 127.0.0.1:{port}"},
-        Device{"xgt-fenet", "xgt_fenet/examples/*:xgt_fenet/read/*:xgt_fenet/write/*", of_a_port}),
-    [](const auto& one) {
-      std::string name = one.param.protocol;
-      std::erase(name, '-');
-      return name;
-    });
+constexpr Device devices[] = {
+    {"xgt-cnet", "xgt_cnet/rs*:xgt_cnet/monitor*"},
+    {"modbus-rtu", "modbus_rtu/examples/*"},
+    {"modbus-ascii", "modbus_ascii/*"},
+    {"modbus-tcp", "modbus_tcp/examples/*:modbus_tcp/data/*:modbus_tcp/limits/*",
+     " --listen 127.0.0.1:{port}"},
+    {"xgt-fenet", "xgt_fenet/examples/*:xgt_fenet/read/*:xgt_fenet/write/*", of_a_port}};
+
+INSTANTIATE_TEST_SUITE_P(Protocols, SecondHand, testing::ValuesIn(devices), [](const auto& one) {
+  std::string name = one.param.protocol;
+  std::erase(name, '-');
+  return name;
+});
 
 TEST(SecondHandFaults, AreCaughtByRun) {
   for (const char* fault : {"cnet-bcc-ignored-wsb", "mem-d-alias", "cnet-count-16-refused"}) {
@@ -68,26 +70,32 @@ TEST(SecondHandFaults, AreCaughtByRun) {
 }
 
 /// As a real PLC, whose answers to what nobody prints are its own.
-Finished explored(const Device& device, const std::string& fault, const char* requests,
-                  const TestFolder& folder) {
-  return tool_tests::run_tool({"explore", "--profile", "xbc-dxxxh", "--seed", "1", "--requests",
-                               requests, "--fail-fast", "--protocol", device.protocol, "--endpoint",
-                               endpoint(device, fault), "--out", folder.path()});
+std::vector<std::string> exploring(const Device& device, const std::string& fault,
+                                   const char* requests, const std::string& out) {
+  return tool_tests::tool_arguments(
+      {"explore", "--profile", "xbc-dxxxh", "--seed", "1", "--requests", requests, "--fail-fast",
+       "--protocol", device.protocol, "--endpoint", endpoint(device, fault), "--out", out});
 }
 
-TEST_P(SecondHand, ExploringAHealthyDeviceHasNoFalseAlarm) {
+/// All at once: they wait more than they work.
+TEST(SecondHandExplored, AHealthyDeviceHasNoFalseAlarm) {
   const TestFolder folder;
-  const Finished finished = explored(GetParam(), "", "300", folder);
-  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  std::list<tool_tests::Process> runs;
+  for (const Device& device : devices)
+    runs.emplace_back(exploring(device, "", "200", folder / device.protocol));
+  for (tool_tests::Process& run : runs) {
+    const Finished finished = run.wait();
+    EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  }
 }
 
 /// It takes a history: no vector asks so often. Data of one word come with another.
 TEST(SecondHandFaults, OfStateAreFoundByExploring) {
-  const Device cnet{"xgt-cnet", ""};
-  const TestFolder healthy, folder;
-  const Finished none = explored(cnet, "", "2000", healthy);
+  const TestFolder folder;
+  tool_tests::Process healthy(exploring(devices[0], "", "2000", folder / "healthy")),
+      faulty(exploring(devices[0], "mem-m-alias", "2000", folder / "faulty"));
+  const Finished none = healthy.wait(), finished = faulty.wait();
   EXPECT_EQ(none.code, 0) << none.out << none.err;
-  const Finished finished = explored(cnet, "mem-m-alias", "2000", folder);
   EXPECT_EQ(finished.code, 1) << finished.out << finished.err;
   EXPECT_THAT(finished.out,
               testing::AllOf(HasSubstr("shown again three times in a row"), HasSubstr("data")));
