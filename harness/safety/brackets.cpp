@@ -39,21 +39,23 @@ std::vector<Bracket> brackets_of(const Notation& notation, bool reply, const Fie
 
 bool patch(Notation& notation, const Bracket& bracket, std::size_t offset, ByteView bytes,
            const Fields& stations) {
-  const Notation original = notation;
-  std::size_t patched = 0;
-  for (std::size_t i = bracket.begin; i < bracket.end; ++i) {
+  const std::size_t past = offset + bytes.size();
+  std::size_t patched = 0, start = 0;  // of the item
+  for (std::size_t i = bracket.begin; i < bracket.end && start < past; ++i) {
     Item& item = notation[i];
     const bool literal = item.kind == Item::Kind::literal, name = item.kind == Item::Kind::name;
-    if ((!literal && !name) || item.repeat != 1) continue;
-    const auto at = [&](std::size_t index) {
-      return original.begin() + static_cast<std::ptrdiff_t>(index);
-    };
-    const Result<Bytes> before = bytes_of(Notation(at(bracket.begin), at(i)), stations);
-    if (!before) return false;
+    if ((!literal && !name) || item.repeat != 1) {
+      const auto at = [&](std::size_t index) {
+        return notation.begin() + static_cast<std::ptrdiff_t>(index);
+      };
+      const Result<Bytes> with = bytes_of(Notation(at(bracket.begin), at(i + 1)), stations);
+      if (!with) return false;
+      start = with->size();
+      continue;
+    }
     const std::size_t size = name ? item.text.size() : item.bytes.size();
-    const std::size_t start = before->size() + (name ? stations.name_head(size).size() : 0);
-    const std::size_t from = std::max(start, offset),
-                      to = std::min(start + size, offset + bytes.size());
+    if (name) start += stations.name_head(size).size();
+    const std::size_t from = std::max(start, offset), to = std::min(start + size, past);
     for (std::size_t b = from; b < to; ++b, ++patched) {
       if (name)
         item.text[b - start] = static_cast<char>(bytes[b - offset]);
@@ -61,6 +63,7 @@ bool patch(Notation& notation, const Bracket& bracket, std::size_t offset, ByteV
         item.bytes[b - start] = bytes[b - offset];
     }
     if (literal && from < to) item.text = notation::print_bytes(item.bytes);
+    start += size;
   }
   return patched == bytes.size();
 }
