@@ -245,6 +245,18 @@ TEST(Sequence, ExpectsWhatOurOwnDeviceAnswers) {
   EXPECT_EQ(device.run(one).verdict, Verdict::pass) << device.run(one).message;
 }
 
+/// Two answers that come as one are waited for in one step, which ends where a frame must.
+TEST(Sequence, AnswersTooLongForOneStepAreNotJudged) {
+  const Protocol& ascii = protocol("modbus-ascii");
+  Oracle oracle = std::move(*Oracle::open(ascii, "xbc-h", 1));
+  const auto answers_to = [&](const std::string& frame) {
+    const auto answers = oracle.ask({request(frame + ' ' + frame)}, {}, Past::none);
+    return answers ? answers->size() : 99;
+  };
+  EXPECT_EQ(answers_to("':010301000001FA' CR LF"), 1u);
+  EXPECT_EQ(answers_to("':0103010C007877' CR LF"), 0u) << "982 characters at 9600 baud";
+}
+
 /// All that is granted follows from what is printed.
 TEST(Sequence, OfWhatIsGrantedIsDerived) {
   const Protocol& cnet = protocol("xgt-cnet");

@@ -33,9 +33,10 @@ Step expect_of(const Answer& answer, const Protocol& protocol, int station) {
   return step;
 }
 
-/// One frame, or several without a pause, after the whole request: what a case can wait for in one
-/// step.
-bool in_one_piece(const exchange::Received& received, Time asked) {
+/// One frame, or several without a pause that are no longer than one may be, after the whole
+/// request: what a case can wait for in one step.
+bool in_one_piece(const exchange::Received& received, Time asked, std::size_t longest_frame) {
+  if (received.bytes.size() > longest_frame) return false;
   Time before = asked;
   for (const exchange::Received::Arrival& arrival : received.arrivals) {
     const bool first = &arrival == &received.arrivals.front();
@@ -86,13 +87,13 @@ std::vector<Sending> sendings_in(const exchange::Transcript& transcript,
 
 /// Up to the first that no case can tell in order.
 std::vector<Answer> answers_in(const exchange::Transcript& transcript,
-                               const std::vector<std::size_t>& sends) {
+                               const std::vector<std::size_t>& sends, std::size_t longest_frame) {
   const exchange::Shares shares = exchange::shares_of(transcript);
   const std::vector<Sending> sendings = sendings_in(transcript, sends);
   std::vector<Answer> answers;
   for (std::size_t i = 0; i < sendings.size() && sends[i] + 1 < shares.steps.size(); ++i) {
     const exchange::Received& heard = shares.steps[sends[i] + 1].received;
-    if (!in_one_piece(heard, sendings[i].end)) break;
+    if (!in_one_piece(heard, sendings[i].end, longest_frame)) break;
     answers.push_back({heard.bytes, sendings[i].ended});
   }
   return answers;
@@ -190,7 +191,7 @@ Result<std::vector<Answer>> Oracle::ask(const std::vector<Request>& requests, co
   const exchange::Transcript transcript =
       exchange::Exchange(device, *protocol_, {}).run_steps(*prepared);
   if (transcript.trouble) return *transcript.trouble;
-  return answers_in(transcript, asked.sends);
+  return answers_in(transcript, asked.sends, protocol_->longest_frame());
 }
 
 namespace {

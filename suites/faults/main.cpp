@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,24 +71,37 @@ int show_case(const std::string& folder, const std::string& id) {
   return 0;
 }
 
+constexpr const char* usage =
+    "usage: fieldproof_faults FOLDER-OF-VECTORS [DEVICE...]\n"
+    "Writes faults.json there, anew or for these devices (\"modbus-rtu client\") alone.\n"
+    "       fieldproof_faults --explore FOLDER-OF-VECTORS [DEVICE...]\n"
+    "Prints which faults `explore` finds.\n"
+    "       fieldproof_faults --case FOLDER-OF-VECTORS ID\n"
+    "Prints what a case says of each fault.\n";
+
+/// The first name that no device has, or nothing.
+std::optional<std::string> unknown_device(const std::vector<std::string>& names) {
+  const std::vector<faults::Kit> kits = faults::kits();
+  for (const std::string& name : names)
+    if (std::ranges::find(kits, name, &faults::Kit::name) == kits.end()) return name;
+  return std::nullopt;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   const std::vector<std::string> given(arguments + 1, arguments + count);
-  if (given.empty()) {
-    fmt::print(
-        stderr,
-        "usage: fieldproof_faults FOLDER-OF-VECTORS [DEVICE...]\n"
-        "Writes faults.json there, anew or for these devices (\"modbus-rtu client\") alone.\n"
-        "       fieldproof_faults --explore FOLDER-OF-VECTORS [DEVICE...]\n"
-        "Prints which faults `explore` finds.\n"
-        "       fieldproof_faults --case FOLDER-OF-VECTORS ID\n"
-        "Prints what a case says of each fault.\n");
-    return 2;
-  }
-  if (given.front() == "--explore" && given.size() > 1)
-    return explore_all(given[1], {given.begin() + 2, given.end()});
-  if (given.front() == "--case" && given.size() == 3) return show_case(given[1], given[2]);
+  const bool asks = !given.empty() && (given.front() == "--help" || given.front() == "-h");
+  if (asks) return fmt::print("{}", usage), 0;
+  const bool explores = given.size() > 1 && given.front() == "--explore";
+  if (!given.empty() && given.front() == "--case" && given.size() == 3)
+    return show_case(given[1], given[2]);
+  if (given.empty() || (given.front().starts_with('-') && !explores))
+    return fmt::print(stderr, "{}", usage), 2;
+  const std::vector<std::string> devices(given.begin() + (explores ? 2 : 1), given.end());
+  if (const std::optional<std::string> unknown = unknown_device(devices))
+    return fmt::print(stderr, "there is no device '{}' with faults\n", *unknown), 2;
+  if (explores) return explore_all(given[1], devices);
   const std::string& folder = given.front();
   const Result<vectors::FaultMatrix> known = vectors::load_fault_matrix(folder);
   if (!known && given.size() > 1) return fmt::print(stderr, "{}\n", known.error().message), 2;
