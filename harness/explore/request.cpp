@@ -103,7 +103,8 @@ struct Word {
 };
 
 /// What moves in it.
-std::vector<Word> words_of(ByteView frame, bool request, const Protocol& protocol, int station) {
+std::vector<Word> moving_words(ByteView frame, bool request, const Protocol& protocol,
+                               int station) {
   std::vector<Word> words;
   std::size_t at = 0;
   for (const Field& field : protocol.explain_as(frame, request)) {
@@ -195,7 +196,7 @@ Notation raw_notation(ByteView bytes) {
 Notation notation_of(ByteView frame, bool request, const Protocol& protocol, int station) {
   const std::optional<std::size_t> length = protocol.frame_length(frame);
   if (!length || *length != frame.size()) return raw_notation(frame);
-  std::vector<Word> words = words_of(frame, request, protocol, station);
+  std::vector<Word> words = moving_words(frame, request, protocol, station);
   const Result<Bytes> made = safety::bytes_of(bracketed(frame, words), protocol.fields_at(station));
   if (!made || !std::ranges::equal(*made, frame)) return raw_notation(frame);
   if (!request)
