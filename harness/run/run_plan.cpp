@@ -337,20 +337,6 @@ Status check_declared(const DutPlan& plan) {
   return ok();
 }
 
-/// Of a device whose model is declared. A second one may hold more: with it, nothing is said.
-Status check_fence(const DutPlan& plan) {
-  const bench::Profile& profile = plan.bench.profile;
-  if (plan.aux || profile.model.empty()) return ok();
-  std::vector<std::unique_ptr<Protocol>> devices;
-  std::vector<const Protocol*> declared;
-  for (const Protocol* protocol : plan.protocols)
-    if (auto device = protocol->configured(profile.model, profile.config); device) {
-      declared.push_back(*device ? device->get() : protocol);
-      devices.push_back(std::move(*device));
-    }
-  return plan.bench.fence.check_ends(declared);
-}
-
 /// Devices that share a run have a journal each.
 std::string journal_path(const RunOptions& options, const std::string& dut) {
   fs::path path = options.journal.empty() ? fs::path(options.out) / "journal.ndjson"
@@ -455,7 +441,6 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
   if (!options->aux.empty())
     if (const Status right = plan_aux(*options, plan); !right)
       return fail("--aux: " + right.error().message);
-  if (const Status right = check_fence(plan); !right) return right.error();
   if (const Status checked =
           bench::check_fingerprint(plan.identity.fingerprint, *plan.protocols.front());
       !checked)

@@ -57,19 +57,6 @@ Status WriteFence::allow(const std::string& ranges, const WordReader& words) {
   return ok();
 }
 
-Status WriteFence::check_ends(const std::vector<const harness::Protocol*>& declared) const {
-  for (const Range& range : ranges_) {
-    if (range.last == whole_area) continue;
-    std::uint32_t words = 0;
-    for (const harness::Protocol* protocol : declared)
-      words = std::max(words, protocol->words_of(range.area));
-    if (words > 0 && range.last >= words)
-      return fail(fmt::format("--allow-write reaches {}{}: {} of this device ends at {}{}",
-                              range.area, range.last, range.area, range.area, words - 1));
-  }
-  return ok();
-}
-
 Status WriteFence::allow_motion(const std::string& axes, unsigned last) {
   for (const std::string_view part : parts_of(axes)) {
     const auto wrong = [&](const std::string& why) {

@@ -24,10 +24,6 @@ class WriteFence {
   /// when named. Errors name the part that is wrong.
   Status allow(const std::string& ranges, const WordReader& words);
 
-  /// Does each area that is named hold the words that are named of it? One of the declared devices
-  /// must; an area that none of them has may be another device's. Errors name the last word.
-  Status check_ends(const std::vector<const harness::Protocol*>& declared) const;
-
   /// All there is, outputs too: of a device that is nobody's plant.
   void allow_everything() { ranges_.push_back({std::string(everything), 0, ~0u}); }
 

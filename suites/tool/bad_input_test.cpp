@@ -151,8 +151,6 @@ std::vector<BadInput> bad_inputs() {
       bad_option("fence_not_readable", {"--allow-write", "M9-M1"}, {"--allow-write", "M9-M1"}),
       bad_option("fence_of_no_area", {"--allow-write", "Z"},
                  {"cannot read --allow-write 'Z': no protocol has such memory"}),
-      bad_option("fence_past_the_end", {"--profile", "xbc-h", "--allow-write", "M0-M70000"},
-                 {"--allow-write reaches M70000: M of this device ends at M1023"}),
       bad_option("fence_of_no_words", {"--allow-write", "Z1-Z9"},
                  {"cannot read --allow-write 'Z1-Z9'"}),
       bad_option("gtest_unknown", {"--gtest_shufle"},
