@@ -72,7 +72,8 @@ Rejudge::Outcome Rejudge::judge(const results::CaseResult& recorded) {
   judging::note_transposition(*prepared, result);
   judging::JudgeRules rules;
   rules.guard_band = profile_.guard_band;
-  rules.binding_decisions = rules.binding_timing = profile_.binding_decisions;
+  rules.decisions = profile_.decisions;
+  rules.binding_timing = rules.decisions.holds(vectors::reply_time_decision);
   rules.timing_floor = std::max(profile_.floor, recorded.recording.timing_floor);
   rules.turnaround_min = profile_.turnaround_min;
   rules.earliest = recorded.recording.earliest;

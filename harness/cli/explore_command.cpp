@@ -111,7 +111,7 @@ explore::Server server_of(const RunPlan& plan, const harness::Protocol& configur
       .station = plan.bench.station,
       .config = config,
       .over_the_wire = over_the_wire(plan),
-      .learns = !plan.bench.profile.binding_decisions,
+      .learns = !plan.bench.profile.decisions.all,
       .room = {},
       .allowed = [&plan, &configured, emulated](ByteView request) {
         const std::vector<harness::Protocol::Written> written = configured.written_by(request);

@@ -38,6 +38,8 @@ std::vector<std::string> lint_profile(const bench::Profile& profile, const vecto
     else
       emulated = emulated || (*protocol)->has_model(profile.model);
   }
+  if (const Status exist = vectors::check_binding(profile.decisions, set); whole && !exist)
+    problems.push_back("decisions: " + exist.error().message);
   if (!emulated && profile.notes.empty())
     problems.push_back(fmt::format(
         "no case is for the model '{}'; write in \"notes\" why, or correct it", profile.model));

@@ -28,7 +28,7 @@ std::string profile_of_a_module(const harness::Protocol& protocol) {
   const std::filesystem::path folder = harness::find_data().profiles;
   for (const std::string& name : bench::profile_names(folder)) {
     const Result<bench::Profile> one = bench::load_profile(name, folder);
-    if (one && !one->peer && !one->binding_decisions && one->model == first &&
+    if (one && !one->peer && !one->decisions.all && one->model == first &&
         std::ranges::count(one->protocols, protocol.name()) > 0)
       return name;
   }

@@ -68,7 +68,7 @@ class InProcess {
     bench::BenchOptions options;
     options.profile.name = "emulator";
     options.profile.protocols = {std::string(own.name())};
-    options.profile.binding_decisions = binding;
+    options.profile.decisions.all = binding;
     options.known = suites::protocols();
     return options;
   }

@@ -52,13 +52,13 @@ void Findings::miss_in_any_case(std::string message) {
     miss(std::move(message));
 }
 
-void Findings::settle(const vectors::Case& source, bool binding_decisions) {
+void Findings::settle(const vectors::Case& source, const vectors::Binding& decisions) {
   if (result.verdict == Verdict::blocked) return;
   if (missed_ && rests_on_decision(source)) {
     for (const vectors::Decision& one : source.decisions)
       result.notes.push_back(
           fmt::format("decision {}{}{}", one.id, one.sentence.empty() ? "" : ": ", one.sentence));
-    if (!binding_decisions) {
+    if (!decisions.holds_all(source.decisions)) {
       result.verdict = Verdict::non_strict;
       result.notes.push_back("the manuals are silent here; this project decided: " + source.why);
     }

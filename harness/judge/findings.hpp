@@ -25,7 +25,7 @@ class Findings {
   bool missed() const { return missed_; }
 
   /// A miss as the case's level and basis have it.
-  void settle(const vectors::Case& source, bool binding_decisions);
+  void settle(const vectors::Case& source, const vectors::Binding& decisions);
 
   Judgement result;
 

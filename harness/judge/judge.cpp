@@ -51,7 +51,7 @@ class Judge {
         findings_.miss(fmt::format("token bus of net {}: {}", net.net, rule));
     if (!transcript_.dead.empty())
       findings_.miss_in_any_case("link dead after this frame: " + transcript_.dead);
-    findings_.settle(*prepared_.source, rules_.binding_decisions);
+    findings_.settle(*prepared_.source, rules_.decisions);
     if (!unread_.empty()) judge_unread();
     return std::move(findings_.result);
   }

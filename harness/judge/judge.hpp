@@ -7,6 +7,7 @@
 
 #include "harness/exchange/prepared_case.hpp"
 #include "harness/exchange/transcript.hpp"
+#include "harness/vectors/binding.hpp"
 
 namespace fieldproof::judging {
 
@@ -24,7 +25,7 @@ struct JudgeRules {
   bool gap_stated = false;      // by the profile: the floor of the link is not in it
   Duration period_tolerance{};  // of `every`; 0: a twentieth of it, or the timing floor where that
                                 // is more
-  bool binding_decisions = true;  // a missed `decision` is FAIL, else NON-STRICT
+  vectors::Binding decisions;   // a missed one that binds is FAIL, else NON-STRICT
   bool binding_timing =
       true;  // a late answer is FAIL, else NON-STRICT (the limit is a decision, too)
 };

@@ -452,18 +452,23 @@ TEST_F(JudgeTest, LevelAndBasisDecideWhatAMissMeans) {
   EXPECT_EQ(judged(ask(), "should").verdict, Verdict::non_strict);
   EXPECT_EQ(judged(ask(), "info").verdict, Verdict::info);
   EXPECT_EQ(judged(ask(), "must", "decision").verdict, Verdict::fail);
-  rules.binding_decisions = false;
+  rules.decisions.all = false;
   EXPECT_EQ(judged(ask(), "must", "decision").verdict, Verdict::non_strict);
 }
 
 TEST_F(JudgeTest, WhatIsDerivedFromADecisionBindsAsThatDoes) {
   endpoint.answers["<ask>"] = Pieces{{1ms, "<no>"}};
-  rules.binding_decisions = false;
+  rules.decisions.all = false;
   EXPECT_EQ(judged(ask(), "must", "derived").verdict, Verdict::fail);
   const std::string resting = R"(derived", "decision": ["cnet/bcc"], "rev": 1, "level": "must)";
   EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::non_strict);
   EXPECT_THAT(judged(ask(), "must", resting).notes, testing::Contains("decision cnet/bcc"));
-  rules.binding_decisions = true;
+  rules.decisions.named = {"cnet/bcc"};
+  EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::fail);
+  const std::string two =
+      R"(decision", "decision": ["cnet/bcc", "cnet/other"], "rev": 1, "level": "must)";
+  EXPECT_EQ(judged(ask(), "must", two).verdict, Verdict::non_strict) << "one does not bind";
+  rules.decisions.all = true;
   EXPECT_THAT(judged(ask(), "must", resting).notes, testing::Contains("decision cnet/bcc"));
   EXPECT_EQ(judged(ask(), "must", resting).verdict, Verdict::fail);
 }

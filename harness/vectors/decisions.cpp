@@ -24,6 +24,12 @@ const Decision* find(const std::vector<Decision>& decisions, std::string_view id
   return found == decisions.end() ? nullptr : &*found;
 }
 
+std::string unknown(std::string_view id, const VectorSet& set) {
+  std::vector<std::string_view> known;
+  for (const Decision& decision : set.decisions) known.push_back(decision.id);
+  return fmt::format("no decision '{}' in DECISIONS.md{}", id, suggestion(id, known));
+}
+
 void lint_entries(const VectorSet& set, std::vector<std::string>& problems) {
   for (const auto& [id, sentence] : set.decisions) {
     if (!is_id(id))
@@ -46,10 +52,7 @@ void lint_case(const Case& one, const VectorSet& set, std::vector<std::string>& 
                     one.file, one.vector_id));
   for (const Decision& cited : one.decisions) {
     if (find(set.decisions, cited.id)) continue;
-    std::vector<std::string_view> known;
-    for (const Decision& decision : set.decisions) known.push_back(decision.id);
-    problems.push_back(fmt::format("{}: {}: no decision '{}' in DECISIONS.md{}", one.file,
-                                   one.vector_id, cited.id, suggestion(cited.id, known)));
+    problems.push_back(fmt::format("{}: {}: {}", one.file, one.vector_id, unknown(cited.id, set)));
   }
 }
 
@@ -97,6 +100,12 @@ std::vector<std::string> lint_decisions(const VectorSet& set) {
     for (const Case& one : *cases)
       if (seen.insert(one.vector_id).second) lint_case(one, set, problems);
   return problems;
+}
+
+Status check_binding(const Binding& binding, const VectorSet& set) {
+  for (const std::string& id : binding.named)
+    if (!find(set.decisions, id)) return fail(unknown(id, set));
+  return ok();
 }
 
 }  // namespace fieldproof::vectors

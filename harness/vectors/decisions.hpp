@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/vectors/binding.hpp"
 #include "harness/vectors/loader.hpp"
 
 namespace fieldproof::vectors {
@@ -22,5 +23,8 @@ void load_decisions(const std::filesystem::path& file, VectorSet& set);
 /// Cited decisions exist, a vector whose basis is a decision cites one, and every entry has an id
 /// of small letters and a first sentence.
 std::vector<std::string> lint_decisions(const VectorSet& set);
+
+/// Every decision that a device is held to by name exists; the error suggests a near one.
+Status check_binding(const Binding& binding, const VectorSet& set);
 
 }  // namespace fieldproof::vectors

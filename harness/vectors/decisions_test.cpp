@@ -120,5 +120,15 @@ TEST(LintDecisions, EntriesHaveAnIdAndASentence) {
                                                HasSubstr("a/b does not begin with a sentence")));
 }
 
+TEST_F(DecisionFile, WhatADeviceIsHeldToExists) {
+  VectorSet set;
+  load(two, set);
+  EXPECT_TRUE(check_binding({.all = false, .named = {"cnet/back-to-back"}}, set));
+  const Status lost = check_binding({.all = false, .named = {"cnet/back-to-bakc"}}, set);
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().message,
+            "no decision 'cnet/back-to-bakc' in DECISIONS.md; did you mean 'cnet/back-to-back'?");
+}
+
 }  // namespace
 }  // namespace fieldproof::vectors

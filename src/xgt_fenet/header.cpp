@@ -25,8 +25,9 @@ Byte header_check(ByteView frame) {
 }
 
 Bytes encode_frame(const Header& header, ByteView body) {
-  Bytes frame(header.company.begin(), header.company.end());
+  Bytes frame;
   frame.reserve(header_size + body.size());
+  frame.insert(frame.end(), header.company.begin(), header.company.end());
   put_word(frame, header.plc_info);
   frame.push_back(header.cpu_info);
   frame.push_back(header.source);
@@ -36,11 +37,6 @@ Bytes encode_frame(const Header& header, ByteView body) {
   frame.push_back(header_check(frame));
   frame.insert(frame.end(), body.begin(), body.end());
   return frame;
-}
-
-void put_word(Bytes& bytes, std::size_t value) {
-  bytes.push_back(static_cast<Byte>(value));
-  bytes.push_back(static_cast<Byte>(value >> 8));
 }
 
 }  // namespace fieldproof::xgt_fenet

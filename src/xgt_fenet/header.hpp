@@ -55,6 +55,9 @@ Bytes encode_frame(const Header& header, ByteView body);
 constexpr std::uint16_t word_at(ByteView bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] | bytes[at + 1] << 8);
 }
-void put_word(Bytes& bytes, std::size_t value);
+inline void put_word(Bytes& bytes, std::size_t value) {
+  bytes.push_back(static_cast<Byte>(value));
+  bytes.push_back(static_cast<Byte>(value >> 8));
+}
 
 }  // namespace fieldproof::xgt_fenet

@@ -7,7 +7,8 @@ namespace fieldproof::xgt_fenet {
 namespace {
 
 constexpr std::uint16_t most_types = 5, refused = 0xFFFF;
-constexpr std::size_t data_type_at = 2, count_at = 6, request_head = 8;  // behind a reserved word
+constexpr std::size_t data_type_at = 2, count_at = 6, request_head = 8,  // behind a reserved word
+    status_head = 10;  // of a reply, with its status and count or code
 
 /// What is left of a body.
 class Reader {
@@ -71,9 +72,11 @@ std::uint16_t read_body(ByteView body, Request& request) {
   return read_blocks(reader, request);
 }
 
-/// Up to the status. The number of a reply is that of its request plus one.
-Bytes reply_head(const Request& request) {
+/// Up to the status, with room for that and `more` bytes. The number of a reply is that of its
+/// request plus one.
+Bytes reply_head(const Request& request, std::size_t more = 0) {
   Bytes body;
+  body.reserve(status_head + more);
   put_word(body, request.command + 1u);
   put_word(body, request.type);
   put_word(body, 0);
@@ -89,7 +92,9 @@ Request parse_request(ByteView body) {
 }
 
 Bytes encode_reply(const Request& request, std::span<const Bytes> data) {
-  Bytes body = reply_head(request);
+  std::size_t room = 0;
+  for (const Bytes& one : data) room += sizeof(std::uint16_t) + one.size();
+  Bytes body = reply_head(request, room);
   put_word(body, error::none);
   put_word(body, request.blocks.size());
   for (const Bytes& one : data) {

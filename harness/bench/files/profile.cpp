@@ -104,6 +104,17 @@ void read_exclude(const json& exclude, Profile& profile) {
   for (const json& entry : exclude) profile.exclude.emplace_back(entry["id"], entry["reason"]);
 }
 
+vectors::Binding read_decisions(const json& value) {
+  if (value == "binding") return {};
+  if (value == "advisory") return {.all = false, .named = {}};
+  const bool ids = value.is_array() && !value.empty() &&
+                   std::ranges::all_of(value, [](const json& one) { return one.is_string(); });
+  check(ids, "decisions",
+        "\"binding\", \"advisory\", or a list of those that the device is held to: "
+        "[\"xnet/word-order\"]");
+  return {.all = false, .named = value};
+}
+
 json read_blocks(const json& value) {
   if (!value.is_array() ||
       !std::ranges::all_of(value, [](const json& one) { return one.is_object(); }))
@@ -132,8 +143,7 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
   else if (key == "notes")
     profile.notes = text_of(key, value);
   else if (key == "decisions") {
-    check(value == "binding" || value == "advisory", key, "\"binding\" or \"advisory\"");
-    profile.binding_decisions = value == "binding";
+    profile.decisions = read_decisions(value);
   } else if (key == "peer") {
     check(value.is_boolean(), key, "true or false");
     profile.peer = value;

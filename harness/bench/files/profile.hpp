@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/vectors/binding.hpp"
 #include "src/base/result.hpp"
 #include "src/base/time.hpp"
 
@@ -18,7 +19,7 @@ struct Profile {
   std::string title;
   std::string model;  // selects vectors by `models`; empty: the model of each case (emulators only)
   std::vector<std::string> protocols;  // "xgt-cnet"
-  bool binding_decisions = true;       // "decisions": "binding" or "advisory"
+  vectors::Binding decisions;          // "decisions": "binding", "advisory", or a list of ids
   bool peer = false;                   // "peer": a program that tests this bench, no module
   nlohmann::json config =
       nlohmann::json::object();  // the declared configuration, keys of given.config

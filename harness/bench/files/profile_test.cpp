@@ -1,5 +1,6 @@
 #include "harness/bench/files/profile.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <fstream>
@@ -54,7 +55,7 @@ TEST_F(Profiles, WhatIsExtendedHoldsKeyByKey) {
   EXPECT_EQ(mine.title, "Base");
   EXPECT_EQ(mine.notes, "n");
   EXPECT_EQ(mine.model, "xbc-h");
-  EXPECT_FALSE(mine.binding_decisions);
+  EXPECT_FALSE(mine.decisions.all);
   EXPECT_TRUE(mine.peer);
   EXPECT_EQ(mine.config, (nlohmann::json{{"rs485", true}, {"delay_ms", 50}}));
   EXPECT_EQ(mine.response_max, 300ms);
@@ -109,6 +110,11 @@ TEST_F(Profiles, MistakesAreNamed) {
   EXPECT_THAT(message(R"({"name": "x", "protocols": ["a"], "timing": {"response_max": 5}})"),
               HasSubstr("timing.response_max: '5' is no duration"));
   EXPECT_THAT(message(R"({"name": "x"})"), HasSubstr("no \"protocols\""));
+  for (const char* decisions : {R"("advisori")", "[]", "[1]", "true"})
+    EXPECT_THAT(
+        message(fmt::format(R"({{"name": "x", "protocols": ["a"], "decisions": {}}})", decisions)),
+        HasSubstr("decisions is \"binding\", \"advisory\", or a list"))
+        << decisions;
   EXPECT_THAT(message("{"), HasSubstr("p.json"));
   EXPECT_THAT(load_profile("xbc-j", shipped).error().message, HasSubstr("did you mean 'xbc-h'?"));
 }
@@ -123,11 +129,20 @@ TEST(ShippedProfiles, EveryModelOfTheManuals) {
     const Result<Profile> profile = load_profile(name, shipped);
     ASSERT_TRUE(profile) << profile.error().message;
     EXPECT_EQ(profile->model, model);
-    EXPECT_FALSE(profile->binding_decisions) << name;
+    EXPECT_FALSE(profile->decisions.all) << name;
     EXPECT_EQ(profile->response_max, 500ms) << name;
     EXPECT_EQ(profile->notes.empty(), model != name)
         << name << ": where the areas are not printed, the notes say so";
   }
+}
+
+TEST(Profile, NamesTheDecisionsThatBind) {
+  const Result<Profile> profile = parse_profile(
+      R"({"name": "x", "protocols": ["a"], "decisions": ["xnet/word-order", "xnet/refresh"]})",
+      "p.json", {});
+  ASSERT_TRUE(profile) << profile.error().message;
+  EXPECT_TRUE(profile->decisions.holds("xnet/refresh"));
+  EXPECT_FALSE(profile->decisions.holds("xnet/feedback"));
 }
 
 TEST(Profile, LimitsHaveUnits) {
