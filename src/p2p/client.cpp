@@ -132,6 +132,8 @@ Bytes P2pClient::request(std::size_t block) {
 }
 
 void P2pClient::set_active(bool active) {
+  // What was half received is lost; of a connection, the rest of the frame still comes.
+  if (active != active_ && !end_connection_) driver_->reset();
   active_ = active;
   if (active) return;
   busy_.reset();
