@@ -88,6 +88,25 @@ Explorer explorer(const Protocol& own, InProcess& device, const std::vector<Case
 
 Counts counts_of(const Protocol& own) { return Counts(own, 1, {}); }
 
+/// What follows on a connection might be the rest of what is not answered: a wait for each.
+TEST(ServerSequences, NothingComesBehindASilenceOverTheWire) {
+  const Protocol& fenet = protocol("xgt-fenet");
+  const std::string model = fenet.models().front();
+  ServerSequences sequences(Server{.protocol = &fenet, .over_the_wire = true},
+                            std::move(*Oracle::open(fenet, model, 1)),
+                            requests_of(cases("xgt_fenet"), fenet, model), 1);
+  std::size_t silences = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Sequence::Own one = sequences.invent();
+    for (std::size_t part = 0; one && part < one->parts(); ++part) {
+      if (one->outcome(part) != "silence") continue;
+      ++silences;
+      EXPECT_EQ(part + 1, one->parts());
+    }
+  }
+  EXPECT_GT(silences, 0u);
+}
+
 TEST(RequestsOf, AreThoseThatSayAllOfTheirBytes) {
   const std::vector<Request> all = requests_of(cases("xgt_cnet"), protocol("xgt-cnet"), "xbc-h");
   EXPECT_GT(all.size(), 500u);

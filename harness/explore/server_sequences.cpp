@@ -332,11 +332,20 @@ Sequence::Own ServerSequences::answered(std::vector<Request> requests, const Mem
   Result<std::vector<Answer>> answers = oracle_.ask(requests, memory, Past::none);
   if (!answers || answers->empty()) return nullptr;
   if (server_.over_the_wire && depends_on_the_past(requests, memory, *answers)) return nullptr;
+  if (server_.over_the_wire) cut_behind_silence(*answers);
   std::vector<std::string> open = put_learnt(requests, *answers);
   if (answers->empty()) return nullptr;
   requests.resize(answers->size());
   return std::make_unique<ServerSequence>(*this, std::move(requests), std::move(memory),
                                           std::move(*answers), std::move(open));
+}
+
+/// A server on a connection that says nothing may wait for the rest of a frame, and whatever comes
+/// then is that: on real time, a wait for each.
+void ServerSequences::cut_behind_silence(std::vector<Answer>& answers) const {
+  if (server_.protocol->default_port() == 0) return;
+  const auto silent = std::ranges::find_if(answers, &Bytes::empty, &Answer::bytes);
+  if (silent != answers.end()) answers.erase(std::next(silent), answers.end());
 }
 
 bool ServerSequences::depends_on_the_past(const std::vector<Request>& requests,

@@ -48,6 +48,7 @@ class ServerSequences : public Inventor {
   void have_any_past();
   bool depends_on_the_past(const std::vector<Request>& requests, const Memory& memory,
                            const std::vector<Answer>& answers);
+  void cut_behind_silence(std::vector<Answer>& answers) const;
   std::vector<std::string> put_learnt(const std::vector<Request>& requests,
                                       std::vector<Answer>& answers) const;
   std::vector<Request> requests_of_one();
