@@ -19,10 +19,12 @@ struct Candidate {
   const user_frames::UserFrame* frame = nullptr;
   user_frames::FrameMatch match;
 
-  /// The better, the greater: the whole of `bytes`, a right check, as far as it goes.
+  /// The better, the greater: a beginning that is said, for a variable takes any; the whole of
+  /// `bytes`, a right check, as far as it goes.
   auto rank(ByteView bytes) const {
     const bool complete = match.state == State::complete;
-    return std::tuple(complete && match.length() == bytes.size(),
+    const bool begins = match.length() > 0 && !frame->segments.front().bytes.empty();
+    return std::tuple(begins, complete && match.length() == bytes.size(),
                       complete && user_frames::check_holds(*frame, match, bytes), complete,
                       match.state == State::partial, match.length());
   }

@@ -284,8 +284,9 @@ std::vector<Fault> limit_faults() {
        "wss/data_lower_case_hex/lower", "header"},
       {"small_type_refused", "a command type in lower case is not answered",
        answer_with([](const Bytes& request, GoodPlc& plc) {
-         return has_small_letter(take_apart(request).front().substr(3)) ? Bytes{}
-                                                                        : plc.answer(request);
+         const std::string front = take_apart(request).front();
+         const bool small = front.size() > 3 && has_small_letter(front.substr(3));
+         return small ? Bytes{} : plc.answer(request);
        }),
        "commands/type_in_lower_case/lower/ss", "no answer",
        "xgt_cnet/commands/type_in_lower_case/*/ss"},

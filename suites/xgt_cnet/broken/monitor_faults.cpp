@@ -15,7 +15,9 @@ Bytes renumbered(FrameText text, const std::string& number) {
   return text.bytes();
 }
 
-std::string number_of(const FrameText& text) { return text.body.substr(number_at, 2); }
+std::string number_of(const FrameText& text) {
+  return text.body.size() > number_at ? text.body.substr(number_at, 2) : std::string();
+}
 bool is(const FrameText& text, char service) { return (text.command() | 0x20) == service; }
 bool acknowledged(const Bytes& reply) { return !reply.empty() && reply[0] == xgt_cnet::xgt_ack; }
 
