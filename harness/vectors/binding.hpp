@@ -16,7 +16,7 @@ inline constexpr std::string_view reply_time_decision = "server/reply-time";
 
 struct Binding {
   bool all = true;                           // "decisions": "binding"; "advisory": false
-  std::set<std::string, std::less<>> named;  // "decisions": ["xnet/word-order"]: these alone
+  std::set<std::string, std::less<>> named;  // "decisions": ["server/reply-time"]: these alone
 
   bool holds(std::string_view id) const { return all || named.contains(id); }
   /// What rests on several decisions binds where each of them does, on none that is named never.

@@ -111,7 +111,7 @@ vectors::Binding read_decisions(const json& value) {
                    std::ranges::all_of(value, [](const json& one) { return one.is_string(); });
   check(ids, "decisions",
         "\"binding\", \"advisory\", or a list of those that the device is held to: "
-        "[\"xnet/word-order\"]");
+        "[\"server/reply-time\"]");
   return {.all = false, .named = value};
 }
 
