@@ -32,6 +32,17 @@ Bytes any_data(ByteView old, bool text, Random& random) {
   return bytes;
 }
 
+/// As any_data, but what may be a bit stays one: 00 or 01.
+Bytes right_data(ByteView old, bool text, Random& random) {
+  const Byte zero = text ? '0' : 0;
+  const bool one = old.size() == 1 || (text && old.size() == 2 && old.front() == zero);
+  const bool bit = one && (old.back() == zero || old.back() == zero + 1);
+  if (!bit) return any_data(old, text, random);
+  Bytes bytes(old.begin(), old.end());
+  bytes.back() = static_cast<Byte>(zero + random.below(2));
+  return bytes;
+}
+
 /// A number of hex digits, or of bytes with the low one in front or behind, `by` further.
 Bytes counted(ByteView old, bool text, bool low_first, int by) {
   Bytes bytes(old.begin(), old.end());
@@ -115,7 +126,7 @@ bool Changes::elsewhere(Request& request, HotWords& hot, Random& random) const {
       if (field.size > 0 && is_data(field)) {
         const ByteView old = ByteView(bracket.bytes).subspan(field.offset, field.size);
         changed |= safety::patch(request.notation, bracket, field.offset,
-                                 any_data(old, protocol_.is_text(), random), fields_);
+                                 right_data(old, protocol_.is_text(), random), fields_);
       }
   }
   return changed;

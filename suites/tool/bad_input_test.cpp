@@ -210,7 +210,7 @@ std::vector<BadInput> bad_inputs() {
                   R"({"name": "p", "extends": "xbc-h", "timing": 5})", {"timing is an object"}),
       bad_profile("profile_decisions",
                   R"({"name": "p", "extends": "xbc-h", "decisions": "bindin"})",
-                  {"decisions is \"binding\" or \"advisory\""}),
+                  {"decisions is \"binding\", \"advisory\", or a list"}),
       bad_profile("profile_exclude",
                   R"({"name": "p", "extends": "xbc-h", "exclude": [{"id": "*"}]})",
                   {"exclude is a list: [{\"id\": \"GLOB\", \"reason\": \"why\"}]"}),

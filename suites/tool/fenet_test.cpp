@@ -46,6 +46,7 @@ constexpr const char* most =
 
 const std::vector<NotThere> without_back_door{
     {"xgt_fenet/cnet_and_fenet/", "needs a second line to the same device"},
+    {"xgt_fenet/cnet_and_fenet/flag_by_", "nothing makes the device ask"},
     {"xgt_fenet/connections/dedicated_", "needs connections = "},
     {"xgt_fenet/connections/power_cycle", "cannot do power_cycle"},
     {"xgt_fenet/connections/vanished_place_is_free", "needs waiting_time = 2"},

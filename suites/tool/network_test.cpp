@@ -36,6 +36,8 @@ const std::vector<NotThere> without_back_door{
     {"modbus_tcp/data/tcp_fc", "needs bit_read_base = M1000"},
     {"modbus_tcp/data/tcp_stop", "cannot do "},
     {"modbus_tcp/driver/shown", "looks at the status counters"},
+    {"modbus_tcp/mbap/counters", "looks at the status counters"},
+    {"modbus_tcp/connections/power_cycle", "needs word_write_base = "},
     {"modbus_tcp/examples/read_discrete_inputs", "%PW11 is read only"},
     {"modbus_tcp/examples/read_input_registers", "%PW7 is read only"},
     {"modbus_tcp/limits/", "%PW0 is read only"},
