@@ -149,6 +149,8 @@ std::string sort_of(const Answer& answer, const Protocol& protocol) {
 /// A refusal that a vector has binds as that does, elsewhere too; of one that none has nobody says
 /// anything.
 Binding binding_of(const Request& request, const Answer& answer, const Protocol& protocol) {
+  // Which letters a device takes, and which it answers in, vectors ask where that is not open.
+  if (request.kind == "letters") return Binding::open;
   const std::string sort = sort_of(answer, protocol);
   if (is_a_right_frame(request) && sort == "answered") return Binding::derived;
   const bool of_its_vector = request.kind == "printed" || request.kind == "elsewhere";
