@@ -61,7 +61,6 @@ judging::JudgeRules Bench::rules() const {
   rules.link_floor = gap_floor(declared, known_->floor);
   rules.turnaround_min = options_.profile.turnaround_min;
   rules.decisions = options_.profile.decisions;
-  rules.binding_timing = rules.decisions.holds(vectors::reply_time_decision);
   // Simulated time is exact, but for the moment at which a character counts as come.
   if (can.simulated) rules.period_tolerance = endpoint_.character_time();
   if (can.paced && can.real_device) rules.earliest = -endpoint_.character_time();

@@ -73,7 +73,6 @@ Rejudge::Outcome Rejudge::judge(const results::CaseResult& recorded) {
   judging::JudgeRules rules;
   rules.guard_band = profile_.guard_band;
   rules.decisions = profile_.decisions;
-  rules.binding_timing = rules.decisions.holds(vectors::reply_time_decision);
   rules.timing_floor = std::max(profile_.floor, recorded.recording.timing_floor);
   rules.turnaround_min = profile_.turnaround_min;
   rules.earliest = recorded.recording.earliest;

@@ -9,7 +9,6 @@
 #include "harness/run/run_report.hpp"
 #include "harness/run/timestamp.hpp"
 #include "harness/run/tool_vectors.hpp"
-#include "harness/vectors/decisions.hpp"
 #include "reports/compare/result_file.hpp"
 #include "reports/text/case_text.hpp"
 #include "reports/text/xml_text.hpp"
@@ -55,9 +54,8 @@ Result<JudgePlan> make_judge_plan(const JudgeOptions& options,
   Result<vectors::VectorSet> vectors = run::load_sound_vectors(options.vectors, protocols);
   if (!vectors) return vectors.error();
   plan.vectors = std::move(*vectors);
-  if (const Status exist = vectors::check_binding(plan.profile.decisions, plan.vectors); !exist)
-    return fail(fmt::format("cannot use profile {}: decisions: {}", plan.profile.name,
-                            exist.error().message));
+  if (const Status exist = run::check_decisions(plan.profile, plan.vectors); !exist)
+    return exist.error();
   Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);

@@ -26,8 +26,9 @@ struct JudgeRules {
   Duration period_tolerance{};  // of `every`; 0: a twentieth of it, or the timing floor where that
                                 // is more
   vectors::Binding decisions;   // a missed one that binds is FAIL, else NON-STRICT
-  bool binding_timing =
-      true;  // a late answer is FAIL, else NON-STRICT (the limit is a decision, too)
+
+  /// The limits of a reply are a decision, too: what misses them is FAIL, else NON-STRICT.
+  bool timing_binds() const { return decisions.holds(vectors::reply_time_decision); }
 };
 
 struct Judgement {

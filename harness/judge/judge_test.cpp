@@ -152,7 +152,7 @@ TEST_F(JudgeTest, TurnaroundHasALeastTime) {
   EXPECT_EQ(verdict(4ms).verdict, Verdict::marginal);
   EXPECT_EQ(verdict(4399us).verdict, Verdict::marginal);
   EXPECT_EQ(verdict(4400us).verdict, Verdict::pass);
-  rules.binding_timing = false;
+  rules.decisions.all = false;
   EXPECT_EQ(verdict(3999us).verdict, Verdict::non_strict);
   rules.timing_floor = 5ms;
   EXPECT_EQ(verdict(3999us).verdict, Verdict::inconclusive);
@@ -217,7 +217,7 @@ TEST_F(JudgeTest, ALateAnswerFailsWhereTimingBindsAndIsNeverCreditedToTheNextReq
   endpoint.answers["<ask>"] = Pieces{{600ms, "<answer>"}};
   EXPECT_THAT(judged(ask()).message,
               HasSubstr("late answer: 600.0 ms after the request, the limit is 500 ms"));
-  rules.binding_timing = false;
+  rules.decisions.all = false;
   EXPECT_EQ(judged(ask()).verdict, Verdict::non_strict);
 }
 
@@ -236,7 +236,7 @@ TEST_F(JudgeTest, TheGuardBandIsMarginal) {
 
 TEST_F(JudgeTest, ALimitOfTheVectorBindsAlways) {
   endpoint.answers["<ask>"] = Pieces{{60ms, "<answer>"}};
-  rules.binding_timing = false;
+  rules.decisions.all = false;
   EXPECT_EQ(judged(R"({"send": "'<ask>'"}, {"expect": "'<answer>'", "within": "50ms"})").verdict,
             Verdict::fail);
 }

@@ -34,7 +34,7 @@ bool judge_limit(const Limit& one, const JudgeRules& rules, Findings& findings) 
     return false;
   }
   if (one.took > one.limit) {
-    findings.miss_or_lower(rules.binding_timing || one.stated,
+    findings.miss_or_lower(rules.timing_binds() || one.stated,
                            fmt::format("late {}: {:.1f} ms after {}, the limit is {:.0f} ms",
                                        one.what, to_ms(one.took), one.after, to_ms(one.limit)));
     return false;
@@ -57,7 +57,7 @@ void judge_turnaround(Duration took, const JudgeRules& rules, Findings& findings
                     to_ms(least), to_ms(rules.timing_floor)));
   if (took < least)
     return findings.miss_or_lower(
-        rules.binding_timing,
+        rules.timing_binds(),
         fmt::format(
             "early answer: {:.3f} ms after the request, the turnaround is {:.3f} ms at least",
             to_ms(took), to_ms(least)));

@@ -15,7 +15,6 @@
 #include "harness/run/line_matrix.hpp"
 #include "harness/run/tool_vectors.hpp"
 #include "harness/system/stable_name.hpp"
-#include "harness/vectors/decisions.hpp"
 #include "reports/results/sha256.hpp"
 #include "reports/results/shard.hpp"
 #include "src/base/duration.hpp"
@@ -551,10 +550,8 @@ Result<RunPlan> make_run_plan(const RunOptions& given, const harness::Protocols&
       options, known, options.duts.empty() ? "" : options.duts.front(), plan.selected, profile);
   if (!first) return first.error();
   static_cast<DutPlan&>(plan) = std::move(*first);
-  if (const Status exist = vectors::check_binding(plan.bench.profile.decisions, plan.vectors);
-      !exist)
-    return fail(fmt::format("cannot use profile {}: decisions: {}", plan.bench.profile.name,
-                            exist.error().message));
+  if (const Status exist = check_decisions(plan.bench.profile, plan.vectors); !exist)
+    return exist.error();
   for (std::size_t i = 1; i < options.duts.size(); ++i) {
     Result<DutPlan> other = make_dut_plan(options, known, options.duts[i], plan.selected, profile);
     if (!other) return other.error();

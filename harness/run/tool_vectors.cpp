@@ -36,6 +36,13 @@ void add_decisions(const std::filesystem::path& from, vectors::VectorSet& set) {
   if (from != own) vectors::load_decisions(own / file, set);
 }
 
+Status check_decisions(const bench::Profile& profile, const vectors::VectorSet& set) {
+  if (const Status exist = vectors::check_binding(profile.decisions, set); !exist)
+    return fail(
+        fmt::format("cannot use profile {}: decisions: {}", profile.name, exist.error().message));
+  return ok();
+}
+
 std::string meant_filter(const std::string& option, const harness::Protocols& protocols,
                          const std::string& filter) {
   const Result<vectors::VectorSet> all = load_sound_vectors(option, protocols);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/bench/files/profile.hpp"
 #include "harness/vectors/loader.hpp"
 #include "reports/results/case_result.hpp"
 
@@ -22,6 +23,9 @@ Result<vectors::VectorSet> load_sound_vectors(const std::string& option,
 /// Gives the cases the sentences of the decisions that they cite: those of DECISIONS.md in
 /// `from` (the folder, or beside the one file, of the vectors), and of the tool's own.
 void add_decisions(const std::filesystem::path& from, vectors::VectorSet& set);
+
+/// The decisions that a profile names are there; the error names the profile.
+Status check_decisions(const bench::Profile& profile, const vectors::VectorSet& set);
 
 /// vectors::meant_filter over all of their cases.
 std::string meant_filter(const std::string& option, const harness::Protocols& protocols,

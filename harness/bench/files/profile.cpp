@@ -104,7 +104,7 @@ void read_exclude(const json& exclude, Profile& profile) {
   for (const json& entry : exclude) profile.exclude.emplace_back(entry["id"], entry["reason"]);
 }
 
-vectors::Binding read_decisions(const json& value) {
+vectors::Binding binding_of(const json& value) {
   if (value == "binding") return {};
   if (value == "advisory") return {.all = false, .named = {}};
   const bool ids = value.is_array() && !value.empty() &&
@@ -142,9 +142,9 @@ void read_key(const std::string& key, const json& value, Profile& profile) {
     profile.prepared_blocks = read_blocks(value);
   else if (key == "notes")
     profile.notes = text_of(key, value);
-  else if (key == "decisions") {
-    profile.decisions = read_decisions(value);
-  } else if (key == "peer") {
+  else if (key == "decisions")
+    profile.decisions = binding_of(value);
+  else if (key == "peer") {
     check(value.is_boolean(), key, "true or false");
     profile.peer = value;
   } else if (key != "extends") {
