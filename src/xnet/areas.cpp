@@ -11,7 +11,7 @@
 namespace fieldproof::xnet {
 
 namespace {
-constexpr bool coil = true, word = false, octal = true;
+constexpr bool coil = true, reg = false, octal = true;
 
 constexpr std::array all_areas{
     Area{"M", 3, coil, 8000, 75000, 0x0000, 0x5000},
@@ -28,21 +28,21 @@ constexpr std::array all_areas{
     Area{"HT", 10, coil, 96, 2000, 0xE100, 0x400},
     Area{"HC", 11, coil, 96, 2000, 0xE500, 0x400},
     Area{"HSC", 12, coil, 32, 40, 0xE900, 40},
-    Area{"D", 128, word, 8000, 70000, 0x0000, 0x5000},
-    Area{"ID", 134, word, 100, 100, 0x5000, 0, false, 10000, 30000},
-    Area{"QD", 135, word, 100, 100, 0x6000, 100, false, 10000, 30000},
-    Area{"SD", 131, word, 2048, 5000, 0x7000, 0x1000},
-    Area{"TD", 129, word, 576, 5000, 0x8000, 0x1000},
-    Area{"CD", 130, word, 576, 5000, 0x9000, 0x1000},
-    Area{"ETD", 133, word, 32, 40, 0xA000, 40},
-    Area{"HD", 136, word, 1000, 25000, 0xA080, 0x1800},
-    Area{"HSD", 140, word, 500, 2000, 0xB880, 0x400},
-    Area{"HTD", 137, word, 96, 2000, 0xBC80, 0x400},
-    Area{"HCD", 138, word, 96, 2000, 0xC080, 0x400},
-    Area{"HSCD", 139, word, 32, 40, 0xC480, 40},
-    Area{"FD", 141, word, 6144, 8192, 0xC4C0, 0x2000},
-    Area{"SFD", 142, word, 2000, 6000, 0xE4C0, 0x1000},
-    Area{"FS", 0, word, 48, 48, 0xF4C0, 48},
+    Area{"D", 128, reg, 8000, 70000, 0x0000, 0x5000},
+    Area{"ID", 134, reg, 100, 100, 0x5000, 0, false, 10000, 30000},
+    Area{"QD", 135, reg, 100, 100, 0x6000, 100, false, 10000, 30000},
+    Area{"SD", 131, reg, 2048, 5000, 0x7000, 0x1000},
+    Area{"TD", 129, reg, 576, 5000, 0x8000, 0x1000},
+    Area{"CD", 130, reg, 576, 5000, 0x9000, 0x1000},
+    Area{"ETD", 133, reg, 32, 40, 0xA000, 40},
+    Area{"HD", 136, reg, 1000, 25000, 0xA080, 0x1800},
+    Area{"HSD", 140, reg, 500, 2000, 0xB880, 0x400},
+    Area{"HTD", 137, reg, 96, 2000, 0xBC80, 0x400},
+    Area{"HCD", 138, reg, 96, 2000, 0xC080, 0x400},
+    Area{"HSCD", 139, reg, 32, 40, 0xC480, 40},
+    Area{"FD", 141, reg, 6144, 8192, 0xC4C0, 0x2000},
+    Area{"SFD", 142, reg, 2000, 6000, 0xE4C0, 0x1000},
+    Area{"FS", 0, reg, 48, 48, 0xF4C0, 48},
 };
 
 std::uint32_t body(const Area& area, Series series) {

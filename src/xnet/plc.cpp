@@ -14,7 +14,7 @@ namespace {
 using modbus::ModbusBase;
 using modbus::ModbusMode;
 
-constexpr std::string_view what = "the XINJE PLC's configuration";
+constexpr std::string_view configured = "the XINJE PLC's configuration";
 
 class XinjeDataSpace : public modbus::DataSpace {
  public:
@@ -66,9 +66,9 @@ Status add_modbus_server(plc::Controller& plc, Memory& memory, std::function<voi
     return fail("cannot make a XINJE PLC of role client; it is no Modbus TCP client (X-NET 3-4-2)");
   const bool network = mode == ModbusMode::tcp;
   const auto keys = network ? plc::network_keys({"connections", "waiting_time"}) : plc::port_keys();
-  if (const Status known = plc::known_keys(config, what, keys); !known) return known;
+  if (const Status known = plc::known_keys(config, configured, keys); !known) return known;
   plc::PortConfig port;
-  plc::ConfigReader reader(config, std::string(what));
+  plc::ConfigReader reader(config, std::string(configured));
   plc::read_port_config(reader, port);
   if (reader.error()) return *reader.error();
   if (const auto right = plc::check_port_config(port); !right) return right.error();
@@ -83,7 +83,7 @@ Status add_modbus_server(plc::Controller& plc, Memory& memory, std::function<voi
 Result<std::unique_ptr<plc::EmulatedDevice>> make_xinje_plc(ModbusMode mode,
                                                             const nlohmann::json& config) {
   bool run = true;
-  plc::ConfigReader reader(config, std::string(what));
+  plc::ConfigReader reader(config, std::string(configured));
   reader.either("mode", "run", "stop", run);
   if (reader.error()) return *reader.error();
   auto plc = std::make_unique<XinjePlc>(run);

@@ -142,7 +142,7 @@ TEST(LsFrameLength, EndsAtEotOrAtTheNextHeader) {
 }
 
 /// AA is printed in Cnet EN 8.2.2; each small letter adds 20 (hex).
-TEST(FrameParts, DigitsOfARequestAreFree) {
+TEST(LsFrameParts, DigitsOfARequestAreFree) {
   const auto plain = [](const std::string& body) {
     const Bytes bytes = in_plain_letters(to_bytes('\x05' + body + '\x04'));
     return std::string(bytes.begin() + 1, bytes.end() - 1);
@@ -158,7 +158,7 @@ TEST(FrameParts, DigitsOfARequestAreFree) {
   EXPECT_EQ(plain("01r12301CA"), "01r12301CA") << "commands are capitals";
 }
 
-TEST(FrameParts, WhatIsMissingIsSaid) {
+TEST(LsFrameParts, WhatIsMissingIsSaid) {
   EXPECT_EQ(explain(to_bytes("\x05"
                              "01R1230"
                              "1"))

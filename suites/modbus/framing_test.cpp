@@ -96,7 +96,7 @@ TEST(ExplainAscii, SaysWhatIsWrongWithTheFrame) {
   EXPECT_THAT(ascii_part("\r\n", "foreign bytes"), HasSubstr("colon"));
 }
 
-TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
+TEST(ModbusExplain, FieldsCoverTheFrameWithoutHoles) {
   for (const auto& [framing, frame] : {std::pair{&rtu_framing(), bytes(published_request)},
                                        {&rtu_framing(), bytes(published_reply)},
                                        {&rtu_framing(), bytes("01 0F 00 13 00 0A 02 CD 01 72 CB")},
@@ -112,7 +112,7 @@ TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
   }
 }
 
-TEST(Explain, AnyBytesAreReadWithoutHarm) {
+TEST(ModbusExplain, AnyBytesAreReadWithoutHarm) {
   unsigned state = 7;
   for (int round = 0; round < 20'000; ++round) {
     Bytes frame;

@@ -21,7 +21,7 @@ const Bytes request =
     bytes("05 30 31 72 53 53 30 32 30 36 25 4D 57 30 32 30 30 36 25 50 57 30 30 31 04 36 38");
 const Bytes reply = bytes("06 30 31 72 53 53 30 32 30 32 31 32 33 34 30 32 35 36 37 38 03 34 43");
 
-TEST(Explain, NamesEveryPartOfTheManualsExample) {
+TEST(CnetExplain, NamesEveryPartOfTheManualsExample) {
   EXPECT_EQ(part(request, "station"), "01");
   EXPECT_EQ(part(request, "block count"), "02");
   EXPECT_EQ(part(request, "name 2"), "%PW001");
@@ -31,7 +31,7 @@ TEST(Explain, NamesEveryPartOfTheManualsExample) {
   EXPECT_EQ(part(reply, "BCC"), "4C");
 }
 
-TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
+TEST(CnetExplain, FieldsCoverTheFrameWithoutHoles) {
   for (const Bytes& frame : {request, reply}) {
     std::size_t at = 0;
     for (const harness::Field& field : explain(frame)) {
@@ -42,7 +42,7 @@ TEST(Explain, FieldsCoverTheFrameWithoutHoles) {
   }
 }
 
-TEST(Explain, SaysWhatIsWrongWithABcc) {
+TEST(CnetExplain, SaysWhatIsWrongWithABcc) {
   Bytes wrong = reply;
   wrong.back() = 'D';
   EXPECT_THAT(part(wrong, "BCC"), HasSubstr("4C is right"));
@@ -52,7 +52,7 @@ TEST(Explain, SaysWhatIsWrongWithABcc) {
   EXPECT_THAT(part(without_tail, "BCC"), HasSubstr("leaves the tail out"));
 }
 
-TEST(Explain, ABccAfterAnUpperCaseCommandIsSurplus) {
+TEST(CnetExplain, ABccAfterAnUpperCaseCommandIsSurplus) {
   EXPECT_THAT(part(to_bytes("\x06"
                             "01WSS\x03"
                             "A4"),
@@ -60,7 +60,7 @@ TEST(Explain, ABccAfterAnUpperCaseCommandIsSurplus) {
               HasSubstr("has none"));
 }
 
-TEST(Explain, TranslatesErrorCodes) {
+TEST(CnetExplain, TranslatesErrorCodes) {
   EXPECT_EQ(part(to_bytes("\x15"
                           "01RSS1132\x03"),
                  "error code"),
@@ -71,7 +71,7 @@ TEST(Explain, TranslatesErrorCodes) {
               HasSubstr("not a code of Appendix 3.1"));
 }
 
-TEST(Explain, MonitorFrames) {
+TEST(CnetExplain, MonitorFrames) {
   EXPECT_EQ(part(to_bytes("\x05"
                           "01X01RSS0106%MW000\x04"),
                  "registration number"),
@@ -92,7 +92,7 @@ TEST(Explain, MonitorFrames) {
       << "continuous: without";
 }
 
-TEST(Explain, AnyBytesAreReadWithoutHarm) {
+TEST(CnetExplain, AnyBytesAreReadWithoutHarm) {
   unsigned state = 7;
   for (int round = 0; round < 20'000; ++round) {
     Bytes frame;
@@ -141,7 +141,7 @@ TEST(FrameLength, GarbageAndABrokenFrameEndAtTheNextHeader) {
 
 /// Cnet EN 7.1.3: the main command alone tells capitals from small letters. 40 is the BCC that Cnet
 /// EN 11.2.4 prints for this request; four letters that are small add 4 x 20.
-TEST(FrameParts, LettersThatAreFreeArePlain) {
+TEST(CnetFrameParts, LettersThatAreFreeArePlain) {
   const auto plain = [](std::string_view text) {
     const Bytes bytes = in_plain_letters(to_bytes(text));
     return std::string(bytes.begin(), bytes.end());
@@ -165,7 +165,7 @@ TEST(FrameParts, LettersThatAreFreeArePlain) {
       << "a wrong BCC";
 }
 
-TEST(FrameParts, WhatIsMissingIsSaid) {
+TEST(CnetFrameParts, WhatIsMissingIsSaid) {
   const auto last = [](const std::string& text) { return explain(to_bytes(text)).back().problem; };
   EXPECT_EQ(last("\x05"
                  "01rSS0106%MW100"),

@@ -30,25 +30,25 @@ constexpr std::array<std::string_view, 12> device_keys{
     "allow_write", "operator", "notes",   "stimulus", "control",  "aux"};
 constexpr std::array<std::string_view, 4> identity_keys{"maker", "model", "serial", "firmware"};
 
-[[noreturn]] void refuse(const std::string& where, const std::string& why) {
+[[noreturn]] void wrong_at(const std::string& where, const std::string& why) {
   throw std::runtime_error(where + ": " + why);
 }
 
 /// `where`.`key`, with `value` an object of no other keys.
 void check_object(const json& value, const std::string& where,
                   std::span<const std::string_view> keys) {
-  if (!value.is_object()) refuse(where, "must be an object: {...}");
+  if (!value.is_object()) wrong_at(where, "must be an object: {...}");
   for (const auto& [key, ignored] : value.items()) {
     if (std::ranges::find(keys, key) == keys.end())
-      refuse(where, fmt::format("unknown key '{}'{}; the keys are {}", key, suggestion(key, keys),
-                                fmt::join(keys, ", ")));
+      wrong_at(where, fmt::format("unknown key '{}'{}; the keys are {}", key, suggestion(key, keys),
+                                  fmt::join(keys, ", ")));
   }
 }
 
 std::string read_text(const json& object, std::string_view key, const std::string& where) {
   const auto found = object.find(key);
   if (found == object.end()) return {};
-  if (!found->is_string()) refuse(fmt::format("{}.{}", where, key), "must be a text in quotes");
+  if (!found->is_string()) wrong_at(fmt::format("{}.{}", where, key), "must be a text in quotes");
   return *found;
 }
 
@@ -56,7 +56,7 @@ std::optional<int> read_station(const json& object, const std::string& where) {
   const auto found = object.find("station");
   if (found == object.end()) return std::nullopt;
   if (!found->is_number_integer() || *found < 0 || *found > 255)
-    refuse(where + ".station", "must be a number from 0 to 255, without quotes");
+    wrong_at(where + ".station", "must be a number from 0 to 255, without quotes");
   return found->get<int>();
 }
 
@@ -65,13 +65,13 @@ std::vector<std::string> read_allow_write(const json& object, const std::string&
   std::vector<std::string> ranges;
   const auto found = object.find("allow_write");
   if (found == object.end()) return ranges;
-  if (!found->is_array()) refuse(where + ".allow_write", "must be a list: [\"M100-M199\"]");
+  if (!found->is_array()) wrong_at(where + ".allow_write", "must be a list: [\"M100-M199\"]");
   for (const json& range : *found) {
     if (!range.is_string())
-      refuse(where + ".allow_write", "must be a list of texts: [\"M100-M199\"]");
+      wrong_at(where + ".allow_write", "must be a list of texts: [\"M100-M199\"]");
     ranges.push_back(range);
     if (const Status allowed = safety::WriteFence().allow(ranges.back(), words); !allowed)
-      refuse(where + ".allow_write", allowed.error().message);
+      wrong_at(where + ".allow_write", allowed.error().message);
   }
   return ranges;
 }
@@ -81,7 +81,7 @@ std::map<std::string, std::string> read_fingerprint(const json& object, const st
   const auto found = object.find("fingerprint");
   if (found == object.end()) return fingerprint;
   if (!found->is_object())
-    refuse(where + ".fingerprint", "must be an object: {\"NAME\": \"what is found\"}");
+    wrong_at(where + ".fingerprint", "must be an object: {\"NAME\": \"what is found\"}");
   for (const auto& [key, value] : found->items())
     fingerprint[key] = read_text(*found, key, where + ".fingerprint");
   return fingerprint;
@@ -119,19 +119,19 @@ std::map<std::string, std::string> line_options(const endpoints::EndpointName& n
 /// The endpoint may say station and line itself, but not otherwise than the keys.
 void check_endpoint(const BenchDevice& device, const std::string& where) {
   if (device.endpoint.empty())
-    refuse(where,
-           "has no \"endpoint\"; write how it is reached: \"serial:/dev/ttyUSB0?baud=38400\"");
+    wrong_at(where,
+             "has no \"endpoint\"; write how it is reached: \"serial:/dev/ttyUSB0?baud=38400\"");
   const Result<endpoints::EndpointName> name = endpoints::parse_endpoint(device.endpoint);
-  if (!name) refuse(where + ".endpoint", name.error().message);
+  if (!name) wrong_at(where + ".endpoint", name.error().message);
   if (device.station && name->options.contains("station"))
-    refuse(where + ".station", "the endpoint says a station, too; leave one of the two");
+    wrong_at(where + ".station", "the endpoint says a station, too; leave one of the two");
   if (device.line.empty()) return;
   const auto line = line::parse_line_settings(device.line);
-  if (!line) refuse(where + ".line", line.error().message);
+  if (!line) wrong_at(where + ".line", line.error().message);
   for (const auto& [option, value] : line_options(*name, *line))
     if (name->options.contains(option))
-      refuse(where + ".line",
-             fmt::format("the endpoint says '{}', too; leave one of the two", option));
+      wrong_at(where + ".line",
+               fmt::format("the endpoint says '{}', too; leave one of the two", option));
 }
 
 BenchDevice read_device(const json& object, const std::string& name, const fs::path& folder,
@@ -147,7 +147,7 @@ BenchDevice read_device(const json& object, const std::string& name, const fs::p
   device.control = read_text(object, "control", where);
   device.aux = read_text(object, "aux", where);
   if (const auto aux = endpoints::parse_endpoint(device.aux); !aux && !device.aux.empty())
-    refuse(where + ".aux", aux.error().message);
+    wrong_at(where + ".aux", aux.error().message);
   device.allow_write = read_allow_write(object, where, words);
   device.identity = read_identity(object, where);
   device.identity.name = name;
@@ -180,7 +180,7 @@ Result<BenchFile> parse_bench_file(const std::string& text, const std::string& p
     constexpr std::array<std::string_view, 1> root_keys{"devices"};
     check_object(root, "the file", root_keys);
     if (!root.contains("devices") || !root["devices"].is_object())
-      refuse("the file", "has no \"devices\": {...}");
+      wrong_at("the file", "has no \"devices\": {...}");
     for (const auto& [name, object] : root["devices"].items())
       file.devices[name] = read_device(object, name, fs::path(path).parent_path(), words);
   } catch (const std::exception& error) {

@@ -13,7 +13,7 @@ namespace fieldproof::vectors {
 namespace {
 
 using json = nlohmann::ordered_json;
-using Kind = Shape::Kind;
+using ShapeKind = Shape::Kind;
 
 /// Where a value stands; made on the stack, spelled only for a problem.
 struct Path {
@@ -29,26 +29,26 @@ struct Path {
   }
 };
 
-std::string_view name_of(Kind kind) {
+std::string_view name_of(ShapeKind kind) {
   switch (kind) {
-    case Kind::text: return "a text";
-    case Kind::number: return "a whole number";
-    case Kind::boolean: return "true or false";
-    case Kind::yes: return "true";
-    case Kind::object: return "an object";
-    case Kind::list: return "a list";
+    case ShapeKind::text: return "a text";
+    case ShapeKind::number: return "a whole number";
+    case ShapeKind::boolean: return "true or false";
+    case ShapeKind::yes: return "true";
+    case ShapeKind::object: return "an object";
+    case ShapeKind::list: return "a list";
   }
   return "";
 }
 
-bool is_of(Kind kind, const json& value) {
+bool is_of(ShapeKind kind, const json& value) {
   switch (kind) {
-    case Kind::text: return value.is_string();
-    case Kind::number: return value.is_number_integer();
-    case Kind::boolean: return value.is_boolean();
-    case Kind::yes: return value.is_boolean() && value.get<bool>();
-    case Kind::object: return value.is_object();
-    case Kind::list: return value.is_array();
+    case ShapeKind::text: return value.is_string();
+    case ShapeKind::number: return value.is_number_integer();
+    case ShapeKind::boolean: return value.is_boolean();
+    case ShapeKind::yes: return value.is_boolean() && value.get<bool>();
+    case ShapeKind::object: return value.is_object();
+    case ShapeKind::list: return value.is_array();
   }
   return false;
 }
@@ -69,12 +69,12 @@ class Checker {
       return problem(path, fmt::format("is {}; write {}", shown(value), name_of(shape.kind)));
     }
     switch (shape.kind) {
-      case Kind::text: return check_text(value.get_ref<const std::string&>(), shape, path);
-      case Kind::number: return check_number(value.get<std::int64_t>(), shape, path);
-      case Kind::object: return check_object(value, shape, path);
-      case Kind::list: return check_list(value, shape, path);
-      case Kind::boolean:
-      case Kind::yes: return;
+      case ShapeKind::text: return check_text(value.get_ref<const std::string&>(), shape, path);
+      case ShapeKind::number: return check_number(value.get<std::int64_t>(), shape, path);
+      case ShapeKind::object: return check_object(value, shape, path);
+      case ShapeKind::list: return check_list(value, shape, path);
+      case ShapeKind::boolean:
+      case ShapeKind::yes: return;
     }
   }
 

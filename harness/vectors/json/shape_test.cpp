@@ -12,28 +12,28 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using Kind = Shape::Kind;
 
-constexpr Shape text{.least = 1};
-constexpr Shape number{.kind = Kind::number, .least = 1, .most = 9};
-constexpr Shape texts{.kind = Kind::list, .least = 1, .items = &text};
-constexpr Shape text_or_texts{.least = 1, .instead = &texts};
+constexpr Shape one_text{.least = 1};
+constexpr Shape one_number{.kind = Kind::number, .least = 1, .most = 9};
+constexpr Shape some_texts{.kind = Kind::list, .least = 1, .items = &one_text};
+constexpr Shape text_or_texts{.least = 1, .instead = &some_texts};
 constexpr std::array<std::string_view, 3> levels{"must", "should", "info"};
-constexpr Shape level{.words = levels};
+constexpr Shape one_level{.words = levels};
 constexpr Shape filled_level{.words = levels, .filled = true};
 constexpr Form even{"an even text", "^(..)*$",
                     [](std::string_view t) { return t.size() % 2 == 0; }};
 constexpr Shape even_text{.form = &even};
 constexpr Shape yes{.kind = Kind::yes};
-constexpr Shape numbers{.kind = Kind::object, .open = true, .others = &number};
-constexpr std::array inner_keys{Key{"wait", &even_text}, Key{"times", &number}};
+constexpr Shape some_numbers{.kind = Kind::object, .open = true, .others = &one_number};
+constexpr std::array inner_keys{Key{"wait", &even_text}, Key{"times", &one_number}};
 constexpr Shape inner{.kind = Kind::object, .keys = inner_keys};
 constexpr Shape inners{.kind = Kind::list, .items = &inner};
-constexpr std::array<std::string_view, 1> info{"info"};
-constexpr std::array demands{Demand{"level", info, "why", "numbers"}};
-constexpr std::array keys{Key{"title", &text, true},   Key{"level", &level},
-                          Key{"other", &filled_level}, Key{"names", &text_or_texts},
-                          Key{"steps", &inners},       Key{"silence", &yes},
-                          Key{"why", &text},           Key{"numbers", &numbers}};
-constexpr Shape document{.kind = Kind::object, .keys = keys, .demands = demands};
+constexpr std::array<std::string_view, 1> info_alone{"info"};
+constexpr std::array demands{Demand{"level", info_alone, "why", "numbers"}};
+constexpr std::array own_keys{Key{"title", &one_text, true}, Key{"level", &one_level},
+                              Key{"other", &filled_level},   Key{"names", &text_or_texts},
+                              Key{"steps", &inners},         Key{"silence", &yes},
+                              Key{"why", &one_text},         Key{"numbers", &some_numbers}};
+constexpr Shape document{.kind = Kind::object, .keys = own_keys, .demands = demands};
 
 std::vector<std::string> problems(const char* json) {
   return shape_problems(nlohmann::ordered_json::parse(json), document);

@@ -30,19 +30,19 @@ auto against(const Behaviour& behaviour) {
   return broken::against(model, make_broken_module, behaviour);
 }
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class EmailSuite : public testing::TestWithParam<Fault> {};
 
-TEST_P(TheSuite, Catches) {
+TEST_P(EmailSuite, Catches) {
   broken::expect_caught(GetParam(), cases(),
                         [](const Case& source) { return against(GetParam().make())(source); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, EmailSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(HealthyModule, PassesTheWholeSuite) { broken::expect_healthy(cases(), 100, against({})); }
 
-TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 60); }
+TEST(EmailFaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 60); }
 
 }  // namespace
 }  // namespace fieldproof::email_broken

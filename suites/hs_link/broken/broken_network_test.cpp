@@ -27,18 +27,18 @@ auto against(const Behaviour& behaviour) {
   return broken::against(model, make_broken_network, behaviour);
 }
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class HsLinkSuite : public testing::TestWithParam<Fault> {};
 
-TEST_P(TheSuite, Catches) {
+TEST_P(HsLinkSuite, Catches) {
   broken::expect_caught(GetParam(), cases(), against(GetParam().make()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, HsLinkSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(HealthyStations, PassTheWholeSuite) { broken::expect_healthy(cases(), 150, against({})); }
 
-TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 30); }
+TEST(HsLinkFaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 30); }
 
 }  // namespace
 }  // namespace fieldproof::hs_link_broken

@@ -32,7 +32,7 @@ std::string vectors_of(const Fault& fault) {
 
 std::string device(std::string_view fault, unsigned station) {
   return fmt::format("{} {} {{tty}} {}?station={}&protocol=ls-bus",
-                     tool_tests::quoted(BROKEN_SERVER), fault, station, station);
+                     tool_tests::quoted(BROKEN_LS_BUS), fault, station, station);
 }
 
 std::optional<broken::Trial> trial_of(const std::string& test) {
@@ -54,9 +54,9 @@ broken::SuiteRuns& runs() {
 }
 [[maybe_unused]] const broken::SuiteRuns& registered_before_main = runs();
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class LsBusSuite : public testing::TestWithParam<Fault> {};
 
-TEST_P(TheSuite, CatchesOnThePort) {
+TEST_P(LsBusSuite, CatchesOnThePort) {
   const Fault& fault = GetParam();
   const broken::SuiteRun run = runs().take(std::string(fault.name));
   broken::expect_caught(run, case_id(fault), fault.message);
@@ -93,7 +93,8 @@ TEST_P(BehindTheBackDoor, IsNotSeenInTheHealthyInverter) {
 }
 
 constexpr auto name_of = [](const auto& test) { return std::string(test.param.name); };
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(broken::on_a_port(faults())), name_of);
+INSTANTIATE_TEST_SUITE_P(Broken, LsBusSuite, testing::ValuesIn(broken::on_a_port(faults())),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Broken, BehindTheBackDoor, testing::ValuesIn(back_door_faults()), name_of);
 
 TEST(HealthyInverter, PassesTheWholeSuite) {
@@ -111,7 +112,7 @@ TEST(InverterFaults, NamesAreUnique) {
 }
 
 TEST(BrokenInverter, ListsItsFaults) {
-  const tool_tests::Finished list = tool_tests::run_program({BROKEN_SERVER, "--list"});
+  const tool_tests::Finished list = tool_tests::run_program({BROKEN_LS_BUS, "--list"});
   EXPECT_EQ(list.code, 0) << list.err;
   for (const Fault& fault : faults()) EXPECT_THAT(list.out, HasSubstr(fault.name));
 }
@@ -119,7 +120,7 @@ TEST(BrokenInverter, ListsItsFaults) {
 TEST(BrokenInverter, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
   const tool_tests::TestFolder folder;
   const tool_tests::Finished ended =
-      tool_tests::run_program({BROKEN_SERVER, "sum_off_by_on", folder / "tty"});
+      tool_tests::run_program({BROKEN_LS_BUS, "sum_off_by_on", folder / "tty"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("sum_off_by_one"));
 }

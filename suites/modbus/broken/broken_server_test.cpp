@@ -22,7 +22,7 @@ std::string mode_of(std::string_view id) {
 
 std::string device(std::string_view mode, std::string_view fault, unsigned station) {
   return fmt::format("{} {} {} {{tty}} {}?station={}&protocol=modbus-{}",
-                     tool_tests::quoted(BROKEN_SERVER), mode, fault, station, station, mode);
+                     tool_tests::quoted(BROKEN_MODBUS), mode, fault, station, station, mode);
 }
 
 broken::Trial trial_for(const Fault& fault) {
@@ -53,9 +53,9 @@ broken::SuiteRuns& runs() {
 }
 [[maybe_unused]] const broken::SuiteRuns& registered_before_main = runs();
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class ModbusSuite : public testing::TestWithParam<Fault> {};
 
-TEST_P(TheSuite, Catches) {
+TEST_P(ModbusSuite, Catches) {
   const Fault& fault = GetParam();
   const broken::SuiteRun run = runs().take(std::string(fault.name));
   const std::string message =
@@ -64,37 +64,37 @@ TEST_P(TheSuite, Catches) {
                             run.seconds, message));
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(broken::on_a_port(faults())),
+INSTANTIATE_TEST_SUITE_P(Broken, ModbusSuite, testing::ValuesIn(broken::on_a_port(faults())),
                          [](const auto& test) { return std::string(test.param.name); });
 
-class HealthyServer : public testing::TestWithParam<std::string> {};
+class ModbusHealthyServer : public testing::TestWithParam<std::string> {};
 
-TEST_P(HealthyServer, PassesTheWholeSuite) {
+TEST_P(ModbusHealthyServer, PassesTheWholeSuite) {
   const broken::SuiteRun run = runs().take("healthy_" + GetParam());
   const std::size_t passed = broken::expect_healthy(run, 100);
   runs().report(fmt::format("healthy_{:<32} {} of {} cases pass, {:.1f} s", GetParam(), passed,
                             run.results.size(), run.seconds));
 }
 
-INSTANTIATE_TEST_SUITE_P(Modbus, HealthyServer, testing::Values("rtu", "ascii"),
+INSTANTIATE_TEST_SUITE_P(Modbus, ModbusHealthyServer, testing::Values("rtu", "ascii"),
                          [](const auto& test) { return test.param; });
 
-TEST(FaultTable, NamesAreUnique) {
+TEST(ModbusFaultTable, NamesAreUnique) {
   std::map<std::string_view, int> names;
   for (const Fault& fault : faults()) EXPECT_EQ(++names[fault.name], 1) << fault.name;
   EXPECT_GE(faults().size(), 75u);
 }
 
-TEST(BrokenServer, ListsItsFaults) {
-  const tool_tests::Finished list = tool_tests::run_program({BROKEN_SERVER, "--list"});
+TEST(ModbusBrokenServer, ListsItsFaults) {
+  const tool_tests::Finished list = tool_tests::run_program({BROKEN_MODBUS, "--list"});
   EXPECT_EQ(list.code, 0) << list.err;
   for (const Fault& fault : faults()) EXPECT_THAT(list.out, HasSubstr(fault.name));
 }
 
-TEST(BrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
+TEST(ModbusBrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
   const tool_tests::TestFolder folder;
   const tool_tests::Finished ended =
-      tool_tests::run_program({BROKEN_SERVER, "rtu", "crc_ignore", folder / "tty"});
+      tool_tests::run_program({BROKEN_MODBUS, "rtu", "crc_ignore", folder / "tty"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("crc_ignored"));
 }

@@ -35,20 +35,22 @@ auto against(const Behaviour& behaviour) {
   };
 }
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class ModbusTcpSuite : public testing::TestWithParam<Fault> {};
 
 /// A fault may count: each case meets a new one.
-TEST_P(TheSuite, Catches) {
+TEST_P(ModbusTcpSuite, Catches) {
   broken::expect_caught(GetParam(), cases(),
                         [](const Case& source) { return against(GetParam().make())(source); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, ModbusTcpSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(HealthyServer, PassesTheWholeSuite) { broken::expect_healthy(cases(), 200, against({})); }
+TEST(ModbusTcpHealthyServer, PassesTheWholeSuite) {
+  broken::expect_healthy(cases(), 200, against({}));
+}
 
-TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 90); }
+TEST(ModbusTcpFaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 90); }
 
 }  // namespace
 }  // namespace fieldproof::modbus_tcp_broken

@@ -49,16 +49,16 @@ auto against(const Behaviour& behaviour) {
   };
 }
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class P2pSuite : public testing::TestWithParam<Fault> {};
 
 /// A fault may count: each case meets a new one.
-TEST_P(TheSuite, Catches) {
+TEST_P(P2pSuite, Catches) {
   const broken::Cases& all = cases(folder_of(GetParam().caught_by));
   broken::expect_caught(GetParam(), all,
                         [](const Case& source) { return against(GetParam().make())(source); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, P2pSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 class HealthyClient : public testing::TestWithParam<std::string> {};
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(P2p, HealthyClient,
                                          "user_frames_net"),
                          [](const auto& test) { return test.param; });
 
-TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 150); }
+TEST(P2pFaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 150); }
 
 }  // namespace
 }  // namespace fieldproof::p2p_broken

@@ -30,20 +30,20 @@ auto against(const Behaviour& behaviour) {
   };
 }
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class ServicesSuite : public testing::TestWithParam<Fault> {};
 
 /// A fault may remember: each case meets a new one.
-TEST_P(TheSuite, Catches) {
+TEST_P(ServicesSuite, Catches) {
   broken::expect_caught(GetParam(), cases(),
                         [](const Case& source) { return against(GetParam().make())(source); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, ServicesSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(HealthyPlc, PassesTheWholeSuite) { broken::expect_healthy(cases(), 200, against({})); }
 
-TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 50); }
+TEST(ServicesFaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 50); }
 
 }  // namespace
 }  // namespace fieldproof::services_broken

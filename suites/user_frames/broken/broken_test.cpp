@@ -29,11 +29,13 @@ auto against(const Behaviour& behaviour) {
   };
 }
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class UserFramesSuite : public testing::TestWithParam<Fault> {};
 
-TEST_P(TheSuite, Catches) { broken::expect_caught(GetParam(), cases(), against(GetParam().make)); }
+TEST_P(UserFramesSuite, Catches) {
+  broken::expect_caught(GetParam(), cases(), against(GetParam().make));
+}
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, UserFramesSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(HealthyPort, PassesTheWholeSuite) { broken::expect_healthy(cases(), 200, against({})); }
@@ -63,7 +65,9 @@ TEST_P(OnANetwork, IsCaught) {
 INSTANTIATE_TEST_SUITE_P(Broken, OnANetwork, testing::ValuesIn(server_faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(HealthyServer, PassesTheWholeSuite) { broken::expect_healthy(server_cases(), 30, server({})); }
+TEST(UserFramesHealthyServer, PassesTheWholeSuite) {
+  broken::expect_healthy(server_cases(), 30, server({}));
+}
 
 TEST(UserFrameFacts, HoldInTheTables) {
   const vectors::VectorSet set =
@@ -75,7 +79,7 @@ TEST(UserFrameFacts, HoldInTheTables) {
   }
 }
 
-TEST(FaultTable, NamesAreUnique) {
+TEST(UserFramesFaultTable, NamesAreUnique) {
   broken::expect_unique_names(faults(), 40);
   broken::expect_unique_names(server_faults(), 30);
 }

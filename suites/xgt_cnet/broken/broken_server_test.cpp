@@ -19,7 +19,7 @@ std::string case_id(const Fault& fault) { return fmt::format("xgt_cnet/{}", faul
 
 std::string device(std::string_view fault, unsigned station) {
   return fmt::format("{} {} {{tty}} {} '{{folder}}/storage'?station={}",
-                     tool_tests::quoted(BROKEN_SERVER), fault, station, station);
+                     tool_tests::quoted(BROKEN_XGT_CNET), fault, station, station);
 }
 
 broken::Trial trial_for(const Fault& fault) {
@@ -47,9 +47,9 @@ broken::SuiteRuns& runs() {
 }
 [[maybe_unused]] const broken::SuiteRuns& registered_before_main = runs();
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class CnetSuite : public testing::TestWithParam<Fault> {};
 
-TEST_P(TheSuite, Catches) {
+TEST_P(CnetSuite, Catches) {
   const Fault& fault = GetParam();
   const broken::SuiteRun run = runs().take(std::string(fault.name));
   const std::string message = broken::expect_caught(run, case_id(fault), fault.message);
@@ -57,7 +57,7 @@ TEST_P(TheSuite, Catches) {
                             run.seconds, message));
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(broken::on_a_port(faults())),
+INSTANTIATE_TEST_SUITE_P(Broken, CnetSuite, testing::ValuesIn(broken::on_a_port(faults())),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(HealthyDevice, PassesTheWholeSuite) {
@@ -67,22 +67,22 @@ TEST(HealthyDevice, PassesTheWholeSuite) {
                             run.results.size(), run.seconds));
 }
 
-TEST(FaultTable, NamesAreUnique) {
+TEST(CnetFaultTable, NamesAreUnique) {
   std::map<std::string_view, int> names;
   for (const Fault& fault : faults()) EXPECT_EQ(++names[fault.name], 1) << fault.name;
   EXPECT_GE(faults().size(), 100u);
 }
 
-TEST(BrokenServer, ListsItsFaults) {
-  const tool_tests::Finished list = tool_tests::run_program({BROKEN_SERVER, "--list"});
+TEST(CnetBrokenServer, ListsItsFaults) {
+  const tool_tests::Finished list = tool_tests::run_program({BROKEN_XGT_CNET, "--list"});
   EXPECT_EQ(list.code, 0) << list.err;
   for (const Fault& fault : faults()) EXPECT_THAT(list.out, HasSubstr(fault.name));
 }
 
-TEST(BrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
+TEST(CnetBrokenServer, AnUnknownFaultIsAnErrorThatNamesTheNearest) {
   const tool_tests::TestFolder folder;
   const tool_tests::Finished ended =
-      tool_tests::run_program({BROKEN_SERVER, "bcc_off_by_on", folder / "tty"});
+      tool_tests::run_program({BROKEN_XGT_CNET, "bcc_off_by_on", folder / "tty"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("bcc_off_by_one"));
 }

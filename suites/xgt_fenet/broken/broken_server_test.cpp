@@ -29,20 +29,20 @@ auto against(const Behaviour& behaviour) {
   return broken::against(model, make_broken_server, behaviour);
 }
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class FenetSuite : public testing::TestWithParam<Fault> {};
 
 /// A fault may count: each case meets a new one.
-TEST_P(TheSuite, Catches) {
+TEST_P(FenetSuite, Catches) {
   broken::expect_caught(GetParam(), cases(),
                         [](const Case& source) { return against(GetParam().make())(source); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, FenetSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(HealthyServer, PassesTheWholeSuite) { broken::expect_healthy(cases(), 200, against({})); }
+TEST(FenetHealthyServer, PassesTheWholeSuite) { broken::expect_healthy(cases(), 200, against({})); }
 
-TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 90); }
+TEST(FenetFaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 90); }
 
 }  // namespace
 }  // namespace fieldproof::xgt_fenet_broken
