@@ -186,11 +186,12 @@ class Protocol {
   /// The last axis that any device of it has; 0: it moves none.
   virtual unsigned last_axis() const { return 0; }
 
-  /// Does a case that looks at these values, one list a look, want a moment to the millisecond? No
-  /// request keeps one.
-  virtual bool wants_moments(
-      [[maybe_unused]] const std::vector<std::vector<Setting>>& looks) const {
-    return false;
+  /// What a case looks at: addresses and digits, or no digits where a range is due.
+  using Look = std::vector<Setting>;
+  /// Looks in the order of time, while nothing is done to the device: which of them want a moment
+  /// to the millisecond? No request keeps one.
+  virtual std::vector<bool> of_a_moment(const std::vector<Look>& looks) const {
+    return std::vector<bool>(looks.size());
   }
 
   /// Memory that a request or an address names: words of an area, or its contacts (bits of T and

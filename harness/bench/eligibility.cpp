@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "harness/bench/device_set_up.hpp"
+#include "harness/bench/moments.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/safety/placement.hpp"
 #include "harness/safety/transposition.hpp"
@@ -344,12 +345,14 @@ Ruling Eligibility::below_floor(const PreparedCase& prepared) const {
     return {Verdict::inconclusive,
             "is about speed and character format, which a pty or socket does not carry"};
   if (const std::string& kind = prepared.source->on_model; !kind.empty()) {
-    std::vector<std::vector<Protocol::Setting>> looks;
-    for (const exchange::PreparedStep& step : prepared.steps)
-      if (step.step->kind == vectors::Step::Kind::check) looks.push_back(step.step->memory);
-    if (kind == "timing" || protocol_.wants_moments(looks))
+    const Moments moments = moments_of(prepared, protocol_);
+    if (kind == "timing" || moments.alone)
       return {Verdict::inconclusive,
               "looks at what is so for milliseconds, which no request that is sent here hits"};
+    if (moments.acted_in)
+      return {Verdict::inconclusive,
+              "does something to what is so for milliseconds, which no request that is sent here "
+              "hits"};
     return {};  // waiting longer does no harm
   }
   // On a network a pause may be longer than it is written: it only sees that a segment has come.
@@ -401,6 +404,9 @@ ReadyCase Eligibility::ready(const Case& source) const {
   if (std::string why = real ? fence_objection(*prepared) : ""; !why.empty())
     return declined({Verdict::blocked, why});
   if (const Ruling why = below_floor(*prepared); !why.may_run()) return declined(why);
+  if (!endpoint_.capabilities().wire && !source.on_model.empty())
+    for (const std::size_t step : moments_of(*prepared, protocol_).steps)
+      prepared->steps[step].passed_over = true;
   ready.prepared = std::move(*prepared);
   return ready;
 }

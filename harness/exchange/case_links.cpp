@@ -167,15 +167,18 @@ std::string CaseRun::since_beginning(const std::string& address, std::string val
   return fmt::format("{:0{}X}", counted & most, value.size());
 }
 
-void CaseRun::look_at_memory(const Step& step) {
+void CaseRun::look_at_memory(const PreparedStep& step) {
   settle_before_look();
   borrow_idle_link();
-  for (const auto& [address, hex] : step.memory) {
+  record().passed_over = step.passed_over;
+  const std::string_view judged = step.passed_over ? " (not judged)" : "";
+  for (const auto& [address, hex] : step.step->memory) {
     if (!memory_.can_read(prepared_, address)) continue;
     const Result<std::string> value = memory_.get(prepared_, address, hex.size());
     if (value) {
       record().memory.emplace_back(address, since_beginning(address, *value));
-      links_.note(now(), fmt::format("check {}: {}", address, record().memory.back().second));
+      links_.note(now(),
+                  fmt::format("check {}: {}{}", address, record().memory.back().second, judged));
       continue;
     }
     record().refused = "the bench cannot look: " + value.error().message;

@@ -69,7 +69,7 @@ void CaseRun::step(const PreparedStep& step) {
       wait_until(record().cause, nullptr);
       return;
     case Step::Kind::set: return set_memory(step.step->memory);
-    case Step::Kind::check: return look_at_memory(*step.step);
+    case Step::Kind::check: return look_at_memory(step);
     case Step::Kind::act: return act(step.step->action);
     case Step::Kind::open: return open(step);
     case Step::Kind::close: return close(step);

@@ -72,7 +72,7 @@ class CaseRun {
   void act(const std::string& action);
   Status cycle_power();
   void set_memory(const std::vector<std::pair<std::string, std::string>>& memory);
-  void look_at_memory(const vectors::Step& step);
+  void look_at_memory(const PreparedStep& step);
   void settle_before_look();
   /// On a real device they count on from case to case; the case counts from its beginning.
   void note_counters();

@@ -23,8 +23,9 @@ struct PreparedStep {
   std::string link;                   // that it uses, opens or closes
   const harness::Protocol* protocol = nullptr;  // spoken there, at this station
   int station = 1;
-  std::uint16_t port = 0;  // open: where the device listens
-  bool network = false;    // the link is no line
+  std::uint16_t port = 0;    // open: where the device listens
+  bool network = false;      // the link is no line
+  bool passed_over = false;  // check: at a moment that the endpoint cannot keep; not judged
 };
 
 /// Points into the Case, which must outlive it.

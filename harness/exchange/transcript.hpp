@@ -21,6 +21,7 @@ struct StepRecord {
   std::vector<std::pair<std::string, std::string>> memory;  // check: address and what it held
   std::string refused;                                      // any step: why it could not be done
   bool refused_by_device = false;
+  bool passed_over = false;  // check: PreparedStep::passed_over
 };
 
 struct Transcript {

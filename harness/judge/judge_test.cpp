@@ -37,6 +37,7 @@ class JudgeTest : public testing::Test {
     Result<exchange::PreparedCase> prepared = exchange::prepare(set_.cases.at(0), 1, protocol_);
     EXPECT_TRUE(prepared);
     prepared_ = *prepared;
+    for (const std::size_t step : passed_over) prepared_.steps.at(step).passed_over = true;
     exchange::Exchange exchange(endpoint, protocol_, {});
     transcript = exchange.run(prepared_);
     const Judgement judgement = judge(prepared_, transcript, rules, protocol_);
@@ -70,6 +71,7 @@ class JudgeTest : public testing::Test {
 
   exchange::ScriptedEndpoint endpoint;
   JudgeRules rules;
+  std::vector<std::size_t> passed_over;  // steps
   exchange::Transcript transcript;
   vectors::VectorSet set_;
 
@@ -363,6 +365,25 @@ TEST_F(JudgeTest, MemoryIsComparedWhateverTheCase) {
   EXPECT_EQ(judged(R"({"check": {"%MW1": "00FF"}})").verdict, Verdict::pass);
   endpoint.memory["%MW1"] = "00FE";
   EXPECT_EQ(judged(R"({"check": {"%MW1": "00FF"}})").message, "%MW1 holds 00FE, 00FF is due");
+}
+
+/// Of a device whose moments nobody can see, what comes out in the end is judged.
+TEST_F(JudgeTest, ALookThatIsPassedOverIsNoVerdict) {
+  endpoint.can.back_door = true;
+  endpoint.memory["%MW1"] = "00FF";
+  passed_over = {0};
+  const auto ends_with = [this](const std::string& due) {
+    return judged(R"({"check": {"%MW1": "0001"}}, {"check": {"%MW1": ")" + due + "\"}}");
+  };
+  const Judgement right = ends_with("00FF");
+  EXPECT_EQ(right.verdict, Verdict::inconclusive);
+  EXPECT_EQ(right.message,
+            "what is seen at rest is right; not judged: 1 of 2 looks, at what is so for "
+            "milliseconds, which no request that is sent here hits");
+  const Judgement wrong = ends_with("00FE");
+  EXPECT_EQ(wrong.verdict, Verdict::fail);
+  EXPECT_EQ(wrong.message, "%MW1 holds 00FF, 00FE is due");
+  EXPECT_THAT(wrong.notes, testing::Contains(HasSubstr("not judged: 1 of 2 looks")));
 }
 
 TEST_F(JudgeTest, NumbersAreToldAsTheyWereWritten) {

@@ -29,7 +29,7 @@ results::Recording make_recording(const PreparedCase& prepared, const Transcript
   recording.station = prepared.station;
   for (const exchange::StepRecord& step : transcript.steps)
     recording.steps.push_back({step.cause, step.memory, step.refused, step.refused_by_device,
-                               step.cause != Time{} || step.deadline != Time{}});
+                               step.passed_over, step.cause != Time{} || step.deadline != Time{}});
   recording.flooded = transcript.flooded;
   recording.dead = transcript.dead;
   recording.timing_floor = rules.timing_floor;
@@ -71,6 +71,7 @@ Result<Transcript> replay(const results::CaseResult& recorded, const PreparedCas
     record.memory = outcome.memory;
     record.refused = outcome.refused;
     record.refused_by_device = outcome.refused_by_device;
+    record.passed_over = outcome.passed_over;
   }
   transcript.events = {recorded.exchange.begin(), recorded.exchange.end()};
   transcript.trace = recorded.trace;

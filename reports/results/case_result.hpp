@@ -57,6 +57,7 @@ struct StepOutcome {
   std::vector<std::pair<std::string, std::string>> memory;  // check: address, and what it held
   std::string refused;  // set, check, do: why it could not be done
   bool refused_by_device = false;
+  bool passed_over = false;  // check: at a moment that the endpoint cannot keep; not judged
   bool timed = true;  // `stimulus` is a moment; not in files, where 0 is none or the beginning
 };
 

@@ -109,6 +109,7 @@ void fields(auto& json, Of<Event> auto& event) {
 
 void fields(auto& json, Of<StepOutcome> auto& step) {
   json.may("memory", step.memory);
+  json.may("passed_over", step.passed_over);
   json.may("refused", step.refused);
   json.may("refused_by_device", step.refused_by_device);
   json.may("stimulus_ms", step.stimulus);

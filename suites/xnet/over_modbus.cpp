@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "src/xnet/areas.hpp"
@@ -109,7 +108,9 @@ class OverModbus : public Protocol, public harness::Probing, public harness::Mem
     return ladder_.written_by(action, objects_.series());
   }
   std::vector<Setting> premises(std::string_view axis) const override { return at_rest(axis); }
-  bool wants_moments(const std::vector<std::vector<Setting>>& looks) const override;
+  std::vector<bool> of_a_moment(const std::vector<Look>& looks) const override {
+    return looks_under_way(looks, objects_.series());
+  }
   unsigned last_axis() const override { return protocol().last_axis(); }
   std::string moves(std::string_view action) const override { return axis_of_action(action); }
   std::string moved_by(std::string_view address) const override {
@@ -125,20 +126,6 @@ class OverModbus : public Protocol, public harness::Probing, public harness::Mem
   modbus_suite::XinjeObjects objects_;
   Ladder ladder_;
 };
-
-/// An axis that is under way, or whose objects change between two looks.
-bool OverModbus::wants_moments(const std::vector<std::vector<Setting>>& looks) const {
-  std::map<std::string, std::string> seen;
-  for (const std::vector<Setting>& look : looks)
-    for (const auto& [address, value] : look) {
-      if (moved_by(address).empty()) continue;
-      const std::optional<Component> one = xnet::find_component(address, objects_.series());
-      const bool running = one->area->bits && one->number % 20 == 1 && value == "01";
-      const auto [before, fresh] = seen.try_emplace(address, value);
-      if (running || (!fresh && before->second != value)) return true;
-    }
-  return false;
-}
 
 }  // namespace
 

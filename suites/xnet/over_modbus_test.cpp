@@ -84,12 +84,30 @@ TEST(XnetOverModbus, WhatMovesAnAxisIsTold) {
   EXPECT_EQ(protocol.moved_by("D0"), "");
 }
 
+std::vector<bool> passing(const std::vector<Protocol::Look>& looks) {
+  return over_modbus_rtu().of_a_moment(looks);
+}
+
 TEST(XnetOverModbus, AnAxisUnderWayIsNotLookedAtFromAfar) {
-  const Protocol& protocol = over_modbus_rtu();
-  EXPECT_TRUE(protocol.wants_moments({{{"SM2001", "01"}}}));
-  EXPECT_TRUE(protocol.wants_moments({{{"SD2008", "dec32(10)"}}, {{"SD2008", "dec32(20)"}}}));
-  EXPECT_FALSE(protocol.wants_moments({{{"SD2008", "dec32(20)"}, {"SM2001", "00"}}}));
-  EXPECT_FALSE(protocol.wants_moments({{{"D0", "0001"}}, {{"D0", "0002"}}}));
+  EXPECT_THAT(passing({{{"SM2001", "01"}}}), ElementsAre(true));
+  EXPECT_THAT(passing({{{"B:SM2021", "01"}}}), ElementsAre(true)) << "axis 2 of a partner";
+  EXPECT_THAT(passing({{{"SD2072", "00010000"}}}), ElementsAre(true)) << "a speed";
+  EXPECT_THAT(passing({{{"SD2008", ""}}}), ElementsAre(true)) << "a range";
+  EXPECT_THAT(passing({{{"SD2008", "00140000"}, {"SM2001", "00"}}}), ElementsAre(false));
+  EXPECT_THAT(passing({{{"SD2008", ""}, {"SM2001", "00"}}}), ElementsAre(false)) << "it stands";
+  EXPECT_THAT(passing({{{"SD2008", ""}, {"SM2021", "00"}}}), ElementsAre(true)) << "another stands";
+  EXPECT_THAT(passing({{{"D0", "0001"}}, {{"D0", "0002"}}}), ElementsAre(false, false));
+}
+
+TEST(XnetOverModbus, OnTheWayToTheLastLookAnAxisMayBeAnywhere) {
+  EXPECT_THAT(passing({{{"SD2008", "000A0000"}}, {{"SD2008", "00140000"}}}),
+              ElementsAre(true, false));
+  EXPECT_THAT(passing({{{"SD2008", "000A0000"}}, {{"SM2001", "01"}}, {{"SD2010", "00000000"}}}),
+              ElementsAre(true, true, false));
+  EXPECT_THAT(passing({{{"SM2001", "00"}}, {{"SM2001", "01"}}}), ElementsAre(true, true));
+  EXPECT_THAT(passing({{{"SM2001", "00"}, {"SD2008", "00000000"}}, {{"SD2020", ""}}}),
+              ElementsAre(false, true))
+      << "the first says that it stands";
 }
 
 }  // namespace

@@ -27,18 +27,18 @@ auto against(const Behaviour& behaviour) {
   };
 }
 
-class TheSuite : public testing::TestWithParam<Fault> {};
+class XnetSuite : public testing::TestWithParam<Fault> {};
 
-TEST_P(TheSuite, Catches) {
+TEST_P(XnetSuite, Catches) {
   broken::expect_caught(GetParam(), cases(), against(GetParam().make()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Broken, TheSuite, testing::ValuesIn(faults()),
+INSTANTIATE_TEST_SUITE_P(Broken, XnetSuite, testing::ValuesIn(faults()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(HealthyPlcs, PassTheWholeSuite) { broken::expect_healthy(cases(), 700, against({})); }
 
-TEST(FaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 80); }
+TEST(XnetFaultTable, NamesAreUnique) { broken::expect_unique_names(faults(), 80); }
 
 }  // namespace
 }  // namespace fieldproof::xnet_broken
