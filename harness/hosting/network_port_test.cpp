@@ -173,7 +173,7 @@ TEST_F(NetworkPortTest, AFreshDeviceHasNoLinks) {
   EXPECT_EQ(next().event, LinkEvent::opened);
 }
 
-TEST(Listening, AddressesAreReadAndLoopbackIsMeantWhereNoneIsGiven) {
+TEST(HostListening, AddressesAreReadAndLoopbackIsMeantWhereNoneIsGiven) {
   const auto read = [](const std::string& text, std::optional<std::uint16_t> usual = 502) {
     const Result<os::SocketName> name = read_address(text, usual);
     return name ? to_string(*name) : name.error().message;
@@ -187,7 +187,7 @@ TEST(Listening, AddressesAreReadAndLoopbackIsMeantWhereNoneIsGiven) {
   EXPECT_THAT(read("127.0.0.1:65536"), HasSubstr("'65536' is no port"));
 }
 
-TEST(Listening, SaysWhyItCannot) {
+TEST(HostListening, SaysWhyItCannot) {
   const os::UniqueFd taken = os::test::bound(SOCK_STREAM);
   const auto port =
       open_network_port({":" + std::to_string(os::test::port_of(taken)), "", 502, 502});
