@@ -1,4 +1,5 @@
-// Runs the tests of one room of a wing (rooms.cmake): --room=src/plc; without it, all.
+// Runs the tests of one room of a wing (rooms.cmake): --room=src/plc, with --gtest_filter=-X those
+// but X; without it, all.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -18,7 +19,7 @@ std::string tests_in(std::string_view room) {
       const testing::TestInfo& test = *suite.GetTestInfo(k);
       const std::string folder = std::filesystem::path(test.file()).parent_path().generic_string();
       if (folder.ends_with("/" + std::string(room)))
-        filter += std::string(suite.name()) + "." + test.name() + ":";
+        filter += (filter.empty() ? "" : ":") + std::string(suite.name()) + "." + test.name();
     }
   }
   return filter;
@@ -30,11 +31,13 @@ int main(int argc, char** argv) {
   testing::InitGoogleMock(&argc, argv);
   constexpr std::string_view option = "--room=";
   if (argc > 1 && std::string_view(argv[1]).starts_with(option)) {
-    const std::string filter = tests_in(std::string_view(argv[1]).substr(option.size()));
+    std::string filter = tests_in(std::string_view(argv[1]).substr(option.size()));
     if (filter.empty()) {
       std::cerr << "no test lies in " << argv[1] << "\n";
       return 2;
     }
+    const std::string but = testing::GTEST_FLAG(filter);
+    if (but.starts_with('-')) filter += but;
     testing::GTEST_FLAG(filter) = filter;
   }
   return RUN_ALL_TESTS();
