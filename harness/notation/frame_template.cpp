@@ -247,14 +247,16 @@ Result<Bytes> render(const FrameTemplate& frame, const Captures& captures) {
 std::optional<std::size_t> first_mismatch(const FrameTemplate& frame, ByteView received,
                                           Captures& captures) {
   if (!frame.open) {
-    const auto [expected, actual] = std::ranges::mismatch(frame.bytes, received);
-    if (expected == frame.bytes.end() && actual == received.end()) return std::nullopt;
+    if (std::ranges::equal(frame.bytes, received)) return std::nullopt;  // at once; mostly it is
+    const auto expected = std::ranges::mismatch(frame.bytes, received).in1;
     return static_cast<std::size_t>(expected - frame.bytes.begin());
   }
   Captures found = captures;
   const std::size_t common = std::min(frame.bytes.size(), received.size());
-  for (std::size_t i = 0; i < common; ++i)
+  for (std::size_t i = 0; i < common; ++i) {
+    if (frame.bytes[i] == received[i] && frame.cells[i].kind == Cell::Kind::literal) continue;
     if (!cell_matches(frame, i, received, found)) return i;
+  }
   if (frame.bytes.size() != received.size()) return common;
   captures = std::move(found);
   return std::nullopt;

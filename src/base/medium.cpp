@@ -22,10 +22,10 @@ Burst receive_in_step(std::span<Medium* const> media, Time until) {
     if (std::optional<Burst> burst = take_from_any(media)) return std::move(*burst);
     const Time now = media.front()->now();
     until = std::max(until, now);
-    const Time next = first_event(media, until);
-    for (Medium* medium : media) medium->run(next);
-    // What one did at this moment may have given another something to do at it.
-    if (next == until && first_event(media, Time::max()) > until) break;
+    const Time next = first_event(media, Time::max());
+    for (Medium* medium : media) medium->run(std::min(next, until));
+    // What one did may have given another something to do at the same moment.
+    if (next > until) break;
   }
   if (std::optional<Burst> burst = take_from_any(media)) return std::move(*burst);
   for (Medium* medium : media)

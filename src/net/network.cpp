@@ -93,7 +93,11 @@ std::optional<Burst> SimulatedNetwork::take() {
 }
 
 std::optional<Time> SimulatedNetwork::next_event() const {
-  std::optional<Time> next = host_ ? host_->wake_at() : std::nullopt;
+  return next_event(host_ ? host_->wake_at() : std::nullopt);
+}
+
+std::optional<Time> SimulatedNetwork::next_event(std::optional<Time> wake) const {
+  std::optional<Time> next = wake;
   if (!flights_.empty())
     next = next ? std::min(*next, flights_.begin()->first) : flights_.begin()->first;
   if (next) next = std::max(*next, now_);
@@ -101,28 +105,32 @@ std::optional<Time> SimulatedNetwork::next_event() const {
 }
 
 void SimulatedNetwork::run(Time until, bool until_heard) {
+  std::optional<Time> wake = host_ ? host_->wake_at() : std::nullopt;
   for (;;) {
-    const std::optional<Time> next = next_event();
+    const std::optional<Time> next = next_event(wake);
     if (!next || *next > until) break;
     now_ = *next;
-    deliver_due();
+    const bool told = deliver_due();
     if (until_heard && !inbox_.empty()) return;
-    wake_host();
+    if (told || (wake && *wake <= now_)) wake = wake_host();
   }
   now_ = std::max(now_, until);
 }
 
-void SimulatedNetwork::deliver_due() {
+bool SimulatedNetwork::deliver_due() {
+  bool told = false;
   while (!flights_.empty() && flights_.begin()->first <= now_) {
     Flight flight = std::move(flights_.begin()->second);
     flights_.erase(flights_.begin());
     join_following(flight);
     flight.burst.start = now_;
+    told |= flight.to_host;
     if (flight.to_host)
-      deliver_to_host(std::move(flight.burst));
+      deliver_to_host(flight.burst);
     else
       deliver_to_bench(std::move(flight.burst));
   }
+  return told;
 }
 
 /// Bytes of the same link that are due now, too, as far as chance joins them.
@@ -139,7 +147,7 @@ void SimulatedNetwork::join_following(Flight& flight) {
   }
 }
 
-void SimulatedNetwork::deliver_to_host(Burst burst) {
+void SimulatedNetwork::deliver_to_host(const Burst& burst) {
   Link& link = links_.at(burst.link);
   if (!link.stands || !host_) return;
   const bool begins = burst.event == LinkEvent::opened || burst.event == LinkEvent::datagram;
@@ -152,7 +160,7 @@ void SimulatedNetwork::deliver_to_host(Burst burst) {
   host_->receive(burst);
 }
 
-void SimulatedNetwork::deliver_to_bench(Burst burst) {
+void SimulatedNetwork::deliver_to_bench(Burst&& burst) {
   Link& link = links_.at(burst.link);
   if (!link.bench_hears) return;
   if (burst.event == LinkEvent::opened && !takes_connections_) {
@@ -163,11 +171,11 @@ void SimulatedNetwork::deliver_to_bench(Burst burst) {
   inbox_.push_back(std::move(burst));
 }
 
-void SimulatedNetwork::wake_host() {
-  if (!host_) return;
+std::optional<Time> SimulatedNetwork::wake_host() {
+  if (!host_) return std::nullopt;
   for (int wakes = 0;; ++wakes) {
     const std::optional<Time> wake = host_->wake_at();
-    if (!wake || *wake > now_) return;
+    if (!wake || *wake > now_) return wake;
     if (wakes == most_wakes_at_one_moment) {
       throw std::logic_error(
           fmt::format("the host asks to be woken at {} ns without end; its advance must move "
@@ -178,7 +186,7 @@ void SimulatedNetwork::wake_host() {
   }
 }
 
-void SimulatedNetwork::host_does(Burst burst) {
+void SimulatedNetwork::host_does(Burst&& burst) {
   const bool own = burst.link >= first_own_link;
   const auto found = links_.find(burst.link);
   if (found == links_.end()) {
@@ -198,7 +206,7 @@ void SimulatedNetwork::host_does(Burst burst) {
   dispatch(false, link, std::move(burst));
 }
 
-void SimulatedNetwork::host_connects(Burst burst) {
+void SimulatedNetwork::host_connects(Burst&& burst) {
   Link& link = links_[burst.link];
   link.transport = burst.event == LinkEvent::opened ? Transport::tcp : Transport::udp;
   link.port = burst.port;
@@ -207,8 +215,8 @@ void SimulatedNetwork::host_connects(Burst burst) {
 }
 
 /// Cuts a segment into the pieces in which it travels.
-void SimulatedNetwork::dispatch(bool to_host, Link& link, Burst burst) {
-  if (burst.event == LinkEvent::datagram) return send_datagram(to_host, std::move(burst));
+void SimulatedNetwork::dispatch(bool to_host, Link& link, Burst&& burst) {
+  if (burst.event == LinkEvent::datagram) return send_datagram(to_host, burst);
   if (burst.event != LinkEvent::data || conditions_.cut == 0)
     return fly(to_host, link, std::move(burst));
   Bytes piece;
@@ -220,13 +228,13 @@ void SimulatedNetwork::dispatch(bool to_host, Link& link, Burst burst) {
   if (!piece.empty()) fly(to_host, link, {.bytes = std::move(piece), .link = burst.link});
 }
 
-void SimulatedNetwork::fly(bool to_host, Link& link, Burst burst) {
+void SimulatedNetwork::fly(bool to_host, Link& link, Burst&& burst) {
   Time& last = to_host ? link.to_host : link.to_bench;
   last = std::max(last, now_ + travel());
   flights_.emplace(last, Flight{to_host, std::move(burst)});
 }
 
-void SimulatedNetwork::send_datagram(bool to_host, Burst burst) {
+void SimulatedNetwork::send_datagram(bool to_host, const Burst& burst) {
   if (chance_.happens(conditions_.lost)) return;
   const bool doubled = chance_.happens(conditions_.doubled);
   for (int copies = doubled ? 2 : 1; copies > 0; --copies) {

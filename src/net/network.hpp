@@ -71,17 +71,18 @@ class SimulatedNetwork : public Medium {
   using Flights = std::multimap<Time, Flight>;  // by arrival
 
   void run(Time until, bool until_heard);
-  void deliver_due();
-  void deliver_to_host(Burst burst);
-  void deliver_to_bench(Burst burst);
+  std::optional<Time> next_event(std::optional<Time> wake) const;  // the host wakes then
+  bool deliver_due();                                              // something to the host?
+  void deliver_to_host(const Burst& burst);
+  void deliver_to_bench(Burst&& burst);
   void join_following(Flight& flight);
-  void wake_host();
-  void host_does(Burst burst);
-  void host_connects(Burst burst);
+  std::optional<Time> wake_host();  // when it wakes next
+  void host_does(Burst&& burst);
+  void host_connects(Burst&& burst);
 
-  void dispatch(bool to_host, Link& link, Burst burst);
-  void fly(bool to_host, Link& link, Burst burst);
-  void send_datagram(bool to_host, Burst burst);
+  void dispatch(bool to_host, Link& link, Burst&& burst);
+  void fly(bool to_host, Link& link, Burst&& burst);
+  void send_datagram(bool to_host, const Burst& burst);
   Duration travel() { return conditions_.delay + chance_.up_to(conditions_.jitter); }
 
   Conditions conditions_;

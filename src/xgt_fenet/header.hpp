@@ -56,8 +56,8 @@ constexpr std::uint16_t word_at(ByteView bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] | bytes[at + 1] << 8);
 }
 inline void put_word(Bytes& bytes, std::size_t value) {
-  bytes.push_back(static_cast<Byte>(value));
-  bytes.push_back(static_cast<Byte>(value >> 8));
+  const Byte word[] = {static_cast<Byte>(value), static_cast<Byte>(value >> 8)};
+  bytes.insert(bytes.end(), word, word + 2);
 }
 
 }  // namespace fieldproof::xgt_fenet
