@@ -42,6 +42,11 @@ install_packages() {
   fi
 }
 
+# compilers: how many at once; one a core, as far as there are 2.5 GB for each (a wing of the house takes 2).
+compilers() {
+  awk -v cores="$(nproc)" '/^MemAvailable/ { n = int($2 / 2500000) } END { print n < 1 ? 1 : n < cores ? n : cores }' /proc/meminfo
+}
+
 # build PRESET: configures when needed and builds. Quiet unless it fails. Two presets never configure at once.
 build() {
   local preset=$1 log="build/$1.log"
@@ -59,5 +64,5 @@ build() {
     cmake --preset "$preset" "${launcher[@]}" >"$log" 2>&1 || { cat "$log" >&2; return 3; }
   fi
   [ -x "build/$preset/fieldproof" ] || say "Building $preset (the first time takes minutes) ..."
-  cmake --build --preset "$preset" >"$log" 2>&1 || { grep -v '^\[' "$log" | tail -n 60 >&2; say "The build failed; all of it is in $log"; return 3; }
+  cmake --build --preset "$preset" --parallel "$(compilers)" >"$log" 2>&1 || { grep -v '^\[' "$log" | tail -n 60 >&2; say "The build failed; all of it is in $log"; return 3; }
 }
