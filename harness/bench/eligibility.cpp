@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "harness/bench/device_set_up.hpp"
-#include "harness/bench/moments.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/safety/placement.hpp"
 #include "harness/safety/transposition.hpp"
@@ -337,7 +336,13 @@ Ruling Eligibility::blocked(const Case& source, const PreparedCase& prepared) co
   return {};
 }
 
-Ruling Eligibility::below_floor(const PreparedCase& prepared) const {
+/// Those that no request here hits; none where each moment is kept.
+Moments Eligibility::moments(const PreparedCase& prepared) const {
+  if (endpoint_.capabilities().wire || prepared.source->on_model.empty()) return {};
+  return moments_of(prepared, protocol_);
+}
+
+Ruling Eligibility::below_floor(const PreparedCase& prepared, const Moments& moments) const {
   const endpoints::Capabilities& can = endpoint_.capabilities();
   if (can.wire) return {};
   const json& config = prepared.source->config;
@@ -345,7 +350,6 @@ Ruling Eligibility::below_floor(const PreparedCase& prepared) const {
     return {Verdict::inconclusive,
             "is about speed and character format, which a pty or socket does not carry"};
   if (const std::string& kind = prepared.source->on_model; !kind.empty()) {
-    const Moments moments = moments_of(prepared, protocol_);
     if (kind == "timing" || moments.alone)
       return {Verdict::inconclusive,
               "looks at what is so for milliseconds, which no request that is sent here hits"};
@@ -403,10 +407,9 @@ ReadyCase Eligibility::ready(const Case& source) const {
   }
   if (std::string why = real ? fence_objection(*prepared) : ""; !why.empty())
     return declined({Verdict::blocked, why});
-  if (const Ruling why = below_floor(*prepared); !why.may_run()) return declined(why);
-  if (!endpoint_.capabilities().wire && !source.on_model.empty())
-    for (const std::size_t step : moments_of(*prepared, protocol_).steps)
-      prepared->steps[step].passed_over = true;
+  const Moments passing = moments(*prepared);
+  if (const Ruling why = below_floor(*prepared, passing); !why.may_run()) return declined(why);
+  for (const std::size_t step : passing.steps) prepared->steps[step].passed_over = true;
   ready.prepared = std::move(*prepared);
   return ready;
 }
@@ -416,7 +419,7 @@ Ruling Eligibility::unmoved(const Case& source) const {
   const Result<PreparedCase> prepared = prepare(source);
   if (!prepared) return {Verdict::error, prepared.error().message};
   if (Ruling why = blocked(source, *prepared); !why.may_run()) return why;
-  return below_floor(*prepared);
+  return below_floor(*prepared, moments(*prepared));
 }
 
 }  // namespace fieldproof::bench

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/bench/bench_options.hpp"
+#include "harness/bench/moments.hpp"
 #include "harness/endpoints/endpoint.hpp"
 #include "harness/exchange/arming.hpp"
 #include "harness/exchange/memory_access.hpp"
@@ -71,7 +72,8 @@ class Eligibility {
  private:
   Ruling outside_profile(const vectors::Case& source) const;
   Ruling blocked(const vectors::Case& source, const exchange::PreparedCase& prepared) const;
-  Ruling below_floor(const exchange::PreparedCase& prepared) const;
+  Moments moments(const exchange::PreparedCase& prepared) const;
+  Ruling below_floor(const exchange::PreparedCase& prepared, const Moments& moments) const;
   int station_for(const vectors::Case& source) const;
   bool places_memory_itself(const vectors::Case& source) const;
   std::string not_carried(const exchange::PreparedCase& prepared) const;

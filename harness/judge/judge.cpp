@@ -116,29 +116,31 @@ class Judge {
     const std::string not_read = fmt::format(
         "{} could not be read{}", fmt::join(unread_, ", "),
         counters_alone ? ": no request asks for counters" : "; give --aux, a second port of it");
-    if (findings_.missed() || findings_.result.verdict == Verdict::error ||
-        prepared_.source->line_alone)
+    if (stands_without_it() || prepared_.source->line_alone)
       return findings_.result.notes.push_back("judged on the wire alone: " + not_read);
-    if (!findings_.result.message.empty())
-      findings_.result.notes.push_back(findings_.result.message);
-    findings_.lower_to(Verdict::inconclusive,
-                       "the line shows nothing wrong, but what the case looks at in the device is "
-                       "not judged: " +
-                           not_read);
+    leave_open(
+        "the line shows nothing wrong, but what the case looks at in the device is not judged: " +
+        not_read);
   }
 
-  /// What came out in the end stands against the device; for it, all that the case looks at would
-  /// have to be right.
   void judge_passed_over() {
-    const std::string count = fmt::format("{} of {} looks", passed_over_, looks_);
-    constexpr std::string_view why =
-        "at what is so for milliseconds, which no request that is sent here hits";
-    Judgement& result = findings_.result;
-    if (result.verdict != Verdict::pass)
-      return result.notes.push_back(fmt::format("not judged: {}, {}", count, why));
-    findings_.lower_to(
-        Verdict::inconclusive,
-        fmt::format("what is seen at rest is right; not judged: {}, {}", count, why));
+    const std::string not_judged = fmt::format(
+        "not judged: {} of {} looks, at what is so for milliseconds, which no request that is sent "
+        "here hits",
+        passed_over_, looks_);
+    if (stands_without_it()) return findings_.result.notes.push_back(not_judged);
+    leave_open("what is seen at rest is right; " + not_judged);
+  }
+
+  /// What was seen against the device needs no more; for it, all would have to be right.
+  bool stands_without_it() const {
+    return findings_.missed() || findings_.result.verdict == Verdict::error;
+  }
+
+  void leave_open(std::string why) {
+    if (!findings_.result.message.empty())
+      findings_.result.notes.push_back(findings_.result.message);
+    findings_.lower_to(Verdict::inconclusive, std::move(why));
   }
 
   std::string without_end() const {

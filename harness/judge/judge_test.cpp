@@ -386,6 +386,17 @@ TEST_F(JudgeTest, ALookThatIsPassedOverIsNoVerdict) {
   EXPECT_THAT(wrong.notes, testing::Contains(HasSubstr("not judged: 1 of 2 looks")));
 }
 
+/// Nor is an allowed reading of what is seen at rest one.
+TEST_F(JudgeTest, ALookThatIsPassedOverLeavesAReadingOpen) {
+  endpoint.can.back_door = true;
+  endpoint.memory["%MW1"] = "0002";
+  passed_over = {0};
+  const Judgement other = judged(
+      R"({"check": {"%MW1": "0009"}}, {"check": {"reading": "r", "a": {"%MW1": "0001"}, "b": {"%MW1": "0002"}}})");
+  EXPECT_EQ(other.verdict, Verdict::inconclusive) << other.message;
+  EXPECT_EQ(other.readings.at("r"), "b");
+}
+
 TEST_F(JudgeTest, NumbersAreToldAsTheyWereWritten) {
   endpoint.can.back_door = true;
   endpoint.memory["SD8"] = "3A9B0000";

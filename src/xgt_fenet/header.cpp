@@ -28,12 +28,12 @@ Bytes encode_frame(const Header& header, ByteView body) {
   Bytes frame;
   frame.reserve(header_size + body.size());
   frame.insert(frame.end(), header.company.begin(), header.company.end());
-  const auto low = [](std::size_t word) { return static_cast<Byte>(word); };
-  const auto high = [](std::size_t word) { return static_cast<Byte>(word >> 8); };
-  const std::array fields{low(header.plc_info), high(header.plc_info), header.cpu_info,
-                          header.source,        low(header.invoke),    high(header.invoke),
-                          low(body.size()),     high(body.size()),     header.position};
-  frame.insert(frame.end(), fields.begin(), fields.end());
+  put_word(frame, header.plc_info);
+  frame.push_back(header.cpu_info);
+  frame.push_back(header.source);
+  put_word(frame, header.invoke);
+  put_word(frame, body.size());
+  frame.push_back(header.position);
   frame.push_back(header_check(frame));
   frame.insert(frame.end(), body.begin(), body.end());
   return frame;

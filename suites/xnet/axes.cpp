@@ -82,8 +82,10 @@ Seen seen_in(const Protocol::Look& look, xnet::Series series) {
     if (!value) continue;
     seen.any = true;
     const bool speed = value->is(xnet::reg::speed) || value->is(xnet::reg::set_speed);
-    if (value->is(xnet::reg::running))
-      is_zero(digits) ? (void)seen.standing.insert(value->axis) : (void)(seen.moving = true);
+    if (value->is(xnet::reg::running) && is_zero(digits))
+      seen.standing.insert(value->axis);
+    else if (value->is(xnet::reg::running))
+      seen.moving = true;
     else if (digits.empty() || (speed && !is_zero(digits)))
       passing.insert(value->axis);
   }
