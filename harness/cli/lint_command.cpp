@@ -11,6 +11,7 @@
 #include "harness/run/tool_vectors.hpp"
 #include "harness/vectors/decisions.hpp"
 #include "harness/vectors/errata.hpp"
+#include "harness/vectors/lint/citation_rules.hpp"
 #include "harness/vectors/lint/lint.hpp"
 #include "harness/vectors/loader.hpp"
 #include "reports/results/whole_file.hpp"
@@ -100,6 +101,7 @@ int lint_command(const LintOptions& options, const harness::Protocols& protocols
   add(problems, vectors::lint_statements(set));
   add(problems, vectors::lint_errata(set));
   add(problems, vectors::lint_decisions(set));
+  add(problems, vectors::lint_citation_rules(folder, set));
   add(problems, vectors::lint_readings(set));
   add(problems, vectors::lint_tables(set, protocols));
   add(problems, lint_profiles(data.profiles, set, options.vectors.empty(), protocols));

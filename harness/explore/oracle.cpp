@@ -52,33 +52,41 @@ struct Sending {
   bool ended = false;  // by the device: the connection, behind it
 };
 
+/// Where a request went.
+struct Ask {
+  std::size_t step;
+  std::string link;
+};
+
 /// The requests as steps, each with a silence in which the answer comes.
 struct Asked {
   Case one;
-  std::vector<std::size_t> sends;  // the step of each request
+  std::vector<Ask> asks;
 };
 
 /// Up to the first after which something came that belongs to none; and no further than a minute,
 /// since servers end connections that rest.
 std::vector<Sending> sendings_in(const exchange::Transcript& transcript,
-                                 const std::vector<std::size_t>& sends) {
+                                 const std::vector<Ask>& asks) {
   using Kind = results::Event::Kind;
+  const auto ask_in = [&](std::size_t step) { return std::ranges::find(asks, step, &Ask::step); };
   std::vector<Sending> sendings;
   for (const results::Event& event : transcript.events) {
     const auto step = static_cast<std::size_t>(event.step);
     if (event.kind == Kind::sent && event.step >= 0) {
       if (event.start - transcript.events.front().start > 60s) break;
-      const auto number = static_cast<std::size_t>(std::ranges::find(sends, step) - sends.begin());
+      const auto number = static_cast<std::size_t>(ask_in(step) - asks.begin());
       const bool ended = !sendings.empty() && sendings.back().ended;
       if (ended && number < sendings.size()) sendings.pop_back();  // in the middle of it
       if (ended) break;
       sendings.resize(number + 1);
       sendings.back().end = event.end;
     } else if (event.kind == Kind::closed || event.kind == Kind::reset) {
-      if (event.by_device && sendings.empty()) break;
-      if (event.by_device) sendings.back().ended = true;
-    } else if (event.kind == Kind::received &&
-               (event.surplus || std::ranges::find(sends, step) != sends.end())) {
+      if (!event.by_device) continue;
+      // One that rests, or a client that is one too many.
+      if (sendings.empty() || event.link != asks[sendings.size() - 1].link) break;
+      sendings.back().ended = true;
+    } else if (event.kind == Kind::received && (event.surplus || ask_in(step) != asks.end())) {
       break;
     }
   }
@@ -86,13 +94,13 @@ std::vector<Sending> sendings_in(const exchange::Transcript& transcript,
 }
 
 /// Up to the first that no case can tell in order.
-std::vector<Answer> answers_in(const exchange::Transcript& transcript,
-                               const std::vector<std::size_t>& sends, std::size_t longest_frame) {
+std::vector<Answer> answers_in(const exchange::Transcript& transcript, const std::vector<Ask>& asks,
+                               std::size_t longest_frame) {
   const exchange::Shares shares = exchange::shares_of(transcript);
-  const std::vector<Sending> sendings = sendings_in(transcript, sends);
+  const std::vector<Sending> sendings = sendings_in(transcript, asks);
   std::vector<Answer> answers;
-  for (std::size_t i = 0; i < sendings.size() && sends[i] + 1 < shares.steps.size(); ++i) {
-    const exchange::Received& heard = shares.steps[sends[i] + 1].received;
+  for (std::size_t i = 0; i < sendings.size() && asks[i].step + 1 < shares.steps.size(); ++i) {
+    const exchange::Received& heard = shares.steps[asks[i].step + 1].received;
     if (!in_one_piece(heard, sendings[i].end, longest_frame)) break;
     answers.push_back({heard.bytes, sendings[i].ended});
   }
@@ -105,14 +113,45 @@ Step power_cycle() {
   return step;
 }
 
+/// The steps of requests on their connections, each of which is opened before its first one. Where
+/// there is one alone, that is the implicit one.
+class StepsOnLinks {
+ public:
+  explicit StepsOnLinks(const std::vector<Request>& requests)
+      : several_(std::ranges::any_of(
+            requests, [&](const Request& one) { return one.link != requests.front().link; })) {}
+
+  std::string name_of(const Request& request) const {
+    return several_ ? fmt::format("c{}", request.link + 1) : std::string();
+  }
+
+  /// What comes before the request is sent.
+  void begin(const Request& request, std::vector<Step>& steps) {
+    if (request.off_before) steps.push_back(power_cycle());
+    if (several_ && open_.insert(request.link).second)
+      add(request, step_of(Step::Kind::open), steps);
+  }
+  void add(const Request& request, Step step, std::vector<Step>& steps) const {
+    step.on = name_of(request);
+    steps.push_back(std::move(step));
+  }
+  std::size_t open() const { return open_.size(); }
+
+ private:
+  bool several_;
+  std::set<std::size_t> open_;
+};
+
 Asked asked_of(const std::vector<Request>& requests, const Protocol& protocol) {
   Asked asked;
   asked.one.protocol = protocol.name();
+  StepsOnLinks links(requests);
   for (const Request& request : requests) {
-    if (request.off_before) asked.one.steps.push_back(power_cycle());
-    asked.sends.push_back(asked.one.steps.size());
-    asked.one.steps.push_back(send_of(request));
-    asked.one.steps.push_back(step_of(Step::Kind::silence));
+    std::vector<Step>& steps = asked.one.steps;
+    links.begin(request, steps);
+    asked.asks.push_back({steps.size(), links.name_of(request)});
+    links.add(request, send_of(request), steps);
+    links.add(request, step_of(Step::Kind::silence), steps);
   }
   return asked;
 }
@@ -193,7 +232,7 @@ Result<std::vector<Answer>> Oracle::ask(const std::vector<Request>& requests, co
   const exchange::Transcript transcript =
       exchange::Exchange(device, *protocol_, {}).run_steps(*prepared);
   if (transcript.trouble) return *transcript.trouble;
-  return answers_in(transcript, asked.sends, protocol_->longest_frame());
+  return answers_in(transcript, asked.asks, protocol_->longest_frame());
 }
 
 namespace {
@@ -218,9 +257,10 @@ void found(Case& one, const std::vector<Request>& requests, const std::vector<An
     one.decisions = {{own_model_decision, own_model_sentence}};
 }
 
-std::string title_of(const Request& last, std::size_t others) {
-  const std::string title = fmt::format("A request of {} ({})", last.topic, last.kind);
-  return others == 0 ? title : fmt::format("{} behind {} others", title, others);
+std::string title_of(const Request& last, std::size_t others, std::size_t links) {
+  std::string title = fmt::format("A request of {} ({})", last.topic, last.kind);
+  if (others > 0) title += fmt::format(" behind {} others", others);
+  return links < 2 ? title : fmt::format("{} on {} connections", title, links);
 }
 
 }  // namespace
@@ -230,19 +270,21 @@ Case case_of(const std::vector<Request>& requests, const std::vector<Answer>& an
   Case one = case_of_own_model(protocol);
   one.id = one.vector_id = std::move(id);
   one.memory = memory;
+  StepsOnLinks links(
+      {requests.begin(), requests.begin() + static_cast<std::ptrdiff_t>(answers.size())});
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    const Answer& answer = answers[i];
-    if (requests[i].off_before) one.steps.push_back(power_cycle());
-    one.steps.push_back(send_of(requests[i]));
-    if (!answer.bytes.empty()) one.steps.push_back(expect_of(answer, protocol, station));
-    if (answer.ended)
-      one.steps.push_back(step_of(Step::Kind::expect_close));
-    else if (answer.bytes.empty())
-      one.steps.push_back(step_of(Step::Kind::silence));
+    const auto add = [&](Step step) { links.add(requests[i], std::move(step), one.steps); };
+    links.begin(requests[i], one.steps);
+    add(send_of(requests[i]));
+    if (!answers[i].bytes.empty()) add(expect_of(answers[i], protocol, station));
+    if (answers[i].ended)
+      add(step_of(Step::Kind::expect_close));
+    else if (answers[i].bytes.empty())
+      add(step_of(Step::Kind::silence));
   }
   found(one, requests, answers, protocol);
   const Request& last = requests[answers.size() - 1];
-  one.title = title_of(last, answers.size() - 1);
+  one.title = title_of(last, answers.size() - 1, links.open());
   one.why = answers.back().learnt ? "what the device answered to this before"
                                   : "what fieldproof's own device answers";
   one.why += "; the last request comes from " + last.vector;

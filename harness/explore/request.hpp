@@ -29,6 +29,7 @@ struct Request {
   std::vector<harness::Protocol::Written> names{};  // memory that it named before it was damaged
   Clause clause{};                                  // of its vector
   bool off_before = false;  // the power of the device goes off and on before it is sent
+  std::size_t link = 0;     // of the connections to a server on a network
 };
 
 /// As a client may send it: not as a bad line makes it, of which hardly a manual says anything.

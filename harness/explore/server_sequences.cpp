@@ -262,7 +262,19 @@ std::vector<Request> ServerSequences::requests_of_one() {
     // it must: on real time nothing of the same sequence comes behind it.
     if (pieces && server_.over_the_wire) break;
   }
+  spread(requests);
   return requests;
+}
+
+/// Connections must not be mixed up: what one was asked, or has got half of, is no matter of
+/// another.
+void ServerSequences::spread(std::vector<Request>& requests) {
+  constexpr std::size_t most = 3, fewest = 2;
+  const bool line = server_.protocol->default_port() == 0;
+  const std::size_t taken = server_.config.value("connections", most);
+  if (line || taken < fewest || !random_.chance(30)) return;
+  const std::size_t links = std::min(most, taken);
+  for (Request& one : requests) one.link = random_.below(links);
 }
 
 /// Nothing: it would go where no request may.
@@ -332,7 +344,7 @@ Sequence::Own ServerSequences::answered(std::vector<Request> requests, const Mem
   Result<std::vector<Answer>> answers = oracle_.ask(requests, memory, Past::none);
   if (!answers || answers->empty()) return nullptr;
   if (server_.over_the_wire && depends_on_the_past(requests, memory, *answers)) return nullptr;
-  if (server_.over_the_wire) cut_behind_silence(*answers);
+  if (server_.over_the_wire) cut_behind_silence(requests, *answers);
   std::vector<std::string> open = put_learnt(requests, *answers);
   if (answers->empty()) return nullptr;
   requests.resize(answers->size());
@@ -341,11 +353,15 @@ Sequence::Own ServerSequences::answered(std::vector<Request> requests, const Mem
 }
 
 /// A server on a connection that says nothing may wait for the rest of a frame, and whatever comes
-/// then is that: on real time, a wait for each.
-void ServerSequences::cut_behind_silence(std::vector<Answer>& answers) const {
+/// on it then is that: on real time, a wait for each.
+void ServerSequences::cut_behind_silence(const std::vector<Request>& requests,
+                                         std::vector<Answer>& answers) const {
   if (server_.protocol->default_port() == 0) return;
-  const auto silent = std::ranges::find_if(answers, &Bytes::empty, &Answer::bytes);
-  if (silent != answers.end()) answers.erase(std::next(silent), answers.end());
+  std::set<std::size_t> silent;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (silent.contains(requests[i].link)) return answers.resize(i);
+    if (answers[i].bytes.empty()) silent.insert(requests[i].link);
+  }
 }
 
 bool ServerSequences::depends_on_the_past(const std::vector<Request>& requests,

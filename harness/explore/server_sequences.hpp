@@ -48,13 +48,14 @@ class ServerSequences : public Inventor {
   void have_any_past();
   bool depends_on_the_past(const std::vector<Request>& requests, const Memory& memory,
                            const std::vector<Answer>& answers);
-  void cut_behind_silence(std::vector<Answer>& answers) const;
+  void cut_behind_silence(const std::vector<Request>& requests, std::vector<Answer>& answers) const;
   std::vector<std::string> put_learnt(const std::vector<Request>& requests,
                                       std::vector<Answer>& answers) const;
   std::vector<Request> requests_of_one();
   std::optional<Request> look(const std::vector<Request>& requests, HotWords& hot);
   void change(Request& request, HotWords& hot);
   std::optional<Request> invent_one(bool faultless, HotWords& hot);
+  void spread(std::vector<Request>& requests);
   bool has_room(const Request& request) const;
   bool can_be_sent(const Request& request) const;
 

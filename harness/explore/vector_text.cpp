@@ -40,8 +40,10 @@ ordered_json object_of(const Step& step) {
     case Step::Kind::set: one["set"] = object_of(step.memory); break;
     case Step::Kind::check: one["check"] = object_of(step.memory); break;
     case Step::Kind::act: one["do"] = step.action; break;
+    case Step::Kind::open: one["open"] = step.on; return one;
     default: break;  // no sequence has such
   }
+  if (!step.on.empty()) one["on"] = step.on;
   return one;
 }
 

@@ -48,9 +48,11 @@ Reading SureAccess::once(const Requests& requests, std::size_t digits) {
 }
 
 /// What is damaged may be followed by more of it. (After silence MemoryAccess waits by itself.)
-/// False: by more than the longest frame has.
+/// False: by more than the longest frame has. On a network more of it belongs to a connection that
+/// is no more.
 bool SureAccess::settle() {
   memory_.leave();
+  if (device_.endpoint->capabilities().connections) return true;
   const Duration silence = exchange::ExchangeTiming().late_watch;
   const Result<bool> silent =
       exchange::settle(*device_.endpoint, silence,

@@ -32,9 +32,10 @@ struct Source {
 /// printed.
 struct Frame {
   std::string alternative;  // its name; empty where there is one frame alone
-  std::string text;         // notation as written
+  std::string text;         // notation, with the framing of its protocol
   notation::Notation notation;
   std::optional<std::string> wire;  // "05 30 ??"
+  std::string body{};               // as written, where a framing was put around it: "pdu(03 ...)"
 };
 
 /// One of our own devices in the partner's chair: it answers what a client asks, well or by a

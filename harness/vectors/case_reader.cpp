@@ -283,7 +283,9 @@ class StepReader {
   }
 
   Frame frame(const std::string& reading, const json& text, const json* wire, bool sends) {
-    Frame frame{reading, dressed(text_of(text, row_), sends), {}, {}};
+    std::string written = text_of(text, row_);
+    Frame frame{reading, dressed(written, sends), {}, {}};
+    if (frame.text != written) frame.body = std::move(written);
     Result<notation::Notation> notation = notation::parse_notation(frame.text);
     if (!notation) throw Broken(fmt::format("\"{}\": {}", frame.text, notation.error().message));
     frame.notation = std::move(*notation);

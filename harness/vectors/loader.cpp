@@ -168,7 +168,8 @@ class FolderLoader {
   }
 
   void load_file(const fs::path& path, const std::string& name) {
-    if (name.ends_with("schema.json") || name.starts_with("wires/") || name == "faults.json")
+    if (name.ends_with("schema.json") || name.starts_with("wires/") ||
+        name.starts_with("citations/") || name == "faults.json")
       return;
     guarded(name, [&] {
       std::string text = text_of_file(path);

@@ -50,7 +50,7 @@ TEST_F(Installed, takes_its_own_vectors_and_profiles) {
   std::filesystem::copy(*folder_ / "usr", *folder_ / "own",
                         std::filesystem::copy_options::recursive);
   const std::string data = *folder_ / "own/share/fieldproof";
-  const std::set<std::string> of_no_protocol{"errata", "statements", "wires"};
+  const std::set<std::string> of_no_protocol{"citations", "errata", "statements", "wires"};
   std::vector<std::filesystem::path> folders;
   for (const auto& entry : std::filesystem::directory_iterator(data + "/vectors"))
     if (entry.is_directory() && !of_no_protocol.contains(entry.path().filename()))

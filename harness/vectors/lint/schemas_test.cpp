@@ -1,4 +1,4 @@
-// vectors/schema.json, which editors read, and the table that the loader checks by, are one.
+// The schemas of vectors/, which editors read, and the tables that we check by, are one.
 #include "harness/vectors/vector_shape.hpp"
 
 #include <gmock/gmock.h>
@@ -8,9 +8,10 @@
 #include <regex>
 
 #include "harness/vectors/errata.hpp"
+#include "harness/vectors/lint/citation_rules.hpp"
 #include "reports/results/whole_file.hpp"
 
-namespace fieldproof::vectors::vector_shape_test {
+namespace fieldproof::vectors::schemas_test {
 namespace {
 
 using nlohmann::json;
@@ -126,8 +127,12 @@ TEST(ErratumShape, IsWhatTheSchemaSaysToEditors) {
   expect_one(schema_file("errata.schema.json"), erratum_shape());
 }
 
+TEST(CitationRuleShape, IsWhatTheSchemaSaysToEditors) {
+  expect_one(schema_file("citations.schema.json"), citation_rule_shape());
+}
+
 TEST(VectorShape, EveryDefinitionOfTheSchemaIsUsed) {
-  for (const char* schema : {"schema.json", "errata.schema.json"}) {
+  for (const char* schema : {"schema.json", "errata.schema.json", "citations.schema.json"}) {
     const json file = schema_file(schema);
     for (const auto& [name, definition] : file["definitions"].items())
       EXPECT_THAT(file.dump(), testing::HasSubstr("\"#/definitions/" + name + "\""));
@@ -154,4 +159,4 @@ TEST(VectorShape, PatternsAndTheirCodeAgree) {
 }
 
 }  // namespace
-}  // namespace fieldproof::vectors::vector_shape_test
+}  // namespace fieldproof::vectors::schemas_test

@@ -1,0 +1,239 @@
+#include "harness/vectors/lint/citation_rules.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <unordered_map>
+
+#include "harness/vectors/citations.hpp"
+#include "harness/vectors/filter.hpp"
+#include "harness/vectors/in_threads.hpp"
+#include "harness/vectors/json/broken.hpp"
+#include "harness/vectors/json/files.hpp"
+#include "harness/vectors/json/pieces.hpp"
+#include "src/base/json_trouble.hpp"
+#include "src/base/nesting.hpp"
+
+namespace fieldproof::vectors {
+
+namespace rule_shapes {
+namespace {
+
+using Kind = Shape::Kind;
+
+constexpr std::array<std::string_view, 5> step_words{"send", "expect", "set", "check", "do"};
+constexpr std::array<std::string_view, 2> role_words{"server", "client"};
+constexpr Shape text{.least = 1};
+constexpr Shape sentence{.least = 10};
+constexpr Shape texts{.kind = Kind::list, .least = 1, .items = &text};
+constexpr Shape role{.words = role_words};
+constexpr Shape step{.words = step_words};
+constexpr Shape steps{.kind = Kind::list, .least = 1, .items = &step};
+constexpr Shape step_or_steps{.words = step_words, .instead = &steps};
+constexpr Shape statement{.least = 1, .instead = &texts};
+constexpr Shape statements{.kind = Kind::list, .least = 1, .items = &statement};
+constexpr std::array keys{Key{"rule", &text, true},    Key{"cases", &text},
+                          Key{"role", &role},          Key{"step", &step_or_steps, true},
+                          Key{"matches", &text, true}, Key{"cite", &statements},
+                          Key{"decide", &texts},       Key{"says", &sentence, true}};
+constexpr Shape rule{.kind = Kind::object, .keys = keys};
+
+}  // namespace
+}  // namespace rule_shapes
+
+namespace {
+
+using json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::array kinds_of_rules{Step::Kind::send, Step::Kind::expect, Step::Kind::set,
+                                    Step::Kind::check, Step::Kind::act};
+
+Step::Kind step_named(std::string_view word) {
+  const auto at = std::ranges::find(rule_shapes::step_words, word);
+  return kinds_of_rules.at(static_cast<std::size_t>(at - rule_shapes::step_words.begin()));
+}
+
+/// A text, or a list of texts.
+std::vector<std::string> one_or_more(const json& value) {
+  if (value.is_string()) return {value.get<std::string>()};
+  return value.get<std::vector<std::string>>();
+}
+
+std::regex regex_of(const std::string& pattern) {
+  try {
+    return std::regex(pattern, std::regex::ECMAScript | std::regex::optimize);
+  } catch (const std::regex_error& error) {
+    throw Broken(fmt::format("matches: '{}' is no regular expression: {}", pattern, error.what()));
+  }
+}
+
+CitationRule rule_of(const json& value, std::string at) {
+  CitationRule rule{value["rule"],
+                    value["says"],
+                    value.value("cases", ""),
+                    value.value("role", ""),
+                    {},
+                    value["matches"],
+                    {},
+                    {},
+                    {},
+                    std::move(at)};
+  rule.matches = regex_of(rule.pattern);
+  for (const std::string& word : one_or_more(value["step"])) rule.steps.push_back(step_named(word));
+  for (const json& one : value.value("cite", json::array())) rule.cite.push_back(one_or_more(one));
+  rule.decide = one_or_more(value.value("decide", json::array()));
+  if (rule.cite.empty() && rule.decide.empty())
+    throw Broken("asks for nothing: it needs \"cite\", \"decide\" or both");
+  return rule;
+}
+
+/// What a step says, as a rule sees it: notation, "ADDRESS=DIGITS", an action.
+std::vector<std::string> texts_of(const Step& step) {
+  std::vector<std::string> texts;
+  for (const Frame& frame : step.frames)
+    texts.push_back(frame.body.empty() ? frame.text : frame.body);
+  for (const auto& [address, digits] : step.memory) texts.push_back(address + '=' + digits);
+  for (const CheckedValues& other : step.alternatives)
+    for (std::size_t i = 0; i < other.digits.size(); ++i)
+      texts.push_back(step.memory.at(i).first + '=' + other.digits[i]);
+  if (!step.action.empty()) texts.push_back(step.action);
+  return texts;
+}
+
+/// A rule against all cases. Many cases say the same: each text is searched once.
+class Application {
+ public:
+  explicit Application(const CitationRule& rule) : rule_(rule) {}
+
+  void apply(const Case& one) {
+    if (!has_role(one, rule_.role) || !matches_filter(one.id, rule_.cases)) return;
+    if (!std::ranges::any_of(one.steps, [&](const Step& step) { return meets(step); })) return;
+    met_ = true;
+    const std::string lacks = lacking(one);
+    // The cases of a vector lack the same, mostly.
+    if (!lacks.empty() && told_.insert(one.vector_id + lacks).second)
+      problems.push_back(fmt::format("{}: {}: {}: {} ({}, {})", one.file, one.id, rule_.says, lacks,
+                                     rule_.id, rule_.at));
+  }
+
+  void end() {
+    if (!met_)
+      problems.push_back(
+          fmt::format("{}: {}: no step of a case matches '{}'; correct it or take the rule out",
+                      rule_.at, rule_.id, rule_.pattern));
+  }
+
+  std::vector<std::string> problems;
+
+ private:
+  bool meets(const Step& step) {
+    if (std::ranges::find(rule_.steps, step.kind) == rule_.steps.end()) return false;
+    return std::ranges::any_of(texts_of(step), [&](const std::string& text) {
+      const auto [known, is_new] = known_.emplace(text, false);
+      if (is_new) known->second = std::regex_search(text, rule_.matches);
+      return known->second;
+    });
+  }
+
+  std::string lacking(const Case& one) const {
+    const std::vector<std::string_view> cited = cited_by(one);
+    std::vector<std::string> lacks;
+    for (const std::vector<std::string>& any : rule_.cite)
+      if (std::ranges::none_of(any, [&](const std::string& glob) {
+            return std::ranges::any_of(
+                cited, [&](std::string_view id) { return matches_filter(id, glob); });
+          }))
+        lacks.push_back(fmt::format("cites no {}", fmt::join(any, " or ")));
+    for (const std::string& id : rule_.decide)
+      if (std::ranges::find(one.decisions, id, &Decision::id) == one.decisions.end())
+        lacks.push_back(fmt::format("names no decision {}", id));
+    return fmt::format("{}", fmt::join(lacks, ", "));
+  }
+
+  const CitationRule& rule_;
+  bool met_ = false;
+  std::unordered_map<std::string, bool> known_;
+  std::set<std::string> told_;
+};
+
+/// What a rule asks for that there is not.
+std::vector<std::string> unknowns(const CitationRule& rule, const VectorSet& set) {
+  std::vector<std::string> problems;
+  const auto problem = [&](const std::string& what) {
+    problems.push_back(fmt::format("{}: {}: {}", rule.at, rule.id, what));
+  };
+  const StatementsById known = statements_by_id(set);
+  for (const std::vector<std::string>& any : rule.cite)
+    for (const std::string& glob : any)
+      if (std::ranges::none_of(set.statements,
+                               [&](const Statement& one) { return matches_filter(one.id, glob); }))
+        problem(no_statement(glob, known));
+  for (const std::string& id : rule.decide)
+    if (std::ranges::find(set.decisions, id, &Decision::id) == set.decisions.end())
+      problem(fmt::format("no decision '{}' in DECISIONS.md", id));
+  return problems;
+}
+
+std::vector<std::string> broken_rules(const std::vector<CitationRule>& rules, const VectorSet& set) {
+  std::vector<std::vector<std::string>> found(rules.size());
+  in_threads(rules.size(), [&](std::size_t i) {
+    found[i] = unknowns(rules[i], set);
+    Application one(rules[i]);
+    for (const Case& each : set.cases) one.apply(each);
+    one.end();
+    std::ranges::move(one.problems, std::back_inserter(found[i]));
+  });
+  std::vector<std::string> problems;
+  for (std::vector<std::string>& some : found)
+    std::ranges::move(some, std::back_inserter(problems));
+  return problems;
+}
+
+}  // namespace
+
+const Shape& citation_rule_shape() { return rule_shapes::rule; }
+
+std::vector<CitationRule> read_citation_rules(std::string_view file_text, const std::string& file) {
+  const std::optional<std::vector<Piece>> pieces = cut(file_text);
+  if (!pieces) {
+    [[maybe_unused]] const json whole =
+        json::parse(not_too_deep(file_text));  // throws what is wrong, mostly
+    throw Broken("is no list of objects, as a file of rules is; see vectors/README.md");
+  }
+  std::vector<CitationRule> rules;
+  for (const Piece& piece : *pieces) {
+    const json value = json::parse(not_too_deep(piece.text));
+    const std::vector<std::string> problems = shape_problems(value, citation_rule_shape());
+    if (!problems.empty())
+      throw Broken(fmt::format("line {}: {}", piece.line, fmt::join(problems, "; ")));
+    rules.push_back(rule_of(value, fmt::format("{}:{}", file, piece.line)));
+  }
+  return rules;
+}
+
+std::vector<std::string> lint_citation_rules(const fs::path& folder, const VectorSet& set) {
+  if (!fs::is_directory(folder / "citations")) return {};
+  std::vector<std::string> problems;
+  std::vector<CitationRule> rules;
+  std::set<std::string> ids;
+  for (const fs::path& path : json_files(folder / "citations")) {
+    const std::string name = fs::relative(path, folder).generic_string();
+    try {
+      std::ranges::move(read_citation_rules(text_of_file(path), name), std::back_inserter(rules));
+    } catch (const std::exception& error) {
+      problems.push_back(fmt::format("{}: {}", name, json_trouble(error)));
+    }
+  }
+  for (const CitationRule& rule : rules)
+    if (!ids.insert(rule.id).second)
+      problems.push_back(fmt::format("{}: the rule {} stands twice", rule.at, rule.id));
+  std::ranges::move(broken_rules(rules, set), std::back_inserter(problems));
+  return problems;
+}
+
+}  // namespace fieldproof::vectors
