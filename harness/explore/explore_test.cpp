@@ -476,6 +476,76 @@ class OneCodeForAnother : public Answering {
   }
 };
 
+/// All answers go to the client that came first.
+class AnswersTheFirst : public plc::EmulatedDevice, public net::Host {
+ public:
+  explicit AnswersTheFirst(std::unique_ptr<plc::EmulatedDevice> right) : right_(std::move(right)) {}
+
+  net::Host* network() override { return this; }
+  Status set(std::string_view address, std::string_view hex) override {
+    return right_->set(address, hex);
+  }
+  Result<std::string> get(std::string_view address, std::size_t digits) const override {
+    return right_->get(address, digits);
+  }
+  Status act(std::string_view action) override { return right_->act(action); }
+
+  bool listens(Transport transport, std::uint16_t port) const override {
+    return right_->network()->listens(transport, port);
+  }
+  void receive(const Burst& burst) override {
+    if (burst.event == LinkEvent::opened) open_.insert(burst.link);
+    if (burst.event == LinkEvent::closed || burst.event == LinkEvent::reset)
+      open_.erase(burst.link);
+    right_->network()->receive(burst);
+  }
+  std::optional<Time> wake_at() const override { return right_->network()->wake_at(); }
+  std::vector<Burst> advance(Time now) override {
+    std::vector<Burst> done = right_->network()->advance(now);
+    for (Burst& burst : done)
+      if (burst.event == LinkEvent::data && !open_.empty()) burst.link = *open_.begin();
+    return done;
+  }
+
+ private:
+  std::unique_ptr<plc::EmulatedDevice> right_;
+  std::set<LinkId> open_;
+};
+
+TEST(Explorer, ConnectionsThatAreMixedUpAreFound) {
+  const Protocol& tcp = protocol("modbus-tcp");
+  InProcess device(tcp, wrapped_in<AnswersTheFirst>(tcp));
+  Explorer one = explorer(tcp, device, cases("modbus_tcp"));
+  while (one.findings().empty() && one.requests_sent() < 3000) one.step();
+  ASSERT_FALSE(one.findings().empty());
+  const Finding& finding = one.findings().begin()->second;
+  const std::string text = vector_text(finding.shortest);
+  EXPECT_THAT(finding.shortest.title, HasSubstr("on 2 connections"));
+  EXPECT_THAT(text, AllOf(HasSubstr("\"open\": \"c1\""), HasSubstr("\"on\": \"c2\"")));
+  InProcess good(tcp);
+  vectors::VectorSet set;
+  vectors::load_vector_text(text, "f.json", set, {suites::protocols()});
+  EXPECT_THAT(set.problems, IsEmpty());
+  ASSERT_EQ(set.cases.size(), 1u);
+  EXPECT_EQ(good.run(set.cases.front()).verdict, Verdict::pass);
+  EXPECT_EQ(device.run(set.cases.front()).verdict, Verdict::fail);
+}
+
+/// Who takes one client at a time says so.
+TEST(ServerSequences, GoOverNoMoreConnectionsThanThereAre) {
+  const Protocol& tcp = protocol("modbus-tcp");
+  const std::string model = tcp.models().front();
+  const nlohmann::json one_at_a_time{{"connections", 1}};
+  ServerSequences sequences(Server{.protocol = &tcp, .config = one_at_a_time},
+                            std::move(*Oracle::open(tcp, model, 1, one_at_a_time)),
+                            requests_of(cases("modbus_tcp"), tcp, model), 1);
+  for (int i = 0; i < 100; ++i) {
+    const Sequence::Own one = sequences.invent();
+    if (!one) continue;
+    for (const vectors::Step& step : one->as_case("x").steps) EXPECT_EQ(step.on, "");
+  }
+}
+
 TEST(Explorer, TheSameFaultIsOneFinding) {
   const Protocol& cnet = protocol("xgt-cnet");
   InProcess device(cnet, wrapped_in<OneCodeForAnother>(cnet));

@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 VectorSet two_vectors() {
   VectorSet set;
   load_vector_text(R"j([
-    {"id": "xgt_cnet/read", "title": "a read", "level": "must", "basis": "derived", "why": "w", "decision": ["cnet/order"],
+    {"id": "xgt_cnet/read", "title": "a read of one element", "level": "must", "basis": "derived", "why": "it follows", "decision": ["cnet/order"],
      "statement": ["m/title", "m/read-${type}"], "each": {"type": [{"case": "bit", "type": "bit", "t": "00"}, {"case": "word", "type": "word", "t": "02"}]},
      "steps": [{"send": "[54 ${t}]"}, {"expect": {"reading": "r", "long": "[55 ${t}]", "short": "[56]"}}]},
-    {"id": "xgt_cnet/client/flag", "title": "a flag", "level": "must", "basis": "printed rule", "statement": "m/title",
+    {"id": "xgt_cnet/client/flag", "title": "a flag of a block", "level": "must", "basis": "printed rule", "statement": "m/title",
      "given": {"config": {"role": "client"}},
      "steps": [{"expect": "[54 00]"}, {"check": {"%LW512": "0001"}, "clause": "m/flag-ndr"}]}])j",
                    "f.json", set);
@@ -38,7 +38,8 @@ std::vector<std::string> said(const std::vector<std::string>& rules) {
   fs::create_directories(folder / "citations");
   std::ofstream file(folder / "citations/r.json");
   for (std::size_t i = 0; i < rules.size(); ++i) file << (i ? ",\n{" : "[\n{") << rules[i] << '}';
-  (file << "]\n").close();
+  file << "]\n";
+  file.close();
   return lint_citation_rules(folder, two_vectors());
 }
 
