@@ -288,6 +288,24 @@ TEST(Framings, MayDependOnWhoSpeaks) {
   EXPECT_EQ(frames("client"), "[04 07][03 08]");
 }
 
+TEST(Framings, MayRestOnOtherSentencesStepByStep) {
+  const auto with_clauses = [](const std::string& clauses) {
+    std::string text = shared;
+    const std::string why = "\"why\": \"the same in digits\"";
+    text.replace(text.find(why), why.size(),
+                 why + ", \"models\": [\"m-1\"], \"clauses\": " + clauses);
+    return load(text, {protocols});
+  };
+  const VectorSet set = with_clauses(R"({"1": ["m/3", "m/1"]})");
+  ASSERT_THAT(set.problems, IsEmpty());
+  EXPECT_THAT(set.cases[0].steps[1].source.statements, IsEmpty());
+  EXPECT_THAT(set.cases[2].steps[1].source.statements, ElementsAre("m/3", "m/1"));
+  EXPECT_THAT(set.cases[0].models, IsEmpty());
+  EXPECT_THAT(set.cases[2].models, ElementsAre("m-1"));
+  EXPECT_THAT(with_clauses(R"({"2": "m/3"})").problems,
+              ElementsAre(HasSubstr("differs: clauses: there is no step '2'; the first is 0")));
+}
+
 TEST(Framings, HaveTheirOwnBytesAndSources) {
   const VectorSet set = load(shared, {protocols});
   EXPECT_EQ(set.cases[0].steps[0].frames[0].wire, "01 03");

@@ -156,9 +156,11 @@ constexpr Shape basis{.words = basis_words};
 constexpr std::array argued{Demand{"basis", argued_words, "why", ""}};
 constexpr Shape decision{.form = &decision_id};
 constexpr Shape decisions{.kind = Kind::list, .least = 1, .items = &decision};
+constexpr Shape clauses{.kind = Kind::object, .least = 1, .open = true, .others = &text_or_texts};
 constexpr std::array difference_keys{
-    Key{"title", &title}, Key{"describes", &reason}, Key{"statement", &text_or_texts},
-    Key{"basis", &basis}, Key{"why", &reason},       Key{"decision", &decisions}};
+    Key{"title", &title},  Key{"describes", &reason}, Key{"statement", &text_or_texts},
+    Key{"basis", &basis},  Key{"why", &reason},       Key{"decision", &decisions},
+    Key{"models", &texts}, Key{"clauses", &clauses}};
 constexpr Shape difference{
     .kind = Kind::object, .least = 1, .keys = difference_keys, .demands = argued};
 constexpr Shape differs{.kind = Kind::object, .least = 1, .open = true, .others = &difference};

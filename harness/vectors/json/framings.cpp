@@ -35,6 +35,18 @@ void take_wire(const std::string& framing, const std::vector<std::string>& frami
   if (by_framing.contains(framing)) step["wire"] = by_framing[framing];
 }
 
+/// What single steps rest on in this framing: {"1": "MANUAL/ID"}.
+void take_clauses(json& result) {
+  const json clauses = result["clauses"];
+  result.erase("clauses");
+  for (const auto& [index, clause] : clauses.items()) {
+    const bool number = index.find_first_not_of("0123456789") == std::string::npos;
+    if (!number || index.size() > 3 || std::stoul(index) >= result["steps"].size())
+      throw Broken(fmt::format("differs: clauses: there is no step '{}'; the first is 0", index));
+    result["steps"][std::stoul(index)]["clause"] = clause;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> framings_of(const json& vector) {
@@ -57,6 +69,7 @@ json framed(const json& vector, const std::string& framing) {
     result.erase("differs");
     if (differs.contains(framing)) result.update(differs[framing]);
   }
+  if (result.contains("clauses")) take_clauses(result);
   if (result.contains("steps"))
     for (std::size_t i = 0; i < result["steps"].size(); ++i)
       take_wire(framing, framings, i, result["steps"][i]);
