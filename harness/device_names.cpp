@@ -25,14 +25,14 @@ std::optional<std::int64_t> elements_in(const plc::DeviceAddress& address, int w
   return words / width;
 }
 
-/// The decimal number `text` plus `step`, in as many digits.
-std::optional<std::string> add_to(std::string_view text, std::int64_t step) {
+/// The decimal number `text` plus `step`; in no fewer digits.
+std::optional<std::string> add_to(std::string_view text, std::int64_t step, Digits digits) {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size() || number + step < 0)
     return std::nullopt;
   std::string sum = fmt::format("{:0{}}", number + step, text.size());
-  if (sum.size() != text.size()) return std::nullopt;
+  if (digits == Digits::as_many && sum.size() != text.size()) return std::nullopt;
   return sum;
 }
 
@@ -128,8 +128,8 @@ std::optional<Protocol::Written> named_memory(const plc::PlcModel& model, std::s
   return memory_of(model, parsed.address, count, name);
 }
 
-std::optional<std::string> moved_name(const plc::PlcModel& model, std::string_view name,
-                                      int words) {
+std::optional<std::string> moved_name(const plc::PlcModel& model, std::string_view name, int words,
+                                      Digits digits) {
   const plc::ParsedAddress parsed = plc::parse_address(model, name);
   if (!parsed || name.find('.') != std::string_view::npos) return std::nullopt;
   // XBM and XBC: decimal word and one hex digit for the bit.
@@ -138,7 +138,7 @@ std::optional<std::string> moved_name(const plc::PlcModel& model, std::string_vi
   const std::string_view number = name.substr(3, name.size() - 3 - tail);
   const std::optional<std::int64_t> step =
       word_and_bit ? words : elements_in(parsed.address, words);
-  const std::optional<std::string> sum = step ? add_to(number, *step) : std::nullopt;
+  const std::optional<std::string> sum = step ? add_to(number, *step, digits) : std::nullopt;
   if (!sum) return std::nullopt;
   std::string moved =
       std::string(name.substr(0, 3)) + *sum + std::string(name.substr(name.size() - tail));

@@ -39,10 +39,14 @@ std::optional<Protocol::WordName> read_word_name(std::string_view text);
 std::optional<Protocol::Written> named_memory(const plc::PlcModel& model, std::string_view name,
                                               std::size_t digits);
 
-/// "%MW100" and 20: "%MW120"; "%MX0010A" and 4: "%MX0014A". As many characters, the same type and
-/// place in the word; a contact moves by contacts. Nothing where there is no such name: more
-/// digits, half a double word, past the area, "%IW0.0.0".
-std::optional<std::string> moved_name(const plc::PlcModel& model, std::string_view name, int words);
+/// Of a moved name: as many as before, where its length is on the wire; or what it needs.
+enum class Digits { as_many, any };
+
+/// "%MW100" and 20: "%MW120"; "%MX0010A" and 4: "%MX0014A". The same type and place in the word; a
+/// contact moves by contacts. Nothing where there is no such name: more digits than it may have,
+/// half a double word, past the area, "%IW0.0.0".
+std::optional<std::string> moved_name(const plc::PlcModel& model, std::string_view name, int words,
+                                      Digits digits = Digits::as_many);
 
 /// `written` as names: the words that the model has, and those past its area; each contact by
 /// itself. None of a read-only area.

@@ -84,14 +84,14 @@ std::set<ModbusBase> tables_of(const Protocol::Written& memory, bool named_by_bi
   return of_its_kind.empty() ? others : of_its_kind;
 }
 
-/// The same name in another area, so many words further on.
+/// The same name in another area, so many words further on. No name is on the wire.
 std::optional<std::string> renamed(const plc::PlcModel& model, std::string_view address, char area,
                                    std::int64_t words) {
   std::string name(address);
   const std::size_t letter = name.starts_with('%') ? 1 : 0;
   name[letter] = area;
   if (words == 0) return plc::parse_address(model, name) ? std::optional(name) : std::nullopt;
-  return harness::moved_name(model, name, static_cast<int>(words));
+  return harness::moved_name(model, name, static_cast<int>(words), harness::Digits::any);
 }
 
 bool is_named_by_bits(const Bases& bases, std::string_view address) {

@@ -43,6 +43,11 @@ TEST(Placing, WordsMayBeginElsewhere) {
             "%DW100 = 1234");
   EXPECT_EQ(where({{"word_write_base", "D0010"}}, "%MW100", "1234", {write_register}),
             "%DW110 = 1234");
+  EXPECT_EQ(where({{"word_write_base", "D1000"}}, "%MW1", "1234", {write_same_word}),
+            "%DW1001 = 1234")
+      << "in as many digits as it takes";
+  EXPECT_THAT(where({{"word_write_base", "M1023"}}, "%MW1", "1234", {write_same_word}),
+              HasSubstr("no such place behind the declared word_write_base"));
 }
 
 TEST(Placing, WhatTwoTablesHoldMustStayTogether) {
