@@ -290,11 +290,11 @@ TEST(Framings, MayDependOnWhoSpeaks) {
 
 TEST(Framings, MayRestOnOtherSentencesStepByStep) {
   const auto with_clauses = [](const std::string& clauses) {
-    std::string text = shared;
+    std::string vector = shared;
     const std::string why = "\"why\": \"the same in digits\"";
-    text.replace(text.find(why), why.size(),
+    vector.replace(vector.find(why), why.size(),
                  why + ", \"models\": [\"m-1\"], \"clauses\": " + clauses);
-    return load(text, {protocols});
+    return load(vector, {protocols});
   };
   const VectorSet set = with_clauses(R"({"1": ["m/3", "m/1"]})");
   ASSERT_THAT(set.problems, IsEmpty());
