@@ -120,7 +120,8 @@ class Vectors {
       const std::string name = fs::relative(entry.path(), path()).string();
       if (entry.path().extension() != ".json" || name.ends_with("schema.json") ||
           name == "manuals.json" || name == "sections.json" || name == "faults.json" ||
-          name.starts_with("statements/") || name.starts_with("errata/"))
+          name.starts_with("statements/") || name.starts_with("errata/") ||
+          name.starts_with("citations/"))
         continue;
       files_[name] = ordered_json::parse(read_text(entry.path()));
     }
