@@ -64,7 +64,7 @@ TEST_F(LiteralClient, WhoFollowsAllHasNothingBlockedAndNothingFailed) {
 }
 
 TEST_F(LiteralClient, EveryLineFollowsTheSchema) {
-  EXPECT_EQ(run("well", "xgt_cnet/client/schedule/link_off:xgt_cnet/client/schedule/f92",
+  EXPECT_EQ(run("well", "xgt_cnet/client/schedule/link_off:xgt_cnet/client/schedule/slow_partner",
                 {"--repeat", "2"})
                 .code,
             0);

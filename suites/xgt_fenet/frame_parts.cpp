@@ -150,6 +150,8 @@ class Reader {
     const unsigned main = *command & ~1u;
     const bool known = main == read_command || main == write_command;
     const bool reply = known && (*command & 1);
+    // The command 5300 is none, and its refusal has the next one, which is that of a request.
+    if (known && !reply && is_refusal()) return unknown();
     if (!known) return problem("5400 reads, 5800 writes; 5500 and 5900 answer"), unknown();
     fields_.back().text +=
         fmt::format(" {}{}", main == read_command ? "read" : "write", reply ? " reply" : "");
@@ -164,6 +166,11 @@ class Reader {
     if (!word("reserved")) return;
     if (reply) return reply_body(main == write_command, *type);
     request_body(main == write_command, *type);
+  }
+
+  /// What follows a command is that of a refusal: data type, reserved word, status FFFF, code.
+  bool is_refusal() const {
+    return from_server_ && left() == 8 && word_at(frame_, pos_ + 4) == 0xFFFF;
   }
 
   /// A refusal to a command that is none has the form of any other.

@@ -96,6 +96,15 @@ TEST(FenetExplain, SaysWhatIsWrong) {
   EXPECT_EQ(refusal.back().problem, "");
 }
 
+/// The one after 5300 is 5400, with which a request begins.
+TEST(FenetExplain, ARefusalOfTheCommandBeforeAKnownOneIsARefusal) {
+  const auto fields = protocol().explain(hex_bytes(
+      "4C 53 49 53 2D 58 47 54 00 00 07 01 B0 11 01 00 0A 00 01 30 54 00 02 00 00 00 FF FF 78 00"));
+  EXPECT_EQ(fields[fields.size() - 2].name, "status");
+  EXPECT_THAT(fields.back().text, HasSubstr("7800"));
+  EXPECT_EQ(fields.back().name, "error code");
+}
+
 TEST(FenetProtocol, IsOfANetwork) {
   EXPECT_EQ(protocol().default_port(), 2004);
   EXPECT_EQ(protocol().datagram_port(), 2005);

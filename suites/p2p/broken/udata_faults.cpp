@@ -96,6 +96,11 @@ std::vector<Fault> udata_faults() {
       {"udata_old_module", "a module older than V1.4 works, too",
        udata([](UdataConfig& config) { config.module.new_enough = true; }),
        "udata/status/senddtr_version_1_3", "%DW200 holds 0001"},
+      {"udata_built_in_is_old", "the built-in Cnet has the version of no module, and is too old",
+       udata([](UdataConfig& config) {
+         if (config.module.slot == 0) config.module.new_enough = false;
+       }),
+       "udata/status/senddtr_built_in", "%DW200 holds 0007"},
       {"udata_any_driver", "the driver of the channel does not matter",
        udata([](UdataConfig& config) { config.module.user_frames = true; }),
        "udata/status/senddtr_driver", "%DW200 holds 0001"},
