@@ -183,7 +183,7 @@ std::optional<LinkEvent> read_ending(const json& value) {
   return value == "fin" ? LinkEvent::closed : LinkEvent::reset;
 }
 
-constexpr std::array<std::pair<const char*, Step::Kind>, 12> kinds{
+constexpr std::array<std::pair<std::string_view, Step::Kind>, 12> kinds{
     {{"send", Step::Kind::send},
      {"expect", Step::Kind::expect},
      {"partner", Step::Kind::partner},
@@ -199,13 +199,13 @@ constexpr std::array<std::pair<const char*, Step::Kind>, 12> kinds{
 
 /// What kind of step it is. A partner may stand in an expect.
 Step::Kind kind_of(const json& value) {
-  std::vector<std::pair<const char*, Step::Kind>> found;
+  std::vector<std::pair<std::string_view, Step::Kind>> found;
   for (const auto& kind : kinds)
     if (value.contains(kind.first) &&
         !(kind.second == Step::Kind::partner && value.contains("expect")))
       found.push_back(kind);
   if (found.size() == 1) return found.front().second;
-  std::vector<const char*> names;
+  std::vector<std::string_view> names;
   for (const auto& [name, kind] : kinds) names.push_back(name);
   throw Broken(
       fmt::format("a step is one of {}; this one has {}", fmt::join(names, ", "), found.size()));
@@ -378,6 +378,12 @@ Case CaseReader::read(const Combination& combination) const {
       throw Broken(fmt::format("steps[{}]: {}", i, broken.what()));
     }
   return result;
+}
+
+Step::Kind step_kind(std::string_view key) {
+  for (const auto& [name, kind] : kinds)
+    if (name == key) return kind;
+  throw Broken(fmt::format("there is no step '{}'", key));
 }
 
 }  // namespace fieldproof::vectors

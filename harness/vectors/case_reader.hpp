@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "harness/notation/pdu.hpp"
 #include "harness/vectors/case.hpp"
@@ -26,5 +27,8 @@ class CaseReader {
   std::string file_;
   const notation::Dressing* dressing_;
 };
+
+/// The kind of a step with this key: "send", "do". Throws Broken where no step has it.
+Step::Kind step_kind(std::string_view key);
 
 }  // namespace fieldproof::vectors

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "harness/vectors/citations.hpp"
-#include "harness/vectors/json/broken.hpp"
 #include "harness/vectors/json/pieces.hpp"
 #include "src/base/nesting.hpp"
 
@@ -91,13 +90,7 @@ std::string complaint(const Passage& passage, const VectorSet& set, const Statem
 const Shape& erratum_shape() { return errata_shapes::erratum; }
 
 void load_errata(std::string_view file_text, const std::string& file, VectorSet& set) {
-  const std::optional<std::vector<Piece>> pieces = cut(file_text);
-  if (!pieces) {
-    [[maybe_unused]] const json whole =
-        json::parse(not_too_deep(file_text));  // throws what is wrong, mostly
-    throw Broken("is no list of objects, as a file of errata is; see vectors/README.md");
-  }
-  for (const Piece& piece : *pieces) {
+  for (const Piece& piece : pieces_of(file_text, "a file of errata")) {
     const std::string at = fmt::format("{}:{}", file, piece.line);
     const json value = json::parse(not_too_deep(piece.text));
     const std::vector<std::string> problems = shape_problems(value, erratum_shape());

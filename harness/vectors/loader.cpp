@@ -36,13 +36,7 @@ json parse_piece(const Piece& piece, std::string_view file_text) {
   }
 }
 
-/// Where the objects of a file are; throws what is wrong with it where they cannot be told.
-std::vector<Piece> pieces_of(std::string_view file_text) {
-  if (std::optional<std::vector<Piece>> pieces = cut(file_text)) return std::move(*pieces);
-  [[maybe_unused]] const json whole =
-      json::parse(not_too_deep(file_text));  // throws what is wrong, mostly
-  throw Broken("is no list of objects, as a file of vectors is; see vectors/README.md");
-}
+constexpr std::string_view of_vectors = "a file of vectors";
 
 /// The vectors of one file.
 class FileLoader {
@@ -52,7 +46,7 @@ class FileLoader {
       : text_(text), name_(name), options_(options), set_(set) {}
 
   void load() {
-    for (const Piece& piece : pieces_of(text_))
+    for (const Piece& piece : pieces_of(text_, of_vectors))
       if (is_wanted(piece)) load(piece);
   }
 
@@ -227,7 +221,7 @@ class FolderLoader {
     const auto known = loaded();
     for (const auto& [name, text] : statement_files_)
       guarded(name, [&] {
-        for (const Piece& piece : pieces_of(text))
+        for (const Piece& piece : pieces_of(text, of_vectors))
           if ((all || cited().contains(piece.id)) && !known.contains(piece.id))
             load_statement(parse_piece(piece, text));
       });

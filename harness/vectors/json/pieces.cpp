@@ -1,6 +1,12 @@
 #include "harness/vectors/json/pieces.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "harness/vectors/json/broken.hpp"
+#include "src/base/nesting.hpp"
 
 namespace fieldproof::vectors {
 
@@ -104,5 +110,12 @@ class Cutter {
 }  // namespace
 
 std::optional<std::vector<Piece>> cut(std::string_view text) { return Cutter(text).cut(); }
+
+std::vector<Piece> pieces_of(std::string_view file_text, std::string_view what) {
+  if (std::optional<std::vector<Piece>> pieces = cut(file_text)) return std::move(*pieces);
+  [[maybe_unused]] const auto whole =
+      nlohmann::ordered_json::parse(not_too_deep(file_text));  // throws what is wrong, mostly
+  throw Broken(fmt::format("is no list of objects, as {} is; see vectors/README.md", what));
+}
 
 }  // namespace fieldproof::vectors

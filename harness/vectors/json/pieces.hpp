@@ -18,4 +18,8 @@ struct Piece {
 /// neither, or is broken between them; inside them nothing is checked.
 std::optional<std::vector<Piece>> cut(std::string_view json);
 
+/// The same of a file; throws what is wrong with it where they cannot be told. `what` it should be,
+/// for the message: "a file of vectors".
+std::vector<Piece> pieces_of(std::string_view file_text, std::string_view what);
+
 }  // namespace fieldproof::vectors

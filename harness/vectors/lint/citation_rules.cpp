@@ -10,6 +10,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "harness/vectors/case_reader.hpp"
 #include "harness/vectors/citations.hpp"
 #include "harness/vectors/filter.hpp"
 #include "harness/vectors/in_threads.hpp"
@@ -51,14 +52,6 @@ namespace {
 using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::array kinds_of_rules{Step::Kind::send, Step::Kind::expect, Step::Kind::set,
-                                    Step::Kind::check, Step::Kind::act};
-
-Step::Kind step_named(std::string_view word) {
-  const auto at = std::ranges::find(rule_shapes::step_words, word);
-  return kinds_of_rules.at(static_cast<std::size_t>(at - rule_shapes::step_words.begin()));
-}
-
 /// A text, or a list of texts.
 std::vector<std::string> one_or_more(const json& value) {
   if (value.is_string()) return {value.get<std::string>()};
@@ -85,7 +78,7 @@ CitationRule rule_of(const json& value, std::string at) {
                     {},
                     std::move(at)};
   rule.matches = regex_of(rule.pattern);
-  for (const std::string& word : one_or_more(value["step"])) rule.steps.push_back(step_named(word));
+  for (const std::string& word : one_or_more(value["step"])) rule.steps.push_back(step_kind(word));
   for (const json& one : value.value("cite", json::array())) rule.cite.push_back(one_or_more(one));
   rule.decide = one_or_more(value.value("decide", json::array()));
   if (rule.cite.empty() && rule.decide.empty())
@@ -250,14 +243,8 @@ std::vector<std::string> broken_rules(const std::vector<CitationRule>& rules,
 const Shape& citation_rule_shape() { return rule_shapes::rule; }
 
 std::vector<CitationRule> read_citation_rules(std::string_view file_text, const std::string& file) {
-  const std::optional<std::vector<Piece>> pieces = cut(file_text);
-  if (!pieces) {
-    [[maybe_unused]] const json whole =
-        json::parse(not_too_deep(file_text));  // throws what is wrong, mostly
-    throw Broken("is no list of objects, as a file of rules is; see vectors/README.md");
-  }
   std::vector<CitationRule> rules;
-  for (const Piece& piece : *pieces) {
+  for (const Piece& piece : pieces_of(file_text, "a file of rules")) {
     const json value = json::parse(not_too_deep(piece.text));
     const std::vector<std::string> problems = shape_problems(value, citation_rule_shape());
     if (!problems.empty())
