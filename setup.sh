@@ -47,6 +47,20 @@ compilers() {
   awk -v cores="$(nproc)" '/^MemAvailable/ { n = int($2 / 2500000) } END { print n < 1 ? 1 : n < cores ? n : cores }' /proc/meminfo
 }
 
+# progress LOG: what a build prints goes to LOG; on a terminal, how far it is stands in one line.
+progress() {
+  if [ -t 2 ]; then
+    local line
+    while IFS= read -r line; do
+      printf '%s\n' "$line"
+      [[ $line == \[* ]] && printf '\r\033[K%s]' "${line%%]*}" >&2
+    done >"$1"
+    printf '\r\033[K' >&2
+  else
+    cat >"$1"
+  fi
+}
+
 # build PRESET: configures when needed and builds. Quiet unless it fails. Two presets never configure at once.
 build() {
   local preset=$1 log="build/$1.log"
@@ -64,5 +78,6 @@ build() {
     cmake --preset "$preset" "${launcher[@]}" >"$log" 2>&1 || { cat "$log" >&2; return 3; }
   fi
   [ -x "build/$preset/fieldproof" ] || say "Building $preset (the first time takes minutes) ..."
-  cmake --build --preset "$preset" --parallel "$(compilers)" >"$log" 2>&1 || { grep -v '^\[' "$log" | tail -n 60 >&2; say "The build failed; all of it is in $log"; return 3; }
+  cmake --build --preset "$preset" --parallel "$(compilers)" 2>&1 | progress "$log"
+  [ "${PIPESTATUS[0]}" = 0 ] || { grep -v '^\[' "$log" | tail -n 60 >&2; say "The build failed; all of it is in $log"; return 3; }
 }

@@ -20,9 +20,10 @@ inline constexpr std::string_view not_tried =
 
 class SetUpFindings {
  public:
-  /// Takes notice of a case that its set-up has blocked; of others none.
+  /// Takes notice of a case that its set-up has blocked, and how many others were judged.
   void note(const results::CaseResult& result);
-  /// FAIL for each way: what was sent, what came, and the cases that were blocked by it.
+  /// FAIL for each way: what was sent, what came, and the cases that were blocked by it. One write
+  /// that was not answered, where others were judged, is INCONCLUSIVE: an answer can be lost.
   std::vector<results::CaseResult> results() const;
 
  private:
@@ -30,7 +31,8 @@ class SetUpFindings {
     results::CaseResult first;  // case
     std::size_t cases = 0;
   };
-  std::map<std::string, Finding> findings_;  // by what the device did
+  std::map<std::string, Finding> findings_;    // by what the device did
+  std::map<std::string, std::size_t> judged_;  // cases, by protocol
 };
 
 }  // namespace fieldproof::bench

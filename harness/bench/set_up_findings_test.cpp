@@ -34,6 +34,24 @@ TEST(SetUpFindings, AreOneForEachWayInWhichWritesFail) {
   EXPECT_THAT(results[0].message, HasSubstr("no answer; 2 cases are BLOCKED by it, first p/a/3"));
 }
 
+/// Two in a row that are not answered are seen on devices that others wrote, under load.
+TEST(SetUpFindings, OneAnswerThatIsLostProvesNothing) {
+  results::CaseResult judged = blocked("p/a/1", "");
+  judged.verdict = Verdict::pass;
+  const auto verdict_of = [&](const std::vector<results::CaseResult>& run) {
+    SetUpFindings findings;
+    for (const results::CaseResult& one : run) findings.note(one);
+    return findings.results().at(0).verdict;
+  };
+  const results::CaseResult lost = blocked("p/a/2", "set-up: cannot set %MW1: no answer");
+  const results::CaseResult refused =
+      blocked("p/a/2", "set-up: cannot set %MW1: the device answers NAK 1132");
+  EXPECT_EQ(verdict_of({lost, judged}), Verdict::inconclusive);
+  EXPECT_EQ(verdict_of({lost}), Verdict::fail) << "nothing says that it answers at all";
+  EXPECT_EQ(verdict_of({lost, judged, lost}), Verdict::fail);
+  EXPECT_EQ(verdict_of({refused, judged}), Verdict::fail);
+}
+
 TEST(SetUpFindings, AreNoneWhereWritesAreTaken) {
   SetUpFindings findings;
   results::CaseResult failed = blocked("p/a/1", "set-up: cannot set %MW1: no answer");

@@ -95,6 +95,9 @@ Result<RunPlan> plan_of(run::RunOptions options, const harness::Protocols& proto
   Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   options.waivers.clear();
+  // Nothing is asked but what vectors of the protocol ask.
+  if (const harness::Protocol* protocol = protocols.find(options.protocol))
+    options.filter = vectors::folder_of(*protocol) + "/*";
   Result<RunPlan> plan = run::make_run_plan(options, protocols);
   if (!plan) return plan;
   plan->waivers = std::move(*waivers);

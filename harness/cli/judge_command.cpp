@@ -1,5 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <set>
 
 #include "harness/bench/files/waivers.hpp"
 #include "harness/bench/rejudge.hpp"
@@ -37,6 +40,14 @@ results::Gate gate_of(const JudgeOptions& options, const results::RunInfo& run) 
   return gate;
 }
 
+/// A filter for the vectors of these cases, and those beside them.
+std::string folders_of(const std::vector<results::CaseResult>& recorded) {
+  std::set<std::string> folders;
+  for (const results::CaseResult& one : recorded)
+    folders.insert(one.id.substr(0, one.id.find('/')) + "/*");
+  return fmt::format("{}", fmt::join(folders, ":"));
+}
+
 Result<JudgePlan> make_judge_plan(const JudgeOptions& options,
                                   const harness::Protocols& protocols) {
   JudgePlan plan;
@@ -51,7 +62,10 @@ Result<JudgePlan> make_judge_plan(const JudgeOptions& options,
         "cannot judge {} by the profile it was recorded with: {}; name one with --profile",
         options.file, profile.error().message));
   plan.profile = std::move(*profile);
-  Result<vectors::VectorSet> vectors = run::load_sound_vectors(options.vectors, protocols);
+  // A waiver may name any case.
+  Result<vectors::VectorSet> vectors = run::load_sound_vectors(
+      options.vectors, protocols,
+      options.waivers.empty() ? folders_of(plan.recorded.results) : std::string());
   if (!vectors) return vectors.error();
   plan.vectors = std::move(*vectors);
   if (const Status exist = run::check_decisions(plan.profile, plan.vectors); !exist)

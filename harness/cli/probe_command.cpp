@@ -212,7 +212,9 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
     if (endpoints::kind_of(*endpoint).local_port && !link.wire) space->settable = false;  // a pty
   }
   const std::vector<probe::Trial> plan = probe::make_plan(*space, protocols);
-  const Duration longest = probe::longest_time(plan, timing.wait) + timing.listen;
+  Duration longest = probe::longest_time(plan, timing.wait);
+  if (probe::starts_with_bench(*endpoint)) longest += std::min(longest, timing.starting);
+  longest += timing.listen;
   run::tell(fmt::format("{}", head(options, probe::filled(*space, protocols), plan, longest)));
   std::fflush(stdout);
 

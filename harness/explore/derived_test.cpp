@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "harness/vectors/loader.hpp"
+#include "harness/vectors/test_own_vectors.hpp"
 #include "suites/protocols.hpp"
 
 namespace fieldproof::explore {
@@ -18,8 +18,7 @@ using vectors::Step;
 
 std::vector<Case> derived_of(const std::string& filter, const std::string& wanted,
                              std::size_t at_most = 0) {
-  const std::vector<Case> cases =
-      vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors", {suites::protocols(), filter}).cases;
+  const std::vector<Case>& cases = vectors::test::own_vectors(suites::protocols(), filter).cases;
   Result<std::vector<Case>> derived =
       derived_cases(cases, suites::protocols(), at_most, 1,
                     [&](const std::string& id) { return id.find(wanted) != std::string::npos; });

@@ -13,6 +13,7 @@
 #include "harness/explore/server_sequences.hpp"
 #include "harness/explore/vector_text.hpp"
 #include "harness/vectors/loader.hpp"
+#include "harness/vectors/test_own_vectors.hpp"
 #include "suites/broken/wrapped_device.hpp"
 #include "suites/protocols.hpp"
 
@@ -39,10 +40,8 @@ std::vector<safety::WriteFence::Words> all_of_it(const std::string&) { return {{
 
 constexpr const char* read_word = "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]";
 
-std::vector<Case> cases(const char* folder) {
-  return vectors::load_vectors(FIELDPROOF_SOURCE_DIR "/vectors",
-                               {suites::protocols(), std::string(folder) + "/*"})
-      .cases;
+const std::vector<Case>& cases(const char* folder) {
+  return vectors::test::own_vectors(suites::protocols(), std::string(folder) + "/*").cases;
 }
 
 Bytes bytes_of(const Request& one, const Protocol& own) {

@@ -114,6 +114,22 @@ TEST(Search, FindsADeviceThatAnswersAfterTheWait) {
   EXPECT_EQ(findings.front().trial.station, 1);
 }
 
+/// A program that the bench starts takes a while to open its port.
+TEST(Search, AsksAgainWhatADeviceThatWasStartingDidNotHear) {
+  struct Starting final : Wire {
+    Starting(std::unique_ptr<Endpoint> inner, const LineSettings&) : Wire(std::move(inner)) {}
+    unsigned starts() const override { return 1; }
+    using endpoints::Endpoint::send;
+    Result<Sent> send(ByteView bytes, LinkId link) override {
+      return now() < up ? Sent{now(), now()} : inner_->send(bytes, link);
+    }
+    const Time up = now() + 3s;
+  };
+  const std::vector<Finding> findings = find(behind<Starting>(opener({})), small_space());
+  ASSERT_THAT(kinds(findings), testing::ElementsAre(Finding::Kind::device));
+  EXPECT_EQ(findings.front().trial.station, 1);
+}
+
 TEST(Search, SettingsThatThePortRefusesAreLeftOut) {
   const LineOpener inner = opener({.config = {{"station", 2}, {"line", "19200-8N1"}}});
   const LineOpener picky = [&](const LineSettings& line) -> Result<std::unique_ptr<Endpoint>> {

@@ -81,6 +81,10 @@ Result<bool> Prober::try_next(const Trial& trial, std::vector<Trial>& rest) {
     return symptom == Symptom::foreign_frame;
   }
   if (is_sure(symptom)) return confirm(trial);
+  if (seen->heard.silent() && !again && may_be_starting()) {
+    rest.push_back(trial);
+    ++total_;
+  }
   if (symptom == Symptom::damaged && again) return confirm(trial);
   if (symptom == Symptom::damaged) {
     // Perhaps the refusal of a device that speaks another protocol: those first, then this question
@@ -115,6 +119,10 @@ bool Prober::out_of_time(Duration grace) {
   return endpoint_->now() > *begun_ + timing_.budget + grace;
 }
 
+bool Prober::may_be_starting() const {
+  return endpoint_->starts() > 0 && endpoint_->now() < opened_ + timing_.starting;
+}
+
 /// Opens the line with other settings; false when the port does not offer them.
 Result<bool> Prober::settle(const line::LineSettings& line) {
   if (contains(refused_, line)) return false;
@@ -129,6 +137,7 @@ Result<bool> Prober::settle(const line::LineSettings& line) {
     return false;
   }
   endpoint_ = std::move(*opened);
+  opened_ = endpoint_->now();
   line_ = line;
   if (!contains(search_.lines, line)) search_.lines.push_back(line);
   return true;

@@ -17,12 +17,14 @@ using LineOpener =
     std::function<Result<std::unique_ptr<endpoints::Endpoint>>(const line::LineSettings& settings)>;
 
 struct ProbeTiming {
-  Duration wait = 500ms;   // for the first byte of an answer (the profiles' response_max)
-  Duration late = 2600ms;  // instead, once an answer came later: the longest delay time is 2550 ms
-                           // (Cnet EN table 4.3.1)
-  Duration quiet = 100ms;  // no further byte for so long: the answer is over
-  Duration listen = 1s;    // before the first question of all
-  Duration budget{};       // no question begins later; 0: all are asked
+  Duration wait = 500ms;    // for the first byte of an answer (the profiles' response_max)
+  Duration late = 2600ms;   // instead, once an answer came later: the longest delay time is 2550 ms
+                            // (Cnet EN table 4.3.1)
+  Duration quiet = 100ms;   // no further byte for so long: the answer is over
+  Duration listen = 1s;     // before the first question of all
+  Duration starting = 10s;  // a device that the bench has just started may not hear what is asked
+                            // earlier: those questions come once more at the end
+  Duration budget{};        // no question begins later; 0: all are asked
 };
 
 /// One question and what came of it.
@@ -67,6 +69,7 @@ class Prober {
   Result<bool> confirm(const Trial& trial);
   Result<bool> settle(const line::LineSettings& line);
   bool out_of_time(Duration grace = {});
+  bool may_be_starting() const;
   Status listen(Time until, std::vector<Burst>& heard);
   void keep(const Observation& observation);
 
@@ -80,6 +83,7 @@ class Prober {
   std::vector<line::LineSettings> refused_;
   std::vector<Trial> done_;
   std::optional<Time> begun_;
+  Time opened_{};  // the present endpoint
   std::string first_refusal_;
   std::size_t total_ = 0;
   bool late_ = false;  // a reply came after its wait

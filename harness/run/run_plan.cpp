@@ -519,6 +519,13 @@ Status check_duts(const RunOptions& options) {
   return ok();
 }
 
+/// What a run looks at, besides the cases that it selects.
+std::string loaded_filter(const RunOptions& options, const std::vector<bench::Waiver>& waivers) {
+  if (!waivers.empty()) return {};  // they may name any case
+  // What is derived stands in the folder of what it is derived from.
+  return options.derived ? vectors::folders_of_filter(options.filter) : options.filter;
+}
+
 }  // namespace
 
 Result<RunPlan> make_run_plan(const RunOptions& given, const harness::Protocols& known) {
@@ -533,10 +540,8 @@ Result<RunPlan> make_run_plan(const RunOptions& given, const harness::Protocols&
   Result<std::vector<bench::Waiver>> waivers = bench::load_waivers(options.waivers);
   if (!waivers) return waivers.error();
   plan.waivers = std::move(*waivers);
-  // A waiver may name any case.
   Result<vectors::VectorSet> loaded =
-      load_sound_vectors(options.vectors, known,
-                         plan.waivers.empty() && !options.derived ? options.filter : std::string());
+      load_sound_vectors(options.vectors, known, loaded_filter(options, plan.waivers));
   if (!loaded) return loaded.error();
   plan.vectors = std::move(*loaded);
   if (options.derived)

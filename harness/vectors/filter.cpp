@@ -11,13 +11,24 @@ namespace {
 
 /// `more`: the text may go on in any way.
 bool glob(std::string_view text, std::string_view pattern, bool more) {
-  if (text.empty() && more) return true;
-  if (pattern.empty()) return text.empty();
-  if (pattern[0] == '*')
-    return glob(text, pattern.substr(1), more) ||
-           (!text.empty() && glob(text.substr(1), pattern, more));
-  return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) &&
-         glob(text.substr(1), pattern.substr(1), more);
+  std::size_t at = 0, in_text = 0;
+  std::size_t star = pattern.npos,
+              after_star = 0;  // the last '*', and the text behind what it took
+  while (in_text < text.size()) {
+    if (at < pattern.size() && pattern[at] == '*') {
+      star = at++;
+      after_star = in_text;
+    } else if (at < pattern.size() && (pattern[at] == '?' || pattern[at] == text[in_text])) {
+      ++at;
+      ++in_text;
+    } else if (star != pattern.npos) {
+      at = star + 1;
+      in_text = ++after_star;
+    } else {
+      return false;
+    }
+  }
+  return more || pattern.find_first_not_of('*', at) == pattern.npos;
 }
 
 /// The next of the patterns between ':'.
@@ -44,6 +55,19 @@ bool matches_filter(std::string_view id, std::string_view filter) {
       selected = !part.starts_with('-');
   }
   return selected;
+}
+
+std::string folders_of_filter(std::string_view filter) {
+  std::string folders;
+  if (filter.starts_with('-')) return folders;
+  while (!filter.empty()) {
+    const std::string_view part = take_part(filter);
+    if (part.starts_with('-')) continue;
+    const std::string_view folder = part.substr(0, part.find('/'));
+    if (folder.size() == part.size() || folder.find_first_of("*?") != folder.npos) return {};
+    folders.append(folders.empty() ? "" : ":").append(folder).append("/*");
+  }
+  return folders;
 }
 
 std::string meant_filter(std::string_view filter, const std::vector<std::string>& ids) {

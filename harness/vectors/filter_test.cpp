@@ -15,6 +15,22 @@ TEST(Filter, GlobsCrossSlashesAndExclude) {
   EXPECT_TRUE(matches_filter("a/b/d", "-*c"));
 }
 
+TEST(Filter, AStarGivesBackWhatTheRestNeeds) {
+  EXPECT_TRUE(matches_filter("aXbXc", "*X*c"));
+  EXPECT_TRUE(matches_filter("aXbXc", "a*Xc"));
+  EXPECT_TRUE(matches_filter("abab", "*ab"));
+  EXPECT_TRUE(matches_filter("ab", "a*b**"));
+  EXPECT_FALSE(matches_filter("aXbXc", "*X"));
+  EXPECT_FALSE(matches_filter("ab", "a*?b"));
+  EXPECT_FALSE(matches_filter("ab", "ab?"));
+}
+
+TEST(Filter, TheFoldersOfItsIdsAreKnownWhereEachIsNamed) {
+  EXPECT_EQ(folders_of_filter("a/b/*:c/?:-c/d"), "a/*:c/*");
+  for (const char* any : {"", "*", "a*/b", "a/*:*/b", "-a/*", "-a/*:b/*", "a"})
+    EXPECT_EQ(folders_of_filter(any), "") << any;
+}
+
 TEST(Filter, AMistypedOneIsSaid) {
   const std::vector<std::string> ids{"xgt_cnet/rss/two_words", "xgt_cnet/wss/one_word",
                                      "modbus_rtu/limits/a"};

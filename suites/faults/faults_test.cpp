@@ -7,7 +7,7 @@
 #include <random>
 
 #include "harness/vectors/fault_matrix.hpp"
-#include "harness/vectors/loader.hpp"
+#include "harness/vectors/test_own_vectors.hpp"
 #include "suites/broken/run_in_process.hpp"
 #include "suites/faults/kits.hpp"
 #include "suites/protocols.hpp"
@@ -41,14 +41,14 @@ bool says_red(const vectors::BrokenDevice& device, const std::string& fault,
 
 class Faults : public testing::TestWithParam<Kit> {
  protected:
-  Faults() : set_(vectors::load_vectors(folder, {suites::protocols(), GetParam().folder + "/*"})) {}
+  Faults() : set_(vectors::test::own_vectors(suites::protocols(), GetParam().folder + "/*")) {}
 
   const vectors::Case* find(const std::string& id) const {
     const auto found = std::ranges::find(set_.cases, id, &vectors::Case::id);
     return found == set_.cases.end() ? nullptr : &*found;
   }
 
-  vectors::VectorSet set_;
+  const vectors::VectorSet& set_;
 };
 
 /// The case that turns red by this fault: the one of the fault's table, or where that takes a port
@@ -111,8 +111,8 @@ TEST(Exploring, FindsMostFaultsOfAServer) {
   const std::vector<Kit> all = kits();
   const auto kit = std::ranges::find(all, "modbus-ascii", &Kit::name);
   ASSERT_NE(kit, all.end());
-  const std::vector<vectors::Case> cases =
-      vectors::load_vectors(folder, {suites::protocols(), kit->folder + "/*"}).cases;
+  const std::vector<vectors::Case>& cases =
+      vectors::test::own_vectors(suites::protocols(), kit->folder + "/*").cases;
   const std::vector<bool> found = found_by_exploring(*kit, cases, 1000);
   EXPECT_GE(std::ranges::count(found, true), static_cast<std::ptrdiff_t>(found.size() * 6 / 10));
 }

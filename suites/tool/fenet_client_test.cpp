@@ -64,7 +64,8 @@ TEST_F(FenetClient, TheEmulatedOneInAnotherProcessAsksByItself) {
                                                 {"prepared_blocks", ordered_json::array({block})}}
                                        .dump());
   Process client({FIELDPROOF_TOOL, "emulate", "xbc-h?protocol=xgt-fenet", "--p2p", p2p});
-  const Finished finished = run("xgt_fenet/client/schedule/f9*", {"--profile", profile});
+  const Finished finished =
+      run("xgt_fenet/client/schedule/f9*", {"--profile", profile, "--floor", "100ms"});
   EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
   EXPECT_EQ(results.verdict("xgt_fenet/client/schedule/f92"), "PASS");
   EXPECT_EQ(results.verdict("xgt_fenet/client/schedule/f90"), "BLOCKED");

@@ -124,7 +124,7 @@ TEST_F(OnATerminal, every_list_fits) {
       {"list", "--redundant"},
       {"run", "--dry-run"},
       {"errata"},
-      {"lint"},
+      {"lint", "--vectors", write_vectors(folder_, many_vectors(3))},
       {"frame", "[ENQ st 'rSS' '01' name(%MW100) EOT BCC]"},
       {"probe", "emulator:xbc-h?line=38400-8E1"},
       {"compare", "out/results.json", "out/results.ndjson"},

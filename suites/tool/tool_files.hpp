@@ -69,7 +69,7 @@ struct Results {
   /// Of the first result of the case; null: there is none.
   nlohmann::json of(const std::string& id) const {
     for (const nlohmann::json& one : cases)
-      if (one.at("id") == id) return one;
+      if (one.at("id").get_ref<const std::string&>() == id) return one;
     return nullptr;
   }
   std::string verdict(const std::string& id) const {
@@ -182,6 +182,12 @@ struct DefaultRun {
 inline const DefaultRun& default_run() {
   static const DefaultRun run;
   return run;
+}
+
+/// All vectors as they are, likewise.
+inline const Finished& lint_of_the_vectors() {
+  static const Finished finished = run_tool({"lint"});
+  return finished;
 }
 
 }  // namespace fieldproof::tool_tests

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -58,6 +59,42 @@ std::vector<std::string> one_or_more(const json& value) {
   return value.get<std::vector<std::string>>();
 }
 
+/// A text matches from its beginning or not at all: "^" stands before all alternatives.
+bool begins_text(std::string_view pattern) {
+  int depth = 0;
+  bool in_class = false;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    const char c = pattern[i];
+    if (c == '\\')
+      ++i;
+    else if (in_class)
+      in_class = c != ']';
+    else if (c == '[')
+      in_class = true;
+    else if (c == '(' || c == ')')
+      depth += c == '(' ? 1 : -1;
+    else if (c == '|' && depth == 0)
+      return false;
+  }
+  return pattern.starts_with('^');
+}
+
+/// Of a pattern that begins with "^": the characters that every text begins with.
+std::string literal_beginning(std::string_view pattern) {
+  std::string beginning;
+  for (std::size_t i = 1; i < pattern.size(); ++i) {
+    const bool escaped = pattern[i] == '\\' && i + 1 < pattern.size();
+    if (escaped ? std::isalnum(static_cast<unsigned char>(pattern[i + 1])) != 0
+                : std::string_view("^$\\.*+?()[]{}|").find(pattern[i]) != pattern.npos)
+      break;
+    if (escaped) ++i;
+    if (i + 1 < pattern.size() && std::string_view("*?{").find(pattern[i + 1]) != pattern.npos)
+      break;
+    beginning += pattern[i];
+  }
+  return beginning;
+}
+
 std::regex regex_of(const std::string& pattern) {
   try {
     return std::regex(pattern, std::regex::ECMAScript | std::regex::optimize);
@@ -76,8 +113,10 @@ CitationRule rule_of(const json& value, std::string at) {
                     {},
                     {},
                     {},
+                    {},
                     std::move(at)};
   rule.matches = regex_of(rule.pattern);
+  if (begins_text(rule.pattern)) rule.beginning = literal_beginning(rule.pattern);
   for (const std::string& word : one_or_more(value["step"])) rule.steps.push_back(step_kind(word));
   for (const json& one : value.value("cite", json::array())) rule.cite.push_back(one_or_more(one));
   rule.decide = one_or_more(value.value("decide", json::array()));
@@ -177,9 +216,15 @@ class Application {
 
   /// Each text is searched once.
   bool matches(std::size_t text) {
-    if (!known_[text])
-      known_[text] = std::regex_search(*cases_.texts()[text], rule_.matches) ? yes : no;
+    if (!known_[text]) known_[text] = is_found(*cases_.texts()[text]) ? yes : no;
     return known_[text] == yes;
+  }
+
+  /// std::regex is slow, and tries every place of a text unless it is told not to.
+  bool is_found(const std::string& text) const {
+    if (!rule_.beginning) return std::regex_search(text, rule_.matches);
+    return text.starts_with(*rule_.beginning) &&
+           std::regex_search(text, rule_.matches, std::regex_constants::match_continuous);
   }
 
   std::string lacking(const Seen& seen) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <regex>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct CitationRule {
   std::vector<Step::Kind> steps;  // of these kinds
   std::string pattern;
   std::regex matches;                          // searched in the texts of a step
+  std::optional<std::string> beginning;        // of each text that matches; none: any
   std::vector<std::vector<std::string>> cite;  // of each list one; globs over ids of statements
   std::vector<std::string> decide;             // ids of decisions, all
   std::string at;                              // "citations/xgt_cnet.json:12", for messages

@@ -87,6 +87,21 @@ TEST(CitationRules, AreForSomeCasesOrOneRole) {
   EXPECT_THAT(said({any + R"(, "cases": "*:-*/client/*")"}), ElementsAre(HasSubstr("read/bit")));
 }
 
+/// What is done to search fewer places changes no answer.
+TEST(CitationRules, FindWhatTheirPatternFindsAnywhere) {
+  const auto said_of = [](const std::string& pattern) {
+    return said({R"("rule": "a", "step": "send", "matches": ")" + pattern +
+                 R"(", "says": "what is read", "cite": ["m/reply"])"});
+  };
+  for (const char* pattern : {"^\\\\[54 0[012]", "^\\\\[?5*4", "^(\\\\[54|nothing) 0",
+                              "^nothing|4 00", "^\\\\[5+4", "^\\\\S54", "^[|]|00", "(^x|^.54)"})
+    EXPECT_THAT(said_of(pattern),
+                ElementsAre(HasSubstr("xgt_cnet/read/bit: what is read: cites no m/reply")))
+        << pattern;
+  for (const char* pattern : {"^54 00", "^\\\\[55", "^\\\\[54 00$"})
+    EXPECT_THAT(said_of(pattern), ElementsAre(HasSubstr("no step of a case matches"))) << pattern;
+}
+
 TEST(CitationRules, ThatAreWrongAreNamed) {
   const std::string good =
       R"("rule": "a", "step": "send", "matches": "54", "says": "what is read", "cite": ["m/title"])";
