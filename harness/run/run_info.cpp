@@ -110,6 +110,10 @@ results::RunInfo run_info(const RunOptions& options, const RunPlan& plan,
   if (options.repeat > 1) info.properties["repeat"] = std::to_string(options.repeat);
   if (!plan.line.empty()) info.properties["line"] = plan.line;
   if (!plan.matrix.empty()) info.properties["matrix"] = options.matrix;
+  if (plan.without_line > 0)
+    info.properties["left_out"] = fmt::format(
+        "{} that run on a network, which has no line to set",
+        plan.without_line == 1 ? "1 case" : text::grouped(plan.without_line) + " cases");
   if (plan.writes_all)
     info.properties["writes"] =
         "anywhere: the device ends with the run (--read-only forbids it, --allow-write narrows it)";

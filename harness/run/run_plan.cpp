@@ -526,6 +526,20 @@ std::string loaded_filter(const RunOptions& options, const std::vector<bench::Wa
   return options.derived ? vectors::folders_of_filter(options.filter) : options.filter;
 }
 
+/// Speed and frame are those of a line: what runs on a network would be the same at each step.
+Status leave_networks_out(const harness::Protocols& known, RunPlan& plan) {
+  const std::size_t all = plan.selected.size();
+  std::erase_if(plan.selected, [&](const Case* one) {
+    const Protocol* protocol = known.find(one->protocol);
+    return protocol && protocol->default_port() != 0;
+  });
+  plan.without_line = all - plan.selected.size();
+  if (plan.without_line == 0 || !plan.selected.empty()) return ok();
+  return fail(
+      "--matrix sets speed and frame of a line, and each selected case runs on a network; select "
+      "others with --filter or --protocol, or leave --matrix out");
+}
+
 }  // namespace
 
 Result<RunPlan> make_run_plan(const RunOptions& given, const harness::Protocols& known) {
@@ -550,6 +564,8 @@ Result<RunPlan> make_run_plan(const RunOptions& given, const harness::Protocols&
   for (const Case& one : plan.vectors.cases)
     if (vectors::matches_filter(one.id, options.filter) && vectors::has_role(one, options.role))
       plan.selected.push_back(&one);
+  if (!options.matrix.empty())
+    if (const Status left = leave_networks_out(known, plan); !left) return left.error();
   std::string profile;
   Result<DutPlan> first = make_dut_plan(
       options, known, options.duts.empty() ? "" : options.duts.front(), plan.selected, profile);

@@ -38,6 +38,7 @@ struct RunPlan : DutPlan {
   vectors::VectorSet vectors;
   std::vector<const vectors::Case*> selected;  // into `vectors`
   std::vector<line::LineSettings> matrix;      // --matrix: steps of the line; empty: there is none
+  std::size_t without_line = 0;                // cases of networks, which --matrix leaves out
   std::optional<bench::AdapterFloor> floor;    // --floor
   std::optional<endpoints::EndpointName>
       loop;                      // --loop: where an emulator answers over the same kind of link

@@ -42,6 +42,22 @@ class Matrix : public testing::Test {
   std::optional<Process> socat_, device_;
 };
 
+TEST(MatrixOfNetworks, HasNoStep) {
+  const TestFolder folder;
+  const auto run = [&](const std::string& filter) {
+    return run_tool(
+        {"run", "--matrix", "9600,38400 x 8N1", "--filter", filter, "--out", folder / "out"});
+  };
+  const Finished none = run("modbus_tcp/examples/*:user_frames_net/*");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("each selected case runs on a network; select others"));
+  const Finished both = run("modbus_rtu/examples/read*:modbus_tcp/examples/*");
+  EXPECT_EQ(both.code, 0) << both.out << both.err;
+  EXPECT_THAT(both.out, HasSubstr("that run on a network"));
+  for (const nlohmann::json& one : read_results(folder / "out/results.ndjson").cases)
+    EXPECT_NE(one.at("protocol"), "modbus-tcp") << one.at("id");
+}
+
 TEST_F(Matrix, TheEmulatorIsSetAtEachStep) {
   nlohmann::ordered_json own = small_vector("v/own_line");
   own["given"]["config"]["line"] = "9600-8E1";
