@@ -20,7 +20,7 @@ std::string what_it_did(std::string_view message) {
 }  // namespace
 
 void SetUpFindings::note(const results::CaseResult& result) {
-  judged_[result.protocol] += results::is_judged(result.verdict);
+  if (results::is_judged(result.verdict)) judged_.insert(result.protocol);
   if (result.verdict != results::Verdict::blocked || !result.message.starts_with(set_up_failure))
     return;
   Finding& finding = findings_[result.protocol + "/" + what_it_did(result.message)];
@@ -36,9 +36,9 @@ std::vector<results::CaseResult> SetUpFindings::results() const {
     result.title = "The device takes the writes by which the bench sets up its cases";
     result.level = "must";
     result.basis = "derived";
-    const auto judged = judged_.find(finding.first.protocol);
-    const bool may_be_lost = finding.cases == 1 && key.ends_with("/no answer") &&
-                             judged != judged_.end() && judged->second > 0;
+    const bool may_be_lost = finding.cases == 1 &&
+                             what_it_did(finding.first.message) == "no answer" &&
+                             judged_.contains(finding.first.protocol);
     result.verdict = may_be_lost ? results::Verdict::inconclusive : results::Verdict::fail;
     result.message = fmt::format(
         "{}; {} BLOCKED by it, first {}. {}", finding.first.message.substr(set_up_failure.size()),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,7 @@ inline constexpr std::string_view not_tried =
 
 class SetUpFindings {
  public:
-  /// Takes notice of a case that its set-up has blocked, and how many others were judged.
+  /// Takes notice of a case that its set-up has blocked, and whether others were judged.
   void note(const results::CaseResult& result);
   /// FAIL for each way: what was sent, what came, and the cases that were blocked by it. One write
   /// that was not answered, where others were judged, is INCONCLUSIVE: an answer can be lost.
@@ -31,8 +32,8 @@ class SetUpFindings {
     results::CaseResult first;  // case
     std::size_t cases = 0;
   };
-  std::map<std::string, Finding> findings_;    // by what the device did
-  std::map<std::string, std::size_t> judged_;  // cases, by protocol
+  std::map<std::string, Finding> findings_;  // by what the device did
+  std::set<std::string> judged_;             // protocols of which a case was judged
 };
 
 }  // namespace fieldproof::bench

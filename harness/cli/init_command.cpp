@@ -231,8 +231,7 @@ int init_command(const InitOptions& options, const harness::Protocols& protocols
     if (share && *share > 0) arguments += fmt::format(" --min-judged {}%", *share);
   }
   const int written = write_ci_job(*asked, arguments);
-  if (endpoints::kind_of(asked->endpoint).can_restart &&
-      !endpoints::kind_of(asked->endpoint).emulated)
+  if (endpoints::kind_of(asked->endpoint).started_by_bench())
     run::tell(fmt::format(
         "more     what the program can be told, it is judged by: {{station}} and other marks in "
         "its "

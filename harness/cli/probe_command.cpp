@@ -213,7 +213,8 @@ int probe_command(const ProbeOptions& options, const harness::Protocols& protoco
   }
   const std::vector<probe::Trial> plan = probe::make_plan(*space, protocols);
   Duration longest = probe::longest_time(plan, timing.wait);
-  if (probe::starts_with_bench(*endpoint)) longest += std::min(longest, timing.starting);
+  if (endpoints::kind_of(*endpoint).started_by_bench())
+    longest += std::min(longest, timing.starting);
   longest += timing.listen;
   run::tell(fmt::format("{}", head(options, probe::filled(*space, protocols), plan, longest)));
   std::fflush(stdout);

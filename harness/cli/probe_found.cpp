@@ -39,8 +39,7 @@ std::string profile_of_a_module(const harness::Protocol& protocol) {
 
 Status tell_what_to_be(endpoints::Endpoint& device, const EndpointName& name,
                        const harness::Protocol& protocol, const std::string& profile) {
-  const endpoints::KindOf& kind = endpoints::kind_of(name);
-  if (kind.emulated || !kind.can_restart) return ok();
+  if (!endpoints::kind_of(name).started_by_bench()) return ok();
   bench::Profile declared;
   Result<bench::Profile> loaded = bench::load_profile(
       profile.empty() ? profile_of_a_module(protocol) : profile, harness::find_data().profiles);

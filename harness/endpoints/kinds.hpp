@@ -35,6 +35,9 @@ struct KindOf {
   bool datagrams = false;    // and over datagrams
   bool listens = false;      // the device opens the links: it is a client
 
+  /// A program that the bench starts, and that ends with it.
+  bool started_by_bench() const { return can_restart && !emulated; }
+
   /// What is wrong with target and options before anything is opened; with a protocol that the
   /// flags let pass.
   Status (*check)(const EndpointName&) = nullptr;

@@ -8,11 +8,6 @@ using endpoints::EndpointName;
 
 bool is_emulator(const EndpointName& name) { return endpoints::kind_of(name).emulated; }
 
-bool starts_with_bench(const EndpointName& name) {
-  const endpoints::KindOf& kind = endpoints::kind_of(name);
-  return kind.can_restart && !kind.emulated;
-}
-
 bool has_line_settings(const EndpointName& name) {
   const endpoints::KindOf& kind = endpoints::kind_of(name);
   return kind.simulated || kind.line == endpoints::LineOption::port;

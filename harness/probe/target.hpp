@@ -15,8 +15,6 @@ bool has_line_settings(const endpoints::EndpointName& name);
 
 /// Is it our own emulator? Its options describe the device, and so they do not narrow the search.
 bool is_emulator(const endpoints::EndpointName& name);
-/// A program that begins with the first question.
-bool starts_with_bench(const endpoints::EndpointName& name);
 
 /// `name` with the bench's side of the line set.
 endpoints::EndpointName with_settings(endpoints::EndpointName name, const line::LineSettings& line);

@@ -8,6 +8,7 @@
 
 #include "harness/bench/files/bench_file.hpp"
 #include "harness/endpoints/kinds.hpp"
+#include "harness/endpoints/network_name.hpp"
 #include "harness/endpoints/set_up/command_marks.hpp"
 #include "harness/explore/derived.hpp"
 #include "harness/paths.hpp"
@@ -35,11 +36,6 @@ safety::WordReader words_of(const harness::Protocols& known) {
 }
 
 bool is_emulated(const EndpointName& endpoint) { return endpoints::kind_of(endpoint).emulated; }
-
-/// A program that the bench starts: nobody's plant.
-bool ends_with_run(const EndpointName& endpoint) {
-  return !is_emulated(endpoint) && endpoints::kind_of(endpoint).can_restart;
-}
 
 /// A model without a profile of its own: what a user-defined frame file describes.
 bool is_bare_model(const EndpointName& endpoint, const DataPaths& data,
@@ -167,7 +163,8 @@ Result<bench::BenchOptions> bench_options(const RunOptions& options, const Endpo
     if (Status allowed = bench.fence.allow(range, words_of(known)); !allowed)
       return allowed.error();
   }
-  if (ends_with_run(endpoint) && options.allow_write.empty() && !options.read_only)
+  if (endpoints::kind_of(endpoint).started_by_bench() && options.allow_write.empty() &&
+      !options.read_only)
     bench.fence.allow_everything();
   for (const std::string& axes : options.allow_motion)
     if (Status allowed = bench.fence.allow_motion(axes, known.last_axis()); !allowed)
@@ -415,7 +412,7 @@ Result<DutPlan> make_dut_plan(const RunOptions& given, const harness::Protocols&
         !any)
       return any.error();
   plan.bench.known = known;
-  plan.ends_with_run = ends_with_run(plan.endpoint);
+  plan.ends_with_run = endpoints::kind_of(plan.endpoint).started_by_bench();
   plan.writes_all = plan.ends_with_run && options->allow_write.empty() && !options->read_only;
   plan.bench.device = {options->endpoint, plan.bench.station, "", plan.bench.profile.model,
                        plan.bench.profile.config};
@@ -531,7 +528,7 @@ Status leave_networks_out(const harness::Protocols& known, RunPlan& plan) {
   const std::size_t all = plan.selected.size();
   std::erase_if(plan.selected, [&](const Case* one) {
     const Protocol* protocol = known.find(one->protocol);
-    return protocol && protocol->default_port() != 0;
+    return protocol && endpoints::is_network(*protocol);
   });
   plan.without_line = all - plan.selected.size();
   if (plan.without_line == 0 || !plan.selected.empty()) return ok();

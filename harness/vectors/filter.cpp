@@ -12,8 +12,8 @@ namespace {
 /// `more`: the text may go on in any way.
 bool glob(std::string_view text, std::string_view pattern, bool more) {
   std::size_t at = 0, in_text = 0;
-  std::size_t star = pattern.npos,
-              after_star = 0;  // the last '*', and the text behind what it took
+  std::size_t star = pattern.npos;  // the last one
+  std::size_t after_star = 0;       // the text behind what it took
   while (in_text < text.size()) {
     if (at < pattern.size() && pattern[at] == '*') {
       star = at++;

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "harness/vectors/case_reader.hpp"
@@ -69,22 +68,6 @@ bool begins_text(std::string_view pattern) {
   return pattern.starts_with('^');
 }
 
-/// Of a pattern that begins with "^": the characters that every text begins with.
-std::string literal_beginning(std::string_view pattern) {
-  std::string beginning;
-  for (std::size_t i = 1; i < pattern.size(); ++i) {
-    const bool escaped = pattern[i] == '\\' && i + 1 < pattern.size();
-    if (escaped ? std::isalnum(static_cast<unsigned char>(pattern[i + 1])) != 0
-                : std::string_view("^$\\.*+?()[]{}|").find(pattern[i]) != pattern.npos)
-      break;
-    if (escaped) ++i;
-    if (i + 1 < pattern.size() && std::string_view("*?{").find(pattern[i + 1]) != pattern.npos)
-      break;
-    beginning += pattern[i];
-  }
-  return beginning;
-}
-
 std::regex regex_of(const std::string& pattern) {
   try {
     return std::regex(pattern, std::regex::ECMAScript | std::regex::optimize);
@@ -101,12 +84,13 @@ CitationRule rule_of(const json& value, std::string at) {
                     {},
                     value["matches"],
                     {},
-                    {},
+                    std::regex_constants::match_default,
                     {},
                     {},
                     std::move(at)};
   rule.matches = regex_of(rule.pattern);
-  if (begins_text(rule.pattern)) rule.beginning = literal_beginning(rule.pattern);
+  // std::regex tries every place of a text, else.
+  if (begins_text(rule.pattern)) rule.where = std::regex_constants::match_continuous;
   for (const std::string& word : one_or_more(value["step"])) rule.steps.push_back(step_kind(word));
   for (const json& one : value.value("cite", json::array())) rule.cite.push_back(one_or_more(one));
   rule.decide = one_or_more(value.value("decide", json::array()));

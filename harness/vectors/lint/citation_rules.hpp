@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <regex>
 #include <string>
 #include <vector>
@@ -21,8 +20,9 @@ struct CitationRule {
   std::string role;               // "client", "server"; empty: both
   std::vector<Step::Kind> steps;  // of these kinds
   std::string pattern;
-  std::regex matches;                          // searched in the texts of a step
-  std::optional<std::string> beginning;        // of each text that matches; none: any
+  std::regex matches;  // searched in the texts of a step
+  std::regex_constants::match_flag_type where =
+      std::regex_constants::match_default;     // anywhere, or at the beginning alone
   std::vector<std::vector<std::string>> cite;  // of each list one; globs over ids of statements
   std::vector<std::string> decide;             // ids of decisions, all
   std::string at;                              // "citations/xgt_cnet.json:12", for messages

@@ -111,15 +111,10 @@ class Application {
 
   /// Each text is searched once.
   bool matches(std::size_t text) {
-    if (!known_[text]) known_[text] = is_found(*cases_.texts()[text]) ? yes : no;
+    if (!known_[text])
+      known_[text] =
+          std::regex_search(*cases_.texts()[text], rule_.matches, rule_.where) ? yes : no;
     return known_[text] == yes;
-  }
-
-  /// std::regex is slow, and tries every place of a text unless it is told not to.
-  bool is_found(const std::string& text) const {
-    if (!rule_.beginning) return std::regex_search(text, rule_.matches);
-    return text.starts_with(*rule_.beginning) &&
-           std::regex_search(text, rule_.matches, std::regex_constants::match_continuous);
   }
 
   std::string lacking(const Seen& seen) const {
