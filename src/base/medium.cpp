@@ -23,6 +23,7 @@ Burst receive_in_step(std::span<Medium* const> media, Time until) {
     const Time now = media.front()->now();
     until = std::max(until, now);
     const Time next = first_event(media, Time::max());
+    if (next > now && until == now) break;  // nothing happens at this moment
     for (Medium* medium : media) medium->run(std::min(next, until));
     // What one did may have given another something to do at the same moment.
     if (next > until) break;

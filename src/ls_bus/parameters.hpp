@@ -5,7 +5,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "src/base/zeroed.hpp"
 
 namespace fieldproof::ls_bus {
 
@@ -29,7 +30,7 @@ class InverterParameters {
   void write(unsigned address, std::uint16_t value) { words_[address] = value; }
 
  private:
-  std::vector<std::uint16_t> words_;
+  Zeroed<std::uint16_t> words_;
 };
 
 }  // namespace fieldproof::ls_bus

@@ -2,15 +2,25 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <new>
 #include <stdexcept>
+#include <vector>
 
 #include "src/base/bytes.hpp"
 
 namespace fieldproof::plc {
 
-PlcMemory::PlcMemory(const PlcModel& model) : model_(&model) {
+namespace {
+std::size_t all_of(const PlcModel& model, std::uint32_t DeviceArea::*size) {
+  std::size_t all = 0;
+  for (const DeviceArea& area : model.areas) all += area.*size;
+  return all;
+}
+}  // namespace
+
+PlcMemory::PlcMemory(const PlcModel& model)
+    : model_(&model),
+      words_(all_of(model, &DeviceArea::words)),
+      contacts_(all_of(model, &DeviceArea::contacts)) {
   std::uint32_t words = 0, contacts = 0;
   for (std::size_t i = 0; i < model.areas.size(); ++i) {
     first_word_.at(i) = words;
@@ -18,9 +28,6 @@ PlcMemory::PlcMemory(const PlcModel& model) : model_(&model) {
     words += model.areas[i].words;
     contacts += model.areas[i].contacts;
   }
-  words_.reset(static_cast<std::uint16_t*>(std::calloc(words, sizeof(std::uint16_t))));
-  if (!words_) throw std::bad_alloc();
-  contacts_.resize(contacts);
 }
 
 void PlcMemory::check(const DeviceAddress& address) const {
@@ -30,7 +37,7 @@ void PlcMemory::check(const DeviceAddress& address) const {
 std::uint64_t PlcMemory::read(const DeviceAddress& address) const {
   check(address);
   const std::uint32_t index = address.index;
-  const std::uint16_t* words = words_.get() + first_word_[address.area];
+  const std::uint16_t* words = &words_[first_word_[address.area]];
   switch (address.type) {
     case 'X':
       if (address.contact) return contacts_[first_contact_[address.area] + index];
@@ -48,7 +55,7 @@ std::uint64_t PlcMemory::read(const DeviceAddress& address) const {
 void PlcMemory::write(const DeviceAddress& address, std::uint64_t value) {
   check(address);
   const std::uint32_t index = address.index;
-  std::uint16_t* words = words_.get() + first_word_[address.area];
+  std::uint16_t* words = &words_[first_word_[address.area]];
   const auto put = [](std::uint16_t& word, unsigned shift, unsigned mask, std::uint64_t bits) {
     word = static_cast<std::uint16_t>((word & ~(mask << shift)) |
                                       (static_cast<unsigned>(bits) & mask) << shift);

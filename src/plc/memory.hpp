@@ -3,14 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "src/base/result.hpp"
+#include "src/base/zeroed.hpp"
 #include "src/plc/address.hpp"
 #include "src/plc/model.hpp"
 
@@ -41,11 +39,8 @@ class PlcMemory {
   const PlcModel* model_;
   std::array<std::uint32_t, 16> first_word_{};     // of each area in words_
   std::array<std::uint32_t, 16> first_contact_{};  // of each area in contacts_
-  struct Free {
-    void operator()(void* memory) const { std::free(memory); }
-  };
-  std::unique_ptr<std::uint16_t[], Free> words_;  // calloc: only what a case touches is cleared
-  std::vector<std::uint8_t> contacts_;
+  Zeroed<std::uint16_t> words_;
+  Zeroed<std::uint8_t> contacts_;
   std::function<void()> watcher_;
 };
 

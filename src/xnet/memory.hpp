@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/base/result.hpp"
+#include "src/base/zeroed.hpp"
 #include "src/xnet/areas.hpp"
 
 namespace fieldproof::xnet {
@@ -50,7 +51,7 @@ class Memory {
     std::size_t at = 0;  // in values_
   };
   std::vector<std::vector<Stored>> stored_;  // of each area
-  std::vector<std::uint16_t> values_;
+  Zeroed<std::uint16_t> values_;
 };
 
 }  // namespace fieldproof::xnet
