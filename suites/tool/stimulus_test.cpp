@@ -31,7 +31,7 @@ class LiteralClient : public testing::Test {
         "-",
         "--endpoint",
         "exec:python3 " FIELDPROOF_SOURCE_DIR "/suites/tool/testdata/literal_client.py {tty} " +
-            kind + " " + log() + "?floor_ms=100"};  // a busy machine delays clocks
+            kind + " " + log() + "?floor_ms=400"};  // a busy machine delays clocks
     arguments.insert(arguments.end(), more.begin(), more.end());
     Finished finished = run_tool(arguments, {});
     results = read_results(folder / "out/results.ndjson");
