@@ -11,12 +11,15 @@ using Settings = xgt_fenet::ServerConfig;
 
 namespace {
 
-/// Not the request, but the first byte that comes restarts the waiting time: here half a frame is
-/// answered by what makes the good server believe in a request.
+bool begins_a_frame(ByteView bytes) { return !bytes.empty() && bytes[0] == 'L'; }
+
+/// Not the request, but its first bytes restart the waiting time: where a frame begins, the good
+/// server is made to believe in a request, whose answer nobody sees.
 Behaviour any_byte_restarts() {
   return {.hear =
               [](Burst heard, Server&) {
-                if (heard.event != LinkEvent::data) return Bursts{std::move(heard)};
+                if (heard.event != LinkEvent::data || !begins_a_frame(heard.bytes))
+                  return Bursts{std::move(heard)};
                 Burst whole = heard;
                 whole.bytes = *from_hex(
                     "4C 53 49 53 2D 58 47 54 00 00 00 00 A0 33 77 77 0E 00 00 00 54 00 02 00 00 00 "
