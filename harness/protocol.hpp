@@ -61,6 +61,7 @@ class Protocol {
 
   /// The port of its servers; 0: it runs on a serial line.
   virtual std::uint16_t default_port() const { return 0; }
+  bool on_network() const { return default_port() != 0; }
   /// Where they take datagrams.
   virtual std::uint16_t datagram_port() const { return default_port(); }
   std::uint16_t port_for(Transport transport) const {

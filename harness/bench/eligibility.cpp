@@ -360,7 +360,7 @@ Ruling Eligibility::below_floor(const PreparedCase& prepared, const Moments& mom
     return {};  // waiting longer does no harm
   }
   // On a network a pause may be longer than it is written: it only sees that a segment has come.
-  if (protocol_.default_port() != 0) return {};
+  if (protocol_.on_network()) return {};
   const Duration pause = prepared.shortest_pause(endpoint_.character_time());
   if (pause > 0ns && pause < shortest_judged)
     return {

@@ -52,7 +52,7 @@ bool meets(const auto& place, const std::vector<Protocol::Written>& written,
 }  // namespace
 
 bool writes_without_check(ByteView request, const Protocol& protocol) {
-  if (protocol.default_port() != 0 || !protocol.memory()) return false;  // a network has its own
+  if (protocol.on_network() || !protocol.memory()) return false;  // a network has its own
   return !protocol.written_by(request).empty() &&
          (!protocol.memory()->is_checked(request) ||
           !harness::faultless(protocol.explain_as(request, true)));

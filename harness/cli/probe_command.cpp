@@ -75,7 +75,7 @@ Result<probe::SearchSpace> space_of(const ProbeOptions& options, const EndpointN
     if (!protocol) return protocol.error();
     if (!probe::can_be_searched(**protocol))
       return fail(fmt::format("cannot search by {}: {}", text,
-                              (*protocol)->default_port() != 0
+                              (*protocol)->on_network()
                                   ? "it runs on a network; write tcp:HOST[:PORT]"
                                   : "it has no harmless request of its own"));
     space.protocols.push_back(*protocol);

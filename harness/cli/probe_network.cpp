@@ -75,7 +75,7 @@ EndpointName place_of(const Protocol& protocol, EndpointName name,
   const endpoints::KindOf& kind = endpoints::kind_of(name);
   const Result<os::SocketName> target = os::parse_socket_name(name.target);
   const auto is_port_of = [&](const Protocol& one) {
-    return one.default_port() != 0 && name.option("udp", "") == std::to_string(one.datagram_port());
+    return one.on_network() && name.option("udp", "") == std::to_string(one.datagram_port());
   };
   if (!name.options.contains("protocol") && !is_port_of(protocol) &&
       std::ranges::any_of(protocols, [&](const Protocol* one) { return is_port_of(*one); }))

@@ -165,7 +165,7 @@ Status check_echo(const EndpointName& name, const harness::Protocol& protocol) {
   const std::string echo = name.option("echo", "off");
   if (echo != "on" && echo != "off")
     return fail(fmt::format("echo is '{}'; write echo=on, or leave it out", echo));
-  if (echo == "on" && is_network(protocol))
+  if (echo == "on" && protocol.on_network())
     return fail(
         "it runs on a network, where nothing echoes; echo=on is for lines: leave echo=on out");
   if (echo == "on" && kind_of(name).simulated)

@@ -136,7 +136,7 @@ Status check_command(const EndpointName& name) {
 }
 
 Status check_command_for(const EndpointName& name, const harness::Protocol& protocol) {
-  const bool network = protocol.default_port() != 0;
+  const bool network = protocol.on_network();
   if (network && !uses(name, port_mark))
     return fail("it runs on a network; write {port} where the command takes the port");
   if (!network && uses(name, port_mark))

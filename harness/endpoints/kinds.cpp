@@ -136,9 +136,9 @@ Status check_endpoint(const EndpointName& name, const harness::Protocol& protoco
   if (!protocol.has_frames() && !kind.simulated)
     return wrong(
         "no manual prints a frame of it, so it is tested on a model alone; write emulator:");
-  if (!is_network(protocol) && !kind.lines)
+  if (!protocol.on_network() && !kind.lines)
     return wrong("it runs on a serial line; write serial:, rfc2217: or tcp: (a serial server)");
-  if (is_network(protocol) && !kind.connections && !kind.datagrams)
+  if (protocol.on_network() && !kind.connections && !kind.datagrams)
     return wrong(fmt::format("it runs on a network; write {}",
                              kind.emulated ? "emulator:" + name.target : "tcp:HOST"));
   if (const Status echo = check_echo(name, protocol); !echo) return wrong(echo.error().message);

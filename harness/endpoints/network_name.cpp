@@ -42,8 +42,6 @@ Result<os::SocketName> read_target(const EndpointName& name) {
 
 }  // namespace
 
-bool is_network(const harness::Protocol& protocol) { return protocol.default_port() != 0; }
-
 Status check_network_name(const EndpointName& name) {
   const Result<os::SocketName> read = read_target(name);
   if (!read) return read.error();
@@ -52,14 +50,14 @@ Status check_network_name(const EndpointName& name) {
 }
 
 Status check_network_use(const EndpointName& name, const harness::Protocol& protocol) {
-  if (!is_network(protocol) && !os::parse_socket_name(name.target)->port)
+  if (!protocol.on_network() && !os::parse_socket_name(name.target)->port)
     return fail(
         fmt::format("there is no port, and a serial server has none of its own; write "
                     "{}:{}:PORT",
                     name.kind, name.target));
-  if (is_network(protocol) && name.options.contains("line"))
+  if (protocol.on_network() && name.options.contains("line"))
     return fail("it needs links, and line=raw makes one line of a connection; leave line=raw out");
-  if (is_network(protocol) && name.options.contains("shared"))
+  if (protocol.on_network() && name.options.contains("shared"))
     return fail("its connections are shared with nobody; leave shared out");
   return ok();
 }
@@ -67,9 +65,10 @@ Status check_network_use(const EndpointName& name, const harness::Protocol& prot
 Status check_listen_name(const EndpointName& name) {
   const std::string_view port = std::string_view(name.target).substr(name.target.starts_with(':'));
   if (!port.empty() && port.find_first_not_of("0123456789") == port.npos)
-    return fail(fmt::format("{} is a port alone; write {}:127.0.0.1:{}, or the address of this "
-                            "computer at which the device finds it",
-                            port, name.kind, port));
+    return fail(
+        fmt::format("{} is a port alone; write {}:127.0.0.1:{}, or the address of this "
+                    "computer at which the device finds it",
+                    port, name.kind, port));
   const Result<os::SocketName> read = read_target(name);
   return read ? check_options(name) : read.error();
 }

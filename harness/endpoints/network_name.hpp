@@ -7,9 +7,6 @@
 
 namespace fieldproof::endpoints {
 
-/// Does this protocol run on connections and datagrams?
-bool is_network(const harness::Protocol& protocol);
-
 /// Host and port can be read, and so can the options `udp` and `line`. Errors say what to write.
 Status check_network_name(const EndpointName& name);
 /// With this protocol: its port is known, and it is not made one line where it needs links.

@@ -80,11 +80,11 @@ Result<std::unique_ptr<Endpoint>> open_line(const EndpointName& name, int type) 
 
 Result<std::unique_ptr<Endpoint>> open_tcp(const EndpointName& name,
                                            const harness::Protocol& protocol) {
-  return is_network(protocol) ? open_network(name, protocol) : open_line(name, SOCK_STREAM);
+  return protocol.on_network() ? open_network(name, protocol) : open_line(name, SOCK_STREAM);
 }
 Result<std::unique_ptr<Endpoint>> open_udp(const EndpointName& name,
                                            const harness::Protocol& protocol) {
-  return is_network(protocol) ? open_network(name, protocol) : open_line(name, SOCK_DGRAM);
+  return protocol.on_network() ? open_network(name, protocol) : open_line(name, SOCK_DGRAM);
 }
 
 }  // namespace fieldproof::endpoints

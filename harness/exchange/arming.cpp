@@ -105,7 +105,7 @@ bool Arming::share_memory(const std::string& a, const std::string& b) const {
 std::string Arming::undeclared(const vectors::Case& source, const json& declared) const {
   if (!ways_.stimulus) return {};
   std::set<std::string> needs =
-      needs_of(source, protocol_.default_port() == 0,
+      needs_of(source, !protocol_.on_network(),
                [this](const std::string& a, const std::string& b) { return share_memory(a, b); });
   if (declared.contains("time_out")) needs.erase("time_out");
   for (const std::string& need : needs)
@@ -219,8 +219,7 @@ Status Arming::ask_for(std::vector<json> blocks) {
 
 Status Arming::tell_of_case() {
   if (declared_.answered)
-    if (const Status told = tell({{"begin", set_up_of(*case_, protocol_.default_port() == 0)}});
-        !told)
+    if (const Status told = tell({{"begin", set_up_of(*case_, !protocol_.on_network())}}); !told)
       return told;
   std::vector<json> clocks;
   std::ranges::copy_if(blocks_, std::back_inserter(clocks), runs_by_clock);

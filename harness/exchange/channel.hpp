@@ -19,7 +19,7 @@ struct Channel {
 
 /// How a link is opened that nobody has described; nothing: there is a line, always open.
 inline std::optional<Transport> implicit_transport(const Channel& to) {
-  if (to.protocol->default_port() == 0) return std::nullopt;
+  if (!to.protocol->on_network()) return std::nullopt;
   const endpoints::Capabilities& can = to.endpoint->capabilities();
   if (can.connections) return Transport::tcp;
   return can.datagrams ? std::optional(Transport::udp) : std::nullopt;

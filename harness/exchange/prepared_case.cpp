@@ -41,9 +41,8 @@ bool PreparedCase::answers_probes() const {
 
 bool PreparedCase::is_shut_out() const {
   return source->config.contains("host_table") && !is_client() &&
-         std::ranges::none_of(steps, [](const PreparedStep& step) {
-           return step.step->kind == Step::Kind::expect;
-         });
+         std::ranges::none_of(
+             steps, [](const PreparedStep& step) { return step.step->kind == Step::Kind::expect; });
 }
 
 Duration PreparedCase::client_time_out() const {
@@ -181,7 +180,7 @@ Result<PreparedStep> prepare_step(const Step& source, vectors::LinkNames& links,
     if (const Status opened = spoken.open(source); !opened) return opened.error();
   const Channel& to = spoken.on(*link);
   PreparedStep step{&source, {}, *link, to.protocol, to.station};
-  step.network = to.protocol->default_port() != 0 && *link != vectors::aux_link;
+  step.network = to.protocol->on_network() && *link != vectors::aux_link;
   step.port =
       source.link.port != 0 ? source.link.port : to.protocol->port_for(source.link.transport);
   if (const Status added = add_frames(step); !added) return added.error();
@@ -193,9 +192,9 @@ Result<PreparedStep> prepare_step(const Step& source, vectors::LinkNames& links,
 Result<PreparedCase> prepare(const vectors::Case& source, int station,
                              const harness::Protocol& protocol, const OtherWays& others) {
   PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), false, {}, {}};
-  vectors::LinkNames links(source, protocol.default_port() != 0, [&](const std::string& name) {
+  vectors::LinkNames links(source, protocol.on_network(), [&](const std::string& name) {
     const harness::Protocol* const other = others.known.find(name);
-    return other && other->default_port() == 0;
+    return other && !other->on_network();
   });
   prepared.implicit_link = links.implicit();
   Spoken spoken(source, station, protocol, others);

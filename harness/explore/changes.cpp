@@ -193,7 +193,7 @@ bool Changes::damage(Request& request, Random& random) const {
 bool Changes::pause(Request& request, Random& random) const {
   // On real time none that is as long as what a protocol waits for.
   static constexpr std::array<double, 7> pauses{200, 1500, 1, 3, 5, 10, 1000};
-  const bool network = protocol_.default_port() != 0;
+  const bool network = protocol_.on_network();
   const Result<Bytes> bytes = safety::bytes_of(request.notation, fields_);
   if (!bytes || bytes->size() < 2) return false;
   const std::size_t at = 1 + random.below(bytes->size() - 1);

@@ -75,7 +75,7 @@ class Writer {
       : blocks_(set_up.blocks),
         protocol_(protocol),
         results_(results),
-        given_up_(exchange::client_time_out(set_up.config, protocol.default_port() == 0) +
+        given_up_(exchange::client_time_out(set_up.config, !protocol.on_network()) +
                   behind_time_out) {
     Case& one = script_.one;
     one = case_of_own_model(protocol);

@@ -169,7 +169,7 @@ Status add_cases(const Case& source, const Request& right, const std::vector<Req
 }  // namespace
 
 std::vector<std::string> derivations(const Protocol& protocol) {
-  if (protocol.default_port() != 0) return {"split", "joined"};
+  if (protocol.on_network()) return {"split", "joined"};
   return {"flipped", "dropped", "doubled", "cut", "paused", "noise", "joined"};
 }
 

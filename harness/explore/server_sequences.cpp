@@ -270,7 +270,7 @@ std::vector<Request> ServerSequences::requests_of_one() {
 /// another.
 void ServerSequences::spread(std::vector<Request>& requests) {
   constexpr std::size_t most = 3, fewest = 2;
-  const bool line = server_.protocol->default_port() == 0;
+  const bool line = !server_.protocol->on_network();
   const std::size_t taken = server_.config.value("connections", most);
   if (line || taken < fewest || !random_.chance(30)) return;
   const std::size_t links = std::min(most, taken);
@@ -295,7 +295,7 @@ std::optional<Request> ServerSequences::invent_one(bool faultless, HotWords& hot
   if (!faultless && random_.chance(50)) change(one, hot);
   std::ranges::move(changes_.named_by(one), std::back_inserter(one.names));
   // A connection would not outlive it.
-  const bool line = server_.protocol->default_port() == 0;
+  const bool line = !server_.protocol->on_network();
   one.off_before = line && !server_.over_the_wire && random_.chance(2);
   return has_room(one) ? std::optional(std::move(one)) : std::nullopt;
 }
@@ -356,7 +356,7 @@ Sequence::Own ServerSequences::answered(std::vector<Request> requests, const Mem
 /// on it then is that: on real time, a wait for each.
 void ServerSequences::cut_behind_silence(const std::vector<Request>& requests,
                                          std::vector<Answer>& answers) const {
-  if (server_.protocol->default_port() == 0) return;
+  if (!server_.protocol->on_network()) return;
   std::set<std::size_t> silent;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (silent.contains(requests[i].link)) return answers.resize(i);

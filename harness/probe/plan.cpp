@@ -63,7 +63,7 @@ Duration wire_time(const Trial& trial) {
 }  // namespace
 
 bool can_be_searched(const harness::Protocol& protocol) {
-  return protocol.default_port() == 0 && !protocol.probe(1, {}).empty();
+  return !protocol.on_network() && !protocol.probe(1, {}).empty();
 }
 
 std::string question_of(const Trial& trial) {

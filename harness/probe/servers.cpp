@@ -251,7 +251,7 @@ std::string_view to_string(ServerKind kind) {
 }
 
 bool is_network_server(const Protocol& protocol) {
-  return protocol.default_port() != 0 && protocol.memory() && !protocol.probe(1, {}).empty();
+  return protocol.on_network() && protocol.memory() && !protocol.probe(1, {}).empty();
 }
 
 Result<std::vector<ServerFinding>> find_servers(const NetworkOpener& open,

@@ -8,7 +8,6 @@
 
 #include "harness/bench/files/bench_file.hpp"
 #include "harness/endpoints/kinds.hpp"
-#include "harness/endpoints/network_name.hpp"
 #include "harness/endpoints/set_up/command_marks.hpp"
 #include "harness/explore/derived.hpp"
 #include "harness/paths.hpp"
@@ -528,7 +527,7 @@ Status leave_networks_out(const harness::Protocols& known, RunPlan& plan) {
   const std::size_t all = plan.selected.size();
   std::erase_if(plan.selected, [&](const Case* one) {
     const Protocol* protocol = known.find(one->protocol);
-    return protocol && endpoints::is_network(*protocol);
+    return protocol && protocol->on_network();
   });
   plan.without_line = all - plan.selected.size();
   if (plan.without_line == 0 || !plan.selected.empty()) return ok();

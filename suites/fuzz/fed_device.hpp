@@ -33,7 +33,7 @@ class FedDevice {
 
  private:
   void tell(LinkEvent event);
-  net::Host* network() { return protocol_.default_port() == 0 ? nullptr : device_->network(); }
+  net::Host* network() { return protocol_.on_network() ? device_->network() : nullptr; }
   std::optional<Time> wake();
   void note(const Burst& burst);
   void run(Time until);

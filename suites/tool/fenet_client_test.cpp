@@ -61,6 +61,7 @@ TEST_F(FenetClient, TheEmulatedOneInAnotherProcessAsksByItself) {
   const std::string profile =
       folder.write("profile.json", ordered_json{{"name", "client"},
                                                 {"extends", "xbc-h"},
+                                                {"timing", {{"response_max", "5s"}}},  // under load
                                                 {"prepared_blocks", ordered_json::array({block})}}
                                        .dump());
   Process client({FIELDPROOF_TOOL, "emulate", "xbc-h?protocol=xgt-fenet", "--p2p", p2p});

@@ -13,7 +13,7 @@ namespace fieldproof::vectors {
 class FieldsOfSteps {
  public:
   FieldsOfSteps(const Case& one, const harness::Protocol& own, const harness::Protocols& known)
-      : one_(one), own_(own), known_(known), links_(one, own.default_port() != 0) {}
+      : one_(one), own_(own), known_(known), links_(one, own.on_network()) {}
 
   /// At the station that the vector gives. Errors: its link is not open, or nobody knows what is
   /// spoken there.

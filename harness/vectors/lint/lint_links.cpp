@@ -9,11 +9,11 @@ std::vector<std::string> lint_links(const VectorSet& set, const harness::Protoco
   std::vector<std::string> problems;
   const auto is_line = [&](const std::string& name) {
     const harness::Protocol* const protocol = protocols.find(name);
-    return protocol && protocol->default_port() == 0;
+    return protocol && !protocol->on_network();
   };
   for (const Case& one : set.cases)
     if (const harness::Protocol* const protocol = protocols.find(one.protocol))
-      if (const Status right = check_links(one, protocol->default_port() != 0, is_line); !right)
+      if (const Status right = check_links(one, protocol->on_network(), is_line); !right)
         problems.push_back(fmt::format("{}: {}: {}", one.file, one.id, right.error().message));
   return problems;
 }
