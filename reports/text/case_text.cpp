@@ -124,8 +124,11 @@ Judged judged_in(const CaseResult& result, bool probes) {
     if (event.kind == Event::Kind::sent) request = &event;
     const bool came = event.kind == Event::Kind::received && !event.bytes.empty();
     if (came && event.bytes == result.received_bytes && event.extract == result.received_extract &&
-        request != nullptr)
+        request != nullptr) {
       judged = {request, &event};
+      // The same answer may have come to what was asked before, and behind it.
+      if (!result.due.empty() && event.end >= result.due.from) return judged;
+    }
   }
   if (!judged.request) judged.request = request;
   return judged;

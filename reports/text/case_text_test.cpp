@@ -90,6 +90,20 @@ TEST(CaseBlock, TheRequestIsTheOneThatWasAnswered) {
       << "no answer: the last that was sent";
 }
 
+TEST(CaseBlock, OfSeveralRequestsWithOneAnswerTheJudgedOneIsShown) {
+  auto result = samples::failure();
+  const results::Event answer = result.exchange.at(1);
+  ASSERT_EQ(answer.bytes, result.received_bytes);
+  result.exchange.clear();
+  for (const auto& [at, text] : {std::pair{1s, "FIRST"}, {2s, "SECOND"}, {3s, "THIRD"}}) {
+    result.exchange.push_back({results::Event::Kind::sent, at, at, {0x05}, text, 0});
+    result.exchange.push_back(answer);
+    result.exchange.back().start = result.exchange.back().end = at + 1ms;
+  }
+  result.due = {2s, 2500ms};
+  EXPECT_THAT(case_block(result), HasSubstr("sent      SECOND"));
+}
+
 TEST(CaseBlock, SeveralFramesShowTheExchange) {
   auto result = samples::failure();
   EXPECT_THAT(case_block(result), Not(HasSubstr("exchange")));

@@ -25,20 +25,17 @@ Byte header_check(ByteView frame) {
 }
 
 Bytes encode_frame(const Header& header, ByteView body) {
-  Bytes frame(header_size + body.size());
-  const auto set_word = [&frame](std::size_t at, std::size_t value) {
-    frame[at] = static_cast<Byte>(value);
-    frame[at + 1] = static_cast<Byte>(value >> 8);
-  };
-  std::ranges::copy(header.company, frame.begin());
-  set_word(10, header.plc_info);
-  frame[12] = header.cpu_info;
-  frame[13] = header.source;
-  set_word(14, header.invoke);
-  set_word(16, body.size());
-  frame[18] = header.position;
-  frame[19] = header_check(frame);
-  std::ranges::copy(body, frame.begin() + header_size);
+  Bytes frame;
+  frame.reserve(header_size + body.size());
+  frame.insert(frame.end(), header.company.begin(), header.company.end());
+  put_word(frame, header.plc_info);
+  frame.push_back(header.cpu_info);
+  frame.push_back(header.source);
+  put_word(frame, header.invoke);
+  put_word(frame, body.size());
+  frame.push_back(header.position);
+  frame.push_back(header_check(frame));
+  frame.insert(frame.end(), body.begin(), body.end());
   return frame;
 }
 
