@@ -2,7 +2,6 @@
 // the memory of a device costs a case no more than what the case touches of it.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -16,10 +15,10 @@ class Zeroed {
   static_assert(std::is_integral_v<Number>);
 
  public:
+  Zeroed() = default;  // none
   explicit Zeroed(std::size_t size)
-      : numbers_(
-            static_cast<Number*>(std::calloc(std::max<std::size_t>(size, 1), sizeof(Number)))) {
-    if (!numbers_) throw std::bad_alloc();
+      : numbers_(static_cast<Number*>(std::calloc(size, sizeof(Number)))) {
+    if (!numbers_ && size > 0) throw std::bad_alloc();
   }
 
   /// `at` is less than the size.

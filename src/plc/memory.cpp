@@ -9,18 +9,7 @@
 
 namespace fieldproof::plc {
 
-namespace {
-std::size_t all_of(const PlcModel& model, std::uint32_t DeviceArea::*size) {
-  std::size_t all = 0;
-  for (const DeviceArea& area : model.areas) all += area.*size;
-  return all;
-}
-}  // namespace
-
-PlcMemory::PlcMemory(const PlcModel& model)
-    : model_(&model),
-      words_(all_of(model, &DeviceArea::words)),
-      contacts_(all_of(model, &DeviceArea::contacts)) {
+PlcMemory::PlcMemory(const PlcModel& model) : model_(&model) {
   std::uint32_t words = 0, contacts = 0;
   for (std::size_t i = 0; i < model.areas.size(); ++i) {
     first_word_.at(i) = words;
@@ -28,6 +17,8 @@ PlcMemory::PlcMemory(const PlcModel& model)
     words += model.areas[i].words;
     contacts += model.areas[i].contacts;
   }
+  words_ = Zeroed<std::uint16_t>(words);
+  contacts_ = Zeroed<std::uint8_t>(contacts);
 }
 
 void PlcMemory::check(const DeviceAddress& address) const {

@@ -40,19 +40,10 @@ Result<Run> find_run(std::string_view verb, std::string_view name, std::size_t d
                             to_string({component->area, component->number + room - 1})));
   return Run{*component, static_cast<std::uint32_t>(count)};
 }
-
-std::size_t size_of_all(Series series) {
-  std::size_t size = 0;
-  for (const Area& area : areas())
-    for (const Range& range : ranges_of(area, series)) size += range.count;
-  return size;
-}
 }  // namespace
 
 Memory::Memory(Series series, std::uint32_t registers_d)
-    : series_(series),
-      registers_d_(registers_d ? registers_d : area_named("D").size),
-      values_(size_of_all(series)) {
+    : series_(series), registers_d_(registers_d ? registers_d : area_named("D").size) {
   std::size_t size = 0;
   for (const Area& area : areas()) {
     std::vector<Stored>& stored = stored_.emplace_back();
@@ -61,6 +52,7 @@ Memory::Memory(Series series, std::uint32_t registers_d)
       size += range.count;
     }
   }
+  values_ = Zeroed<std::uint16_t>(size);
 }
 
 std::optional<Component> Memory::find(std::string_view name) const {
