@@ -21,7 +21,8 @@ bool has_several_partners(const json& config) {
   return config.value("p2p", json::object()).contains("channels");
 }
 
-constexpr Duration answer_patience = 2s;
+// an interpreter starts slowly on a busy computer; one that says nothing costs this once a run
+constexpr Duration answer_patience = 10s;
 constexpr int most_restarts = 3;  // of a program that gives up
 
 }  // namespace
