@@ -70,6 +70,14 @@ struct TestProtocol : Protocol, public Probing, public MemoryRequests, public Ta
     return {{"M", 1, 1, "%MW1"}};
   }
 
+  /// Words alone, "%MW1", and as many behind it as there are digits.
+  std::optional<Written> named(std::string_view address, std::size_t digits) const override {
+    if (address.size() < 4 || address[0] != '%' || address[2] != 'W') return std::nullopt;
+    const auto word = static_cast<std::uint32_t>(std::stoul(std::string(address.substr(3))));
+    return Written{std::string(address.substr(1, 1)), word,
+                   word + static_cast<std::uint32_t>(digits / 4) - 1, std::string(address)};
+  }
+
   std::vector<std::string_view> output_areas() const override { return {"P", "Q"}; }
   Status check_table(const nlohmann::json&) const override { return ok(); }
 };

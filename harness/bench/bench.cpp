@@ -456,14 +456,15 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
     if (error.interrupted) recovery_.stop("interrupted", &error);
     return false;
   };
-  const auto set = [&](const std::string& address, const std::string& hex) {
-    const Status done = memory_.set(prepared, address, hex);
+  const auto set = [&](const exchange::MemoryRun& run) {
+    const Status done = memory_.set(prepared, run);
     if (done)
-      result.exchange.push_back({results::Event::Kind::note,
-                                 endpoint_.now(),
-                                 endpoint_.now(),
-                                 {},
-                                 fmt::format("given {} = {}", address, hex)});
+      for (const auto& [address, hex] : run.parts)
+        result.exchange.push_back({results::Event::Kind::note,
+                                   endpoint_.now(),
+                                   endpoint_.now(),
+                                   {},
+                                   fmt::format("given {} = {}", address, hex)});
     return done;
   };
   const exchange::Leaving leaving(memory_);  // the case has all connections of the device
@@ -476,17 +477,17 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
     // A flag that an earlier case left on would have no rising edge.
     if (arming_.aux())
       for (const std::string& flag : arming_.flags())
-        if (const Status reset = set(flag, "00"); !reset)
+        if (const Status reset = set({flag, "00", {{flag, "00"}}}); !reset)
           return give_up(Verdict::error, reset.error());
   }
-  for (const Protocol::Setting& given : prepared.source->memory) {
-    const auto& [address, hex] = given;
+  for (const exchange::MemoryRun& run : memory_.runs(prepared, prepared.source->memory)) {
     if (known_->set_ups_unanswered >= most_unanswered)
       return give_up(Verdict::blocked,
                      fail(fmt::format("{}cannot set {}: no answer{}", exchange::set_up_failure,
-                                      address, not_tried)));
+                                      run.address, not_tried)));
+    const Protocol::Setting given{run.address, run.hex};
     const std::string why_not = eligibility_.only_read(prepared, given);
-    const Status done = why_not.empty() ? set(address, hex) : holds(prepared, given, why_not);
+    const Status done = why_not.empty() ? set(run) : holds(prepared, given, why_not);
     known_->set_ups_unanswered *= memory_.lost() ? 1 : 0;
     if (done) continue;
     if (done.error().refused) return give_up(Verdict::blocked, done.error());

@@ -56,6 +56,23 @@ TEST_F(BenchTest, ALimitBelowTheMeasuredFloorIsInconclusive) {
       Verdict::pass);
 }
 
+/// Its time-out is 200 ms; when its scan sees that it is over, no manual says.
+TEST_F(BenchTest, WhatHitsTheTimeOutOfAClientIsInconclusive) {
+  on_real_device();
+  options.stimulus.tell = [](const std::string&) { return ok(); };
+  const auto message = [&](const std::string& wait) {
+    return run(vector(R"({"set": {"%MX0": "01"}}, {"expect": "'<q>'"}, {"wait": ")" + wait +
+                          R"("}, {"send": "'<answer>'"})",
+                      R"("given": {"config": {"role": "client", "p2p": {"blocks": [)"
+                      R"({"flag": "%MX0", "read": "%MW1", "save": "%MW2"}]}}}, )"))
+        .message;
+  };
+  for (const char* wait : {"199ms", "202ms"})
+    EXPECT_THAT(message(wait), HasSubstr("acts within 2.5 ms of the client's time-out")) << wait;
+  for (const char* wait : {"197ms", "203ms"})
+    EXPECT_THAT(message(wait), testing::Not(HasSubstr("acts within"))) << wait;
+}
+
 TEST_F(BenchTest, StartAsksOnlyWhetherAnythingAnswers) {
   endpoint.answers["<probe>"] = Pieces{{1ms, "utter nonsense"}};
   EXPECT_TRUE(bench().start());
@@ -107,6 +124,31 @@ TEST_F(BenchTest, WhatACaseWritesIsReadBeforeAndPutBackAfter) {
   EXPECT_EQ(run(text).verdict, Verdict::pass);
   EXPECT_THAT(endpoint.sent, testing::ElementsAre("<w%MW1=1234>", "<ask>", "<probe>", "<r%MW1>"))
       << "each place is read surely, once a run, before it is written";
+}
+
+/// Words that follow each other are one request; a device that takes one word alone gets them so.
+TEST_F(BenchTest, WordsAreSetInOneRequestWhereTheDeviceTakesIt) {
+  on_real_device();
+  ASSERT_TRUE(options.fence.allow("M", harness::read_word_name));
+  endpoint.answers["<r%MW1>"] = Pieces{{1ms, "<00E200E3>"}};
+  endpoint.answers["<w%MW1=12345678>"] = Pieces{{1ms, "<ok>"}};
+  endpoint.answers["<w%MW1=00E200E3>"] = Pieces{{1ms, "<ok>"}};
+  const std::string text =
+      vector(ask(), R"("given": {"memory": {"%MW1": "1234", "%MW2": "5678"}}, )");
+  const CaseResult one = run(text);
+  EXPECT_EQ(one.verdict, Verdict::pass) << one.message;
+  EXPECT_THAT(endpoint.sent,
+              testing::AllOf(Contains("<w%MW1=12345678>"), testing::Not(Contains("<w%MW2=5678>"))));
+  std::vector<std::string> told;
+  for (const results::Event& event : one.exchange) told.push_back(event.text);
+  EXPECT_THAT(told, testing::AllOf(Contains("given %MW1 = 1234"), Contains("given %MW2 = 5678")));
+
+  endpoint.answers["<w%MW1=12345678>"] = Pieces{{1ms, "<no>"}};
+  endpoint.answers["<w%MW1=1234>"] = endpoint.answers["<w%MW2=5678>"] = Pieces{{1ms, "<ok>"}};
+  EXPECT_EQ(run(text).verdict, Verdict::pass);
+  EXPECT_THAT(endpoint.sent, testing::IsSupersetOf({"<w%MW1=1234>", "<w%MW2=5678>"}));
+  endpoint.answers["<w%MW2=5678>"] = Pieces{{1ms, "<no>"}};
+  EXPECT_THAT(run(text).message, HasSubstr("cannot set %MW2"));
 }
 
 TEST_F(BenchTest, WhatCannotBePutBackStaysInTheJournal) {

@@ -35,7 +35,8 @@ void CaseRun::open_line(const std::string& name, const Channel& to) {
 void CaseRun::await_opening(const PreparedStep& step) {
   const Link* implicit = links_.find("");
   record().cause = implicit ? implicit->cause : now();
-  record().deadline = record().cause + reply_limit(*step.step, around_.timing.response_max);
+  record().deadline =
+      record().cause + prepared_.reply_limit(*step.step, around_.timing.response_max);
   const Time give_up = record().deadline + around_.timing.late_watch;
   Link* link = links_.unnamed_of_device();
   while (!link && links_.listen(*around_.device.endpoint, give_up))
@@ -62,7 +63,7 @@ void CaseRun::close(const PreparedStep& step) {
 void CaseRun::await_ending(const PreparedStep& step) {
   Link& link = *links_.find(step.link);
   record().cause = link.cause;
-  record().deadline = link.cause + reply_limit(*step.step, around_.timing.response_max);
+  record().deadline = link.cause + prepared_.reply_limit(*step.step, around_.timing.response_max);
   const Time give_up = record().deadline + around_.timing.late_watch;
   while (link.hears && links_.listen(link, give_up)) {
   }
@@ -120,9 +121,10 @@ void CaseRun::borrow_idle_link() {
 void CaseRun::set_memory(const std::vector<std::pair<std::string, std::string>>& memory) {
   links_.restart(now());
   borrow_idle_link();
-  for (const auto& [address, hex] : memory) {
-    const Status done = memory_.set(prepared_, address, hex);
-    links_.note(now(), fmt::format("set {} = {}", address, hex));
+  for (const MemoryRun& run : memory_.runs(prepared_, memory)) {
+    const Status done = memory_.set(prepared_, run);
+    for (const auto& [address, hex] : run.parts)
+      links_.note(now(), fmt::format("set {} = {}", address, hex));
     if (done) continue;
     record().refused = std::string(memory_.refused() ? set_up_failure : "") + done.error().message;
     record().refused_by_device = around_.arming && around_.arming->gave_up();

@@ -207,6 +207,23 @@ Status MemoryAccess::set(const PreparedCase& prepared, const std::string& addres
   return arming_ ? arming_->set(address, hex) : ok();
 }
 
+Status MemoryAccess::set(const PreparedCase& prepared, const MemoryRun& run) {
+  Status done = set(prepared, run.address, run.hex);
+  if (done || lost() || run.parts.size() < 2) return done;
+  for (const auto& [address, hex] : run.parts)
+    if (done = set(prepared, address, hex); !done) break;
+  return done;
+}
+
+std::vector<MemoryRun> MemoryAccess::runs(const PreparedCase& prepared,
+                                          const MemoryValues& values) const {
+  const bool asked = !device_.endpoint->capabilities().back_door && !prepared.is_client();
+  if (asked) return runs_of(values, *device_.protocol);
+  std::vector<MemoryRun> each;
+  for (const auto& value : values) each.push_back({value.first, value.second, {value}});
+  return each;
+}
+
 bool MemoryAccess::can_read(const PreparedCase& prepared, const std::string& address) const {
   if (!prepared.is_client() || device_.endpoint->capabilities().back_door) return true;
   return aux_ && !address.starts_with('@');

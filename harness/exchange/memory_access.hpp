@@ -8,6 +8,7 @@
 
 #include "harness/exchange/arming.hpp"
 #include "harness/exchange/channel.hpp"
+#include "harness/exchange/memory_runs.hpp"
 #include "harness/exchange/prepared_case.hpp"
 #include "harness/exchange/visit.hpp"
 
@@ -36,6 +37,10 @@ class MemoryAccess {
   /// refused. Memory of a real client that nobody can set is left: the bench has seen that the line
   /// does not depend on it (Arming::objection).
   Status set(const PreparedCase& prepared, const std::string& address, const std::string& hex);
+  /// The same for words that follow each other: one by one where the device takes one alone.
+  Status set(const PreparedCase& prepared, const MemoryRun& run);
+  /// These values in order, what can be asked for at once in one.
+  std::vector<MemoryRun> runs(const PreparedCase& prepared, const MemoryValues& values) const;
   Result<std::string> get(const PreparedCase& prepared, const std::string& address,
                           std::size_t digits);
   /// The error says that the PLC of this address is none that the bench reaches.

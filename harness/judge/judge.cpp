@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "harness/exchange/memory_runs.hpp"
 #include "harness/exchange/timing.hpp"
 #include "harness/judge/endings.hpp"
 #include "harness/judge/findings.hpp"
@@ -281,6 +282,21 @@ class Judge {
     findings_.miss(what + of_an_earlier_request(step, received.bytes));
   }
 
+  /// The requests that may have set what the case begins with.
+  std::vector<Bytes> set_ups(const harness::Protocol& protocol) const {
+    std::vector<Bytes> all;
+    const auto add = [&](const std::string& address, const std::string& hex) {
+      if (const auto requests = protocol.write_requests(prepared_.station, address, hex))
+        all.insert(all.end(), requests->begin(), requests->end());
+    };
+    for (const exchange::MemoryRun& run : exchange::runs_of(prepared_.source->memory, protocol)) {
+      add(run.address, run.hex);
+      if (run.parts.size() > 1)
+        for (const auto& [address, hex] : run.parts) add(address, hex);
+    }
+    return all;
+  }
+
   /// What has the form of an answer to something else that was asked in this case, and not to this.
   std::string of_an_earlier_request(const PreparedStep& step, ByteView reply) const {
     const harness::MemoryRequests* const memory = spoken(step).memory();
@@ -294,10 +310,8 @@ class Judge {
     for (std::size_t i = 0; i < record_; ++i)
       if (const Bytes& sent = shares_.steps[i].sent; !sent.empty())
         if (std::string found = told(sent); !found.empty()) return found;
-    for (const auto& [address, hex] : prepared_.source->memory)
-      if (const auto requests = spoken(step).write_requests(prepared_.station, address, hex))
-        for (const Bytes& request : *requests)
-          if (std::string found = told(request); !found.empty()) return found;
+    for (const Bytes& request : set_ups(spoken(step)))
+      if (std::string found = told(request); !found.empty()) return found;
     return {};
   }
 

@@ -29,6 +29,8 @@ def endpoint(protocol, fault):
     where = {'modbus-tcp': ' --listen 127.0.0.1:{port}',
              'xgt-fenet': ' --listen 127.0.0.1:{port} --udp 127.0.0.1:{udp_port}'}.get(protocol, ' --tty {tty}')
     command = f'exec:{sys.executable} -B {DEVICE} --protocol {protocol}{where}'
+    if protocol == 'modbus-rtu':
+        command += ' --gap-ms 4'  # on a pty no pause falls into a frame: 3.5 characters at 9600 are enough
     if fault:
         command += ' --fault ' + fault
     return command + ('' if '{tty}' in where else '?protocol=' + protocol)
