@@ -16,7 +16,7 @@ inline constexpr auto config_keys = std::to_array<std::string_view>({
     "base", "slot", "error", "host_table", "services", "monitor", "instructions", "module",
     "driver", "version", "bench_line", "stations", "servos", "ports", "routes", "ip", "port",
     "channel", "modem", "sms", "network", "network_ms", "dtr", "rts", "link", "reply_end",
-    "module_hangs", "hs_link", "program"});
+    "module_hangs", "hs_link", "program", "as_shipped"});
 // clang-format on
 
 inline bool is_config_key(std::string_view word) {

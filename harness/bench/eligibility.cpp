@@ -7,6 +7,7 @@
 
 #include "harness/bench/device_set_up.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
+#include "harness/exchange/timing.hpp"
 #include "harness/safety/placement.hpp"
 #include "harness/safety/transposition.hpp"
 #include "harness/vectors/loader.hpp"
@@ -28,6 +29,17 @@ json without_programs(json stations) {
     for (json& one : stations)
       if (one.is_object()) one.erase("program");
   return stations;
+}
+
+/// It acts, or looks, closer to the time-out of a client than anybody says how exact that is.
+bool hits_the_time_out(const PreparedCase& prepared) {
+  if (!prepared.is_client()) return false;
+  const Duration time_out = prepared.client_time_out();
+  return std::ranges::any_of(prepared.steps, [&](const exchange::PreparedStep& step) {
+    const Duration off = step.step->duration - time_out;
+    return step.step->kind == vectors::Step::Kind::wait &&
+           std::max(off, -off) < exchange::scan_and_reaction;
+  });
 }
 
 }  // namespace
@@ -344,6 +356,11 @@ Moments Eligibility::moments(const PreparedCase& prepared) const {
 
 Ruling Eligibility::below_floor(const PreparedCase& prepared, const Moments& moments) const {
   const endpoints::Capabilities& can = endpoint_.capabilities();
+  if (can.real_device && hits_the_time_out(prepared))
+    return {Verdict::inconclusive,
+            fmt::format("acts within {:.1f} ms of the client's time-out, to which scan and "
+                        "reaction add what no manual prints",
+                        to_ms(exchange::scan_and_reaction))};
   if (can.wire) return {};
   const json& config = prepared.source->config;
   if (config.contains("line") || config.contains("bench_line"))

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "harness/exchange/p2p_blocks.hpp"
+#include "harness/exchange/timing.hpp"
 
 namespace fieldproof::exchange {
 
@@ -134,7 +135,7 @@ void CaseRun::await_frame_gap(const Link& link) {
 void CaseRun::await_frame(const PreparedStep& step) {
   Link* link = links_.find(step.link);
   record().cause = link->cause;
-  record().deadline = link->cause + reply_limit(*step.step, around_.timing.response_max);
+  record().deadline = link->cause + prepared_.reply_limit(*step.step, around_.timing.response_max);
   const Time give_up = record().deadline + around_.timing.late_watch;
   const Time cut_off = give_up + longest_reply(link->to.protocol->longest_frame(),
                                                link->to.endpoint->character_time());
@@ -207,7 +208,8 @@ void CaseRun::answer(const PreparedStep& step) {
   Link& link = *links_.find(step.link);
   const Burst request = std::exchange(link.request, {});
   // Past the client's time-out, and past what the link can tell apart.
-  const Duration more = link.to.endpoint->character_time() + can().timing_floor;
+  const Duration more = link.to.endpoint->character_time() + can().timing_floor +
+                        (can().simulated ? Duration{} : scan_and_reaction);
   const vectors::PartnerSpec& spec = *step.step->partner;
   const Result<Partner::Answer> reply =
       partner_.answer(spec, request, request.end() + prepared_.client_time_out() + more);

@@ -136,6 +136,13 @@ TEST(ClientProgram, DatagramsAreSaidOfEachBlockAndMustBeFollowed) {
   vectors::Case source;
   source.config = {{"p2p", json::parse(parameters("udp"))}};
   EXPECT_EQ(set_up_of(source, false).at("blocks").at(0).at("transport"), "udp");
+
+  const auto own = [&](const char* channel, const char* all) {
+    return std::string("{\"transport\": \"") + all + "\", \"channels\": [{\"channel\": " + channel +
+           ", \"transport\": \"udp\"}], " + block + "}";
+  };
+  EXPECT_THAT(needs(own("1", "tcp").c_str(), {}), ElementsAre("transport"));
+  EXPECT_THAT(needs(own("2", "tcp").c_str(), {}), IsEmpty()) << "the block is of channel 1";
 }
 
 TEST(ClientProgram, MailsAreForWhoFollowsThem) {

@@ -37,6 +37,15 @@ std::string text_of(const json& block, const char* key) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+/// As the channel has it for itself, else as all have it.
+std::string transport_of(const json& p2p, const json& channel) {
+  for (const json& own : p2p.value("channels", json::array()))
+    if (own.is_object() && own.contains("transport") &&
+        plain_value(own.value("channel", json())) == plain_value(channel))
+      return own.value("transport", "tcp");
+  return p2p.value("transport", "tcp");
+}
+
 }  // namespace
 
 std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
@@ -51,8 +60,10 @@ std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
     if (!mail) block["channel"] = p2p.value("channel", json(1));
     if (function == "read" || function == "write")
       block.update({{"command", "single"}, {"type", "word"}, {"size", 1}});
-    if (!mail && p2p.value("transport", "tcp") != "tcp") block["transport"] = p2p["transport"];
     block.update(given);
+    if (!mail && !block.contains("transport"))
+      if (std::string transport = transport_of(p2p, block["channel"]); transport != "tcp")
+        block["transport"] = std::move(transport);
     for (const char* key : {"parameter", "block", "channel", "message", "size", "station", "to"})
       if (block.contains(key)) block[key] = plain_value(block[key]);
     if (block.contains("flag")) block["flag"] = upper(block["flag"].get<std::string>());
@@ -65,8 +76,9 @@ std::vector<json> complete_blocks(const json& blocks, const json& p2p) {
 }
 
 bool asks_by_datagrams(const json& config) {
-  const auto p2p = config.find("p2p");
-  return p2p != config.end() && p2p->is_object() && p2p->value("transport", "tcp") == "udp";
+  return std::ranges::any_of(p2p_blocks(config), [](const json& block) {
+    return block.value("transport", "tcp") == "udp";
+  });
 }
 
 std::vector<json> p2p_blocks(const json& config) {

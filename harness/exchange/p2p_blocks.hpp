@@ -12,7 +12,7 @@ namespace fieldproof::exchange {
 /// where there are none.
 std::vector<nlohmann::json> p2p_blocks(const nlohmann::json& config);
 
-/// Does `given.config.p2p` ask over UDP?
+/// Does a block of `given.config.p2p` ask over UDP?
 bool asks_by_datagrams(const nlohmann::json& config);
 
 /// The blocks of a list as it stands in `p2p.blocks` and in a profile's `prepared_blocks`.

@@ -56,7 +56,9 @@ Duration PreparedCase::client_settles() const {
 }
 
 Duration PreparedCase::reply_delay() const {
-  return Duration(number_of(source->config, "delay_ms", 0) * 1ms);
+  const nlohmann::json rs485 = source->config.value("rs485", nlohmann::json());
+  return rs485 == true || rs485 == "true" ? Duration(number_of(source->config, "delay_ms", 0) * 1ms)
+                                          : Duration{};
 }
 
 bool PreparedCase::expects_requests() const {
@@ -121,8 +123,9 @@ Duration PreparedCase::shortest_pause(Duration character_time) const {
   return shortest;
 }
 
-Duration reply_limit(const Step& step, Duration response_max) {
-  return step.within.value_or(response_max + step.every.value_or(Duration{}));
+Duration PreparedCase::reply_limit(const Step& step, Duration response_max) const {
+  const Duration before = is_client() ? Duration{} : reply_delay();
+  return step.within.value_or(response_max + before + step.every.value_or(Duration{}));
 }
 
 namespace {

@@ -50,8 +50,11 @@ struct PreparedCase {
   /// How long what it has asked last may disturb the next case: on a line until its time-out; on a
   /// network a late answer belongs to a connection and has a number, so no longer than on a line.
   Duration client_settles() const;
-  /// The configured delay of every reply (delay_ms).
+  /// The configured delay of every reply (delay_ms), which is of RS-485 alone.
   Duration reply_delay() const;
+  /// How long after its stimulus the first byte of an expected frame may come: what the step says,
+  /// or the time that the device needs behind its delay.
+  Duration reply_limit(const vectors::Step& step, Duration response_max) const;
   bool expects_requests() const;  // in the partner's chair: an expect or partner step
   bool listens_for_silence() const;
   bool looks_at_counters() const;  // a check of @status, @errors or @services
@@ -67,9 +70,6 @@ struct PreparedCase {
   /// The shortest pause or wait, or 0 when there is none.
   Duration shortest_pause(Duration character_time) const;
 };
-
-/// How long after its stimulus the first byte of an expected frame may come.
-Duration reply_limit(const vectors::Step& step, Duration response_max);
 
 /// A number of a configuration, which may be given as text.
 int number_of(const nlohmann::json& config, const char* key, int fallback);

@@ -20,6 +20,10 @@ inline Duration longest_reply(std::size_t longest_frame, Duration character_time
   return 2 * character_time * static_cast<Duration::rep>(longest_frame) + 1s;
 }
 
+/// What a client's scan and reaction add to its clocks and its time-out: no manual prints it, and
+/// p2p/clocks has so much.
+inline constexpr Duration scan_and_reaction = 2500us;
+
 /// More than any exchange of these protocols comes to: the device floods.
 inline constexpr std::size_t flood_limit = 16'384;
 

@@ -223,6 +223,16 @@ TEST_F(JudgeTest, ALateAnswerFailsWhereTimingBindsAndIsNeverCreditedToTheNextReq
   EXPECT_EQ(judged(ask()).verdict, Verdict::non_strict);
 }
 
+/// What the device is told to wait for comes before the time that it needs itself.
+TEST_F(JudgeTest, TheLimitOfAReplyBeginsBehindTheDelay) {
+  const std::string delay = R"("given": {"config": {"rs485": true, "delay_ms": 400}}, )";
+  endpoint.answers["<ask>"] = Pieces{{700ms, "<answer>"}};
+  EXPECT_EQ(judged(ask(), "must", "printed rule", delay).verdict, Verdict::pass);
+  endpoint.answers["<ask>"] = Pieces{{910ms, "<answer>"}};
+  EXPECT_THAT(judged(ask(), "must", "printed rule", delay).message,
+              HasSubstr("late answer: 910.0 ms after the request, the limit is 900 ms"));
+}
+
 TEST_F(JudgeTest, ALateAnswerToAnEarlierRequestIsSurplusThere) {
   endpoint.answers["<ask>"] = Pieces{{600ms, "<answer>"}};
   endpoint.answers["<next>"] = Pieces{{10ms, "<answer>"}};
@@ -565,6 +575,18 @@ TEST_F(JudgeTest, ACadenceIsMeasured) {
   EXPECT_EQ(judged(steps).verdict, Verdict::pass);
   endpoint.answers["<go>"][2].after = 450ms;
   EXPECT_THAT(judged(steps).message, HasSubstr("came after 150.0 ms instead of every 200.0 ms"));
+}
+
+/// The edge of a fast clock is seen by the scan behind it.
+TEST_F(JudgeTest, AFastClockMayBeShiftedByAScan) {
+  const std::string steps =
+      R"({"send": "'<go>'"}, {"expect": "'<tick>'", "times": 2, "every": "20ms"})";
+  endpoint.answers["<go>"] = Pieces{{20ms, "<tick>"}, {42400us, "<tick>"}};
+  EXPECT_EQ(judged(steps).verdict, Verdict::marginal);
+  endpoint.answers["<go>"][1].after = 41900us;
+  EXPECT_EQ(judged(steps).verdict, Verdict::pass) << judged(steps).message;
+  endpoint.answers["<go>"][1].after = 42600us;
+  EXPECT_THAT(judged(steps).message, HasSubstr("came after 22.6 ms instead of every 20.0 ms"));
 }
 
 /// The period of a frame goes on over the steps between, and past other frames.

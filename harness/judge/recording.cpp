@@ -67,7 +67,7 @@ Result<Transcript> replay(const results::CaseResult& recorded, const PreparedCas
     const results::StepOutcome& outcome = recording.steps[i];
     exchange::StepRecord& record = transcript.steps.emplace_back();
     record.cause = outcome.stimulus;
-    record.deadline = outcome.stimulus + exchange::reply_limit(*steps[i], response_max);
+    record.deadline = outcome.stimulus + prepared.reply_limit(*steps[i], response_max);
     record.memory = outcome.memory;
     record.refused = outcome.refused;
     record.refused_by_device = outcome.refused_by_device;

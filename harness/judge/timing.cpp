@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "harness/exchange/timing.hpp"
+
 namespace fieldproof::judging {
 
 using results::Verdict;
@@ -94,9 +96,10 @@ void Periods::add(Duration every, const exchange::Received& previous,
                   const exchange::Received& received, const JudgeRules& rules, Findings& findings) {
   if (previous.arrivals.empty() || received.arrivals.empty()) return;
   const Duration period = received.arrivals.front().start - previous.arrivals.front().start;
-  const Duration tolerance = rules.period_tolerance > 0ns
-                                 ? rules.period_tolerance
-                                 : std::max<Duration>(every / 20, rules.timing_floor);
+  const Duration tolerance =
+      rules.period_tolerance > 0ns
+          ? rules.period_tolerance
+          : std::max({Duration(every / 20), exchange::scan_and_reaction, rules.timing_floor});
   const Duration off = period > every ? period - every : every - period;
   measured_.push_back(period);
   const std::string came =

@@ -17,8 +17,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 10> station_keys{
-    "ip", "mode", "model", "name", "ports", "program", "routes", "servos", "station", "stations"};
+constexpr std::array<std::string_view, 11> station_keys{"as_shipped",  // this one always is
+                                                        "ip",         "mode",    "model",  "name",
+                                                        "ports",      "program", "routes", "servos",
+                                                        "station",    "stations"};
 constexpr unsigned servos_at_first = 10;  // 2-4
 constexpr std::array<std::string_view, 8> port_keys{"baud", "cable_m", "cycle_ms", "max_station",
                                                     "net",  "peer",    "port",     "station"};
