@@ -38,7 +38,7 @@ bool hits_the_time_out(const PreparedCase& prepared) {
   return std::ranges::any_of(prepared.steps, [&](const exchange::PreparedStep& step) {
     const Duration off = step.step->duration - time_out;
     return step.step->kind == vectors::Step::Kind::wait &&
-           std::max(off, -off) < exchange::scan_and_reaction;
+           std::max(off, -off) < exchange::near_the_time_out;
   });
 }
 
@@ -358,9 +358,9 @@ Ruling Eligibility::below_floor(const PreparedCase& prepared, const Moments& mom
   const endpoints::Capabilities& can = endpoint_.capabilities();
   if (can.real_device && hits_the_time_out(prepared))
     return {Verdict::inconclusive,
-            fmt::format("acts within {:.1f} ms of the client's time-out, to which scan and "
-                        "reaction add what no manual prints",
-                        to_ms(exchange::scan_and_reaction))};
+            fmt::format("acts within {:.0f} ms of the client's time-out: how exactly that is kept, "
+                        "no manual prints",
+                        to_ms(exchange::near_the_time_out))};
   if (can.wire) return {};
   const json& config = prepared.source->config;
   if (config.contains("line") || config.contains("bench_line"))

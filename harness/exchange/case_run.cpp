@@ -209,7 +209,7 @@ void CaseRun::answer(const PreparedStep& step) {
   const Burst request = std::exchange(link.request, {});
   // Past the client's time-out, and past what the link can tell apart.
   const Duration more = link.to.endpoint->character_time() + can().timing_floor +
-                        (can().simulated ? Duration{} : scan_and_reaction);
+                        (can().simulated ? Duration{} : near_the_time_out);
   const vectors::PartnerSpec& spec = *step.step->partner;
   const Result<Partner::Answer> reply =
       partner_.answer(spec, request, request.end() + prepared_.client_time_out() + more);

@@ -23,6 +23,9 @@ inline Duration longest_reply(std::size_t longest_frame, Duration character_time
 /// What a client's scan and reaction add to its clocks and its time-out: no manual prints it, and
 /// p2p/clocks has so much.
 inline constexpr Duration scan_and_reaction = 2500us;
+/// How exactly a client keeps its time-out is not printed (p2p/time-out): half a step of its
+/// setting.
+inline constexpr Duration near_the_time_out = 50ms;
 
 /// More than any exchange of these protocols comes to: the device floods.
 inline constexpr std::size_t flood_limit = 16'384;

@@ -84,7 +84,9 @@ Result<std::unique_ptr<EmulatedDevice>> make_broken_plc(const Behaviour& behavio
                                                         std::string_view model,
                                                         const nlohmann::json& config) {
   const std::string of = model.empty() ? protocol.models().front() : std::string(model);
-  const auto right = [&] { return harness::make_monitored_device(protocol, of, config); };
+  nlohmann::json own = config;
+  if (behaviour.takes) behaviour.takes(own);
+  const auto right = [&] { return harness::make_monitored_device(protocol, of, own); };
   Result<std::unique_ptr<EmulatedDevice>> device = right();
   if (!device) return device;
   if (behaviour.memory_apart)

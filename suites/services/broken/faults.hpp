@@ -18,6 +18,8 @@ namespace fieldproof::services_broken {
 struct Behaviour {
   /// Changes given.config, with what it says of the line.
   std::function<void(nlohmann::json& config)> set_up{};
+  /// Changes what the device takes it for; the case stays right.
+  std::function<void(nlohmann::json& config)> takes{};
   broken::Edge edge{};
   bool memory_apart = false;  // the services beside the main one have a memory of their own
 };

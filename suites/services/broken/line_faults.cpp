@@ -42,7 +42,7 @@ MakeBehaviour line_is(void (*change)(LineSettings& own)) {
 
 MakeBehaviour delay(unsigned (*wrong)(unsigned right)) {
   return [=] {
-    return Behaviour{.set_up = [=](json& config) {
+    return Behaviour{.takes = [=](json& config) {
       if (!config.contains("delay_ms")) return;
       const int right = exchange::number_of(config, "delay_ms", 0);
       config["delay_ms"] = wrong(static_cast<unsigned>(right));
