@@ -56,23 +56,6 @@ TEST_F(BenchTest, ALimitBelowTheMeasuredFloorIsInconclusive) {
       Verdict::pass);
 }
 
-/// Its time-out is 200 ms; how exactly that is kept, no manual says.
-TEST_F(BenchTest, WhatHitsTheTimeOutOfAClientIsInconclusive) {
-  on_real_device();
-  options.stimulus.tell = [](const std::string&) { return ok(); };
-  const auto message = [&](const std::string& wait) {
-    return run(vector(R"({"set": {"%MX0": "01"}}, {"expect": "'<q>'"}, {"wait": ")" + wait +
-                          R"("}, {"send": "'<answer>'"})",
-                      R"("given": {"config": {"role": "client", "p2p": {"blocks": [)"
-                      R"({"flag": "%MX0", "read": "%MW1", "save": "%MW2"}]}}}, )"))
-        .message;
-  };
-  for (const char* wait : {"151ms", "249ms"})
-    EXPECT_THAT(message(wait), HasSubstr("acts within 50 ms of the client's time-out")) << wait;
-  for (const char* wait : {"150ms", "250ms"})
-    EXPECT_THAT(message(wait), testing::Not(HasSubstr("acts within"))) << wait;
-}
-
 TEST_F(BenchTest, StartAsksOnlyWhetherAnythingAnswers) {
   endpoint.answers["<probe>"] = Pieces{{1ms, "utter nonsense"}};
   EXPECT_TRUE(bench().start());

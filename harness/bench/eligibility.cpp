@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "harness/bench/device_set_up.hpp"
+#include "harness/exchange/client_program.hpp"
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/exchange/timing.hpp"
 #include "harness/safety/placement.hpp"
@@ -31,15 +32,24 @@ json without_programs(json stations) {
   return stations;
 }
 
-/// It acts, or looks, closer to the time-out of a client than anybody says how exact that is.
+/// It acts, or looks, closer to the time-out of a request than anybody says how exact that is.
+/// Mails have others.
 bool hits_the_time_out(const PreparedCase& prepared) {
-  if (!prepared.is_client()) return false;
+  using Kind = vectors::Step::Kind;
+  if (!prepared.is_client() || exchange::has_mail(prepared.source->config.value("p2p", json())))
+    return false;
   const Duration time_out = prepared.client_time_out();
-  return std::ranges::any_of(prepared.steps, [&](const exchange::PreparedStep& step) {
-    const Duration off = step.step->duration - time_out;
-    return step.step->kind == vectors::Step::Kind::wait &&
-           std::max(off, -off) < exchange::near_the_time_out;
-  });
+  Duration waited{};
+  bool waits = false;  // the client, for an answer
+  for (const exchange::PreparedStep& one : prepared.steps) {
+    const vectors::Step& step = *one.step;
+    if (step.kind == Kind::expect) waits = !step.partner, waited = {};
+    if (step.kind == Kind::send || step.kind == Kind::partner) waits = false;
+    if (step.kind != Kind::wait || !waits) continue;
+    waited += step.duration;
+    if (std::max(waited - time_out, time_out - waited) < exchange::near_the_time_out) return true;
+  }
+  return false;
 }
 
 }  // namespace

@@ -38,8 +38,6 @@ constexpr std::array<Told, 8> told{{{"mode", "mode"},
 
 /// The settings of mails in `p2p`, of whatever protocol the blocks are.
 constexpr const char* mail_key = "email";
-bool has_mail(const json& p2p) { return p2p.contains(mail_key); }
-
 bool sets_flag(const Step& step, const std::string& flag) {
   return step.kind == Step::Kind::set &&
          std::ranges::any_of(step.memory, [&](const auto& one) { return one.first == flag; });
@@ -116,6 +114,8 @@ bool needs_memory(const vectors::Case& source, const std::vector<json>& blocks,
 }
 
 }  // namespace
+
+bool has_mail(const json& p2p) { return p2p.is_object() && p2p.contains(mail_key); }
 
 ClientProgram program_of(os::LineProgram& stimulus) {
   return {[&stimulus](const std::string& line) { return stimulus.tell(line); },

@@ -43,6 +43,8 @@ struct Declared {
 /// what is wrong with it, and what is known.
 Result<Declared> read_declaration(const std::string& answer);
 
+/// Does a P2P parameter mail?
+bool has_mail(const nlohmann::json& p2p);
 /// What a case needs of the program beyond "ask this once", as it stands in "follows".
 /// `same_memory`: do two addresses of the device's own memory share a bit?
 using SameMemory = std::function<bool(const std::string&, const std::string&)>;

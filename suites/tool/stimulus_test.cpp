@@ -116,6 +116,18 @@ TEST_F(LiteralClient, WhoSaysNothingIsToldNoMoreThanWhatToAsk) {
   EXPECT_EQ(told.at(6).at("last"), true);
 }
 
+/// A request that is not answered, and a look just before and behind its time-out.
+TEST_F(LiteralClient, HowExactlyATimeOutIsKeptIsNotJudged) {
+  profile = patient();
+  const std::string exact = "xgt_cnet/client/time_out/exact/n1";
+  run("well", exact + ":xgt_cnet/client/time_out/late_answer_of_another_block");
+  EXPECT_EQ(results.verdict(exact), "INCONCLUSIVE");
+  EXPECT_THAT(results.of(exact).at("message").get<std::string>(),
+              testing::HasSubstr("acts within 50 ms of the client's time-out"));
+  EXPECT_THAT(results.of("xgt_cnet/client/time_out/late_answer_of_another_block").dump(),
+              testing::Not(testing::HasSubstr("acts within")));
+}
+
 /// Cnet EN 7.1.3: capitals or small letters tell main commands apart, 'but not for the others'.
 TEST_F(LiteralClient, SmallLettersAreAnAllowedAlternative) {
   EXPECT_EQ(run("small", "xgt_cnet/client/schedule/block_order").code, 0);
