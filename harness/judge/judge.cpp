@@ -43,7 +43,10 @@ class Judge {
   Judgement judge() {
     if (transcript_.trouble) return error(transcript_.trouble->message);
     if (transcript_.flooded) findings_.miss(without_end());
-    for (const PreparedStep& step : prepared_.steps) judge_repeated(step);
+    for (const PreparedStep& step : prepared_.steps) {
+      judge_repeated(step);
+      if (!too_close_.empty()) return undecided(too_close_);
+    }
     if (findings_.result.verdict == Verdict::pass && record_ == 0)
       return error("no step was executed");
     judge_surplus();
@@ -61,6 +64,12 @@ class Judge {
  private:
   Judgement error(std::string message) {
     findings_.result.verdict = Verdict::error;
+    findings_.result.message = std::move(message);
+    return std::move(findings_.result);
+  }
+
+  Judgement undecided(std::string message) {
+    findings_.result.verdict = Verdict::inconclusive;
     findings_.result.message = std::move(message);
     return std::move(findings_.result);
   }
@@ -94,7 +103,10 @@ class Judge {
     switch (step.step->kind) {
       case Step::Kind::expect: return judge_reply(step, record, share);
       case Step::Kind::partner: return true;
-      case Step::Kind::wait: waited_until_ = record.cause; [[fallthrough]];
+      case Step::Kind::wait:
+        waited_until_ = record.cause;
+        if (ends_too_close(record, share.received)) return false;
+        [[fallthrough]];
       case Step::Kind::silence: judge_silence(share.received); return false;
       case Step::Kind::check:
         ++looks_;
@@ -425,6 +437,19 @@ class Judge {
                 rules_, findings_);
   }
 
+  /// What came just before the end of a wait may have come behind it, for all that the link tells.
+  bool ends_too_close(const StepRecord& record, const Received& received) {
+    if (received.arrivals.empty() || findings_.missed()) return false;
+    const Duration before = record.cause - received.arrivals.front().start;
+    if (before >= rules_.timing_floor) return false;
+    findings_.result.received = received;
+    too_close_ = fmt::format(
+        "{} bytes came {:.1f} ms before the end of the silence{}: this link may make {:.1f} ms "
+        "itself",
+        received.bytes.size(), to_ms(before), on_link(received.link), to_ms(rules_.timing_floor));
+    return true;
+  }
+
   void judge_silence(const Received& received) {
     if (received.arrivals.empty() || findings_.missed()) return;
     findings_.result.received = received;
@@ -526,6 +551,7 @@ class Judge {
   int looks_ = 0, passed_over_ = 0;         // at memory
   std::map<Bytes, const Received*> paced_;  // what came at the pace of a clock last
   Time waited_until_{};                     // the end of the last wait: nothing was due before
+  std::string too_close_;                   // why nothing can be said from here on
 };
 
 }  // namespace

@@ -577,6 +577,23 @@ TEST_F(JudgeTest, ACadenceIsMeasured) {
   EXPECT_THAT(judged(steps).message, HasSubstr("came after 150.0 ms instead of every 200.0 ms"));
 }
 
+/// A link that can be 20 ms off, and a reply around the end of a wait.
+TEST_F(JudgeTest, WhatComesJustBeforeTheEndOfASilenceIsInconclusive) {
+  const std::string steps = R"({"send": "'<ask>'"}, {"wait": "100ms"}, {"expect": "'<answer>'"})";
+  rules.timing_floor = 20ms;
+  endpoint.answers["<ask>"] = Pieces{{90ms, "<answer>"}};
+  EXPECT_EQ(judged(steps).verdict, Verdict::inconclusive);
+  EXPECT_THAT(judged(steps).message, HasSubstr("8 bytes came 10.0 ms before the end of the "
+                                               "silence: this link may make 20.0 ms itself"));
+  endpoint.answers["<ask>"] = Pieces{{79ms, "<answer>"}};
+  EXPECT_EQ(judged(steps).verdict, Verdict::fail);
+  endpoint.answers["<ask>"] = Pieces{{101ms, "<answer>"}};
+  EXPECT_EQ(judged(steps).verdict, Verdict::pass);
+  rules.timing_floor = 0ns;
+  endpoint.answers["<ask>"] = Pieces{{90ms, "<answer>"}};
+  EXPECT_EQ(judged(steps).verdict, Verdict::fail);
+}
+
 /// The edge of a fast clock is seen by the scan behind it.
 TEST_F(JudgeTest, AFastClockMayBeShiftedByAScan) {
   const std::string steps =
