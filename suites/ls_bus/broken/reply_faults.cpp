@@ -152,7 +152,7 @@ std::vector<Fault> reply_faults() {
       {"ia_for_id", "a bad count is refused with IA", other_code("ID", "IA"), "errors/count_read/9",
        "error code"},
       {"fe_for_if", "an unknown function is refused with FE", other_code("IF", "FE"),
-       "errors/function/upper_x", "error code"},
+       "errors/function/upper_q", "error code"},
       {"id_for_fe", "a wrong sum is refused with ID", other_code("FE", "ID"), "errors/wrong_sum/r",
        "error code"},
       {"silent_where_nak_is_due", "a refusal is not sent",

@@ -131,12 +131,12 @@ std::vector<Fault> request_faults() {
       {"unknown_function_is_read", "an unknown function is taken for R", misread([](FrameText& r) {
          if (r.command() != 'W' && r.body.size() > 2) r.body[2] = 'R';
        }),
-       "errors/function/upper_x", "header"},
+       "errors/function/upper_q", "header"},
       {"silent_on_unknown_function", "an unknown function is not refused",
        spoil_frame([](FrameText& r, const FrameText& request) {
          if (request.command() != 'R' && request.command() != 'W') r.head = 0;
        }),
-       "errors/function/upper_x", "no answer"},
+       "errors/function/upper_q", "no answer"},
       {"count_8_refused", "a read of eight words is refused",
        refuses([](const FrameText& r) { return is_read(r) && count(r) == '8'; }, "ID"),
        "read/count/words_8", "header"},
@@ -158,7 +158,7 @@ std::vector<Fault> request_faults() {
            [](const FrameText& r, GoodInverter& inverter) {
              return inverter.memory().set(address(r), data(r)) ? data(r) : std::string();
            }),
-       "errors/count_write/9_of_9", "header"},
+       "errors/nine_words", "header"},
       {"count_0_is_1", "a count of 0 is taken for 1", misread([](FrameText& r) {
          if (is_read(r) && count(r) == '0') r.set_content(address(r) + '1');
        }),
