@@ -456,10 +456,10 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
     if (error.interrupted) recovery_.stop("interrupted", &error);
     return false;
   };
-  const auto set = [&](const exchange::MemoryRun& run) {
+  const auto set = [&](exchange::MemoryRun run) {
     const Status done = memory_.set(prepared, run);
     if (done)
-      for (const auto& [address, hex] : run.parts)
+      for (const auto& [address, hex] : run)
         result.exchange.push_back({results::Event::Kind::note,
                                    endpoint_.now(),
                                    endpoint_.now(),
@@ -476,16 +476,18 @@ bool Bench::begin_case(const PreparedCase& prepared, CaseResult& result) {
       return give_up(arming_.gave_up() ? Verdict::fail : Verdict::error, begun.error());
     // A flag that an earlier case left on would have no rising edge.
     if (arming_.aux())
-      for (const std::string& flag : arming_.flags())
-        if (const Status reset = set({flag, "00", {{flag, "00"}}}); !reset)
+      for (const std::string& flag : arming_.flags()) {
+        const Protocol::Setting off{flag, "00"};
+        if (const Status reset = set({&off, 1}); !reset)
           return give_up(Verdict::error, reset.error());
+      }
   }
-  for (const exchange::MemoryRun& run : memory_.runs(prepared, prepared.source->memory)) {
+  for (const exchange::MemoryRun run : memory_.runs(prepared, prepared.source->memory)) {
     if (known_->set_ups_unanswered >= most_unanswered)
       return give_up(Verdict::blocked,
                      fail(fmt::format("{}cannot set {}: no answer{}", exchange::set_up_failure,
-                                      run.address, not_tried)));
-    const Protocol::Setting given{run.address, run.hex};
+                                      run.front().first, not_tried)));
+    const Protocol::Setting given = exchange::as_one(run);
     const std::string why_not = eligibility_.only_read(prepared, given);
     const Status done = why_not.empty() ? set(run) : holds(prepared, given, why_not);
     known_->set_ups_unanswered *= memory_.lost() ? 1 : 0;

@@ -121,9 +121,9 @@ void CaseRun::borrow_idle_link() {
 void CaseRun::set_memory(const std::vector<std::pair<std::string, std::string>>& memory) {
   links_.restart(now());
   borrow_idle_link();
-  for (const MemoryRun& run : memory_.runs(prepared_, memory)) {
+  for (const MemoryRun run : memory_.runs(prepared_, memory)) {
     const Status done = memory_.set(prepared_, run);
-    for (const auto& [address, hex] : run.parts)
+    for (const auto& [address, hex] : run)
       links_.note(now(), fmt::format("set {} = {}", address, hex));
     if (done) continue;
     record().refused = std::string(memory_.refused() ? set_up_failure : "") + done.error().message;

@@ -38,6 +38,7 @@ constexpr std::array<Told, 8> told{{{"mode", "mode"},
 
 /// The settings of mails in `p2p`, of whatever protocol the blocks are.
 constexpr const char* mail_key = "email";
+
 bool sets_flag(const Step& step, const std::string& flag) {
   return step.kind == Step::Kind::set &&
          std::ranges::any_of(step.memory, [&](const auto& one) { return one.first == flag; });

@@ -207,10 +207,12 @@ Status MemoryAccess::set(const PreparedCase& prepared, const std::string& addres
   return arming_ ? arming_->set(address, hex) : ok();
 }
 
-Status MemoryAccess::set(const PreparedCase& prepared, const MemoryRun& run) {
-  Status done = set(prepared, run.address, run.hex);
-  if (done || lost() || run.parts.size() < 2) return done;
-  for (const auto& [address, hex] : run.parts)
+Status MemoryAccess::set(const PreparedCase& prepared, MemoryRun run) {
+  const auto [first, all] = as_one(run);
+  Status done = set(prepared, first, all);
+  const bool as_words = !done && refused_ && !lost() && run.size() > 1;
+  if (!as_words) return done;
+  for (const auto& [address, hex] : run)
     if (done = set(prepared, address, hex); !done) break;
   return done;
 }
@@ -218,10 +220,7 @@ Status MemoryAccess::set(const PreparedCase& prepared, const MemoryRun& run) {
 std::vector<MemoryRun> MemoryAccess::runs(const PreparedCase& prepared,
                                           const MemoryValues& values) const {
   const bool asked = !device_.endpoint->capabilities().back_door && !prepared.is_client();
-  if (asked) return runs_of(values, *device_.protocol);
-  std::vector<MemoryRun> each;
-  for (const auto& value : values) each.push_back({value.first, value.second, {value}});
-  return each;
+  return asked ? runs_of(values, *device_.protocol) : each_of(values);
 }
 
 bool MemoryAccess::can_read(const PreparedCase& prepared, const std::string& address) const {

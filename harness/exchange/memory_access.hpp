@@ -37,8 +37,8 @@ class MemoryAccess {
   /// refused. Memory of a real client that nobody can set is left: the bench has seen that the line
   /// does not depend on it (Arming::objection).
   Status set(const PreparedCase& prepared, const std::string& address, const std::string& hex);
-  /// The same for words that follow each other: one by one where the device takes one alone.
-  Status set(const PreparedCase& prepared, const MemoryRun& run);
+  /// The same for words that follow each other: one by one where the device refuses them in one.
+  Status set(const PreparedCase& prepared, MemoryRun run);
   /// These values in order, what can be asked for at once in one.
   std::vector<MemoryRun> runs(const PreparedCase& prepared, const MemoryValues& values) const;
   Result<std::string> get(const PreparedCase& prepared, const std::string& address,

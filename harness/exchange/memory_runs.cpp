@@ -32,23 +32,34 @@ std::optional<Protocol::Written> word_of(const std::string& address, const std::
 
 }  // namespace
 
+Protocol::Setting as_one(MemoryRun run) {
+  Protocol::Setting whole = run.front();
+  for (const auto& [address, hex] : run.subspan(1)) whole.second += hex;
+  return whole;
+}
+
+std::vector<MemoryRun> each_of(const MemoryValues& values) {
+  std::vector<MemoryRun> runs;
+  for (const Protocol::Setting& value : values) runs.emplace_back(&value, 1);
+  return runs;
+}
+
 std::vector<MemoryRun> runs_of(const MemoryValues& values, const Protocol& protocol) {
   std::vector<MemoryRun> runs;
   std::optional<Protocol::Written> open;  // what the last run fills, where a word can follow
-  for (const auto& [address, hex] : values) {
-    const std::optional<Protocol::Written> word = word_of(address, hex, protocol);
+  for (const Protocol::Setting& value : values) {
+    const std::optional<Protocol::Written> word = word_of(value.first, value.second, protocol);
     if (open && word && word->area == open->area && word->first_word == open->last_word + 1) {
       Protocol::Written both = *open;
       both.last_word = word->last_word;
-      if (const auto place = only_place(both, protocol);
-          place && place->address == runs.back().address) {
-        runs.back().hex += hex;
-        runs.back().parts.emplace_back(address, hex);
+      const auto place = only_place(both, protocol);
+      if (place && place->address == runs.back().front().first) {
+        runs.back() = {runs.back().data(), runs.back().size() + 1};
         open = both;
         continue;
       }
     }
-    runs.push_back({address, hex, {{address, hex}}});
+    runs.emplace_back(&value, 1);
     open = word;
   }
   return runs;

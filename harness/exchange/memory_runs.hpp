@@ -1,26 +1,24 @@
 // Words of memory that follow each other, so that a device is asked once for many of them.
 #pragma once
 
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "harness/protocol.hpp"
 
 namespace fieldproof::exchange {
 
-/// Address and hex digits, as given.memory has them.
-using MemoryValues = std::vector<std::pair<std::string, std::string>>;
+using MemoryValues = std::vector<harness::Protocol::Setting>;
 
-/// A value of one address that fills the words behind it, too, and the single ones that it is made
-/// of.
-struct MemoryRun {
-  std::string address, hex;
-  MemoryValues parts;
-};
+/// Values that follow each other: the first address, and all their digits, set them in one.
+using MemoryRun = std::span<const harness::Protocol::Setting>;
+harness::Protocol::Setting as_one(MemoryRun run);
 
+/// One run for each value.
+std::vector<MemoryRun> each_of(const MemoryValues& values);
 /// The same values in the same order, single words joined where the protocol has them all at one
-/// place (Protocol::places).
+/// place (Protocol::places). `values` must outlive them.
 std::vector<MemoryRun> runs_of(const MemoryValues& values, const harness::Protocol& protocol);
 
 }  // namespace fieldproof::exchange

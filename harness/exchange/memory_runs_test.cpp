@@ -12,8 +12,10 @@ using testing::ElementsAre;
 
 std::vector<std::string> spelled(const MemoryValues& values) {
   std::vector<std::string> all;
-  for (const MemoryRun& run : runs_of(values, harness::TestProtocol()))
-    all.push_back(run.address + "=" + run.hex + "/" + std::to_string(run.parts.size()));
+  for (const MemoryRun run : runs_of(values, harness::TestProtocol())) {
+    const auto [address, hex] = as_one(run);
+    all.push_back(address + "=" + hex + "/" + std::to_string(run.size()));
+  }
   return all;
 }
 

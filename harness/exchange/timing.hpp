@@ -20,9 +20,6 @@ inline Duration longest_reply(std::size_t longest_frame, Duration character_time
   return 2 * character_time * static_cast<Duration::rep>(longest_frame) + 1s;
 }
 
-/// What a client's scan and reaction add to its clocks and its time-out: no manual prints it, and
-/// p2p/clocks has so much.
-inline constexpr Duration scan_and_reaction = 2500us;
 /// How exactly a client keeps its time-out is not printed (p2p/time-out): half a step of its
 /// setting.
 inline constexpr Duration near_the_time_out = 50ms;

@@ -45,11 +45,14 @@ class Judge {
     if (transcript_.flooded) findings_.miss(without_end());
     for (const PreparedStep& step : prepared_.steps) {
       judge_repeated(step);
-      if (!too_close_.empty()) return undecided(too_close_);
+      if (!too_close_.empty()) break;
     }
     if (findings_.result.verdict == Verdict::pass && record_ == 0)
       return error("no step was executed");
-    judge_surplus();
+    if (too_close_.empty())
+      judge_surplus();
+    else
+      findings_.lower_to(Verdict::inconclusive, too_close_);
     for (const NetTrace& net : transcript_.trace.nets)
       if (const std::string rule = broken_token_rule(net); !rule.empty())
         findings_.miss(fmt::format("token bus of net {}: {}", net.net, rule));
@@ -64,12 +67,6 @@ class Judge {
  private:
   Judgement error(std::string message) {
     findings_.result.verdict = Verdict::error;
-    findings_.result.message = std::move(message);
-    return std::move(findings_.result);
-  }
-
-  Judgement undecided(std::string message) {
-    findings_.result.verdict = Verdict::inconclusive;
     findings_.result.message = std::move(message);
     return std::move(findings_.result);
   }
@@ -297,14 +294,15 @@ class Judge {
   /// The requests that may have set what the case begins with.
   std::vector<Bytes> set_ups(const harness::Protocol& protocol) const {
     std::vector<Bytes> all;
-    const auto add = [&](const std::string& address, const std::string& hex) {
-      if (const auto requests = protocol.write_requests(prepared_.station, address, hex))
+    using harness::Protocol;
+    const auto add = [&](const Protocol::Setting& value) {
+      if (const auto requests =
+              protocol.write_requests(prepared_.station, value.first, value.second))
         all.insert(all.end(), requests->begin(), requests->end());
     };
-    for (const exchange::MemoryRun& run : exchange::runs_of(prepared_.source->memory, protocol)) {
-      add(run.address, run.hex);
-      if (run.parts.size() > 1)
-        for (const auto& [address, hex] : run.parts) add(address, hex);
+    for (const exchange::MemoryRun run : exchange::runs_of(prepared_.source->memory, protocol)) {
+      if (run.size() > 1) add(exchange::as_one(run));
+      for (const Protocol::Setting& value : run) add(value);
     }
     return all;
   }

@@ -4,13 +4,15 @@
 
 #include <algorithm>
 
-#include "harness/exchange/timing.hpp"
-
 namespace fieldproof::judging {
 
 using results::Verdict;
 
 namespace {
+
+/// What a client's scan and reaction shift its clocks by: no manual prints it, p2p/clocks has so
+/// much.
+constexpr Duration scan_and_reaction = 2500us;
 
 double scaled(Duration duration, double factor) {
   return static_cast<double>(duration.count()) * factor;
@@ -99,7 +101,7 @@ void Periods::add(Duration every, const exchange::Received& previous,
   const Duration tolerance =
       rules.period_tolerance > 0ns
           ? rules.period_tolerance
-          : std::max({Duration(every / 20), exchange::scan_and_reaction, rules.timing_floor});
+          : std::max({Duration(every / 20), scan_and_reaction, rules.timing_floor});
   const Duration off = period > every ? period - every : every - period;
   measured_.push_back(period);
   const std::string came =

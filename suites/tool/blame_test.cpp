@@ -146,7 +146,7 @@ TEST_F(Blame, AnAnswerThatComesAgainIsNamedAsThat) {
   for (const json& one : failed)
     EXPECT_THAT(one.at("message").get<std::string>(),
                 ContainsRegex("expected [rR], got w \\(an answer to what was asked before, ENQ "
-                              "'01wS.*: it came twice, or late\\)"));
+                              "'01wSB.*: it came twice, or late\\)"));
 }
 
 // ---- a device that dies

@@ -63,6 +63,24 @@ TEST_F(Timing, RepetitionsAreOneRowOfFigures) {
   EXPECT_THAT(read_text(out_ + "/report.html"), HasSubstr("99 %"));
 }
 
+/// A reply of Modbus RTU begins 5.05 ms behind its request, in simulated time.
+TEST_F(Timing, ALimitOfTheProfileIsMissedByAReplyBehindIt) {
+  nlohmann::ordered_json vector = small_vector("v/delayed");
+  vector["id"] = "modbus_rtu/v/reply";
+  vector["steps"] = {{{"send", "[st 03 00 63 00 01 CRC]"}}, {{"expect", "[st 03 02 ?? ?? CRC]"}}};
+  const std::string vectors = write_vectors(folder_, {vector});
+  const auto verdict = [&](const std::string& limit) {
+    const std::string profile = folder_.write(
+        "p.json",
+        R"({"name": "p", "extends": "xbc-h", "timing": {"response_max": ")" + limit + R"("}})");
+    run({"--endpoint", "emulator:xbc-h", "--vectors", vectors, "--profile", profile});
+    return results().verdict("modbus_rtu/v/reply");
+  };
+  EXPECT_EQ(verdict("6ms"), "PASS");
+  EXPECT_EQ(verdict("5200us"), "MARGINAL");
+  EXPECT_EQ(verdict("5ms"), "FAIL");
+}
+
 /// A reply after 10 ms, against limits around it.
 TEST_F(Timing, LimitsOfTheProfileHaveUnitsAndAGuardBand) {
   nlohmann::ordered_json vector = small_vector("v/delayed");
