@@ -360,7 +360,7 @@ bool Bench::set_up_device(const PreparedCase& prepared, CaseResult& result) {
 
 Result<exchange::Sign> Bench::answers_when_set_up(const PreparedCase& prepared, bool started) {
   const Duration patience = started ? start_patience : 3 * options_.profile.response_max;
-  return exchange_.anything_answers(prepared.station, patience, prepared.reply_delay(), true);
+  return exchange_.anything_answers(prepared.station, patience, prepared.reply_delay, true);
 }
 
 bool Bench::prepare_device(const PreparedCase& prepared, CaseResult& result) {

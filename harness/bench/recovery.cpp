@@ -42,7 +42,7 @@ void Recovery::after(const PreparedCase& prepared, const exchange::Transcript& t
   const bool negative = prepared.listens_for_silence() || result.verdict == Verdict::fail;
   if (endpoint_.capabilities().simulated && negative && prepared.answers_probes()) {
     const Result<exchange::Sign> alive = exchange_.anything_answers(
-        prepared.station, 3 * options_.profile.response_max, prepared.reply_delay());
+        prepared.station, 3 * options_.profile.response_max, prepared.reply_delay);
     if (!alive)
       return stop("the port failed after " + result.id + ": " + alive.error().message,
                   &alive.error());

@@ -87,7 +87,12 @@ void UncheckedWrites::after(const results::CaseResult& result, const Protocol& p
       taken.push_back(&*write);
     else
       write->shows = false;  // the first of them may have gone astray
-    due.insert(write->sets.begin(), write->sets.end());
+    for (const auto& [address, digits] : write->sets) {
+      // A request may name a word twice: the last one counts.
+      if (const auto own = protocol.named(address, digits.size()))
+        std::erase_if(due, [&](const auto& place) { return meets(place, {*own}, protocol); });
+      due.insert_or_assign(address, digits);
+    }
   }
   for (Write* write : taken) {
     const bool lost = is_lost(*write, due, memory);

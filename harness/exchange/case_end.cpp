@@ -63,7 +63,7 @@ bool CaseRun::probe(Link& link, std::optional<int> step) {
   if (stopped()) return false;
   const std::optional<Sent> sent = links_.transmit(link, request, false);
   if (!sent) return false;
-  const Time until = sent->end + around_.timing.response_max + prepared_.reply_delay();
+  const Time until = sent->end + around_.timing.response_max + prepared_.reply_delay;
   std::size_t before = 0, end = 0;  // of the last frame
   bool answered = false;
   while (!answered) {
@@ -116,7 +116,7 @@ void CaseRun::look_for_life() {
   }
   const Result<Sign> sign =
       Sanity(device, around_.timing)
-          .anything_answers(3 * around_.timing.response_max, prepared_.reply_delay());
+          .anything_answers(3 * around_.timing.response_max, prepared_.reply_delay);
   if (!sign)
     transcript_.trouble = sign.error();
   else if (*sign != Sign::alive)

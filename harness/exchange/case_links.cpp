@@ -107,7 +107,7 @@ Status CaseRun::cycle_power() {
   Channel device = around_.device;
   device.station = prepared_.station;
   const Result<Sign> back = Sanity(device, around_.timing)
-                                .anything_answers(restart_patience, prepared_.reply_delay(), true);
+                                .anything_answers(restart_patience, prepared_.reply_delay, true);
   if (!back) transcript_.trouble = back.error();
   return ok();
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "harness/exchange/p2p_blocks.hpp"
 #include "harness/exchange/timing.hpp"
@@ -64,7 +65,7 @@ void CaseRun::step(const PreparedStep& step) {
       if (step.step->partner && !links_.find(step.link)->request.bytes.empty()) answer(step);
       return;
     case Step::Kind::partner: return partner(step);
-    case Step::Kind::silence: return silence(*links_.find(step.link));
+    case Step::Kind::silence: return silence(step);
     case Step::Kind::wait:
       record().cause = now() + step.step->duration;
       wait_until(record().cause, nullptr);
@@ -81,6 +82,8 @@ void CaseRun::step(const PreparedStep& step) {
 
 void CaseRun::send(const PreparedStep& step) {
   Link& link = *links_.find(step.link);
+  repeat_behind_lost_probe(link);
+  last_sent_ = &step;
   await_frame_gap(link);
   // What came before this send belongs to what was open until now.
   while (links_.listen(link, now())) {
@@ -230,7 +233,12 @@ void CaseRun::answer(const PreparedStep& step) {
   links_.transmit(link, reply->bytes);
 }
 
-void CaseRun::silence(Link& link) {
+void CaseRun::silence(const PreparedStep& step) {
+  Link& link = *links_.find(step.link);
+  if (step.step->within) {
+    wait_until(now() + *step.step->within, &link);
+    return;
+  }
   const Time due = link.last_sent.end + (can().simulated ? around_.timing.promised_silence
                                                          : around_.timing.response_max);
   // A probe would change the counters, and a client answers none; in the midst of a stream of bytes
@@ -245,7 +253,17 @@ void CaseRun::silence(Link& link) {
   const bool unended = !link.network && !link.to.protocol->frame_length(link.last_bytes);
   if (unended && wait_until(link.last_sent.end + around_.timing.quiet, &link)) return;
   if (transcript_.trouble) return;
-  if (!probe(link, index())) wait_until(due, &link);
+  if (!probe(link, index()) && !wait_until(due, &link)) lost_probe_ = last_sent_;
+}
+
+/// A device that loses the frame behind one that it passes over has lost the probe. What was sent
+/// goes out again, and its silence is waited out, so that the case's own next request shows it.
+void CaseRun::repeat_behind_lost_probe(Link& link) {
+  const PreparedStep* const stimulus = std::exchange(lost_probe_, nullptr);
+  if (!stimulus || stimulus->link != link.name) return;
+  links_.note(now(), "a probe may have been lost: what was before it once more, without one");
+  send(*stimulus);
+  wait_until(link.last_sent.end + around_.timing.response_max, &link);
 }
 
 /// What came on the link (nullptr: on any) is the step's. Did anything?

@@ -60,7 +60,8 @@ class CaseRun {
   /// Answers the request that an `expect` has just taken, else the next one, whatever it asks.
   void partner(const PreparedStep& step);
   void answer(const PreparedStep& step);
-  void silence(Link& link);
+  void silence(const PreparedStep& step);
+  void repeat_behind_lost_probe(Link& link);
   bool wait_until(Time moment, Link* only);
 
   void open(const PreparedStep& step);
@@ -98,6 +99,8 @@ class CaseRun {
   notation::Captures captures_;
   const Link* last_sender_ = nullptr;  // and the step that it sent in
   int last_sending_ = -1;
+  const PreparedStep* last_sent_ = nullptr;
+  const PreparedStep* lost_probe_ = nullptr;  // a probe behind this one was not answered
 };
 
 }  // namespace fieldproof::exchange

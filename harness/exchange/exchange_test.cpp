@@ -149,6 +149,27 @@ TEST_F(ExchangeTest, WithoutAProbeASilenceIsWaitedOut) {
   EXPECT_GE(endpoint.now(), Time(500ms));
 }
 
+TEST_F(ExchangeTest, WhereTheProbeIsLostTheNextRequestIsThatOfTheCase) {
+  endpoint.can = {.wire = true, .real_device = true};
+  endpoint.answers.erase("<probe>");
+  EXPECT_THAT(
+      exchange(GapProtocol(), R"({"send": "'<a>'"}, {"silence": true}, {"send": "'<ask>'"})"),
+      ElementsAre("4 <a>", "4 <probe>", "500 <a>", "500 <ask>", "4 <probe>"));
+}
+
+TEST_F(ExchangeTest, WhereNothingFollowsALostProbeNothingIsRepeated) {
+  endpoint.can = {.wire = true, .real_device = true};
+  endpoint.answers.erase("<probe>");
+  EXPECT_THAT(exchange(GapProtocol(), R"({"send": "'<a>'"}, {"silence": true})"),
+              ElementsAre("4 <a>", "4 <probe>", "500 <probe>"));
+}
+
+TEST_F(ExchangeTest, ASilenceOfAGivenTimeIsWaitedOut) {
+  endpoint.can = {.wire = true, .real_device = true};
+  EXPECT_THAT(exchange(GapProtocol(), R"({"silence": true, "within": "2s"})"),
+              ElementsAre("2000 <probe>"));
+}
+
 }  // namespace
 
 }  // namespace fieldproof::exchange

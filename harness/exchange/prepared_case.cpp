@@ -55,12 +55,6 @@ Duration PreparedCase::client_settles() const {
   return exchange::client_time_out(source->config, true);
 }
 
-Duration PreparedCase::reply_delay() const {
-  const nlohmann::json rs485 = source->config.value("rs485", nlohmann::json());
-  return rs485 == true || rs485 == "true" ? Duration(number_of(source->config, "delay_ms", 0) * 1ms)
-                                          : Duration{};
-}
-
 bool PreparedCase::expects_requests() const {
   return is_client() && std::ranges::any_of(steps, [](const PreparedStep& step) {
            return step.step->kind == Step::Kind::expect || step.step->kind == Step::Kind::partner;
@@ -124,8 +118,9 @@ Duration PreparedCase::shortest_pause(Duration character_time) const {
 }
 
 Duration PreparedCase::reply_limit(const Step& step, Duration response_max) const {
-  const Duration before = is_client() ? Duration{} : reply_delay();
-  return step.within.value_or(response_max + before + step.every.value_or(Duration{}));
+  if (step.within) return *step.within;
+  const bool delayed = reply_delay > 0ns && !is_client();
+  return response_max + (delayed ? reply_delay : 0ns) + step.every.value_or(0ns);
 }
 
 namespace {
@@ -190,11 +185,17 @@ Result<PreparedStep> prepare_step(const Step& source, vectors::LinkNames& links,
   return step;
 }
 
+Duration reply_delay_of(const nlohmann::json& config) {
+  const nlohmann::json rs485 = config.value("rs485", nlohmann::json());
+  return rs485 == true || rs485 == "true" ? number_of(config, "delay_ms", 0) * 1ms : 0ns;
+}
+
 }  // namespace
 
 Result<PreparedCase> prepare(const vectors::Case& source, int station,
                              const harness::Protocol& protocol, const OtherWays& others) {
-  PreparedCase prepared{&source, station, !protocol.probe(station, {}).empty(), false, {}, {}};
+  const bool has_probe = !protocol.probe(station, {}).empty();
+  PreparedCase prepared{&source, station, has_probe, false, reply_delay_of(source.config), {}, {}};
   vectors::LinkNames links(source, protocol.on_network(), [&](const std::string& name) {
     const harness::Protocol* const other = others.known.find(name);
     return other && !other->on_network();

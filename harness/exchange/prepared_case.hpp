@@ -34,6 +34,7 @@ struct PreparedCase {
   int station = 1;
   bool has_probe = true;       // the protocol has a request that anything healthy answers
   bool implicit_link = false;  // the bench opens one at the beginning
+  Duration reply_delay{};      // configured for every reply (delay_ms), of RS-485 alone
   std::vector<PreparedStep> steps;
   std::string stimulus;  // a hash of all that is done to the device
 
@@ -50,8 +51,6 @@ struct PreparedCase {
   /// How long what it has asked last may disturb the next case: on a line until its time-out; on a
   /// network a late answer belongs to a connection and has a number, so no longer than on a line.
   Duration client_settles() const;
-  /// The configured delay of every reply (delay_ms), which is of RS-485 alone.
-  Duration reply_delay() const;
   /// How long after its stimulus the first byte of an expected frame may come: what the step says,
   /// or the time that the device needs behind its delay.
   Duration reply_limit(const vectors::Step& step, Duration response_max) const;

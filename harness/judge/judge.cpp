@@ -409,10 +409,23 @@ class Judge {
     const std::string how = in_words(ending, record.cause, "what it follows");
     if (step.step->ending && *step.step->ending != event)
       return findings_.miss(how + (event == LinkEvent::reset ? "; FIN is due" : "; RST is due"));
+    // A limit that ended within the wait asks whether it has ended by now.
+    if (!step.step->may_stay && record.deadline > waited_until_ &&
+        is_early(ending.event->start, record))
+      return findings_.miss(how + "; it had no reason to before the end of the wait");
     findings_.result.notes.push_back(how);
     judge_limit({"end of the connection", "what it follows", step.step->within.has_value(),
                  record.deadline - record.cause, ending.event->start - record.cause},
                 rules_, findings_);
+  }
+
+  /// What it follows, or the end of the wait before: until then nothing was due.
+  Time reason_for(const StepRecord& record) const { return std::max(record.cause, waited_until_); }
+
+  /// What makes the device act may take its time on another port.
+  bool is_early(Time moment, const StepRecord& record) const {
+    constexpr Duration margin = 100ms;
+    return reason_for(record) - moment > margin;
   }
 
   void judge_opening(const PreparedStep& step, const StepRecord& record,
@@ -424,12 +437,10 @@ class Judge {
     if ((due.port != 0 || !due.protocol.empty()) && opened->port != step.port)
       return findings_.miss(fmt::format("the device opened a connection to TCP {}; {} is due",
                                         opened->port, step.port));
-    // What makes it ask may take its time on another port.
-    constexpr Duration margin = 100ms;
-    const Time reason = std::max(record.cause, waited_until_);
-    if (const Duration early = reason - opened->start; early > margin)
-      return findings_.miss(fmt::format(
-          "the device opened the connection {:.1f} ms before it had a reason to", to_ms(early)));
+    if (is_early(opened->start, record))
+      return findings_.miss(
+          fmt::format("the device opened the connection {:.1f} ms before it had a reason to",
+                      to_ms(reason_for(record) - opened->start)));
     judge_limit({"connection", "what it follows", step.step->within.has_value(),
                  record.deadline - record.cause, opened->start - record.cause},
                 rules_, findings_);

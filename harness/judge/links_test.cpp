@@ -287,6 +287,19 @@ TEST_F(LinksTest, AConnectionOfTheDeviceDuringAWaitHasNoReason) {
             "the device opened the connection 200.0 ms before it had a reason to");
 }
 
+TEST_F(LinksTest, AnEndDuringAWaitHasNoReason) {
+  network.answers["<bad>"] = Acts{{300ms, {}, LinkEvent::closed}};
+  const std::string begin = R"({"open": "a"}, {"send": "'<bad>'", "on": "a"}, {"wait": "450ms"},)";
+  EXPECT_THAT(judged(begin + R"({"expect_close": "fin", "within": "500ms"})").message,
+              HasSubstr("it had no reason to before the end of the wait"));
+  EXPECT_EQ(judged(begin + R"({"expect_close": "may"})").verdict, Verdict::pass);
+  EXPECT_EQ(judged(begin + R"({"expect_close": "fin", "within": "400ms"})").verdict, Verdict::pass)
+      << "by now";
+  network.answers["<bad>"] = Acts{{480ms, {}, LinkEvent::closed}};
+  const Judgement due = judged(begin + R"({"expect_close": "fin", "within": "600ms"})");
+  EXPECT_EQ(due.verdict, Verdict::pass) << due.message;
+}
+
 TEST_F(LinksTest, AnEndThatMayComeMayStayAway) {
   const std::string may = R"({"send": "'<bad>'"}, {"silence": true}, {"expect_close": "may"})";
   EXPECT_EQ(judged(may).verdict, Verdict::pass);

@@ -211,6 +211,20 @@ Step::Kind kind_of(const json& value) {
       fmt::format("a step is one of {}; this one has {}", fmt::join(names, ", "), found.size()));
 }
 
+/// An option that would be passed over is a slip.
+void check_options(const json& value, Step::Kind kind) {
+  const bool expects = kind == Step::Kind::expect || kind == Step::Kind::partner;
+  const bool limited = expects || kind == Step::Kind::silence || kind == Step::Kind::expect_close ||
+                       kind == Step::Kind::expect_open;
+  for (const char* const option : {"every", "times", "max_gap"})
+    if (value.contains(option) && !expects)
+      throw Broken(fmt::format("\"{}\" is an option of expect alone", option));
+  if (value.contains("within") && !limited)
+    throw Broken(
+        "\"within\" is an option of expect, silence, expect_close and expect_open alone; a check "
+        "looks once, behind a wait");
+}
+
 /// The steps of one case, in order.
 class StepReader {
  public:
@@ -223,6 +237,7 @@ class StepReader {
   Step read(const json& value) {
     Step step;
     step.kind = kind_of(value);
+    check_options(value, step.kind);
     if (value.contains("on")) step.on = text_of(value["on"], row_);
     if (step.kind == Step::Kind::open) read_open(value["open"], row_, step);
     if (step.kind == Step::Kind::close) step.closing = read_closing(value["close"]);

@@ -175,6 +175,12 @@ TEST(Loader, BadInputNamesFileVectorAndKey) {
               HasSubstr("%MW020: '12G4' are no hex digits"));
   EXPECT_THAT(only_problem(replaced(two_words, "\"wire\": \"05\"", "\"expect\": \"ACK\"")),
               HasSubstr("a step is one of"));
+  const auto wait_with = [](const std::string& option) {
+    return only_problem(
+        replaced(two_words, "\"steps\": [", "\"steps\": [{\"wait\": \"1s\", " + option + "},"));
+  };
+  EXPECT_THAT(wait_with("\"within\": \"1s\""), HasSubstr("steps[0]: \"within\" is an option of"));
+  EXPECT_THAT(wait_with("\"every\": \"1s\""), HasSubstr("\"every\" is an option of expect alone"));
   EXPECT_THAT(
       load(replaced(two_words, "\"basis\": \"printed\"", "\"basis\": \"derived\"")).problems,
       testing::Not(IsEmpty()))
@@ -293,7 +299,7 @@ TEST(Framings, MayRestOnOtherSentencesStepByStep) {
     std::string vector = shared;
     const std::string why = "\"why\": \"the same in digits\"";
     vector.replace(vector.find(why), why.size(),
-                 why + ", \"models\": [\"m-1\"], \"clauses\": " + clauses);
+                   why + ", \"models\": [\"m-1\"], \"clauses\": " + clauses);
     return load(vector, {protocols});
   };
   const VectorSet set = with_clauses(R"({"1": ["m/3", "m/1"]})");

@@ -334,6 +334,19 @@ TEST_F(Restore, ARunDoesNotWriteOverWhatIsOpen) {
   EXPECT_NE(run_tool(run_arguments(discards)).code, 2);
 }
 
+TEST_F(Restore, OfAWordThatIsWrittenTwiceTheLastOneIsDue) {
+  folder_.write("twice.json", R"([{
+    "id": "xgt_cnet/twice/named", "title": "A word that is named twice in one write", "level": "info",
+    "basis": "derived", "why": "nothing forbids it", "statement": "xgb-cnet-en-1.6/7.1.5-3c-frame",
+    "given": {"memory": {"%MW119": "0000"}},
+    "steps": [{"send": "[ENQ st 'WSS' '02' name(%MW119) '1111' name(%MW119) '2222' EOT]"},
+              {"expect": "[ACK st 'WSS' ETX]"}]}])");
+  const Finished run =
+      run_tool(run_arguments({"--vectors", folder_ / "twice.json", "--allow-write", "M100-M119"}));
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  expect_as_before();
+}
+
 TEST_F(Restore, WhatDoesNotAnswerStaysOpen) {
   const std::string entry =
       R"({"saved":{"address":"%MW100","config":{},"endpoint":"serial:/no/such/port","model":"xbc-h","number":1,)"
