@@ -146,7 +146,8 @@ void Axis::stop(double how, Time now) {
     stop_at_once();
     release();
   } else if (how == 0) {
-    path_ = Path::stop(state_, deceleration_, now);
+    // In the time that SD2036 shows (X-NET 2-2-4).
+    path_ = Path::stop(state_, doing_ == Doing::segments ? last_slope_ : deceleration_, now);
     goal_ = path_.end().position;
     doing_ = Doing::moving;
   } else {

@@ -141,6 +141,23 @@ TEST_F(MotionTest, StopsOfAllKindsAndOn) {
   EXPECT_THAT(get(reg::position), AllOf(Ge(at - 2420), Le(at - 2300)));
 }
 
+TEST_F(MotionTest, AStopOfSegmentsBrakesInTheTimeThatIsShown) {
+  make({{{"axis", 1}}});
+  enable();
+  ASSERT_TRUE(memory.set("D0", "2710000013880000"));   // 10000 at 5000
+  ASSERT_TRUE(memory.set("D10", "4E20000003E80000"));  // 20000 at 1000
+  ASSERT_TRUE(memory.set("D1000", "00000000000200000032000000320000"));
+  act("MOTOS D0 D1000 axis 1");
+  run(1s);
+  EXPECT_EQ(get(reg::deceleration), 25000);
+  const double at = get(reg::position);
+  act("MOSTOP 0 axis 1");
+  run(100ms);
+  EXPECT_EQ(get(reg::running), 1) << "20000 pulses a second in each second: 250 ms";
+  until_it_stands();
+  EXPECT_THAT(get(reg::position) - at, AllOf(Ge(620), Le(725)));
+}
+
 TEST_F(MotionTest, ASlaveFollowsAtItsRatio) {
   make({{{"axis", 1}}, {{"axis", 4}}});
   enable(1);

@@ -290,7 +290,7 @@ Status XnetNetwork::execute(Plc& plc, std::string_view text, bool held) {
 void XnetNetwork::start(Plc& plc, const Instruction& instruction, bool held) {
   if (!plc.run || !plc.powered) return;
   const Route* const route = plc.config.route(instruction.net);
-  Job job{&plc, instruction, 0, 0, held};
+  Job job{&plc, instruction, 0, 0, held, plc.lives};
   if (route)
     job.port = route->port;
   else if (!plc.config.ports.empty())
@@ -315,6 +315,7 @@ void XnetNetwork::carry(Plc& via, const Route& route, const Port& port, Job job,
   const std::uint32_t station = route.gateway ? route.gateway : job.instruction.station;
   const bool last = route.gateway == 0;
   const auto there = [=, this](Time at) {
+    if (job.is_lost()) return;
     Plc* const next = station_on(net, station);
     if (!next || !next->powered || (next == partner_ && !last)) return fail_later(job, at);
     if (next->noisy || job.from->noisy) return finish(job, Outcome::crc, at);
@@ -357,9 +358,9 @@ Outcome XnetNetwork::move(Plc& target, const Job& job) {
 }
 
 void XnetNetwork::finish(const Job& job, Outcome outcome, Time now) {
+  if (job.is_lost()) return;
   Plc& plc = *job.from;
-  if (plc.under_way > 0) --plc.under_way;
-  if (!plc.powered) return;
+  --plc.under_way;
   if (job.port != ethernet_port)
     return plc.memory.write(component_in("SD", result_register + 10 * job.port),
                             static_cast<unsigned>(outcome));
@@ -369,12 +370,13 @@ void XnetNetwork::finish(const Job& job, Outcome outcome, Time now) {
   // A condition that stays on executes it again and again (3-3-1).
   if (job.held)
     later(now + (outcome == Outcome::done ? 0ms : least_on_ethernet), [=, this](Time) {
-      if (!job.from->held.empty()) start(*job.from, job.instruction, true);
+      if (!job.is_lost() && !job.from->held.empty()) start(*job.from, job.instruction, true);
     });
 }
 
 void XnetNetwork::power(Plc& plc, bool on) {
   plc.powered = on;
+  if (!on) ++plc.lives;
   plc.under_way = 0;
   plc.held.clear();
   plc.relays_on.clear();

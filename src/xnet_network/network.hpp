@@ -65,6 +65,7 @@ class XnetNetwork : public plc::SerialDevice, public plc::BusEnd {
     Duration late{};  // of what it carries and answers on a token bus
     Time ethernet_free{};
     unsigned under_way = 0;           // instructions
+    unsigned lives = 0;               // how often it has lost power
     std::vector<Instruction> held{};  // conditions that stay on
     std::unique_ptr<MotionBus> motion{};
     std::vector<bool> relays_on{};  // of the program, when it was looked at
@@ -76,6 +77,8 @@ class XnetNetwork : public plc::SerialDevice, public plc::BusEnd {
     unsigned port = 0;  // of `from`: where its result goes
     unsigned hops = 0;
     bool held = false;
+    unsigned life = 0;  // of `from`: a loss of power ends what was asked in the one before
+    bool is_lost() const { return life != from->lives; }
   };
 
   Plc* named(std::string_view name) const;

@@ -145,6 +145,23 @@ TEST_F(XnetTest, AGatewayThatLosesItsPowerIsOvertime) {
   EXPECT_EQ(get("SD161"), "0001");
 }
 
+TEST_F(XnetTest, WhatIsUnderWayWhenThePowerGoesIsGivenUp) {
+  two();
+  act("REG_READ net 7 station 2 D0 count 1 to D10");  // no route: overtime in 100 ms
+  act("REG_WRITE net 1 station 2 D0 count 120 from D0");
+  ASSERT_TRUE(plc->set("D0", "1234"));
+  act("off");
+  wait(1ms);
+  act("on");
+  ASSERT_TRUE(plc->set("SD161", "0009"));
+  wait(200ms);
+  EXPECT_EQ(get("SD161"), "0009");
+  EXPECT_EQ(get("B:D0"), "0000");
+  act("REG_READ net 1 station 2 D0 count 1 to D10");
+  wait(50ms);
+  EXPECT_EQ(get("SD161"), "0000");
+}
+
 TEST_F(XnetTest, EthernetCountsAndHolds) {
   make("xde", {{"ip", "192.168.6.10"}, {"stations", {{{"model", "xde"}, {"ip", "192.168.6.11"}}}}});
   EXPECT_EQ(get("SD1905"), "C0A8");

@@ -119,7 +119,7 @@ void XnetNetwork::answer_partner(const json& asked) {
     if (values[i].is_number_unsigned())
       partner_->memory.write({one.local.area, static_cast<std::uint32_t>(i)},
                              values[i].get<unsigned>() & (one.bits ? 1 : 0xFFFF));
-  const Outcome outcome = move(own, {partner_, one});
+  const Outcome outcome = move(own, {.from = partner_, .instruction = one});
   json answer{{"answer", asked["ask"]}, {"outcome", outcome}, {"values", json::array()}};
   for (std::uint32_t i = 0; i < one.count && one.reads && outcome == Outcome::done; ++i)
     answer["values"].push_back(partner_->memory.read({one.local.area, i}));
@@ -128,7 +128,7 @@ void XnetNetwork::answer_partner(const json& asked) {
 
 void XnetNetwork::take_answer(const json& answer) {
   const auto waiting = asked_.extract(number_in(answer, "answer").value_or(0));
-  if (waiting.empty()) return;
+  if (waiting.empty() || waiting.mapped().is_lost()) return;
   const Job& job = waiting.mapped();
   const Instruction& one = job.instruction;
   const json values = values_in(answer);

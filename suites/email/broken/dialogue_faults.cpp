@@ -38,6 +38,19 @@ MakeBehaviour never_ends() {
   });
 }
 
+/// The end comes with QUIT, and not again.
+MakeBehaviour ends_with_quit() {
+  return acts([](Bursts& does, Module&) {
+    std::erase_if(does, [](const Burst& one) { return one.event == LinkEvent::closed; });
+    for (std::size_t i = 0; i < does.size(); ++i)
+      if (to_text(does[i].bytes) == "QUIT\r\n")
+        does.push_back({.bytes = {},
+                        .start = does[i].start,
+                        .link = does[i].link,
+                        .event = LinkEvent::closed});
+  });
+}
+
 /// HELO goes out with the connection, and is not said again.
 MakeBehaviour does_not_wait() {
   return acts([](Bursts& does, Module&) {
@@ -80,6 +93,8 @@ std::vector<Fault> command_faults() {
        "email/dialogue/one_address", ""},
       {"no_quit", "ends without QUIT", at_quit(LinkEvent::closed), "email/dialogue/one_address",
        ""},
+      {"ends_with_quit", "does not wait for the reply to QUIT", ends_with_quit(),
+       "email/dialogue/silence_at_bye", "no reason"},
       {"resets", "ends by RST", at_end(LinkEvent::reset), "email/dialogue/one_address", ""},
       {"never_ends", "keeps the connection", never_ends(), "email/dialogue/one_address",
        "did not close"},

@@ -84,6 +84,29 @@ Make parameter(long offset, const std::string& hex, const std::string& where = "
   };
 }
 
+/// The time of MOTO and MOTOA in registers is that of the first one alone.
+Behaviour time_of_one_register() {
+  return {.act = [](const std::string& action, const Look& look, const Put&) {
+    Words words = words_of(action);
+    const std::size_t time = head_of(words) + 3;
+    if (!is(words, "MOTO") || is(words, "MOTOS") || time >= words.size() || words[time][0] != 'D')
+      return Words{action};
+    words[time] = std::to_string(std::stoul(look(words[time], 4), nullptr, 16));
+    return Words{joined(words)};
+  }};
+}
+/// A coil of jogging that comes while the axis moves is not seen.
+Behaviour jogs_from_rest() {
+  const auto moves = std::make_shared<bool>(false);
+  return {.set_name =
+              [=](const std::string& text) {
+                const Name name = split(text);
+                const bool jog = is_of(name, split("SM2011")) || is_of(name, split("SM2012"));
+                return jog && *moves ? std::string("HM9000") : text;
+              },
+          .after = [=](const Look& look, const Put&) { *moves = look("SM2001", 2) == "01"; }};
+}
+
 Behaviour without_switches() {
   return {.config = [](json& config) {
     if (config.contains("servos") && config["servos"].is_array())
@@ -123,6 +146,10 @@ std::vector<Fault> motion_faults() {
        "xnet/instruction_moto/application", "SD2008"},
       {"time_of_0_taken", "takes a time of 0", tells("MOTO", zero_ramp),
        "xnet/instruction_errors/time", "SD2002"},
+      {"time_of_one_register", "the time of MOTO is one register", time_of_one_register,
+       "xnet/instruction_moto/registers", "SD2012"},
+      {"jogs_from_rest", "a jog that comes while the axis moves is lost", jogs_from_rest,
+       "xnet/instruction_jog/method_2/forward", "SM2001"},
       {"segment_less", "MOTOS leaves out the segments behind the third",
        parameter(2, "0003", "0004"), "xnet/instruction_motos/application_6000", "SD2016"},
       {"segments_absolute", "MOTOS is always absolute", parameter(0, "0001", "0000"),
