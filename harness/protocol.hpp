@@ -254,6 +254,9 @@ class Protocol {
   /// Words of an area of the declared device; 0: it has none.
   virtual std::uint32_t words_of(std::string_view area) const;
 
+  /// Is it only decided how that is spelt? Another maker may read the name otherwise.
+  virtual bool is_spelt_by_decision(std::string_view /*address*/) const { return false; }
+
   /// Areas whose words may be physical outputs: written only when named.
   virtual std::vector<std::string_view> output_areas() const = 0;
 

@@ -378,9 +378,13 @@ class Exploration {
     return result;
   }
 
+  /// Without the vectors of the run, whose place the finding takes.
   std::string base_command() const {
-    const std::string& replay = plan_.bench.replay;
-    return replay.substr(0, replay.rfind(" --filter"));
+    std::string replay = plan_.bench.replay.substr(0, plan_.bench.replay.rfind(" --filter"));
+    const std::string others = " --vectors " + run::shell_word(options_.run.vectors);
+    const std::size_t at = replay.find(others);
+    if (!options_.run.vectors.empty() && at != replay.npos) replay.erase(at, others.size());
+    return replay;
   }
 
   static Status write(const std::filesystem::path& file, const std::string& text) {

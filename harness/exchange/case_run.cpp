@@ -244,7 +244,7 @@ void CaseRun::silence(const PreparedStep& step) {
   // A probe would change the counters, and a client answers none; in the midst of a stream of bytes
   // it would be taken for more of the same frame. There the time is waited out.
   if (can().simulated || prepared_.looks_at_counters() || !prepared_.answers_probes() ||
-      (link.network && !link.between_frames())) {
+      (link.network && !link.between_frames()) || goes_on(step, link)) {
     wait_until(due, &link);
     return;
   }
@@ -254,6 +254,21 @@ void CaseRun::silence(const PreparedStep& step) {
   if (unended && wait_until(link.last_sent.end + around_.timing.quiet, &link)) return;
   if (transcript_.trouble) return;
   if (!probe(link, index()) && !wait_until(due, &link)) lost_probe_ = last_sent_;
+}
+
+/// Is there an unended frame, which no pause ends, and is what follows more of it? A probe would
+/// begin another one between them.
+bool CaseRun::goes_on(const PreparedStep& silence, const Link& link) const {
+  const harness::Protocol& protocol = *link.to.protocol;
+  if (link.network || protocol.frame_gap(1ms) > 0ns || protocol.frame_length(link.last_bytes))
+    return false;
+  const PreparedStep* const end = prepared_.steps.data() + prepared_.steps.size();
+  const auto* const next = std::find_if(&silence + 1, end, [&](const PreparedStep& later) {
+    return later.step->kind == Step::Kind::send && later.link == silence.link;
+  });
+  const Bytes probe = protocol.probe(link.to.station, link.last_bytes);
+  return next != end && !probe.empty() && !next->frames.front().frame.bytes.empty() &&
+         next->frames.front().frame.bytes.front() != probe.front();
 }
 
 /// A device that loses the frame behind one that it passes over has lost the probe. What was sent

@@ -61,6 +61,7 @@ class CaseRun {
   void partner(const PreparedStep& step);
   void answer(const PreparedStep& step);
   void silence(const PreparedStep& step);
+  bool goes_on(const PreparedStep& silence, const Link& link) const;
   void repeat_behind_lost_probe(Link& link);
   bool wait_until(Time moment, Link* only);
 

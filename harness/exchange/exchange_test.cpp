@@ -164,6 +164,21 @@ TEST_F(ExchangeTest, WhereNothingFollowsALostProbeNothingIsRepeated) {
               ElementsAre("4 <a>", "4 <probe>", "500 <probe>"));
 }
 
+TEST_F(ExchangeTest, NoProbeFallsIntoAFrameThatGoesOn) {
+  endpoint.can = {.wire = true, .real_device = true};
+  endpoint.answers["<probe>"] = Pieces{{1ms, "<alive>"}};
+  EXPECT_THAT(exchange(TestProtocol(), R"({"send": "'<as'"}, {"silence": true}, {"send": "'k>'"})"),
+              ElementsAre("<as", "500 k>", "<probe>"));
+}
+
+TEST_F(ExchangeTest, AProbeFallsBeforeAFrameThatBeginsAnew) {
+  endpoint.can = {.wire = true, .real_device = true};
+  endpoint.answers["<probe>"] = Pieces{{1ms, "<alive>"}};
+  EXPECT_THAT(
+      exchange(TestProtocol(), R"({"send": "'<as'"}, {"silence": true}, {"send": "'<ask>'"})"),
+      ElementsAre("<as", "100 <probe>", "<ask>", "<probe>"));
+}
+
 TEST_F(ExchangeTest, ASilenceOfAGivenTimeIsWaitedOut) {
   endpoint.can = {.wire = true, .real_device = true};
   EXPECT_THAT(exchange(GapProtocol(), R"({"silence": true, "within": "2s"})"),

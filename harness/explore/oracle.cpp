@@ -191,7 +191,15 @@ Binding binding_of(const Request& request, const Answer& answer, const Protocol&
   // Which letters a device takes, and which it answers in, vectors ask where that is not open.
   if (request.kind == "letters") return Binding::open;
   const std::string sort = sort_of(answer, protocol);
-  if (is_a_right_frame(request) && sort == "answered") return Binding::derived;
+  if (is_a_right_frame(request) && sort == "answered") {
+    const bool decided = std::ranges::any_of(request.names, [&](const Protocol::Written& one) {
+      return protocol.is_spelt_by_decision(one.address);
+    });
+    // Of the bodies of a network hardly a byte is printed: there a vector that is a decision is
+    // one.
+    const bool of_decision = protocol.on_network() && request.clause.basis == "decision";
+    return decided || of_decision ? Binding::decision : Binding::derived;
+  }
   const bool of_its_vector = request.kind == "printed" || request.kind == "elsewhere";
   if (!of_its_vector || request.clause.answer != sort) return Binding::open;
   return request.clause.basis != "decision" && request.clause.decisions.empty() ? Binding::derived

@@ -195,6 +195,12 @@ Notation raw_notation(ByteView bytes) {
 
 Notation notation_of(ByteView frame, bool request, const Protocol& protocol, int station) {
   const std::optional<std::size_t> length = protocol.frame_length(frame);
+  if (!request && length && *length > 0 && *length < frame.size()) {  // replies in a row
+    Notation all = notation_of(frame.first(*length), request, protocol, station);
+    const Notation rest = notation_of(frame.subspan(*length), request, protocol, station);
+    all.insert(all.end(), rest.begin(), rest.end());
+    return all;
+  }
   if (!length || *length != frame.size()) return raw_notation(frame);
   std::vector<Word> words = moving_words(frame, request, protocol, station);
   const Result<Bytes> made = safety::bytes_of(bracketed(frame, words), protocol.fields_at(station));

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A second-hand XBC-H: serves one protocol on a terminal or a TCP port, healthy or with one single fault."""
+"""A second-hand XBC-H or LS Bus inverter: serves one protocol on a terminal or a TCP port, healthy or with one fault."""
 import argparse
 import asyncio
 import os
@@ -13,10 +13,11 @@ import faults
 from cnet import CnetServer
 from faults import fault
 from fenet import FenetServer
+from ls_bus import LsBusServer
 from memory import AREAS, Memory
 from modbus import BASES, AsciiServer, RtuServer, TcpServer
 
-SERIAL = {'xgt-cnet': CnetServer, 'modbus-rtu': RtuServer, 'modbus-ascii': AsciiServer}
+SERIAL = {'xgt-cnet': CnetServer, 'modbus-rtu': RtuServer, 'modbus-ascii': AsciiServer, 'ls-bus': LsBusServer}
 NETWORK = {'modbus-tcp': TcpServer, 'xgt-fenet': FenetServer}
 
 
@@ -38,9 +39,16 @@ def send(handle, data):
         data = data[os.write(handle, data):]
 
 
-def serve_serial(server, handle):
+def serve_serial(server, handle, control=False):
     while True:
-        ready = select.select([handle], [], [], server.gap_seconds if server.pending else None)[0]
+        inputs = [handle, sys.stdin] if control else [handle]
+        ready = select.select(inputs, [], [], server.gap_seconds if server.pending else None)[0]
+        if sys.stdin in ready:
+            line = sys.stdin.readline()     # a bench waits for the answer before its next line
+            control = bool(line)
+            if line:
+                print(server.control(line), flush=True)
+            continue
         if not ready:
             send(handle, server.gap())
             continue
@@ -185,6 +193,8 @@ def make(protocol, memory, options=None):
     if protocol == 'xgt-cnet':
         z = AREAS if options and options.cnet_z else None
         return CnetServer(memory, station, z)
+    if protocol == 'ls-bus':                # an inverter: it has words of its own
+        return LsBusServer(station, bool(options) and options.write_order == 'count_first')
     if protocol in SERIAL:
         return SERIAL[protocol](memory, station, bases)
     if protocol == 'modbus-tcp':
@@ -197,6 +207,9 @@ def main():
     parser.add_argument('--protocol', choices=[*SERIAL, *NETWORK])
     parser.add_argument('--tty', help='terminal of a serial protocol')
     parser.add_argument('--station', type=int, default=1)
+    parser.add_argument('--write-order', choices=['address_first', 'count_first'], default='address_first',
+                        help='of LS Bus')
+    parser.add_argument('--control', action='store_true', help='LS Bus: set words by lines of JSON on standard input')
     parser.add_argument('--gap-ms', type=float, help='gap that ends a frame (serial, default 20; ASCII 1000)')
     parser.add_argument('--listen', metavar='HOST:PORT', help='network protocols; port 0 is shown on standard output')
     parser.add_argument('--udp', metavar='HOST:PORT', help='xgt-fenet over UDP too')
@@ -214,6 +227,8 @@ def main():
         for name, (protocols, text) in faults.FAULTS.items():
             print(name, ','.join(protocols), text, sep='\t')
         return
+    if options.control and options.protocol != 'ls-bus':
+        parser.error('--control is for ls-bus')
     if not options.protocol:
         parser.error('--protocol is needed')
     if options.fault:
@@ -234,8 +249,9 @@ def main():
             if options.gap_ms is not None:
                 server.gap_seconds = options.gap_ms / 1000
             handle = open_raw(options.tty)
-            print('serving %s' % options.tty, flush=True)
-            serve_serial(server, handle)
+            if not options.control:         # there standard output belongs to the answers
+                print('serving %s' % options.tty, flush=True)
+            serve_serial(server, handle, options.control)
         elif not options.listen:
             parser.error('--listen is needed')
         else:

@@ -2,8 +2,9 @@
 
 C, F = 'xgt-cnet', 'xgt-fenet'
 R, A, T = 'modbus-rtu', 'modbus-ascii', 'modbus-tcp'
+L = 'ls-bus'
 GROUPS = {'CF': (C, F), 'C': (C,), 'F': (F,), 'R': (R,), 'A': (A,), 'T': (T,), 'RAT': (R, A, T),
-          'RA': (R, A), 'ALL': (C, R, A, T, F), 'TF': (T, F)}
+          'RA': (R, A), 'ALL': (C, R, A, T, F), 'TF': (T, F), 'L': (L,)}
 
 TABLE = '''
 mem-d-alias | CF | address bit 13 of D words is dropped: D8192 and up are D0 and up
@@ -244,6 +245,115 @@ fe-17th-silent | F | every 17th request is not answered
 fe-continuous-type | F | the reply to a continuous write carries type 01
 fe-length-dword | F | the length field of the reply to a DWord read of several blocks counts two bytes less for each further block
 fe-last-block-first | F | 16 blocks are answered with the last two exchanged
+ls-sum-low-digit | L | only the second digit of the sum is compared
+ls-sum-high-digit | L | only the first digit of the sum is compared
+ls-sum-seven-bits | L | the sum is compared in seven bits
+ls-sum-ignored-w | L | the sum of a write is not compared
+ls-sum-lower-refused | L | a sum in lower case is taken as wrong
+ls-sum-not-hex | L | a character of the sum that is no hex digit counts as 0
+ls-sum-enq-too | L | a sum that counts ENQ is accepted, too
+ls-sum-silent | L | a wrong sum is not answered
+ls-sum-wrong-written | L | a write with a wrong sum is refused with FE, and written
+ls-sum-nak-head | L | the sum of a NAK counts its header
+ls-sum-after-nak | L | the sum of the ACK after a NAK is one too high
+ls-sum-eight-words | L | the sum of a reply of eight words leaves out the last character
+ls-sum-reply-lower | L | the sum of a reply has lower-case digits
+ls-station-00 | L | station 00 is answered
+ls-station-low-digit | L | only the second digit of the station is compared
+ls-station-32 | L | the station is compared modulo 32
+ls-station-lower | L | a station in lower case is not answered (needs --station 10 or above)
+ls-station-decimal | L | the station is taken as decimal digits (needs --station 10 or above)
+ls-foreign-next-lost | L | the request after one for another station is taken for that station's reply
+ls-foreign-fe | L | a wrong sum is answered with FE when it is for another station, too
+ls-lower-command | L | r and w are served
+ls-function-code | L | an unknown function is refused with ID
+ls-function-before-sum | L | an unknown function with a wrong sum is refused with IF
+ls-nak-function-r | L | the NAK to an unknown function carries R
+ls-nak-four | L | a NAK carries four characters, as 8.1.1 shows it
+ls-nak-etx | L | a NAK ends with ETX
+ls-address-lower | L | an address in lower case is refused
+ls-address-decimal | L | an address with the digits A-F is refused
+ls-address-strtol | L | an address is read up to the first character that is no hex digit, behind blanks and a sign
+ls-address-form-code | L | an address that is not hex is refused with ID
+ls-end-0fff | L | the last word, 0FFF, is refused
+ls-end-12ff | L | the last word, 12FF, is refused
+ls-1300-served | L | 1300, one past the end, is served
+ls-gap-served | L | 1000 to 11FF are served
+ls-1200-alias | L | address bit 12 is dropped: 1200 and up are 0200 and up
+ls-0800-alias | L | 0800 to 0FFF share their memory with 0000 to 07FF
+ls-8000-alias | L | address bit 15 is dropped
+ls-range-first | L | of a read the first address only is checked
+ls-range-last | L | of a run the last address only is checked, in 16 bits
+ls-range-code | L | a run that leaves the range is refused with ID
+ls-page-refused | L | a run over a border of 256 words is refused
+ls-page-wraps | L | a run over a border of 256 words goes on at the beginning of its page
+ls-run-joins | L | a run past 0FFF goes on at 1200
+ls-page-pointer | L | a run over a border of 256 words is checked right, and goes on at the beginning of its page
+ls-count-8-refused | L | a write of eight words is refused
+ls-count-9 | L | nine words are read
+ls-count-0-ack | L | a read of 0 words is acknowledged
+ls-count-missing-one | L | a read without count reads one word
+ls-count-letters | L | counts A to F are read as 10 to 15
+ls-count-masked | L | the count is the low four bits of its character
+ls-count-code | L | a wrong count is refused with IA
+ls-surplus-read | L | characters behind the count of a read are ignored
+ls-surplus-write | L | data behind the words that are counted are ignored
+ls-surplus-half | L | up to three characters behind the words that are counted are ignored
+ls-data-short | L | data that are missing are written as 0
+ls-data-lower-refused | L | data in lower case are refused
+ls-data-first-checked | L | the digits of the first word only are checked
+ls-data-code | L | data that are not hex are refused with IA
+ls-data-reply-lower | L | a read is answered with lower-case digits
+ls-eighth-order | L | the last two of eight words that are read come exchanged
+ls-eighth-lost | L | the eighth word of a write is acknowledged, not written
+ls-ack-first-word | L | the ACK of a write repeats the first word only
+ls-ack-as-sent | L | the ACK of a write repeats lower-case digits as they came
+ls-value-signed | L | values above 7FFF are stored as 7FFF
+ls-first-read-old | L | the first read of a word after a write gives the value before
+ls-100-writes | L | the words after the hundredth that is written are acknowledged, not stored
+ls-partial-data | L | a write refused for a later word's digits has written the earlier ones
+ls-partial-range | L | a write past the end writes what fits before its NAK
+ls-partial-rights | L | a write that reaches read-only words has written those before
+ls-rights-first | L | of a write the first address only is checked for read-only
+ls-rights-code | L | a write to a read-only word is refused with IA
+ls-read-only-written | L | read-only words are written
+ls-read-only-hidden | L | a read from a read-only word is refused
+ls-0003-writable | L | 0003 can be written
+ls-000f-writable | L | 000F can be written
+ls-0010-read-only | L | 0010 cannot be written
+ls-ia-id-swapped-w | L | IA and ID are exchanged in the NAK to a write
+ls-code-latched | L | the second refusal in a row repeats the code of the first
+ls-refused-next-lost | L | the write after a refusal is acknowledged, not written
+ls-five-refusals-lock | L | after five refusals in a row writes are refused until something is granted
+ls-long-then-nak | L | the NAK after a reply of eight words has two characters too many
+ls-noise-kills | L | noise before ENQ makes the frame lost
+ls-enq-no-restart | L | ENQ inside a frame does not restart it
+ls-second-dropped | L | of two requests back to back the second is lost
+ls-third-dropped | L | of three requests back to back the third is lost
+ls-head-any | L | ACK and NAK begin a request, too
+ls-etx-tail | L | ETX ends a request, too
+ls-eot-unchecked | L | a read ends after its twelve characters, whatever the last one is
+ls-gap-drops | L | a pause of more than 50 ms inside a frame drops it
+ls-buffer-40 | L | frames above 40 bytes are lost
+ls-buffer-128 | L | frames above 128 bytes are lost
+ls-overrun-next-lost | L | the request after more than 256 bytes without EOT is lost
+ls-short-fe | L | a frame too short for station, command and sum is refused with FE
+ls-17th-silent | L | every 17th request is not answered
+ls-256th-silent | L | every 256th request is not answered
+ls-write-deferred | L | a write is stored when its ACK is out: a read back to back with it gives the old value
+ls-other-reply-kills | L | the request behind another inverter's ACK is lost
+ls-ten-refusals-silent | L | from the tenth refusal in a row on refusals are silent
+ls-three-fe-silent | L | the request after three wrong sums in a row is not answered
+ls-long-then-short | L | a read of one word after a reply of eight words is answered with two
+ls-eight-then-one | L | a write of one word after one of eight writes the second word of that again
+ls-enq-late | L | ENQ restarts a frame in its first 16 characters only
+ls-crlf-skipped | L | CR and LF inside a frame are passed over
+ls-seven-bit | L | the highest bit of a character is dropped
+ls-rights-skipped | L | read-only words inside a write are passed over, the others written, all acknowledged
+ls-order-guessed | L | a write that is malformed is tried in the other order of address and count
+ls-order-ignored | L | a write has always the address first (needs --write-order count_first)
+ls-buffer-255 | L | frames of 256 bytes are lost
+ls-buffer-512 | L | frames of up to 512 bytes are answered
 '''
 
 FAULTS = {}

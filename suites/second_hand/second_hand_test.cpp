@@ -1,6 +1,6 @@
-// A PLC that a second hand wrote in another language from the manuals and the decisions, without
-// sight of vectors and emulator (device.py): healthy it passes, and single faults of it, made for
-// no vector, are caught.
+// A PLC, an inverter and a P2P client that a second hand wrote in another language from the manuals
+// and the decisions, without sight of vectors and emulator (device.py, client.py): healthy they
+// pass, and single faults of them, made for no vector, are caught.
 #include <gmock/gmock.h>
 
 #include <list>
@@ -18,6 +18,7 @@ struct Device {
   const char* protocol;
   const char* filter;  // what ends within seconds
   const char* where = " --tty {tty}";
+  const char* profile = "xbc-h";
 };
 
 void PrintTo(const Device& device, std::ostream* out) { *out << device.protocol; }
@@ -34,7 +35,8 @@ std::string endpoint(const Device& device, const std::string& fault = "") {
 Finished judged(const Device& device, const std::string& fault, const TestFolder& folder) {
   return tool_tests::run_tool({"run", "--endpoint", endpoint(device, fault), "--protocol",
                                device.protocol, "--role", "server", "--filter", device.filter,
-                               "--max-failures", "1", "--out", folder.path()});
+                               "--max-failures", "1", "--profile", device.profile, "--out",
+                               folder.path()});
 }
 
 class SecondHand : public testing::TestWithParam<Device> {};
@@ -53,7 +55,8 @@ constexpr Device devices[] = {
     {"modbus-ascii", "modbus_ascii/*"},
     {"modbus-tcp", "modbus_tcp/examples/*:modbus_tcp/data/*:modbus_tcp/limits/*",
      " --listen 127.0.0.1:{port}"},
-    {"xgt-fenet", "xgt_fenet/examples/*:xgt_fenet/read/*:xgt_fenet/write/*", of_a_port}};
+    {"xgt-fenet", "xgt_fenet/examples/*:xgt_fenet/read/*:xgt_fenet/write/*", of_a_port},
+    {"ls-bus", "ls_bus/read/*:ls_bus/write/*:ls_bus/errors/*", " --tty {tty}", "inverter"}};
 
 INSTANTIATE_TEST_SUITE_P(Protocols, SecondHand, testing::ValuesIn(devices), [](const auto& one) {
   std::string name = one.param.protocol;
@@ -69,12 +72,46 @@ TEST(SecondHandFaults, AreCaughtByRun) {
   }
 }
 
+TEST(SecondHandFaults, OfAnInverterAreCaughtByRun) {
+  for (const char* fault : {"ls-sum-low-digit", "ls-8000-alias"}) {
+    const TestFolder folder;
+    EXPECT_EQ(judged({"ls-bus", "ls_bus/*", " --tty {tty}", "inverter"}, fault, folder).code, 1)
+        << fault;
+  }
+}
+
+/// It asks what a line of --stimulus names.
+Finished client_judged(const std::string& filter, const std::string& fault,
+                       const TestFolder& folder) {
+  const std::string client = "exec:python3 -B " FIELDPROOF_SOURCE_DIR
+                             "/suites/second_hand/client.py --protocol xgt-cnet --tty {tty}";
+  return tool_tests::run_tool({"run", "--role", "client", "--endpoint",
+                               client + (fault.empty() ? "" : " --fault " + fault), "--stimulus",
+                               "-", "--protocol", "xgt-cnet", "--filter", filter, "--max-failures",
+                               "1", "--out", folder.path()});
+}
+
+TEST(SecondHandClient, HealthyItHasNoFalseAlarm) {
+  const TestFolder folder;
+  const Finished finished = client_judged("xgt_cnet/client/read/*", "", folder);
+  EXPECT_EQ(finished.code, 0) << finished.out << finished.err;
+  tool_tests::Results results = tool_tests::read_results(folder / "results.ndjson");
+  EXPECT_GT(results.counts()["PASS"], 10u) << finished.out;
+}
+
+TEST(SecondHandClient, AFaultIsCaught) {
+  const TestFolder folder;
+  EXPECT_EQ(client_judged("xgt_cnet/client/read/*", "station-decimal", folder).code, 1);
+}
+
 /// As a real PLC, whose answers to what nobody prints are its own.
 std::vector<std::string> exploring(const Device& device, const std::string& fault,
                                    const char* requests, const std::string& out) {
-  return tool_tests::tool_arguments(
-      {"explore", "--profile", "xbc-dxxxh", "--seed", "1", "--requests", requests, "--fail-fast",
-       "--protocol", device.protocol, "--endpoint", endpoint(device, fault), "--out", out});
+  const bool own = std::string_view(device.profile) != "xbc-h";
+  return tool_tests::tool_arguments({"explore", "--profile", own ? device.profile : "xbc-dxxxh",
+                                     "--seed", "1", "--requests", requests, "--fail-fast",
+                                     "--protocol", device.protocol, "--endpoint",
+                                     endpoint(device, fault), "--out", out});
 }
 
 /// All at once: they wait more than they work.

@@ -29,6 +29,8 @@ def endpoint(protocol, fault):
     where = {'modbus-tcp': ' --listen 127.0.0.1:{port}',
              'xgt-fenet': ' --listen 127.0.0.1:{port} --udp 127.0.0.1:{udp_port}'}.get(protocol, ' --tty {tty}')
     command = f'exec:{sys.executable} -B {DEVICE} --protocol {protocol}{where}'
+    if protocol == 'ls-bus':
+        command += ' --station {station} --write-order {write_order} --control'
     if protocol == 'modbus-rtu':
         command += ' --gap-ms 4'  # on a pty no pause falls into a frame: 3.5 characters at 9600 are enough
     if fault:
@@ -42,11 +44,15 @@ def exit_code(tool, mode, protocol, fault, requests):
                    '--protocol', protocol, '--out', out]
         if mode == 'explore':
             # What nobody says is its own reading, to which it is held.
-            command += ['--profile', 'xbc-dxxxh', '--seed', '1', '--requests', str(requests), '--fail-fast']
+            command += ['--seed', '1', '--requests', str(requests), '--fail-fast']
+            if protocol != 'ls-bus':
+                command += ['--profile', 'xbc-dxxxh']
         else:
             command += ['--role', 'server', '--filter', FILTER, '--max-failures', '1']
         if mode == 'derived':
             command += ['--derived']
+        if protocol == 'ls-bus':
+            command += ['--control', '-', '--profile', 'inverter']  # the only way to set read-only words
         return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
 
 

@@ -134,6 +134,10 @@ class XgtCnet : public harness::PlcProtocol,
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return reply ? std::vector<AddressField>() : xgt_cnet_suite::address_fields(frame, model());
   }
+  /// Bits: cnet/bit-names, fenet/memory-map.
+  bool is_spelt_by_decision(std::string_view address) const override {
+    return address.size() > 2 && address[2] == 'X';
+  }
   std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 
   Status check_table(const nlohmann::json& facts) const override {

@@ -127,6 +127,10 @@ class XgtFenet : public harness::PlcProtocol,
   std::vector<AddressField> address_fields(ByteView frame, bool reply) const override {
     return reply ? std::vector<AddressField>() : xgt_fenet_suite::address_fields(frame, model());
   }
+  /// Bits: cnet/bit-names, fenet/memory-map.
+  bool is_spelt_by_decision(std::string_view address) const override {
+    return address.size() > 2 && address[2] == 'X';
+  }
   std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 
   /// Areas, and flags and registers of P2P, are those of the same PLC on Cnet.
