@@ -73,6 +73,10 @@ std::optional<ElementName> read_element_name(std::string_view text) {
   return name;
 }
 
+bool is_bit_name(std::string_view text) {
+  return text.size() > 3 && text[0] == '%' && upper(text[2]) == 'X';
+}
+
 Result<std::string> element_further_on(const ElementName& name, std::size_t elements) {
   const std::optional<std::uint32_t> index = read_number(name.number);
   if (!index)

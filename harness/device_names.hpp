@@ -23,6 +23,8 @@ struct ElementName {
   std::size_t element_bytes() const { return plc::type_bytes(type); }
 };
 std::optional<ElementName> read_element_name(std::string_view text);
+/// "%MX0010A", whatever the model.
+bool is_bit_name(std::string_view text);
 /// The name of an element so many further on. Errors: the number is not decimal.
 Result<std::string> element_further_on(const ElementName& name, std::size_t elements);
 

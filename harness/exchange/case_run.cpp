@@ -243,25 +243,25 @@ void CaseRun::silence(const PreparedStep& step) {
                                                          : around_.timing.response_max);
   // A probe would change the counters, and a client answers none; in the midst of a stream of bytes
   // it would be taken for more of the same frame. There the time is waited out.
-  if (can().simulated || prepared_.looks_at_counters() || !prepared_.answers_probes() ||
-      (link.network && !link.between_frames()) || goes_on(step, link)) {
+  const bool probes =
+      !can().simulated && !prepared_.looks_at_counters() && prepared_.answers_probes();
+  const bool unended = probes && !link.network && !link.to.protocol->frame_length(link.last_bytes);
+  if (!probes || (link.network && !link.between_frames()) || (unended && goes_on(step, link))) {
     wait_until(due, &link);
     return;
   }
   // Without a tail the probe would be taken for more of the same frame until the inter-character
   // time is over.
-  const bool unended = !link.network && !link.to.protocol->frame_length(link.last_bytes);
   if (unended && wait_until(link.last_sent.end + around_.timing.quiet, &link)) return;
   if (transcript_.trouble) return;
   if (!probe(link, index()) && !wait_until(due, &link)) lost_probe_ = last_sent_;
 }
 
-/// Is there an unended frame, which no pause ends, and is what follows more of it? A probe would
-/// begin another one between them.
+/// Of an unended frame: does no pause end it, and is what follows more of it? A probe would begin
+/// another one between them.
 bool CaseRun::goes_on(const PreparedStep& silence, const Link& link) const {
   const harness::Protocol& protocol = *link.to.protocol;
-  if (link.network || protocol.frame_gap(1ms) > 0ns || protocol.frame_length(link.last_bytes))
-    return false;
+  if (protocol.frame_gap(1ms) > 0ns) return false;
   const PreparedStep* const end = prepared_.steps.data() + prepared_.steps.size();
   const auto* const next = std::find_if(&silence + 1, end, [&](const PreparedStep& later) {
     return later.step->kind == Step::Kind::send && later.link == silence.link;

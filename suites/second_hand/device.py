@@ -7,7 +7,6 @@ import select
 import socket
 import struct
 import sys
-import termios
 
 import faults
 from cnet import CnetServer
@@ -16,23 +15,13 @@ from fenet import FenetServer
 from ls_bus import LsBusServer
 from memory import AREAS, Memory
 from modbus import BASES, AsciiServer, RtuServer, TcpServer
+from terminal import open_raw
 
 SERIAL = {'xgt-cnet': CnetServer, 'modbus-rtu': RtuServer, 'modbus-ascii': AsciiServer, 'ls-bus': LsBusServer}
 NETWORK = {'modbus-tcp': TcpServer, 'xgt-fenet': FenetServer}
 
 
 # ---- serial
-
-def open_raw(path):
-    handle = os.open(path, os.O_RDWR | os.O_NOCTTY)
-    mode = termios.tcgetattr(handle)
-    mode[0] = mode[1] = mode[3] = 0
-    mode[2] = termios.CS8 | termios.CREAD | termios.CLOCAL
-    mode[4] = mode[5] = termios.B115200
-    mode[6][termios.VMIN], mode[6][termios.VTIME] = 1, 0
-    termios.tcsetattr(handle, termios.TCSANOW, mode)
-    return handle
-
 
 def send(handle, data):
     while data:

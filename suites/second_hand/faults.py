@@ -1,4 +1,5 @@
 """The single faults: name | protocols | one sentence.  `fault(name)` is asked at each point of decision."""
+from fault_table import FaultTable
 
 C, F = 'xgt-cnet', 'xgt-fenet'
 R, A, T = 'modbus-rtu', 'modbus-ascii', 'modbus-tcp'
@@ -356,21 +357,5 @@ ls-buffer-255 | L | frames of 256 bytes are lost
 ls-buffer-512 | L | frames of up to 512 bytes are answered
 '''
 
-FAULTS = {}
-for _line in TABLE.strip().splitlines():
-    _name, _group, _text = (part.strip() for part in _line.split('|'))
-    assert _name not in FAULTS, _name
-    FAULTS[_name] = (GROUPS[_group], _text)
-
-_active = None
-
-
-def set_fault(name):
-    global _active
-    assert name is None or name in FAULTS, name
-    _active = name
-
-
-def fault(name):
-    assert name in FAULTS, name
-    return _active == name
+_faults = FaultTable(TABLE, GROUPS)
+FAULTS, set_fault, fault = _faults.all, _faults.choose, _faults.fault

@@ -129,7 +129,7 @@ class XgtFenet : public harness::PlcProtocol,
   }
   /// Bits: cnet/bit-names, fenet/memory-map.
   bool is_spelt_by_decision(std::string_view address) const override {
-    return address.size() > 2 && address[2] == 'X';
+    return harness::is_bit_name(address);
   }
   std::vector<std::string_view> output_areas() const override { return {"P", "Q", "U"}; }
 

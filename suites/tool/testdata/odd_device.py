@@ -18,6 +18,7 @@ import device  # noqa: E402
 from cnet import CnetServer  # noqa: E402
 from memory import Memory  # noqa: E402
 from modbus import BASES, AsciiServer, Functions, RtuServer, TcpServer  # noqa: E402
+from terminal import open_raw  # noqa: E402
 
 oddity, protocol, where = sys.argv[1:4]
 SERVERS = {"modbus-rtu": RtuServer, "modbus-ascii": AsciiServer, "modbus-tcp": TcpServer}
@@ -106,5 +107,5 @@ if where.isdigit():
     asyncio.run(device.serve_network(server, types.SimpleNamespace(listen="127.0.0.1:" + where, udp=None, connections=4,
                                                                    wait=100)))
 else:
-    handle = device.open_raw(where)
+    handle = open_raw(where)
     device.serve_serial(server, handle)
