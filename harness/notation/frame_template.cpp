@@ -37,7 +37,12 @@ class Builder {
     return ok();
   }
 
-  std::vector<FrameTemplate> take() { return std::move(frames_); }
+  std::vector<FrameTemplate> take() {
+    for (FrameTemplate& frame : frames_)
+      for (std::size_t i = 0; i < frame.cells.size(); ++i)
+        if (frame.cells[i].kind != Cell::Kind::literal) frame.holes.push_back(i);
+    return std::move(frames_);
+  }
 
  private:
   Status add(const Item& item) {
@@ -115,7 +120,6 @@ class Builder {
       frame.bytes.push_back(0);
       frame.cells.push_back({kind, part, static_cast<std::uint32_t>(i)});
     }
-    frame.open = true;
   }
 
   static bool is_literal(const FrameTemplate& frame, std::size_t from, std::size_t to) {
@@ -195,6 +199,14 @@ bool cell_matches(const FrameTemplate& frame, std::size_t i, ByteView received,
   return false;
 }
 
+/// The offset, from `from` on, of the first byte that differs; `end`: none before it does.
+std::size_t equal_until(std::size_t end, std::size_t from, ByteView expected, ByteView received) {
+  const ByteView part = expected.subspan(from, end - from);
+  if (std::ranges::equal(part, received.subspan(from, part.size()))) return end;  // mostly
+  const auto differs = std::ranges::mismatch(part, received.subspan(from)).in1;
+  return from + static_cast<std::size_t>(differs - part.begin());
+}
+
 }  // namespace
 
 Status check_words(const Notation& notation, const Fields& fields) {
@@ -225,9 +237,8 @@ Bytes check_bytes(const FrameTemplate::Check& check, ByteView frame) {
 
 Result<Bytes> render(const FrameTemplate& frame, const Captures& captures) {
   Bytes bytes = frame.bytes;
-  for (std::size_t i = 0; frame.open && i < bytes.size(); ++i) {
+  for (const std::size_t i : frame.holes) {
     const Cell& cell = frame.cells[i];
-    if (cell.kind == Cell::Kind::literal) continue;
     if (cell.kind == Cell::Kind::check) {
       bytes[i] = check_byte(frame, cell, bytes);
       continue;
@@ -246,18 +257,17 @@ Result<Bytes> render(const FrameTemplate& frame, const Captures& captures) {
 
 std::optional<std::size_t> first_mismatch(const FrameTemplate& frame, ByteView received,
                                           Captures& captures) {
-  if (!frame.open) {
-    if (std::ranges::equal(frame.bytes, received)) return std::nullopt;  // at once; mostly it is
-    const auto expected = std::ranges::mismatch(frame.bytes, received).in1;
-    return static_cast<std::size_t>(expected - frame.bytes.begin());
-  }
-  Captures found = captures;
   const std::size_t common = std::min(frame.bytes.size(), received.size());
-  for (std::size_t i = 0; i < common; ++i) {
-    if (frame.bytes[i] == received[i] && frame.cells[i].kind == Cell::Kind::literal) continue;
-    if (!cell_matches(frame, i, received, found)) return i;
+  Captures found = captures;
+  std::size_t at = 0;
+  for (const std::size_t hole : frame.holes) {
+    if (hole >= common) break;
+    at = equal_until(hole, at, frame.bytes, received);
+    if (at < hole || !cell_matches(frame, hole, received, found)) return at;
+    ++at;
   }
-  if (frame.bytes.size() != received.size()) return common;
+  at = equal_until(common, at, frame.bytes, received);
+  if (at < common || frame.bytes.size() != received.size()) return at;
   captures = std::move(found);
   return std::nullopt;
 }

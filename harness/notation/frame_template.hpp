@@ -50,7 +50,7 @@ struct FrameTemplate {
   std::vector<Check> checks;
   std::vector<Gap> gaps;
   std::vector<std::string> names;
-  bool open = false;  // has cells that are not literal or a settled check
+  std::vector<std::size_t> holes;  // which cells are neither literal nor a settled check
   std::map<std::string, std::string>
       readings;  // alternatives taken inside the frame: name of the field -> "a"
 };

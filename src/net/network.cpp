@@ -41,7 +41,7 @@ LinkId SimulatedNetwork::open(Transport transport, std::uint16_t port) {
   link.peer = bench_peer(id);
   if (transport == Transport::tcp) {
     fly(true, link, event_on(id, LinkEvent::opened, port, link.peer));
-    run(now_, false);
+    run_now();
   }
   return id;
 }
@@ -58,7 +58,7 @@ Status SimulatedNetwork::close(LinkId id, Closing how) {
   }
   if (how != Closing::vanish && link.transport == Transport::tcp)
     fly(true, link, event_on(id, how == Closing::fin ? LinkEvent::closed : LinkEvent::reset));
-  run(now_, false);
+  run_now();
   return ok();
 }
 
@@ -66,7 +66,7 @@ Result<Sent> SimulatedNetwork::send(LinkId id, ByteView bytes) {
   const auto found = links_.find(id);
   if (found == links_.end() || !found->second.bench_sends)
     return fail(fmt::format("cannot send on link {}: it is not open", id));
-  run(now_, false);
+  const std::optional<Time> wake = run(now_, false, host_wake());
   Link& link = found->second;
   Burst burst{.bytes = Bytes(bytes.begin(), bytes.end()), .link = id};
   if (link.transport == Transport::udp) {
@@ -75,12 +75,12 @@ Result<Sent> SimulatedNetwork::send(LinkId id, ByteView bytes) {
     burst.peer = link.peer;
   }
   dispatch(true, link, std::move(burst));
-  run(now_, false);
+  run(now_, false, wake);
   return Sent{now_, now_};
 }
 
 Burst SimulatedNetwork::receive(Time until) {
-  if (inbox_.empty()) run(std::max(until, now_), true);
+  if (inbox_.empty()) run(std::max(until, now_));
   if (std::optional<Burst> burst = take()) return std::move(*burst);
   return {.bytes = {}, .start = now_};
 }
@@ -92,9 +92,7 @@ std::optional<Burst> SimulatedNetwork::take() {
   return burst;
 }
 
-std::optional<Time> SimulatedNetwork::next_event() const {
-  return next_event(host_ ? host_->wake_at() : std::nullopt);
-}
+std::optional<Time> SimulatedNetwork::next_event() const { return next_event(host_wake()); }
 
 std::optional<Time> SimulatedNetwork::next_event(std::optional<Time> wake) const {
   std::optional<Time> next = wake;
@@ -104,17 +102,17 @@ std::optional<Time> SimulatedNetwork::next_event(std::optional<Time> wake) const
   return next;
 }
 
-void SimulatedNetwork::run(Time until, bool until_heard) {
-  std::optional<Time> wake = host_ ? host_->wake_at() : std::nullopt;
+std::optional<Time> SimulatedNetwork::run(Time until, bool until_heard, std::optional<Time> wake) {
   for (;;) {
     const std::optional<Time> next = next_event(wake);
     if (!next || *next > until) break;
     now_ = *next;
     const bool told = deliver_due();
-    if (until_heard && !inbox_.empty()) return;
+    if (until_heard && !inbox_.empty()) return wake;
     if (told || (wake && *wake <= now_)) wake = wake_host();
   }
   now_ = std::max(now_, until);
+  return wake;
 }
 
 bool SimulatedNetwork::deliver_due() {

@@ -50,7 +50,7 @@ class SimulatedNetwork : public Medium {
   Burst receive(Time until);
 
   std::optional<Time> next_event() const override;
-  void run(Time until) override { run(until, true); }
+  void run(Time until) override { run(until, true, host_wake()); }
   std::optional<Burst> take() override;
 
  private:
@@ -70,7 +70,10 @@ class SimulatedNetwork : public Medium {
   };
   using Flights = std::multimap<Time, Flight>;  // by arrival
 
-  void run(Time until, bool until_heard);
+  /// When the host wakes next.
+  std::optional<Time> run(Time until, bool until_heard, std::optional<Time> wake);
+  void run_now() { run(now_, false, host_wake()); }
+  std::optional<Time> host_wake() const { return host_ ? host_->wake_at() : std::nullopt; }
   std::optional<Time> next_event(std::optional<Time> wake) const;  // the host wakes then
   bool deliver_due();                                              // something to the host?
   void deliver_to_host(const Burst& burst);

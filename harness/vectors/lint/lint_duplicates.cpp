@@ -24,7 +24,7 @@ std::string text_of(Pairs memory) {
 /// The bytes, what may stand where they are open, and the pauses.
 std::string text_of(const notation::FrameTemplate& frame) {
   std::string text = notation::to_hex_with_holes(frame);
-  for (std::size_t i = 0; frame.open && i < frame.cells.size(); ++i) {
+  for (const std::size_t i : frame.holes) {
     const notation::FrameTemplate::Cell& cell = frame.cells[i];
     using Kind = notation::FrameTemplate::Cell::Kind;
     if (cell.kind == Kind::capture || cell.kind == Kind::reuse)
