@@ -21,6 +21,11 @@ void register_exchanges(bool brief);
 void register_network(const std::string& tool, bool brief);
 void register_simulated(bool brief);
 
+/// Once by itself, once on all processors together, as a run has its cases on simulated time.
+inline void on_each_processor(benchmark::internal::Benchmark* benchmark) {
+  benchmark->UseRealTime()->Threads(1)->ThreadPerCpu();
+}
+
 /// Reorders `samples`, of which there is at least one.
 inline double median(std::vector<double>& samples) {
   const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);

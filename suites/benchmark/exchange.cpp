@@ -69,7 +69,7 @@ void pty_exchange_against_bare_ping_pong(benchmark::State& state) {
 
 void register_exchanges(bool brief) {
   using benchmark::RegisterBenchmark;
-  RegisterBenchmark("in_process_exchange", in_process_exchange);
+  on_each_processor(RegisterBenchmark("in_process_exchange", in_process_exchange));
   RegisterBenchmark("whole_suite", whole_suite)->Unit(benchmark::kMillisecond);
   RegisterBenchmark("load_all_vectors", load_all_vectors)->Unit(benchmark::kMillisecond);
   RegisterBenchmark("pty_exchange_against_bare_ping_pong", pty_exchange_against_bare_ping_pong)

@@ -102,7 +102,7 @@ void fenet_over_loopback_against_bare_ping_pong(benchmark::State& state, const s
 }  // namespace
 
 void register_network(const std::string& tool, bool brief) {
-  benchmark::RegisterBenchmark("fenet_in_process", fenet_in_process);
+  on_each_processor(benchmark::RegisterBenchmark("fenet_in_process", fenet_in_process));
   for (const auto& [where, processor] : {std::pair("on_one_processor", 0), {"on_two", 1}})
     benchmark::RegisterBenchmark(
         fmt::format("fenet_over_loopback_against_bare_ping_pong/{}", where).c_str(),

@@ -187,6 +187,19 @@ std::vector<Fault> data_faults() {
        reads_other_area(0x03, 0x04), "modbus_rtu/modes/serves", "data"},
       {"writes_partly", "a write past the end writes what fits in, and refuses",
        answer_with(write_partly), "modbus_rtu/addressing/end_of_words_10/xbc_h", "%MW"},
+      {"writes_what_is_missing",
+       "a coil or register without its value is refused, and 0 all the same",
+       answer_with([](const Bytes& request, GoodModbus& plc) {
+         Bytes reply = plc.ask(request);
+         const bool one = function_of(request) == 0x05 || function_of(request) == 0x06;
+         if (one && request.size() < value_at + 2 && exception_of(reply) == value_error) {
+           Bytes whole = request;
+           whole.resize(value_at + 2);
+           (void)plc.ask(whole);
+         }
+         return reply;
+       }),
+       "modbus_rtu/exceptions/length_half_address/f05", "%MW"},
       {"writes_one_register_of_many", "preset multiple registers writes the first one",
        write_first(0x10, 1), "modbus_rtu/writes/words/n2", "%MW"},
       {"writes_eight_coils_of_many", "force multiple coils writes the first byte",

@@ -168,6 +168,12 @@ MakeBehaviour refusal(std::function<std::uint16_t(std::uint16_t code)> shown) {
   });
 }
 
+/// Data are saved by way of 256 bytes, which the rest of a longer reply finds as it left them.
+void wraps_at_256(Header&, Bytes& content, const P2pBlock&) {
+  constexpr std::size_t ring = 256;
+  for (std::size_t i = data_at + ring; i < content.size(); ++i) content[i] = content[i - ring];
+}
+
 void with_the_command_asked_for(Header&, Bytes& content, const P2pBlock& block) {
   const bool writes = block.function == P2pBlock::Function::write;
   set_low_first(content, 0, writes ? 0x59 : 0x55);
@@ -339,6 +345,8 @@ std::vector<Fault> fenet_reply_faults() {
       {"fenet_command_not_compared", "a reply to another command is taken",
        reply(with_the_command_asked_for), "xgt_fenet/client/errors/body/command_54",
        "%MW119 holds 13576BCD9BDF86427531FDB9"},
+      {"fenet_wraps_at_256", "what a reply has behind its 256th byte is what it has 256 before",
+       reply(wraps_at_256), "xgt_fenet/client/limits/bytes_512", "%MW"},
       {"fenet_type_not_compared", "a reply of another data type is taken",
        reply([](Header&, Bytes& content, const P2pBlock&) { set_low_first(content, type_at, 2); }),
        "xgt_fenet/client/errors/body/data_type", "%MW119 holds 13576BCD9BDF86427531FDB9"},

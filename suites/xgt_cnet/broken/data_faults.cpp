@@ -172,6 +172,15 @@ Bytes write_for_others(const Bytes& frame, GoodPlc& plc) {
   return reply;
 }
 
+/// A bit whose value is neither 00 nor 01 is refused, and on all the same.
+Bytes set_refused_bit(const Bytes& frame, GoodPlc& plc) {
+  const XgtRequest request = xgt_cnet::parse_request(frame);
+  Bytes reply = plc.answer(frame);
+  if (refusal(reply) == xgt_cnet::xgt_error::data && type_of(request) == 'X')
+    (void)plc.memory().set(request.block[0].name, "01");
+  return reply;
+}
+
 /// Every write is acknowledged, and nothing happens.
 Bytes acknowledge_only(const Bytes& frame, GoodPlc& plc) {
   const XgtRequest request = xgt_cnet::parse_request(frame);
@@ -255,6 +264,8 @@ std::vector<Fault> data_faults() {
        answer_with(contact_of_value), "data_types/contact_against_value/lower/t/off", "data"},
       {"writes_read_only_areas", "F and N can be written", answer_with(write_read_only),
        "wss/read_only_areas_without_memory/f", "header"},
+      {"sets_a_refused_bit", "a bit is on after a value that was refused as none of a bit",
+       answer_with(set_refused_bit), "wss/bit_value_wrong/n11_lower", "is due"},
       {"writes_first_blocks_of_a_refused_write",
        "a refused WSS has written the blocks before the wrong one",
        answer_with(write_until_refused), "wss/all_or_nothing/area_lower", "is due"},
