@@ -203,7 +203,7 @@ std::vector<Fault> data_faults() {
       {"token_kept", "a station has the token twice", one_keeps_the_token,
        "xnet/timing_token/by_number", "@turns"},
       {"cycle_of_500_ms", "the token takes 500 ms to come round", ports(slow_cycle),
-       "xnet/instruction_data/count_example", "SD161"},
+       "xnet/timing_token/all_within_a_cycle", "C:D10"},
       {"slow_line", "the bus runs at 9600 bit/s", ports(slow_line), "xnet/instruction_data/count",
        "SD161"},
       {"no_routes", "the route table is not read", without_routes,
