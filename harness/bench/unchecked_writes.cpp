@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "harness/notation/beginning.hpp"
 
@@ -31,8 +32,21 @@ std::vector<Asked> asked_in(const results::CaseResult& result) {
   return all;
 }
 
+bool is_refusal(ByteView request, ByteView reply, const Protocol& protocol) {
+  return protocol.sound_reply(request, reply) && !protocol.write_reply(reply);
+}
+
+/// As a whole, or each of the frames that were sent in one, by an answer of its own.
 bool is_refused(const Asked& one, const Protocol& protocol) {
-  return protocol.sound_reply(one.request, one.reply) && !protocol.write_reply(one.reply);
+  if (is_refusal(one.request, one.reply, protocol)) return true;
+  ByteView requests = one.request, replies = one.reply;
+  const auto take = [&](ByteView& from) {
+    const std::size_t size = protocol.frame_length(from).value_or(from.size());
+    return std::exchange(from, from.subspan(size)).first(size);
+  };
+  while (!requests.empty() && !replies.empty())
+    if (!is_refusal(take(requests), take(replies), protocol)) return false;
+  return !one.reply.empty() && requests.empty() && replies.empty();
 }
 
 /// Some devices take lower-case digits, and answer with upper-case ones.

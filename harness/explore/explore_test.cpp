@@ -724,11 +724,11 @@ TEST(Explorer, MapsWhatTheDeviceDoes) {
   const Protocol& cnet = protocol("xgt-cnet");
   InProcess device(cnet);
   Explorer one = explorer(cnet, device, cases("xgt_cnet"));
-  while (one.requests_sent() < 6000) one.step();
-  EXPECT_THAT(one.known().limits,
-              AllOf(Contains(HasSubstr("SS, block count: 1 to 16 accepted, 17 refused with 0003")),
-                    Contains(HasSubstr("area M: "))))
-      << testing::PrintToString(one.known().limits);
+  const auto mapped =
+      AllOf(Contains(HasSubstr("SS, block count: 1 to 16 accepted, 17 refused with 0003")),
+            Contains(HasSubstr("area M: ")));
+  while (one.requests_sent() < 20'000 && !testing::Matches(mapped)(one.known().limits)) one.step();
+  EXPECT_THAT(one.known().limits, mapped) << testing::PrintToString(one.known().limits);
 }
 
 Explorer client_explorer(const Protocol& own, const std::string& model, InProcess& device,

@@ -347,6 +347,20 @@ TEST_F(Restore, OfAWordThatIsWrittenTwiceTheLastOneIsDue) {
   expect_as_before();
 }
 
+TEST_F(Restore, WhatIsRefusedTwiceInOneIsNothingToDoubt) {
+  folder_.write("twice.json", R"([{
+    "id": "xgt_cnet/twice/refused", "title": "Two writes in one, both refused", "level": "info",
+    "basis": "derived", "why": "each is answered", "statement": "xgb-cnet-en-1.6/7.1.5-3c-frame",
+    "given": {"memory": {"%MW119": "0000"}},
+    "steps": [{"send": "[ENQ st 'WSS' '11' name(%MW119) '1111' EOT] [ENQ st 'WSS' '11' name(%MW119) '1111' EOT]"},
+              {"expect": "[NAK st 'WSS' '0003' ETX] [NAK st 'WSS' '0003' ETX]"}]}])");
+  const Finished run =
+      run_tool(run_arguments({"--vectors", folder_ / "twice.json", "--allow-write", "M100-M119"}));
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+  EXPECT_EQ(run.err, "");
+  expect_as_before();
+}
+
 TEST_F(Restore, WhatDoesNotAnswerStaysOpen) {
   const std::string entry =
       R"({"saved":{"address":"%MW100","config":{},"endpoint":"serial:/no/such/port","model":"xbc-h","number":1,)"
