@@ -82,6 +82,19 @@ class Restore : public testing::Test {
     })) << lines;
     return run;
   }
+  /// Of a run of one case that may write M119.
+  void expect_nothing_to_doubt(const std::string& steps) {
+    folder_.write("one.json", R"([{
+      "id": "xgt_cnet/one/write", "title": "What one case writes to M119", "level": "info",
+      "basis": "derived", "why": "nothing forbids it", "statement": "xgb-cnet-en-1.6/7.1.5-3c-frame",
+      "given": {"memory": {"%MW119": "0000"}}, "steps": [)" +
+                                  steps + "]}]");
+    const Finished run =
+        run_tool(run_arguments({"--vectors", folder_ / "one.json", "--allow-write", "M100-M119"}));
+    EXPECT_EQ(run.code, 0) << run.out << run.err;
+    EXPECT_EQ(run.err, "");
+    expect_as_before();
+  }
   /// All is as before; was there anything to put back?
   bool restores() const {
     const Finished restored = run_tool({"restore", journal()});
@@ -335,30 +348,15 @@ TEST_F(Restore, ARunDoesNotWriteOverWhatIsOpen) {
 }
 
 TEST_F(Restore, OfAWordThatIsWrittenTwiceTheLastOneIsDue) {
-  folder_.write("twice.json", R"([{
-    "id": "xgt_cnet/twice/named", "title": "A word that is named twice in one write", "level": "info",
-    "basis": "derived", "why": "nothing forbids it", "statement": "xgb-cnet-en-1.6/7.1.5-3c-frame",
-    "given": {"memory": {"%MW119": "0000"}},
-    "steps": [{"send": "[ENQ st 'WSS' '02' name(%MW119) '1111' name(%MW119) '2222' EOT]"},
-              {"expect": "[ACK st 'WSS' ETX]"}]}])");
-  const Finished run =
-      run_tool(run_arguments({"--vectors", folder_ / "twice.json", "--allow-write", "M100-M119"}));
-  EXPECT_EQ(run.code, 0) << run.out << run.err;
-  expect_as_before();
+  expect_nothing_to_doubt(
+      R"({"send": "[ENQ st 'WSS' '02' name(%MW119) '1111' name(%MW119) '2222' EOT]"},
+                             {"expect": "[ACK st 'WSS' ETX]"})");
 }
 
 TEST_F(Restore, WhatIsRefusedTwiceInOneIsNothingToDoubt) {
-  folder_.write("twice.json", R"([{
-    "id": "xgt_cnet/twice/refused", "title": "Two writes in one, both refused", "level": "info",
-    "basis": "derived", "why": "each is answered", "statement": "xgb-cnet-en-1.6/7.1.5-3c-frame",
-    "given": {"memory": {"%MW119": "0000"}},
-    "steps": [{"send": "[ENQ st 'WSS' '11' name(%MW119) '1111' EOT] [ENQ st 'WSS' '11' name(%MW119) '1111' EOT]"},
-              {"expect": "[NAK st 'WSS' '0003' ETX] [NAK st 'WSS' '0003' ETX]"}]}])");
-  const Finished run =
-      run_tool(run_arguments({"--vectors", folder_ / "twice.json", "--allow-write", "M100-M119"}));
-  EXPECT_EQ(run.code, 0) << run.out << run.err;
-  EXPECT_EQ(run.err, "");
-  expect_as_before();
+  expect_nothing_to_doubt(
+      R"({"send": "[ENQ st 'WSS' '11' name(%MW119) '1111' EOT] [ENQ st 'WSS' '11' name(%MW119) '1111' EOT]"},
+                             {"expect": "[NAK st 'WSS' '0003' ETX] [NAK st 'WSS' '0003' ETX]"})");
 }
 
 TEST_F(Restore, WhatDoesNotAnswerStaysOpen) {
