@@ -43,7 +43,8 @@ std::vector<Row> rows_of(const std::string& readme) {
 }
 
 /// The commands of README, for each protocol.
-std::vector<std::string> command_for(const std::string& filter, const std::string& out) {
+std::vector<std::string> command_for(const std::string& folder, const std::string& filter,
+                                     const std::string& out) {
   const std::map<std::string, std::pair<std::string, std::string>> emulated{
       {"xgt_cnet", {"xgt-cnet", "--pty {tty}"}},
       {"modbus_rtu", {"modbus-rtu", "--pty {tty}"}},
@@ -53,7 +54,7 @@ std::vector<std::string> command_for(const std::string& filter, const std::strin
   std::string endpoint = "exec:python3 -B " FIELDPROOF_SOURCE_DIR
                          "/suites/example/inverter.py {tty} {station} {write_order}",
               protocol = "ls-bus", profile = "inverter";
-  if (const auto one = emulated.find(filter); one != emulated.end()) {
+  if (const auto one = emulated.find(folder); one != emulated.end()) {
     protocol = one->second.first;
     profile = "xbc-h";
     endpoint = "exec:" FIELDPROOF_TOOL " emulate 'xbc-h?protocol=" + protocol +
@@ -61,15 +62,38 @@ std::vector<std::string> command_for(const std::string& filter, const std::strin
   }
   return tool_tests::tool_arguments({"run", "--endpoint", endpoint, "--control", "-", "--protocol",
                                      protocol, "--profile", profile, "--role", "server", "--filter",
-                                     filter + "/*", "--out", out});
+                                     filter, "--out", out});
 }
 
 /// One run for each row, all at once: they wait more than they work.
 class ReadmeTable : public testing::Test {
  protected:
   ReadmeTable() : rows_(rows_of(tool_tests::read_text(FIELDPROOF_SOURCE_DIR "/README.md"))) {
-    for (const Row& row : rows_) runs_.emplace_back(command_for(row.filter, folder_ / row.filter));
+    for (const Row& row : rows_)
+      runs_.emplace_back(command_for(row.filter, row.filter + "/*", folder_ / row.filter));
     for (Process& run : runs_) run.wait(Process::Limit(800));
+  }
+
+  tool_tests::Results results_of(const std::string& name) {
+    return tool_tests::read_results(folder_ / (name + "/results.ndjson"));
+  }
+
+  /// What is not judged, ":"-separated: a computer that is busy for a moment may add to it, so it
+  /// is run once more, alone.
+  std::string open_of(const Row& row) {
+    const std::string first = ids_of_open(results_of(row.filter));
+    if (row.judged + std::ranges::count(first, ':') + 1 == row.declared) return first;
+    Process again(command_for(row.filter, first, folder_ / "again"));
+    again.wait(Process::Limit(800));
+    return ids_of_open(results_of("again"));
+  }
+
+  static std::string ids_of_open(const tool_tests::Results& results) {
+    std::string ids;
+    for (const nlohmann::json& one : results.cases)
+      if (one.at("verdict") == "BLOCKED" || one.at("verdict") == "INCONCLUSIVE")
+        ids += (ids.empty() ? "" : ":") + one.at("id").get<std::string>();
+    return ids;
   }
 
   TestFolder folder_;
@@ -81,15 +105,13 @@ TEST_F(ReadmeTable, HasWhatARunGives) {
   EXPECT_EQ(rows_.size(), 6u);
   for (const Row& row : rows_) {
     SCOPED_TRACE(row.filter);
-    std::map<std::string, std::size_t> counts =
-        tool_tests::read_results(folder_ / (row.filter + "/results.ndjson")).counts();
-    const std::size_t skipped = counts["SKIP"], open = counts["BLOCKED"] + counts["INCONCLUSIVE"];
-    const std::size_t all =
-        std::accumulate(counts.begin(), counts.end(), std::size_t{},
-                        [](std::size_t sum, const auto& one) { return sum + one.second; });
-    EXPECT_EQ(row.declared, all - skipped);
-    EXPECT_EQ(row.judged, all - skipped - open);
-    EXPECT_EQ(std::accumulate(row.rest.begin(), row.rest.end(), std::size_t{}), open)
+    const tool_tests::Results results = results_of(row.filter);
+    const std::string open = open_of(row);
+    const std::size_t left = open.empty() ? 0 : std::ranges::count(open, ':') + 1;
+    const std::size_t declared = results.cases.size() - results.counts()["SKIP"];
+    EXPECT_EQ(row.declared, declared);
+    EXPECT_EQ(row.judged, declared - left) << open;
+    EXPECT_EQ(std::accumulate(row.rest.begin(), row.rest.end(), std::size_t{}), left)
         << "each that is left is named";
   }
 }
