@@ -44,6 +44,7 @@ Result<std::vector<Mutant>> load_table(const std::string& file) {
 Status load_equivalent(const std::string& file, std::vector<Mutant>& mutants) {
   const Result<json> entries = read(file);
   if (!entries) return entries.error();
+  std::string stale;
   for (const json& entry : *entries) {
     bool found = false;
     for (Mutant& mutant : mutants) {
@@ -51,9 +52,10 @@ Status load_equivalent(const std::string& file, std::vector<Mutant>& mutants) {
       mutant.equivalent = entry.at("why");
       found = true;
     }
-    if (!found) return fail(fmt::format("{}: no mutant is {}", file, entry.dump()));
+    if (!found) stale += "\n  " + entry.dump();
   }
-  return ok();
+  if (stale.empty()) return ok();
+  return fail(fmt::format("{}: take out what no mutant is any more:{}", file, stale));
 }
 
 }  // namespace fieldproof::mutants

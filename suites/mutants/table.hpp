@@ -23,7 +23,7 @@ struct Mutant {
 /// Errors name the file.
 Result<std::vector<Mutant>> load_table(const std::string& file);
 
-/// Marks what `file` (equivalent.json) says. The error names an entry that fits no mutant any more.
+/// Marks what `file` (equivalent.json) says. The error lists the entries that fit no mutant any more.
 Status load_equivalent(const std::string& file, std::vector<Mutant>& mutants);
 
 }  // namespace fieldproof::mutants
