@@ -329,12 +329,15 @@ class Exploration {
       report_.add(seen_result(protocol, what.first, what.second, answers));
     report_what_is_known(protocol);
     int number = 0;
-    for (const auto& [why, times] : explorer_.unjudged()) {
-      CaseResult result;
+    for (const auto& [why, seen] : explorer_.unjudged()) {
+      CaseResult result = seen.first;  // its exchange is an example
+      if (result.message != why.second) result.notes.push_back("the first: " + result.message);
       result.id = fmt::format("{}/explore/not_judged/{}", vectors::folder_of(protocol), ++number);
       result.protocol = protocol.name();
       result.verdict = why.first;
-      result.message = run::bounded(fmt::format("{} sequences: {}", times, why.second));
+      result.message = run::bounded(
+          fmt::format("{} sequence{}: {}", seen.times, seen.times == 1 ? "" : "s", why.second));
+      result.replay.clear();
       report_.add(result);
     }
     for (const auto& [mark, finding] : explorer_.findings()) report_.add(result_of(finding));

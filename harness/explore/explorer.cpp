@@ -62,13 +62,12 @@ void Explorer::note(Sequence::Own sequence, const CaseResult& result) {
     return note_as_expected(*sequence);
   if (!differs(result.verdict)) return note_unjudged(*sequence, result);
   if (differs_in_letters_alone(result)) {
-    ++unjudged_[{Verdict::blocked, "the same answers, in other letters"}];
-    return;
+    return count_unjudged(Verdict::blocked, "the same answers, in other letters", result);
   }
   const std::size_t failing = sequence->failing_part(result);
   if (inventor_->may_learn(*sequence, failing)) {
     if (!learnt(*sequence, failing, result))
-      ++unjudged_[{Verdict::inconclusive, "answered once so, and then otherwise"}];
+      count_unjudged(Verdict::inconclusive, "answered once so, and then otherwise", result);
     return;
   }
   ++judged_;
@@ -89,9 +88,14 @@ void Explorer::note_as_expected(const Sequence& sequence) {
 /// What an interrupt or a device that is gone did to a sequence is told once, and not by it.
 void Explorer::note_unjudged(const Sequence& sequence, const CaseResult& result) {
   if (!device_.alive()) return;
-  ++unjudged_[{result.verdict, result.message}];
+  count_unjudged(result.verdict, result.message, result);
   if (result.verdict != Verdict::blocked || inventor_->give_up(sequence)) return;
   barren_ += inventor_->can_invent() ? 1 : enough_barren;
+}
+
+void Explorer::count_unjudged(Verdict verdict, const std::string& why, const CaseResult& result) {
+  Unjudged& same = unjudged_[{verdict, why}];
+  if (same.times++ == 0) same.first = result;
 }
 
 /// What came once may have been the line: a device reads it so where it does so again, at the end
@@ -117,7 +121,7 @@ bool Explorer::known_already(const Sequence& sequence, std::size_t failing,
   const auto same = same_.find(mark);
   if (same == same_.end()) {
     if (findings_.size() < most_findings) return false;
-    ++unjudged_[{result.verdict, "differs, not looked into: there are 50 findings"}];
+    count_unjudged(result.verdict, "differs, not looked into: there are 50 findings", result);
     return true;
   }
   Finding& finding = findings_.at(same->second);

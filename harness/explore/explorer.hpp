@@ -56,8 +56,12 @@ class Explorer {
   const Seen& seen() const { return seen_; }
   Inventor::Known known() const { return inventor_->known(); }
   /// Sequences that were not judged, by verdict and reason.
-  using Unjudged = std::map<std::pair<results::Verdict, std::string>, std::uint64_t>;
-  const Unjudged& unjudged() const { return unjudged_; }
+  struct Unjudged {
+    std::uint64_t times = 0;
+    results::CaseResult first{};
+  };
+  using AllUnjudged = std::map<std::pair<results::Verdict, std::string>, Unjudged>;
+  const AllUnjudged& unjudged() const { return unjudged_; }
 
  private:
   static constexpr std::uint64_t enough_barren = 1000;
@@ -66,6 +70,8 @@ class Explorer {
   void note(Sequence::Own sequence, const results::CaseResult& result);
   void note_as_expected(const Sequence& sequence);
   void note_unjudged(const Sequence& sequence, const results::CaseResult& result);
+  void count_unjudged(results::Verdict verdict, const std::string& why,
+                      const results::CaseResult& result);
   bool learnt(const Sequence& sequence, std::size_t failing, const results::CaseResult& result);
   bool known_already(const Sequence& sequence, std::size_t failing,
                      const results::CaseResult& result, const std::string& mark);
@@ -78,7 +84,7 @@ class Explorer {
   std::unique_ptr<Inventor> inventor_;
   std::uint64_t sent_ = 0, sequences_ = 0, judged_ = 0, barren_ = 0;
   Seen seen_;
-  Unjudged unjudged_;
+  AllUnjudged unjudged_;
   std::map<std::string, Finding> findings_;
   std::map<std::string, std::string> same_;  // the mark of a long sequence: that of its finding
   std::array<vectors::Case, 2>

@@ -70,7 +70,7 @@ class SimulatedNetwork : public Medium {
   };
   using Flights = std::multimap<Time, Flight>;  // by arrival
 
-  /// When the host wakes next.
+  /// When the host wakes next; where it ended because the bench heard something, as of before that.
   std::optional<Time> run(Time until, bool until_heard, std::optional<Time> wake);
   void run_now() { run(now_, false, host_wake()); }
   std::optional<Time> host_wake() const { return host_ ? host_->wake_at() : std::nullopt; }

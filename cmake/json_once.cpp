@@ -1,0 +1,2 @@
+#define FIELDPROOF_JSON_ONCE
+#include "cmake/json_once.hpp"
