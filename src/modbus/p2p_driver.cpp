@@ -134,6 +134,7 @@ class ModbusP2pDriver : public p2p::P2pDriver {
 
  private:
   bool is_for_us(const ModbusFrame& frame) const;
+  bool is_echo(ByteView pdu) const;
   std::uint16_t fault_of(const ModbusFrame& frame, ByteView bytes) const;
   std::uint16_t take_pdu(const P2pBlock& block, ByteView pdu, PlcMemory& memory) const;
 
@@ -190,6 +191,11 @@ bool ModbusP2pDriver::is_for_us(const ModbusFrame& frame) const {
   return frame.fault == plc::service_status::normal && frame.transaction == transaction_;
 }
 
+/// Of a two-wire line that is set for RS-422; by TCP nothing comes back by itself. (p2p/echo)
+bool ModbusP2pDriver::is_echo(ByteView pdu) const {
+  return rules_.mode != ModbusMode::tcp && std::ranges::equal(pdu, sent_);
+}
+
 std::uint16_t ModbusP2pDriver::fault_of(const ModbusFrame& frame, ByteView bytes) const {
   if (frame.fault == plc::service_status::normal) return p2p::p2p_error::none;
   if (frame.fault == plc::service_status::not_hex) return p2p::p2p_error::not_hex;
@@ -204,7 +210,9 @@ std::optional<std::uint16_t> ModbusP2pDriver::take(const P2pBlock& block, ByteVi
   if (const std::uint16_t fault = fault_of(frame, bytes); fault != p2p::p2p_error::none)
     return fault;
   if (frame.station != block.station) return p2p::p2p_error::station;
-  return take_pdu(block, frame.pdu, memory);
+  const std::uint16_t status = take_pdu(block, frame.pdu, memory);
+  if (status == p2p::p2p_error::length && is_echo(frame.pdu)) return std::nullopt;
+  return status;
 }
 
 std::uint16_t ModbusP2pDriver::take_pdu(const P2pBlock& block, ByteView pdu,

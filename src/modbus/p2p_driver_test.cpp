@@ -116,6 +116,18 @@ TEST_P(ModbusP2p, TheEchoIsOfWhatWasSent) {
   EXPECT_EQ(answer(of, "01 06 0001 5678"), p2p::p2p_error::driver);
 }
 
+/// p2p/echo: on a two-wire line it may come back. Where it has the form of a reply, it is one.
+TEST_P(ModbusP2p, PassesItsOwnRequestOver) {
+  const P2pBlock words = p2p_read("0x40002", "%MW160", 2), run = p2p_write("0x40002", "%MW100", 2),
+                 bits = p2p_read("0x00300", "%MX01600", 20);
+  ask(words);
+  EXPECT_EQ(answer(words, "01 03 0002 0002"), std::nullopt);
+  ask(run);
+  EXPECT_EQ(answer(run, "01 10 0002 0002 04 0000 0000"), std::nullopt);
+  ask(bits);
+  EXPECT_EQ(answer(bits, "01 01 0300 0014"), p2p::p2p_error::none) << "3 bytes of bits: 00 00 14";
+}
+
 TEST_P(ModbusP2p, RefusesWhatIsNotTheReply) {
   const P2pBlock words = p2p_read("0x40002", "%MW160", 2), run = p2p_write("0x40002", "%MW100", 2);
   ask(words);
@@ -131,7 +143,7 @@ TEST_P(ModbusP2p, RefusesWhatIsNotTheReply) {
                                     {"01 03 04 1111", p2p::p2p_error::length},
                                     {"01 03 02 1111 2222", p2p::p2p_error::length},
                                     {"01 03 06 1111 2222 3333", p2p::p2p_error::length},
-                                    {"01 03 0002 0002", p2p::p2p_error::length}})
+                                    {"01 03 0002 0003", p2p::p2p_error::length}})
     EXPECT_EQ(answer(words, reply), code) << reply;
   EXPECT_EQ(get("%MW160", 8), "00000000") << "nothing is saved of a reply that is refused";
   ask(run);

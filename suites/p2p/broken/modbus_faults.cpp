@@ -152,6 +152,11 @@ std::optional<std::uint16_t> echo_not_compared(const p2p::P2pDriver& good, const
              : error;
 }
 
+std::optional<std::uint16_t> ended_by_own_request(const p2p::P2pDriver& good, const P2pBlock& block,
+                                                  const Bytes& frame, plc::PlcMemory& memory) {
+  return good.take(block, frame, memory).value_or(p2p::p2p_error::length);
+}
+
 /// Whole bytes of bits are saved, padding and all.
 void save_padding(const P2pBlock& block, plc::PlcMemory& memory) {
   if (block.type != 'X') return;
@@ -220,6 +225,8 @@ std::vector<Fault> modbus_faults() {
       {"crc_missing", "the request has no CRC",
        spoils([](Bytes& frame) { frame.resize(frame.size() - 2); }),
        "modbus_rtu/client/example/write_m100", "CRC: expected E31B, got 0106"},
+      {"ended_by_own_request", "its own request that comes back ends a request, as a wrong length",
+       takes(ended_by_own_request), "modbus_rtu/client/error/echo", "%MW120 holds 2468"},
       {"lrc_missing", "the request has no LRC",
        spoils([](Bytes& frame) { frame.erase(frame.end() - 4, frame.end() - 2); }),
        "modbus_ascii/client/example/write_m100", "value: expected 5ABC, got 5A"},
