@@ -53,7 +53,8 @@ explore::Device device_of(const RunPlan& plan, Benches& bench) {
           .alive =
               [&bench] {
                 return bench.stopped().empty() && !bench.interrupted() && !os::interrupted();
-              }};
+              },
+          .real_time = !endpoints::capabilities_of(plan.endpoint).simulated};
 }
 
 bool over_the_wire(const RunPlan& plan) {

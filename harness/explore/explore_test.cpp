@@ -25,8 +25,10 @@ using results::CaseResult;
 using results::Verdict;
 using testing::AllOf;
 using testing::Contains;
+using testing::Ge;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Le;
 using testing::Not;
 using vectors::Case;
 
@@ -355,6 +357,28 @@ TEST(Explorer, IsRepeatable) {
     while (one.requests_sent() < 200) one.step();
   }
   EXPECT_EQ(first, second);
+}
+
+TEST(Explorer, WaitsForFewSilencesWhereTimeIsReal) {
+  const Protocol& rtu = protocol("modbus-rtu");
+  const std::vector<Case> from = cases("modbus_rtu");
+  const std::string model = rtu.models().front();
+  std::map<bool, std::size_t> silences;  // of 2000 requests
+  for (const bool real_time : {false, true}) {
+    InProcess device(rtu);
+    const auto run = [&](const Case& one) {
+      for (const vectors::Step& step : one.steps)
+        silences[real_time] += step.kind == vectors::Step::Kind::silence;
+      return device.run(one);
+    };
+    Explorer one({.protocol = &rtu, .run = run, .real_time = real_time},
+                 std::make_unique<ServerSequences>(Server{.protocol = &rtu},
+                                                   std::move(*Oracle::open(rtu, model, 1)),
+                                                   requests_of(from, rtu, model), 5));
+    while (one.requests_sent() < 2000) one.step();
+  }
+  EXPECT_GT(silences[false], 250u);
+  EXPECT_THAT(silences[true], AllOf(Ge(150u), Le(210u)));
 }
 
 /// A healthy device with one of these around it.

@@ -48,10 +48,24 @@ CaseResult Explorer::run(const Sequence& sequence, const std::string& id) {
   return result;
 }
 
+/// Where time is real, nearly all of it would be spent on waiting: silences are seen about as often
+/// with many answers between them as one behind the other.
+bool Explorer::waits_too_long(const Sequence& sequence) {
+  if (!device_.real_time) return false;
+  std::uint64_t silences = 0;
+  for (std::size_t part = 0; part < sequence.parts(); ++part)
+    silences += sequence.outcome(part) == "silence";
+  if (silences > 0 && (silences_ + silences - 1) * requests_for_a_silence > sent_) return true;
+  silences_ += silences;
+  return false;
+}
+
 void Explorer::step() {
   Sequence::Own sequence = inventor_->invent();
-  if (!sequence) ++barren_;
-  if (!sequence) return;
+  if (!sequence || waits_too_long(*sequence)) {
+    ++barren_;
+    return;
+  }
   ++sequences_;
   const CaseResult result = run(*sequence, fmt::format("explore/{}", sequences_));
   note(std::move(sequence), result);

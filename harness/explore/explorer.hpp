@@ -22,6 +22,7 @@ struct Device {
   const harness::Protocol* protocol = nullptr;
   std::function<results::CaseResult(const vectors::Case&)> run;
   std::function<bool()> alive = [] { return true; };  // false: no further case can run
+  bool real_time = false;  // a silence takes as long as hundreds of answers
 };
 
 /// What a sequence showed that the model does not do.
@@ -64,9 +65,10 @@ class Explorer {
   const AllUnjudged& unjudged() const { return unjudged_; }
 
  private:
-  static constexpr std::uint64_t enough_barren = 1000;
+  static constexpr std::uint64_t enough_barren = 1000, requests_for_a_silence = 10;
 
   results::CaseResult run(const Sequence& sequence, const std::string& id);
+  bool waits_too_long(const Sequence& sequence);
   void note(Sequence::Own sequence, const results::CaseResult& result);
   void note_as_expected(const Sequence& sequence);
   void note_unjudged(const Sequence& sequence, const results::CaseResult& result);
@@ -82,7 +84,7 @@ class Explorer {
 
   Device device_;
   std::unique_ptr<Inventor> inventor_;
-  std::uint64_t sent_ = 0, sequences_ = 0, judged_ = 0, barren_ = 0;
+  std::uint64_t sent_ = 0, sequences_ = 0, judged_ = 0, barren_ = 0, silences_ = 0;
   Seen seen_;
   AllUnjudged unjudged_;
   std::map<std::string, Finding> findings_;
