@@ -14,9 +14,12 @@ PlcMemory::PlcMemory(const PlcModel& model) : model_(&model) {
   for (std::size_t i = 0; i < model.areas.size(); ++i) {
     first_word_.at(i) = words;
     first_contact_.at(i) = contacts;
-    words += model.areas[i].words;
+    if (model.areas[i].same_as == 0) words += model.areas[i].words;
     contacts += model.areas[i].contacts;
   }
+  for (std::size_t i = 0; i < model.areas.size(); ++i)
+    if (const DeviceArea* same = model.area(model.areas[i].same_as))
+      first_word_.at(i) = first_word_.at(static_cast<std::size_t>(same - model.areas.data()));
   words_ = Zeroed<std::uint16_t>(words);
   contacts_ = Zeroed<std::uint8_t>(contacts);
 }

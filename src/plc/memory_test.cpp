@@ -80,6 +80,7 @@ TEST(PlcMemory, AreasDoNotOverlap) {
     std::uint64_t n = 1;
     const auto end_words = [&](auto&& use) {
       for (std::uint8_t i = 0; i < model.areas.size(); ++i) {
+        if (model.areas[i].same_as != 0) continue;
         use(DeviceAddress{i, 'W', false, 0});
         use(DeviceAddress{i, 'W', false, model.areas[i].last_word()});
       }
@@ -90,6 +91,16 @@ TEST(PlcMemory, AreasDoNotOverlap) {
       EXPECT_EQ(memory.read(a), n++) << model.name << ' ' << model.areas[a.area].letter;
     });
   }
+}
+
+/// FEnet A.1.2.
+TEST(PlcMemory, WOfTheXecHasTheWordsOfR) {
+  PlcMemory memory = memory_of("xec-h");
+  set(memory, "%WW10239", "A55A");
+  EXPECT_EQ(get(memory, "%RW10239"), "A55A");
+  set(memory, "%RX16", "01");
+  EXPECT_EQ(get(memory, "%WW1"), "0001");
+  EXPECT_EQ(get(memory, "%MW1"), "0000");
 }
 
 TEST(PlcMemory, OutsideIsAProgrammersError) {

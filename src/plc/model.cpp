@@ -34,7 +34,7 @@ constexpr std::array xec_h{
     DeviceArea{'I', 1024, read_write, 0, {16, 16, 4}},
     DeviceArea{'Q', 1024, read_write, 0, {16, 16, 4}},
     DeviceArea{'M', 8192, read_write},
-    DeviceArea{'W', 10240, read_write},
+    DeviceArea{'W', 10240, read_write, 0, {}, 'R'},  // FEnet A.1.2: "Same area as R"
     DeviceArea{'R', 10240, read_write},
     DeviceArea{'F', 1024, read_only},
     DeviceArea{'K', 4096, read_write},

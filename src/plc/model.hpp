@@ -27,6 +27,7 @@ struct DeviceArea {
   bool write = true;
   std::uint32_t contacts = 0;  // T and C: bit names are contacts, apart from the current values
   DottedForm dotted{};
+  char same_as = 0;  // the letter of the area whose words it has, of the same size
 
   std::uint32_t last_word() const { return words - 1; }
 };
