@@ -125,7 +125,8 @@ std::size_t size_of(const Item& item, const Protocol& protocol) {
   return check ? check->size : item.bytes.size() * static_cast<std::size_t>(item.repeat);
 }
 
-/// What the header of a reply leaves open in all vectors, since it is the device's own (pdu(...)).
+/// What all vectors leave open in a reply, since it is the device's own: in its header (pdu(...)),
+/// and what is reserved in its body.
 std::vector<Word> left_open(const Protocol& protocol) {
   if (!protocol.dressing()) return {};
   const Result<std::string> reply = notation::dress("pdu(00)", protocol.dressing()->of(true, false),
@@ -142,6 +143,11 @@ std::vector<Word> left_open(const Protocol& protocol) {
     words.push_back({at, static_cast<std::size_t>(item.repeat), item});
     at += words.back().size;
   }
+  const std::size_t before = protocol.dressing()->before_own_word;
+  if (before == 0 || words.empty()) return words;
+  Item own = words.back().item;  // at: behind a body of one byte
+  own.repeat = 2;
+  words.push_back({at - 1 + before, 2, own});
   return words;
 }
 
@@ -207,6 +213,7 @@ Notation notation_of(ByteView frame, bool request, const Protocol& protocol, int
   if (!made || !std::ranges::equal(*made, frame)) return raw_notation(frame);
   if (!request)
     for (Word& open : left_open(protocol)) {
+      if (open.offset + open.size > frame.size()) continue;
       std::erase_if(words, [&](const Word& word) {
         return word.offset < open.offset + open.size && open.offset < word.offset + word.size;
       });

@@ -1,6 +1,7 @@
 // How a protocol frames a body that it shares with others, or that is written without its header.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace fieldproof::notation {
@@ -18,6 +19,9 @@ struct Dressing {
   std::string_view reply_of_bench{};     // the bench sends it as server
   /// The transaction stands low byte first.
   bool low_byte_first = false;
+  /// So many bytes in front of what is the device's own in the body of each reply (two bytes that
+  /// are reserved); 0: there is nothing.
+  std::size_t before_own_word = 0;
 
   /// That of one speaker, as `frame`. `bench_is_client`: the device is the server.
   Dressing of(bool bench_is_client, bool bench_sends) const {

@@ -186,7 +186,7 @@ void Axis::push(double pulses) {
       servo_.parameter("P0-01") == 8 && registers_.get(reg::torque_setting) == 0;
   if (enabled_ && !has_no_force) return;
   state_.position += pulses;
-  feedback_ = published_ = state_.position;
+  feedback_ = state_.position;  // its register has the old one, and nobody wrote that
   path_ = Path(state_.position);
 }
 

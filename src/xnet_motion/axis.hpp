@@ -55,6 +55,8 @@ class Axis {
   unsigned number() const { return registers_.axis(); }
   Servo& servo() { return servo_; }
   double position() const { return state_.position; }
+  /// Where its machine is: a position that is written, or found by homing, moves nothing.
+  double place() const { return state_.position + machine_; }
   double speed() const { return state_.speed; }
   bool is_enabled() const { return enabled_; }
   bool is_moving() const { return doing_ != Doing::nothing || (bound_ && state_.speed != 0); }

@@ -115,7 +115,7 @@ double MotionBus::place_of(int master) const {
     return read_number(memory_, component_in("HSCD", static_cast<std::uint32_t>(-master - 1) * 2),
                        Kind::dword);
   const Axis* const axis = find(static_cast<unsigned>(master));
-  return axis ? axis->position() : 0;
+  return axis ? axis->place() : 0;
 }
 
 void MotionBus::follow(Time now, Duration period) {

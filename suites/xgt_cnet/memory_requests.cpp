@@ -20,7 +20,9 @@ using harness::Protocol;
 
 namespace {
 
-constexpr std::size_t max_bytes = 120;  // 60 words a request (Cnet EN 7.1.5)
+// A request may have 60 words (Cnet EN 7.1.5), but a frame with a long name 256 bytes at most
+// (7.1.2, note 3).
+constexpr std::size_t max_bytes = 112;
 
 constexpr std::size_t command_at = 3, frame_head = 6;  // header, station, command and its type
 
@@ -42,7 +44,7 @@ struct Part {
   std::size_t count = 1;  // elements
 };
 
-/// Cuts `digits` of memory from `address` on into requests of at most 60 words.
+/// Cuts `digits` of memory from `address` on into requests of at most 56 words.
 Result<std::vector<Part>> parts_of(std::string_view address, std::size_t digits,
                                    std::string_view hex) {
   const std::optional<ElementName> name = harness::read_element_name(address);

@@ -87,7 +87,8 @@ Result<Plan> plan_of(std::string_view address, std::size_t digits, std::string_v
   if (!data) return fail(fmt::format("'{}' is not hex", hex));
   Plan plan{type_of(*name, count), element, {}};
   const bool run = plan.type == continuous_type;
-  const std::size_t at_once = run ? bytes_at_once : blocks_at_once;
+  // How the fields of several blocks follow one another in a write is not printed.
+  const std::size_t at_once = run ? bytes_at_once : data->empty() ? blocks_at_once : 1;
   for (std::size_t done = 0; done < count; done += at_once) {
     Part part;
     const std::size_t elements = std::min(at_once, count - done);

@@ -30,7 +30,8 @@ constexpr notation::Dressing dressing_of_frames{
     .reply_of_device = "['LSIS-XGT' 00 00 ?? ?? ?? 11 ${transaction} LEN ?? ?? ${body}]",
     .request_of_device = "['LSIS-XGT' 00 00 ?? ?? ?? 33 ${transaction} LEN ?? ?? ${body}]",
     .reply_of_bench = "['LSIS-XGT' 00 00 07 01 B0 11 ${transaction} LEN 01 SUM${wrong} ${body}]",
-    .low_byte_first = true};
+    .low_byte_first = true,
+    .before_own_word = 4};  // command, data type
 
 class XgtFenet : public harness::PlcProtocol,
                  public harness::Probing,
