@@ -196,7 +196,8 @@ Binding binding_of(const Request& request, const Answer& answer, const Protocol&
   // Which letters a device takes, and which it answers in, vectors ask where that is not open.
   if (request.kind == "letters") return Binding::open;
   const std::string sort = sort_of(answer, protocol);
-  if (is_a_right_frame(request) && sort == "answered") {
+  // Fields in another order may make another request, or none.
+  if (is_a_right_frame(request) && request.kind != "order" && sort == "answered") {
     const bool decided = std::ranges::any_of(request.names, [&](const Protocol::Written& one) {
       return protocol.is_spelt_by_decision(one.address);
     });
