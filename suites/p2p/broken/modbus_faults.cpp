@@ -254,7 +254,7 @@ std::vector<Fault> modbus_faults() {
        "modbus_rtu/client/example/read_m10_bits/printed", "%MW179 holds 2468B2891357"},
       {"padding_saved", "the padding of the last byte of bits is saved, too",
        after_saving(save_padding), "modbus_rtu/client/data/read_bits/b9_at_7",
-       "%MW119 holds 13575BE89B8086427531FDB9"},
+       "%MW119 holds 1357DBE89B8086427531FDB9"},
       {"modbus_foreign_station", "the reply of another station is accepted",
        understands_modbus([](ModbusFrame& reply, const P2pBlock& block) {
          reply.station = static_cast<Byte>(block.station);

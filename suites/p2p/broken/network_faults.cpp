@@ -201,7 +201,7 @@ std::vector<Fault> network_faults() {
       {"net_asks_in_stop", "STOP does not stop the client", deaf_to("stop"),
        "xgt_fenet/client/schedule/stop", "where silence is due"},
       {"net_asks_without_link", "a link that is not enabled does not stop the client",
-       deaf_to("link off"), "xgt_fenet/client/schedule/link_off", "where silence is due"},
+       deaf_to("link off"), "xgt_fenet/client/schedule/link_off", "%MW119 holds 13576BCD"},
   };
 }
 

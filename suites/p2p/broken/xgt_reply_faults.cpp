@@ -173,7 +173,7 @@ std::vector<Fault> xgt_reply_faults() {
            [](XgtReply& reply, const P2pBlock& block) { reply.station = block.station; }),
        "xgt_cnet/client/error/wrong_station/next", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"foreign_station_ignored", "the reply of another station does not end the wait",
-       takes(ignore_wrong), "xgt_cnet/client/error/wrong_station/next", "%LW513 holds 000A"},
+       takes(ignore_wrong), "xgt_cnet/client/error/wrong_station/next", "%LW512 holds 0000"},
       {"check_ignored", "a wrong BCC is accepted", hears(accept_any_check),
        "xgt_cnet/client/error/wrong_bcc/wrong", "%MW119 holds 13575ABC9BDF86427531FDB9"},
       {"bcc_first_digit_alone", "of the BCC the first digit alone is compared",
