@@ -28,6 +28,13 @@ bool differs_in_letters_alone(const CaseResult& result) {
          std::ranges::equal(result.expected_bytes, result.received_bytes, {}, upper, upper);
 }
 
+std::uint64_t silences_in(const Sequence& sequence) {
+  std::uint64_t silences = 0;
+  for (std::size_t part = 0; part < sequence.parts(); ++part)
+    silences += sequence.outcome(part) == "silence";
+  return silences;
+}
+
 std::string in_words(const Topic& topic) { return topic.name + "/" + topic.kind; }
 
 std::string id_of(const harness::Protocol& protocol, const std::string& mark) {
@@ -50,22 +57,19 @@ CaseResult Explorer::run(const Sequence& sequence, const std::string& id) {
 
 /// Where time is real, nearly all of it would be spent on waiting: silences are seen about as often
 /// with many answers between them as one behind the other.
-bool Explorer::waits_too_long(const Sequence& sequence) {
-  if (!device_.real_time) return false;
-  std::uint64_t silences = 0;
-  for (std::size_t part = 0; part < sequence.parts(); ++part)
-    silences += sequence.outcome(part) == "silence";
-  if (silences > 0 && (silences_ + silences - 1) * requests_for_a_silence > sent_) return true;
-  silences_ += silences;
-  return false;
+bool Explorer::waits_too_long(std::uint64_t silences) const {
+  return device_.real_time && silences > 0 &&
+         (silences_ + silences - 1) * requests_for_a_silence > sent_;
 }
 
 void Explorer::step() {
   Sequence::Own sequence = inventor_->invent();
-  if (!sequence || waits_too_long(*sequence)) {
+  const std::uint64_t silences = sequence ? silences_in(*sequence) : 0;
+  if (!sequence || waits_too_long(silences)) {
     ++barren_;
     return;
   }
+  silences_ += silences;
   ++sequences_;
   const CaseResult result = run(*sequence, fmt::format("explore/{}", sequences_));
   note(std::move(sequence), result);
@@ -75,9 +79,8 @@ void Explorer::note(Sequence::Own sequence, const CaseResult& result) {
   if (result.verdict == Verdict::pass || result.verdict == Verdict::marginal)
     return note_as_expected(*sequence);
   if (!differs(result.verdict)) return note_unjudged(*sequence, result);
-  if (differs_in_letters_alone(result)) {
+  if (differs_in_letters_alone(result))
     return count_unjudged(Verdict::blocked, "the same answers, in other letters", result);
-  }
   const std::size_t failing = sequence->failing_part(result);
   if (inventor_->may_learn(*sequence, failing)) {
     if (!learnt(*sequence, failing, result))

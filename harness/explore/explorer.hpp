@@ -68,7 +68,7 @@ class Explorer {
   static constexpr std::uint64_t enough_barren = 1000, requests_for_a_silence = 10;
 
   results::CaseResult run(const Sequence& sequence, const std::string& id);
-  bool waits_too_long(const Sequence& sequence);
+  bool waits_too_long(std::uint64_t silences) const;
   void note(Sequence::Own sequence, const results::CaseResult& result);
   void note_as_expected(const Sequence& sequence);
   void note_unjudged(const Sequence& sequence, const results::CaseResult& result);

@@ -185,11 +185,6 @@ std::string sort_of(const Answer& answer, const Protocol& protocol) {
   return answer.bytes.empty() && answer.ended ? "closed" : sort_of(answer.bytes, protocol);
 }
 
-/// As the judge has it: a printed vector names decisions for its alternatives alone.
-bool rests_on_decisions(const Clause& clause) {
-  return clause.basis == "decision" || (clause.basis == "derived" && !clause.decisions.empty());
-}
-
 /// A refusal that a vector has binds as that does, elsewhere too; of one that none has nobody says
 /// anything.
 Binding binding_of(const Request& request, const Answer& answer, const Protocol& protocol) {
@@ -202,11 +197,11 @@ Binding binding_of(const Request& request, const Answer& answer, const Protocol&
       return protocol.is_spelt_by_decision(one.address);
     });
     // Where `run` would not fail a device for it, this must not.
-    return decided || rests_on_decisions(request.clause) ? Binding::decision : Binding::derived;
+    return decided || request.clause.of_decisions ? Binding::decision : Binding::derived;
   }
   const bool of_its_vector = request.kind == "printed" || request.kind == "elsewhere";
   if (!of_its_vector || request.clause.answer != sort) return Binding::open;
-  return rests_on_decisions(request.clause) ? Binding::decision : Binding::derived;
+  return request.clause.of_decisions ? Binding::decision : Binding::derived;
 }
 
 Result<Oracle> Oracle::open(const Protocol& protocol, const std::string& model, int station,

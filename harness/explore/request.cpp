@@ -7,6 +7,7 @@
 #include "harness/notation/check.hpp"
 #include "harness/notation/pdu.hpp"
 #include "harness/safety/brackets.hpp"
+#include "harness/vectors/binding.hpp"
 
 namespace fieldproof::explore {
 
@@ -56,8 +57,8 @@ Clause clause_of(const Case& one, const Step& send, const Protocol& protocol) {
   const auto next = static_cast<std::size_t>(&send - one.steps.data() + 1);
   if (one.level != "must") return {};  // it binds nobody
   const bool own = next < one.steps.size() && !one.steps[next].source.quote.empty();
-  return {answer_in(one, send, protocol), one.basis, own ? one.steps[next].source : one.source,
-          one.decisions};
+  return {answer_in(one, send, protocol), vectors::rests_on_decisions(one),
+          own ? one.steps[next].source : one.source, one.decisions};
 }
 
 bool says_all(const Notation& notation) {
@@ -143,11 +144,10 @@ std::vector<Word> left_open(const Protocol& protocol) {
     words.push_back({at, static_cast<std::size_t>(item.repeat), item});
     at += words.back().size;
   }
-  const std::size_t before = protocol.dressing()->before_own_word;
-  if (before == 0 || words.empty()) return words;
-  Item own = words.back().item;  // at: behind a body of one byte
-  own.repeat = 2;
-  words.push_back({at - 1 + before, 2, own});
+  const std::size_t before = protocol.dressing()->before_own_word, body = at - 1;  // of one byte
+  if (before == 0) return words;
+  words.push_back({body + before, 2, item_of(Item::Kind::any, "??")});
+  words.back().item.repeat = 2;
   return words;
 }
 

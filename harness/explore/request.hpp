@@ -13,8 +13,8 @@ namespace fieldproof::explore {
 
 /// What a vector says of the answer to a request of it.
 struct Clause {
-  std::string answer;  // its sort (sort_of); empty: it says nothing that can be told in one
-  std::string basis;
+  std::string answer;         // its sort (sort_of); empty: it says nothing that can be told in one
+  bool of_decisions = false;  // it binds as they do
   vectors::Source source;
   std::vector<vectors::Decision> decisions;
 };

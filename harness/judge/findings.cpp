@@ -6,16 +6,6 @@ namespace fieldproof::judging {
 
 using results::Verdict;
 
-namespace {
-
-/// What follows from the manuals only together with a decision of ours does not bind without it; a
-/// printed vector names decisions for its alternatives alone.
-bool rests_on_decision(const vectors::Case& source) {
-  return source.basis == "decision" || (source.basis == "derived" && !source.decisions.empty());
-}
-
-}  // namespace
-
 void Findings::miss(std::string message) {
   if (missed_) return;
   missed_ = true;
@@ -54,7 +44,7 @@ void Findings::miss_in_any_case(std::string message) {
 
 void Findings::settle(const vectors::Case& source, const vectors::Binding& decisions) {
   if (result.verdict == Verdict::blocked) return;
-  if (missed_ && rests_on_decision(source)) {
+  if (missed_ && vectors::rests_on_decisions(source)) {
     for (const vectors::Decision& one : source.decisions)
       result.notes.push_back(
           fmt::format("decision {}{}{}", one.id, one.sentence.empty() ? "" : ": ", one.sentence));

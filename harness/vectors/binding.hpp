@@ -14,6 +14,12 @@ namespace fieldproof::vectors {
 /// What response_max of a profile rests on where no manual prints a time.
 inline constexpr std::string_view reply_time_decision = "server/reply-time";
 
+/// What follows from the manuals only together with a decision of ours does not bind without it; a
+/// printed vector names decisions for its alternatives alone.
+inline bool rests_on_decisions(const Case& one) {
+  return one.basis == "decision" || (one.basis == "derived" && !one.decisions.empty());
+}
+
 struct Binding {
   bool all = true;                           // "decisions": "binding"; "advisory": false
   std::set<std::string, std::less<>> named;  // "decisions": ["server/reply-time"]: these alone

@@ -351,8 +351,7 @@ void Axis::find_z(double speed, Time now) {
   const double turn = pulses_of_a_turn();
   const int wanted = servo_.parameter("P7-20");
   const double direction = (speed < 0) == (wanted < 0) ? 1 : -1;
-  const double machine = state_.position + machine_;
-  const double turns = (machine - servo_.z_phase) / turn;
+  const double turns = (place() - servo_.z_phase) / turn;
   const double next = direction > 0 ? std::floor(turns) + 1 : std::ceil(turns) - 1;
   const double z = servo_.z_phase + (next + direction * std::max(std::abs(wanted) - 1, 0)) * turn;
   goal_ = z - machine_;

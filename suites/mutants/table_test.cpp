@@ -6,6 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "reports/results/whole_file.hpp"
+
 namespace fieldproof::mutants {
 namespace {
 
@@ -13,9 +15,9 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string source_text(const std::string& file) {
-  std::ifstream stream(FIELDPROOF_SOURCE_DIR "/" + file);
-  return {std::istreambuf_iterator<char>(stream), {}};
+std::string text_of(const std::string& source) {
+  const Result<std::string> text = results::read_whole_file(FIELDPROOF_SOURCE_DIR "/" + source);
+  return text ? *text : "";
 }
 
 /// The table of mutants has a source's text as its tokens stand, the source has lines.
@@ -27,11 +29,10 @@ std::string without_spaces(std::string text) {
 /// Mutants are only made where clang is, and a source may have moved on since: what an entry names
 /// must still stand there.
 TEST(EquivalentMutants, AreOfTextThatStandsInTheSources) {
-  std::ifstream stream(FIELDPROOF_SOURCE_DIR "/suites/mutants/equivalent.json");
-  const json entries = json::parse(stream);
+  const json entries = json::parse(text_of("suites/mutants/equivalent.json"));
   EXPECT_GT(entries.size(), 700u);
   for (const json& entry : entries) {
-    const std::string text = without_spaces(source_text(entry.at("file")));
+    const std::string text = without_spaces(text_of(entry.at("file")));
     EXPECT_THAT(text, HasSubstr(without_spaces(entry.value("function", "")))) << entry;
     EXPECT_THAT(text, HasSubstr(without_spaces(entry.value("before", "")))) << entry;
   }

@@ -122,8 +122,7 @@ VerdictsById run_over(const std::string& kind) {
 void run_again(const std::string& kind, const std::vector<std::string>& ids,
                VerdictsById& verdicts) {
   if (ids.empty()) return;
-  std::string filter;
-  for (const std::string& id : ids) filter += (filter.empty() ? "" : ":") + id;
+  const std::string filter = filter_of(ids);
   std::cout << "again over " << kind << ": " << filter << std::endl;
   const std::unique_ptr<Link> link = make_link(kind);
   for (const auto& [id, verdict] : run(link->endpoint(), filter, {})) verdicts[id] = verdict;

@@ -2,6 +2,8 @@
 // into.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -84,12 +86,23 @@ struct Results {
       count += reason.at("what") != "verdicts";
     return count;
   }
+  std::vector<std::string> ids_of(const std::set<std::string>& verdicts) const {
+    std::vector<std::string> result;
+    for (const nlohmann::json& one : cases)
+      if (verdicts.contains(one.at("verdict"))) result.push_back(one.at("id"));
+    return result;
+  }
   std::map<std::string, std::size_t> counts() const {
     std::map<std::string, std::size_t> result;
     for (const nlohmann::json& one : cases) ++result[one.at("verdict")];
     return result;
   }
 };
+
+/// That selects these cases alone.
+inline std::string filter_of(const std::vector<std::string>& ids) {
+  return fmt::format("{}", fmt::join(ids, ":"));
+}
 
 /// An incomplete last line is left out, as a killed run leaves one.
 inline Results read_results(const std::string& path) {
